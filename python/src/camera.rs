@@ -3,8 +3,8 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
-use foveate_design::Config;
-use foveate_engine::{Engine, MAX_THREADS, Options};
+use foveate_design::DesignConfig;
+use foveate_engine::{Engine, MAX_THREADS, EngineOptions};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -59,7 +59,7 @@ use crate::tools;
 /// >>> outcome = camera.step(numpy.zeros((480, 640), "uint8"))
 #[pyclass(frozen, module = "foveate")]
 pub(crate) struct Camera {
-    config: Config,
+    config: DesignConfig,
     threads: usize,
     seen: Mutex<Seen>,
 }
@@ -107,7 +107,7 @@ struct Seen {
 
 impl Camera {
     /// Makes a camera that has seen no frame.
-    fn of(config: Config, threads: usize) -> Self {
+    fn of(config: DesignConfig, threads: usize) -> Self {
         let seen = Seen {
             eye: None,
             frames: 0,
@@ -120,7 +120,7 @@ impl Camera {
         Self { config, threads, seen: Mutex::new(seen) }
     }
 
-    pub(crate) fn config(&self) -> &Config {
+    pub(crate) fn config(&self) -> &DesignConfig {
         &self.config
     }
 
@@ -332,14 +332,14 @@ impl Camera {
 
     #[staticmethod]
     fn _from_toml(text: &str, threads: Threads) -> PyResult<Self> {
-        let config = Config::from_toml(text).map_err(raise)?;
+        let config = DesignConfig::from_toml(text).map_err(raise)?;
         Ok(Self::of(config, threads.0))
     }
 }
 
 impl Seen {
     /// Prepares the camera for a frame, or refuses the frame.
-    fn fit(&mut self, config: &Config, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
+    fn fit(&mut self, config: &DesignConfig, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
         let (width, height) = frame.size();
         let own_size = |eye: &Eye| (eye.design.width() as usize, eye.design.height() as usize);
         if self.frames > 0 {
@@ -361,8 +361,8 @@ impl Seen {
             || self.process != std::process::id()
         {
             let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-            let design = config.for_frames(side(width), side(height)).map_err(raise)?;
-            let options = Options { threads, ..Options::default() };
+            let design = config.validate_for_frames(side(width), side(height)).map_err(raise)?;
+            let options = EngineOptions { threads, ..EngineOptions::default() };
             let engine = Engine::with_options(&design, options).map_err(raise)?;
             self.eye = Some(Eye { design: Arc::new(design), engine });
             self.process = std::process::id();

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::{Config, PRESETS, Preset};
+use foveate_design::{DesignConfig, PRESETS, Preset};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
@@ -17,10 +17,10 @@ use crate::error::{os_error, raise};
 pub(crate) fn read(
     source: Option<&Bound<'_, PyAny>>,
     sections: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Config> {
+) -> PyResult<DesignConfig> {
     let text = source.map_or(Ok(String::new()), toml_of)?;
     let overrides = sections.map_or(Ok(Vec::new()), overrides)?;
-    Config::from_toml_with(&text, &overrides).map_err(raise)
+    DesignConfig::from_toml_with(&text, &overrides).map_err(raise)
 }
 
 /// Returns the TOML text of a preset, a TOML file, a mapping, a design or a camera.
@@ -50,7 +50,7 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
             source.get_type().name()?,
         )));
     };
-    foveate_reading::settings(&path).map_err(|error| {
+    foveate_reading::read_settings(&path).map_err(|error| {
         let message = format!("cannot read the configuration `{}`: {error}", path.display());
         os_error(&error, message)
     })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An immutable design.
 
-use foveate_design::{Config, PRESETS};
+use foveate_design::{DesignConfig, PRESETS};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -52,7 +52,7 @@ use crate::tools;
 pub(crate) struct Design {
     inner: foveate_design::Design,
     /// The given configuration. If it has no frame size, a camera takes the size of its frames.
-    written: Config,
+    written: DesignConfig,
 }
 
 impl PartialEq for Design {
@@ -74,12 +74,12 @@ impl From<foveate_design::Design> for Design {
 }
 
 impl Design {
-    pub(crate) fn new(written: Config) -> PyResult<Self> {
+    pub(crate) fn new(written: DesignConfig) -> PyResult<Self> {
         Ok(Self { inner: written.validate().map_err(raise)?, written })
     }
 
     /// Returns the given configuration.
-    pub(crate) fn config(&self) -> &Config {
+    pub(crate) fn config(&self) -> &DesignConfig {
         &self.written
     }
 
@@ -219,7 +219,7 @@ impl Design {
 
     #[classmethod]
     fn _from_toml(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-        Self::new(Config::from_toml(text).map_err(raise)?)
+        Self::new(DesignConfig::from_toml(text).map_err(raise)?)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
@@ -251,7 +251,7 @@ pub(crate) fn in_words(design: &foveate_design::Design) -> String {
         design.rows(),
         features.join(" + "),
         design.temporal().reference.name(),
-        design.config().hardware.in_words(),
+        design.config().hardware.description(),
         n = design.region_size(),
     )
 }

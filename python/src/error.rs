@@ -121,7 +121,7 @@ impl Raise for FootageError {
 impl Raise for StagingError {
     fn raise(self) -> PyErr {
         match self {
-            Self::Write { ref source, .. } => os_error(source, self.to_string()),
+            Self::Unwritable { ref source, .. } => os_error(source, self.to_string()),
             // An option of the command line is an argument of a function here.
             _ => PyFileExistsError::new_err(self.to_string().replace("--force", "force=True")),
         }

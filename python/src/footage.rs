@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{ClipPlan, InputOptions, Kind, Source, open, plan, skipped_in_words};
-use foveate_frame::{Plane, Raster};
+use foveate_footage::{ClipPlan, InputOptions, SourceKind, FrameSource, open, plan, skipped_in_words};
+use foveate_frame::{FramePixels, ByteFrame};
 use foveate_simulator::SimulatorError;
 use numpy::ndarray::Axis;
 use numpy::{
@@ -70,7 +70,7 @@ pub(crate) struct Run {
 }
 
 struct State {
-    source: Box<dyn Source>,
+    source: Box<dyn FrameSource>,
     engine: Engine,
     number: u64,
     ended: bool,
@@ -79,8 +79,8 @@ struct State {
 /// A frame, its outcome, and the screen after it.
 struct Step {
     taken: Taken,
-    frame: Raster,
-    screen: Raster,
+    frame: ByteFrame,
+    screen: ByteFrame,
 }
 
 impl Run {
@@ -130,7 +130,7 @@ impl Run {
             }
             return Ok(None);
         };
-        let array = |raster: &Raster| Screen::of(py, &self.design, raster.plane());
+        let array = |raster: &ByteFrame| Screen::of(py, &self.design, raster.borrowed_pixels());
         Ok(Some(Outcome::of_run(py, taken, array(&frame), array(&screen))))
     }
 
@@ -151,10 +151,10 @@ impl State {
         let next = self.source.next_frame();
         self.ended = !matches!(next, Ok(Some(_)));
         let Some(current) = next? else { return Ok(None) };
-        if self.source.kind() == Kind::Set {
+        if self.source.kind() == SourceKind::Set {
             self.engine.reset();
         }
-        self.engine.step_raster(&current.frame)?;
+        self.engine.step_byte_frame(&current.frame)?;
         let taken = Taken {
             result: self.engine.outcome().clone(),
             number: self.number,
@@ -167,8 +167,8 @@ impl State {
         let (width, height, bits) =
             (current.frame.width(), current.frame.height(), current.frame.bits());
         let screen = match self.engine.rendered() {
-            Plane::Bytes(pixels) => Raster::from_bytes(width, height, bits, pixels.to_vec())?,
-            Plane::Words(pixels) => Raster::from_words(width, height, bits, pixels.to_vec())?,
+            FramePixels::Bytes(pixels) => ByteFrame::from_bytes(width, height, bits, pixels.to_vec())?,
+            FramePixels::Words(pixels) => ByteFrame::from_words(width, height, bits, pixels.to_vec())?,
         };
         Ok(Some(Step { taken, frame: current.frame, screen }))
     }
@@ -237,7 +237,7 @@ pub(crate) fn simulate(
         }
         let source = open(&inputs, &config.camera, &options).map_err(raise)?;
         let (width, height) = source.size();
-        let design = config.for_frames(width, height).map_err(raise)?;
+        let design = config.validate_for_frames(width, height).map_err(raise)?;
         let (total, engine) = (source.frames(), Engine::new(&design));
         let state = State { source, engine, number: 0, ended: false };
         Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames from Python: arrays of any layout. Rows whose pixels are adjacent are read in place.
 
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use numpy::ndarray::ArrayView2;
 use numpy::{
     Element, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2, PyUntypedArray,
@@ -74,7 +74,7 @@ impl<'py> Grey<'py> {
     }
 
     /// Returns a copy of the frame with the depth of the design.
-    pub(crate) fn raster(&self, bits: u32) -> PyResult<Raster> {
+    pub(crate) fn raster(&self, bits: u32) -> PyResult<ByteFrame> {
         self.check(bits)?;
         let (width, height) = self.size();
         let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
@@ -82,10 +82,10 @@ impl<'py> Grey<'py> {
         match self {
             Self::Bytes(array) => {
                 let pixels = array.as_array().iter().copied().collect();
-                Raster::from_bytes(width, height, bits, pixels).map_err(value_error)
+                ByteFrame::from_bytes(width, height, bits, pixels).map_err(value_error)
             }
             Self::Words(_) => {
-                Raster::from_words(width, height, bits, self.values()).map_err(value_error)
+                ByteFrame::from_words(width, height, bits, self.values()).map_err(value_error)
             }
         }
     }

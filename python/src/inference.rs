@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foveate_footage::{Hooks, Progress, in_memory};
-use foveate_frame::Raster;
+use foveate_footage::{RunHooks, RunProgress, source_from_memory};
+use foveate_frame::ByteFrame;
 use foveate_inference::{
-    Computed, Inference, InferenceError, Mapping, NOISE_LEVELS, Options, Record, Viewing,
+    Computation, Inference, InferenceError, PixelMapping, NOISE_LEVELS, InferenceOptions, RecordOptions, VisionOptions,
     parse_detector, parse_framing, parse_goal, parse_mode, parse_noise, read_accelerator,
 };
 use numpy::PyUntypedArrayMethods;
@@ -29,17 +29,17 @@ use crate::work::interruptible;
 /// Stops an inference when the flag is set.
 struct Flag(Arc<AtomicBool>);
 
-impl Hooks for Flag {
-    fn progress(&mut self, _progress: Progress) {}
+impl RunHooks for Flag {
+    fn progress(&mut self, _progress: RunProgress) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
 /// Returns the choices of a run by their names on the command line. They are removed from `options`, which keeps the options
 /// of inputs.
-fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBuf>)> {
+fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(InferenceOptions, VisionOptions, Vec<PathBuf>)> {
     let text = |name: &str| -> PyResult<Option<String>> {
         let value = take(options, name)?;
         Ok(value.map(|value| value.str()).transpose()?.map(|text| text.to_string()))
@@ -56,8 +56,8 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBu
     let mode = mode.unwrap_or_else(|| "exact".to_owned());
     let approximate = mode.starts_with("truncate") || mode == "fixed";
     let computed = match goal {
-        Some(goal) => Computed::Tuned(parse_goal(&goal).map_err(wrong("tune", goal))?),
-        None => Computed::Mode(parse_mode(&mode).map_err(wrong("mode", mode))?),
+        Some(goal) => Computation::Tuned(parse_goal(&goal).map_err(wrong("tune", goal))?),
+        None => Computation::Mode(parse_mode(&mode).map_err(wrong("mode", mode))?),
     };
     let accelerator = text("accelerator")?;
     let accelerator = accelerator.as_deref().map(read_accelerator).transpose().map_err(raise)?;
@@ -74,7 +74,7 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBu
             })
         })
     };
-    let mapping = Mapping { mean: values("mean", 0.0)?, scale: values("scale", 1.0)? };
+    let mapping = PixelMapping { mean: values("mean", 0.0)?, scale: values("scale", 1.0)? };
     if let Some(wrong) = mapping.scale.iter().find(|&&value| !(value > 0.0 && value.is_finite())) {
         return Err(PyValueError::new_err(format!("scale = {wrong}: expected numbers above 0")));
     }
@@ -98,18 +98,18 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBu
         let problem = "expected a whole number of at least 1".to_owned();
         text.parse().map_err(|_| wrong("every", text)(problem))
     })?;
-    let options = Options {
-        computed,
+    let options = InferenceOptions {
+        computation: computed,
         accelerator,
-        reference: flag("reference")? || approximate,
-        record: Record { arrays: true, pictures: flag("pictures")? },
+        with_whole_computation: flag("reference")? || approximate,
+        record: RecordOptions { arrays: true, pictures: flag("pictures")? },
         command: Vec::new(),
-        sight: flag("whole_frames")? || detector.is_some() || noise.is_some(),
+        with_whole_frames: flag("whole_frames")? || detector.is_some() || noise.is_some(),
         noise: noise.unwrap_or_else(|| NOISE_LEVELS.to_vec()),
-        every,
+        frame_interval: every,
         overwrite: flag("force")?,
     };
-    Ok((options, Viewing { framing, mapping, detector }, boxes))
+    Ok((options, VisionOptions { framing, mapping, detector }, boxes))
 }
 
 /// Returns the names of all options that [`chosen`] takes, and of the arguments.
@@ -137,7 +137,7 @@ pub(crate) const OWN: [&str; 18] = [
 /// The inputs that a network is run on.
 enum Shown {
     Paths(Vec<PathBuf>),
-    Frames(Vec<Raster>),
+    Frames(Vec<ByteFrame>),
 }
 
 /// Returns footage by its name, or frames from arrays.
@@ -161,7 +161,7 @@ fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
     let clip = clip.transpose()?;
     let inputs = clip.as_ref().map_or(inputs, |clip| clip.as_any());
     let frames = inputs.try_iter().map_err(|_| wrong(kind.to_string()))?;
-    let mut rasters: Vec<Raster> = Vec::new();
+    let mut rasters: Vec<ByteFrame> = Vec::new();
     for frame in frames {
         let frame = frame?;
         let array = untyped(&frame, "a frame is a 2-D array of grey pixels (height, width)");
@@ -216,8 +216,8 @@ pub(crate) fn infer(
                 Inference::new(&config, &network, viewing, (&paths, &boxes), &input)
             }
             Shown::Frames(frames) => {
-                in_memory("array", frames, &input).map_err(InferenceError::from).and_then(
-                    |source| Inference::of_source(&config, &network, viewing, (source, &boxes)),
+                source_from_memory("array", frames, &input).map_err(InferenceError::from).and_then(
+                    |source| Inference::from_source(&config, &network, viewing, (source, &boxes)),
                 )
             }
         }

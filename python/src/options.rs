@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
-use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, parse_time};
+use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, parse_time};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -75,7 +75,7 @@ fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResu
             let (width, height, x, y) = value
                 .extract()
                 .map_err(|_| wrong("expected (width, height, x, y) in pixels".into()))?;
-            found.crop = Some(Crop { size: (width, height), at: (x, y) });
+            found.crop = Some(CropRect { size: (width, height), origin: (x, y) });
         }
         "resize" => {
             let size = value.extract().ok().filter(|&(width, height): &(u32, u32)| {
@@ -88,9 +88,9 @@ fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResu
         }
         "images" => {
             found.images = match text()?.as_str() {
-                "clip" => ImagesAs::Clip,
-                "set" => ImagesAs::Set,
-                "cifar-sheet" => ImagesAs::CifarSheet,
+                "clip" => ImageRelation::Clip,
+                "set" => ImageRelation::Set,
+                "cifar-sheet" => ImageRelation::CifarSheet,
                 _ => return Err(wrong("expected \"clip\", \"set\" or \"cifar-sheet\"".into())),
             };
         }

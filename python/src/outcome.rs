@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use foveate_design::Action;
+use foveate_design::RegionAction;
 use foveate_engine::FrameOutcome;
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 use numpy::{Element, PyArray2, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -30,11 +30,11 @@ pub(crate) struct Screen(Py<PyUntypedArray>);
 
 impl Screen {
     /// Returns the pixels of a frame of a design.
-    pub(crate) fn of(py: Python<'_>, design: &foveate_design::Design, pixels: Plane<'_>) -> Self {
+    pub(crate) fn of(py: Python<'_>, design: &foveate_design::Design, pixels: FramePixels<'_>) -> Self {
         let size = [design.height() as usize, design.width() as usize];
         Self(match pixels {
-            Plane::Bytes(pixels) => untyped(py, pixels, size),
-            Plane::Words(pixels) => untyped(py, pixels, size),
+            FramePixels::Bytes(pixels) => untyped(py, pixels, size),
+            FramePixels::Words(pixels) => untyped(py, pixels, size),
         })
     }
 }
@@ -271,12 +271,12 @@ impl Outcome {
 }
 
 /// Returns the number of an action, which is its index in `foveate.ACTIONS`.
-fn code(action: Action) -> u8 {
+fn code(action: RegionAction) -> u8 {
     match action {
-        Action::Blank => 0,
-        Action::Hold => 1,
-        Action::Forward => 2,
-        Action::Summarize => 3,
+        RegionAction::Blank => 0,
+        RegionAction::Hold => 1,
+        RegionAction::Forward => 2,
+        RegionAction::Summarize => 3,
     }
 }
 

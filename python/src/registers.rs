@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The registers of a core on AXI, as the table of `foveate._registers`.
 
-use foveate_emit::{Field, Register, register_table};
+use foveate_emit::{RegisterField, Register, register_table};
 use pyo3::prelude::*;
 
 use crate::design::Design;
@@ -12,8 +12,8 @@ type FieldRow = (String, u32, u32, &'static str, Option<u32>, String);
 /// A register: name, address, description, and fields.
 type Row = (String, u32, String, Vec<FieldRow>);
 
-fn field(own: Field) -> FieldRow {
-    let Field { name, low, width, kind, doc } = own;
+fn field(own: RegisterField) -> FieldRow {
+    let RegisterField { name, low, width, kind, doc } = own;
     (name, low, width, kind.access(), kind.reset(), doc)
 }
 
@@ -31,7 +31,7 @@ pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bo
              designs with hardware.organization = 'raster' and hardware.interface = 'axi'",
             inner.fingerprint(),
             inner.organization().name(),
-            inner.bus().name(),
+            inner.interface_kind().name(),
         )));
     };
     let rows: Vec<Row> = table.into_iter().map(row).collect();

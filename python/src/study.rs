@@ -35,7 +35,7 @@ pub(crate) fn explain(
     let config = config::read(camera, None)?;
     let explanation = at_once(py, move || {
         let source = open(&inputs, &config.camera, &options).map_err(raise)?;
-        foveate_simulator::explain(&config, source, frame, region).map_err(raise)
+        foveate_simulator::explain_region(&config, source, frame, region).map_err(raise)
     })??;
     Ok((json(&explanation)?, explanation.to_string()))
 }

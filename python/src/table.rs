@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use foveate_engine::{EventKind, EventTable, EventValue, Moment};
+use foveate_engine::{EventColumnType, EventTable, EventValue, EventFrame};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -21,12 +21,12 @@ enum Values {
 }
 
 impl Values {
-    fn of(kind: EventKind) -> Self {
+    fn of(kind: EventColumnType) -> Self {
         match kind {
-            EventKind::Long => Self::Long(Vec::new()),
-            EventKind::Int => Self::Int(Vec::new()),
-            EventKind::Flag => Self::Flag(Vec::new()),
-            EventKind::Text => Self::Text(Vec::new(), Vec::new()),
+            EventColumnType::Long => Self::Long(Vec::new()),
+            EventColumnType::Int => Self::Int(Vec::new()),
+            EventColumnType::Flag => Self::Flag(Vec::new()),
+            EventColumnType::Text => Self::Text(Vec::new(), Vec::new()),
         }
     }
 
@@ -78,7 +78,7 @@ pub(crate) fn event_columns<'py>(
         let taken = outcome.get().taken();
         let (design, rows, values) = table.get_or_insert_with(|| {
             let rows = EventTable::new(&taken.design, only_active);
-            let values = rows.columns().iter().map(|column| Values::of(column.kind)).collect();
+            let values = rows.columns().iter().map(|column| Values::of(column.value_type)).collect();
             (Arc::clone(&taken.design), rows, values)
         });
         if **design != *taken.design {
@@ -90,7 +90,7 @@ pub(crate) fn event_columns<'py>(
         }
         let Taken { result: outcome, number, time_us, .. } = taken;
         let moment =
-            Moment { camera: design.camera(), number: *number, time_us: *time_us, outcome };
+            EventFrame { camera: design.camera(), number: *number, time_us: *time_us, outcome };
         rows.rows(&moment, |row| {
             values.iter_mut().zip(row).for_each(|(own, value)| own.push(value));
         });

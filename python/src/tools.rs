@@ -39,7 +39,7 @@ pub(crate) fn generate(
     prefix: Option<&str>,
 ) -> PyResult<Vec<String>> {
     let design = design(camera)?;
-    let prefix = Prefix::asked(prefix, &design).map_err(value_error)?;
+    let prefix = Prefix::from_request(prefix, &design).map_err(value_error)?;
     let core = interruptible(py, |cancel| write_core(&design, &prefix, &folder, force, &cancel))?;
     let core = core.map_err(raise)?;
     for warning in core.warnings() {
@@ -54,8 +54,8 @@ pub(crate) fn generate(
 pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(String, String)> {
     let design = design(camera)?;
     let report = at_once_with(py, move |cancel| {
-        let toolchain = Toolchain::system().cancelled_by(cancel);
-        let job = EstimateJob::of(&design, Top::Rcm).with_leaves(&design);
+        let toolchain = Toolchain::system().with_cancel_flag(cancel);
+        let job = EstimateJob::for_design(&design, Top::Rcm).with_leaves(&design);
         let cache = Cache::from_env().map_err(raise)?;
         foveate_estimate::estimate(&toolchain, &cache, &job).map_err(raise)
     })??;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The description of an accelerator, which is read from a TOML file.
 
-use crate::{AcceleratorError, Preset};
+use crate::{AcceleratorError, AcceleratorPreset};
 use serde::Deserialize;
 
 /// An accelerator: an array of multipliers, its buffers, and the energy of an access.
@@ -21,7 +21,7 @@ pub struct Accelerator {
     /// The array and its buffers.
     pub array: Dataflow,
     /// The energy of a multiplication and of each access.
-    pub energy: Energy,
+    pub energy: AccessEnergies,
 }
 
 /// The dataflow of the array: the values that stay in the array while the others stream through.
@@ -29,17 +29,17 @@ pub struct Accelerator {
 #[serde(tag = "dataflow", rename_all = "kebab-case")]
 pub enum Dataflow {
     /// Weights stay in the array.
-    WeightStationary(Systolic),
+    WeightStationary(SystolicArray),
     /// Sums stay in the array.
-    OutputStationary(Systolic),
+    OutputStationary(SystolicArray),
     /// Rows of weights, inputs and sums stay in the array, as on Eyeriss.
-    RowStationary(RowStationary),
+    RowStationary(RowStationaryArray),
 }
 
 /// A systolic array with three buffers.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Systolic {
+pub struct SystolicArray {
     /// The number of rows of the array.
     pub rows: u64,
     /// The number of columns of the array.
@@ -55,7 +55,7 @@ pub struct Systolic {
 /// An array of elements that each convolve rows, with one buffer for inputs and sums.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RowStationary {
+pub struct RowStationaryArray {
     /// The number of rows of the array.
     pub rows: u64,
     /// The number of columns of the array.
@@ -75,13 +75,13 @@ pub struct RowStationary {
     /// The number of sums that enter the array per cycle, and of those that leave it.
     pub sums_per_cycle: u64,
     /// The objective by which the mapping of a layer is chosen.
-    pub mapping: Objective,
+    pub mapping: MappingObjective,
 }
 
 /// The objective of a mapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Objective {
+pub enum MappingObjective {
     /// The fewest accesses to the DRAM; of several such mappings, the one with the fewest cycles.
     LeastDram,
     /// The smallest product of energy and cycles.
@@ -92,7 +92,7 @@ pub enum Objective {
 /// in picojoules.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Energy {
+pub struct AccessEnergies {
     /// The energy of a multiplication with its addition.
     pub mac_pj: f64,
     /// The energy of an access to a register of an element of the array.
@@ -106,7 +106,7 @@ pub struct Energy {
 }
 
 /// Replaces the type names of the program in the description of a problem by words.
-fn in_words(problem: &str) -> String {
+fn problem_in_words(problem: &str) -> String {
     let number = "expected a number";
     let whole = "expected a whole number from 1 on";
     let types = [("expected u64", whole), ("expected u32", whole), ("expected f64", number)];
@@ -122,12 +122,12 @@ impl Accelerator {
     /// out of range.
     pub fn from_toml(text: &str) -> Result<Self, AcceleratorError> {
         let table: toml::Table = text.parse().map_err(|error: toml::de::Error| {
-            AcceleratorError::Syntax(error.message().to_owned())
+            AcceleratorError::InvalidToml(error.message().to_owned())
         })?;
         let accelerator: Self = serde_path_to_error::deserialize(toml::Value::Table(table))
             .map_err(|error| {
-                let problem = in_words(error.inner().message());
-                AcceleratorError::Key { key: error.path().to_string(), problem }
+                let problem = problem_in_words(error.inner().message());
+                AcceleratorError::InvalidKey { key: error.path().to_string(), problem }
             })?;
         accelerator.validate()?;
         Ok(accelerator)
@@ -137,8 +137,8 @@ impl Accelerator {
     ///
     /// # Errors
     /// Fails if there is no preset of that name; the message lists the existing ones.
-    pub fn preset(name: &str) -> Result<Self, AcceleratorError> {
-        Self::from_toml(Preset::find(name)?.toml)
+    pub fn from_preset(name: &str) -> Result<Self, AcceleratorError> {
+        Self::from_toml(AcceleratorPreset::find(name)?.toml)
     }
 
     /// Returns the duration of a number of cycles in seconds.
@@ -151,7 +151,7 @@ impl Accelerator {
     /// Returns the number of elements of the array, which is the largest number of multiplications
     /// in a cycle.
     #[must_use]
-    pub fn elements(&self) -> u64 {
+    pub fn element_count(&self) -> u64 {
         match &self.array {
             Dataflow::WeightStationary(array) | Dataflow::OutputStationary(array) => {
                 array.rows * array.columns
@@ -171,14 +171,14 @@ impl Accelerator {
     }
 
     pub(crate) fn validate(&self) -> Result<(), AcceleratorError> {
-        within("value_bits", self.value_bits.into(), 1..=64, "1 to 64")?;
-        within("sum_bits", self.sum_bits.into(), 1..=64, "1 to 64")?;
+        check_range("value_bits", self.value_bits.into(), 1..=64, "1 to 64")?;
+        check_range("sum_bits", self.sum_bits.into(), 1..=64, "1 to 64")?;
         for side in self.tile {
-            within("tile", side.into(), 1..=65_536, "1 to 65536 for each side")?;
+            check_range("tile", side.into(), 1..=65_536, "1 to 65536 for each side")?;
         }
-        positive("clock_mhz", self.clock_mhz)?;
+        check_positive("clock_mhz", self.clock_mhz)?;
         if let Some(rate) = self.dram_bytes_per_cycle {
-            positive("dram_bytes_per_cycle", rate)?;
+            check_positive("dram_bytes_per_cycle", rate)?;
         }
         self.energy.validate()?;
         match &self.array {
@@ -190,39 +190,39 @@ impl Accelerator {
     }
 }
 
-impl Systolic {
+impl SystolicArray {
     fn validate(&self) -> Result<(), AcceleratorError> {
-        side("array.rows", self.rows)?;
-        side("array.columns", self.columns)?;
-        bytes("array.input_bytes", self.input_bytes)?;
-        bytes("array.weight_bytes", self.weight_bytes)?;
-        bytes("array.output_bytes", self.output_bytes)
+        check_side("array.rows", self.rows)?;
+        check_side("array.columns", self.columns)?;
+        check_bytes("array.input_bytes", self.input_bytes)?;
+        check_bytes("array.weight_bytes", self.weight_bytes)?;
+        check_bytes("array.output_bytes", self.output_bytes)
     }
 }
 
-impl RowStationary {
+impl RowStationaryArray {
     fn validate(&self) -> Result<(), AcceleratorError> {
         // A larger array has so many mappings that the search takes too long.
-        within("array.rows", self.rows, 1..=128, "1 to 128 if row-stationary")?;
-        within("array.columns", self.columns, 1..=128, "1 to 128 if row-stationary")?;
-        bytes("array.buffer_bytes", self.buffer_bytes)?;
-        side("array.element_inputs", self.element_inputs)?;
-        side("array.element_weights", self.element_weights)?;
-        side("array.element_sums", self.element_sums)?;
+        check_range("array.rows", self.rows, 1..=128, "1 to 128 if row-stationary")?;
+        check_range("array.columns", self.columns, 1..=128, "1 to 128 if row-stationary")?;
+        check_bytes("array.buffer_bytes", self.buffer_bytes)?;
+        check_side("array.element_inputs", self.element_inputs)?;
+        check_side("array.element_weights", self.element_weights)?;
+        check_side("array.element_sums", self.element_sums)?;
         if self.element_weights < self.element_inputs {
-            return Err(AcceleratorError::Range {
+            return Err(AcceleratorError::OutOfRange {
                 key: "array.element_weights",
                 value: self.element_weights.to_string(),
                 valid: "at least `array.element_inputs`, because every input in an element meets a weight",
             });
         }
-        side("array.inputs_per_cycle", self.inputs_per_cycle)?;
-        side("array.weights_per_cycle", self.weights_per_cycle)?;
-        side("array.sums_per_cycle", self.sums_per_cycle)
+        check_side("array.inputs_per_cycle", self.inputs_per_cycle)?;
+        check_side("array.weights_per_cycle", self.weights_per_cycle)?;
+        check_side("array.sums_per_cycle", self.sums_per_cycle)
     }
 }
 
-impl Energy {
+impl AccessEnergies {
     fn validate(&self) -> Result<(), AcceleratorError> {
         let all = [
             ("energy.mac_pj", self.mac_pj),
@@ -236,13 +236,13 @@ impl Energy {
             None => Ok(()),
             Some((key, value)) => {
                 let valid = "0 to 1e9 picojoules";
-                Err(AcceleratorError::Range { key, value: value.to_string(), valid })
+                Err(AcceleratorError::OutOfRange { key, value: value.to_string(), valid })
             }
         }
     }
 }
 
-fn within(
+fn check_range(
     key: &'static str,
     value: u64,
     range: std::ops::RangeInclusive<u64>,
@@ -251,20 +251,20 @@ fn within(
     if range.contains(&value) {
         return Ok(());
     }
-    Err(AcceleratorError::Range { key, value: value.to_string(), valid })
+    Err(AcceleratorError::OutOfRange { key, value: value.to_string(), valid })
 }
 
-fn side(key: &'static str, value: u64) -> Result<(), AcceleratorError> {
-    within(key, value, 1..=1024, "1 to 1024")
+fn check_side(key: &'static str, value: u64) -> Result<(), AcceleratorError> {
+    check_range(key, value, 1..=1024, "1 to 1024")
 }
 
-fn bytes(key: &'static str, value: u64) -> Result<(), AcceleratorError> {
-    within(key, value, 1..=1 << 40, "1 to 2^40 bytes")
+fn check_bytes(key: &'static str, value: u64) -> Result<(), AcceleratorError> {
+    check_range(key, value, 1..=1 << 40, "1 to 2^40 bytes")
 }
 
-fn positive(key: &'static str, value: f64) -> Result<(), AcceleratorError> {
+fn check_positive(key: &'static str, value: f64) -> Result<(), AcceleratorError> {
     if (1e-6..=1e9).contains(&value) {
         return Ok(());
     }
-    Err(AcceleratorError::Range { key, value: value.to_string(), valid: "1e-6 to 1e9" })
+    Err(AcceleratorError::OutOfRange { key, value: value.to_string(), valid: "1e-6 to 1e9" })
 }

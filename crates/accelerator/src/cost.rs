@@ -9,7 +9,7 @@ use std::ops::{Add, AddAssign};
 /// The accesses to one level of the memory, each to one value. A read counts as one, and a write
 /// counts as one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Traffic {
+pub struct MemoryAccesses {
     /// The accesses to inputs of the layer.
     pub inputs: u64,
     /// The accesses to weights.
@@ -20,17 +20,17 @@ pub struct Traffic {
     pub outputs: u64,
 }
 
-impl Traffic {
+impl MemoryAccesses {
     /// Returns the number of all accesses.
     #[must_use]
-    pub fn accesses(&self) -> u64 {
+    pub fn access_count(&self) -> u64 {
         self.inputs + self.weights + self.sums + self.outputs
     }
 }
 
 /// The cost of one or more layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Cost {
+pub struct LayerCost {
     /// The cycles until all layers are done, one after the other. A layer takes the longer of
     /// `array_cycles` and `dram_cycles`, because array and DRAM work in parallel.
     pub cycles: u64,
@@ -41,21 +41,21 @@ pub struct Cost {
     /// The multiplications of the computed positions.
     pub macs: u64,
     /// The accesses to registers in the array.
-    pub register: Traffic,
+    pub register: MemoryAccesses,
     /// The transfers into an element of the array from a neighbouring element or, in a
     /// row-stationary array, from the network.
-    pub array: Traffic,
+    pub array: MemoryAccesses,
     /// The accesses to the buffer on the chip.
-    pub buffer: Traffic,
+    pub buffer: MemoryAccesses,
     /// The accesses to the memory outside the chip.
-    pub dram: Traffic,
+    pub dram: MemoryAccesses,
     /// The energy.
-    pub energy: Picojoules,
+    pub energy: EnergyCost,
 }
 
 /// The energy in picojoules, without clock, control and leakage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Picojoules {
+pub struct EnergyCost {
     /// The energy of the multiplications and additions.
     pub mac: f64,
     /// The energy of the registers in the array.
@@ -68,7 +68,7 @@ pub struct Picojoules {
     pub dram: f64,
 }
 
-impl Picojoules {
+impl EnergyCost {
     /// Returns the energy of the chip, without the DRAM.
     #[must_use]
     pub fn chip(&self) -> f64 {
@@ -84,16 +84,16 @@ impl Picojoules {
 
 /// The counts of a layer.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counts {
+pub(crate) struct LayerCounts {
     pub(crate) array_cycles: u64,
     pub(crate) macs: u64,
-    pub(crate) register: Traffic,
-    pub(crate) array: Traffic,
-    pub(crate) buffer: Traffic,
-    pub(crate) dram: Traffic,
+    pub(crate) register: MemoryAccesses,
+    pub(crate) array: MemoryAccesses,
+    pub(crate) buffer: MemoryAccesses,
+    pub(crate) dram: MemoryAccesses,
 }
 
-impl Cost {
+impl LayerCost {
     /// Returns the share of the array's multipliers that are used while the array is busy; 0 if it
     /// is never busy.
     #[must_use]
@@ -102,10 +102,10 @@ impl Cost {
         if self.array_cycles == 0 {
             return 0.0;
         }
-        self.macs as f64 / (self.array_cycles as f64 * accelerator.elements() as f64)
+        self.macs as f64 / (self.array_cycles as f64 * accelerator.element_count() as f64)
     }
 
-    pub(crate) fn of(counts: &Counts, accelerator: &Accelerator) -> Self {
+    pub(crate) fn from_counts(counts: &LayerCounts, accelerator: &Accelerator) -> Self {
         let dram_cycles = dram_cycles(&counts.dram, accelerator);
         Self {
             cycles: counts.array_cycles.max(dram_cycles),
@@ -128,22 +128,22 @@ impl Cost {
     clippy::cast_sign_loss,
     reason = "a time, rounded up to a cycle"
 )]
-fn dram_cycles(dram: &Traffic, accelerator: &Accelerator) -> u64 {
+fn dram_cycles(dram: &MemoryAccesses, accelerator: &Accelerator) -> u64 {
     let values = dram.inputs + dram.weights + dram.outputs;
     let bytes = accelerator.value_bytes(values) + accelerator.sum_bytes(dram.sums);
     accelerator.dram_bytes_per_cycle.map_or(0, |rate| (bytes as f64 / rate).ceil() as u64)
 }
 
 #[allow(clippy::cast_precision_loss, reason = "an energy")]
-fn energy(counts: &Counts, accelerator: &Accelerator) -> Picojoules {
+fn energy(counts: &LayerCounts, accelerator: &Accelerator) -> EnergyCost {
     let table = &accelerator.energy;
     // The energy of an access grows in proportion to the bits of the value.
     let wider = f64::from(accelerator.sum_bits) / f64::from(accelerator.value_bits);
-    let of = |traffic: &Traffic, access: f64| {
+    let of = |traffic: &MemoryAccesses, access: f64| {
         let values = (traffic.inputs + traffic.weights + traffic.outputs) as f64;
         access * (values + wider * traffic.sums as f64)
     };
-    Picojoules {
+    EnergyCost {
         mac: table.mac_pj * counts.macs as f64,
         register: of(&counts.register, table.register_pj),
         array: of(&counts.array, table.array_pj),
@@ -152,7 +152,7 @@ fn energy(counts: &Counts, accelerator: &Accelerator) -> Picojoules {
     }
 }
 
-impl AddAssign for Traffic {
+impl AddAssign for MemoryAccesses {
     fn add_assign(&mut self, other: Self) {
         self.inputs += other.inputs;
         self.weights += other.weights;
@@ -161,7 +161,7 @@ impl AddAssign for Traffic {
     }
 }
 
-impl AddAssign for Picojoules {
+impl AddAssign for EnergyCost {
     fn add_assign(&mut self, other: Self) {
         self.mac += other.mac;
         self.register += other.register;
@@ -171,7 +171,7 @@ impl AddAssign for Picojoules {
     }
 }
 
-impl AddAssign for Cost {
+impl AddAssign for LayerCost {
     fn add_assign(&mut self, other: Self) {
         self.cycles += other.cycles;
         self.array_cycles += other.array_cycles;
@@ -185,7 +185,7 @@ impl AddAssign for Cost {
     }
 }
 
-impl Add for Cost {
+impl Add for LayerCost {
     type Output = Self;
 
     fn add(mut self, other: Self) -> Self {
@@ -194,7 +194,7 @@ impl Add for Cost {
     }
 }
 
-impl Sum for Cost {
+impl Sum for LayerCost {
     fn sum<I: Iterator<Item = Self>>(costs: I) -> Self {
         costs.fold(Self::default(), Add::add)
     }

@@ -6,11 +6,11 @@
 #[non_exhaustive]
 pub enum AcceleratorError {
     /// The text is not valid TOML.
-    #[error("the accelerator is not valid TOML: {}", one_line(.0))]
-    Syntax(String),
+    #[error("the accelerator is not valid TOML: {}", escaped_line(.0))]
+    InvalidToml(String),
     /// A key is missing, is unknown, or has a value of the wrong type.
-    #[error("accelerator, `{}`: {}", one_line(key), one_line(problem))]
-    Key {
+    #[error("accelerator, `{}`: {}", escaped_line(key), escaped_line(problem))]
+    InvalidKey {
         /// The dotted path of the key, or of the table that contains it.
         key: String,
         /// The problem and the valid values.
@@ -18,7 +18,7 @@ pub enum AcceleratorError {
     },
     /// A value is outside its range.
     #[error("accelerator, `{key}` = {value} is out of range; the valid range is {valid}")]
-    Range {
+    OutOfRange {
         /// The dotted path of the key.
         key: &'static str,
         /// The value.
@@ -27,7 +27,7 @@ pub enum AcceleratorError {
         valid: &'static str,
     },
     /// The preset does not exist.
-    #[error("unknown accelerator `{}`; presets are {known}", one_line(name))]
+    #[error("unknown accelerator `{}`; presets are {known}", escaped_line(name))]
     UnknownPreset {
         /// The name as given.
         name: String,
@@ -36,7 +36,7 @@ pub enum AcceleratorError {
     },
     /// The shapes of a layer contradict each other.
     #[error("the layer's {what} is {value}, but must be {valid}")]
-    Layer {
+    InvalidLayer {
         /// The name of the number.
         what: &'static str,
         /// The value of the number.
@@ -48,7 +48,7 @@ pub enum AcceleratorError {
     #[error(
         "`array.buffer_bytes` = {buffer} is too small for this layer; its smallest pass needs {needed} bytes"
     )]
-    Room {
+    BufferTooSmall {
         /// The size of the buffer in bytes.
         buffer: u64,
         /// The size of the smallest pass in bytes.
@@ -58,7 +58,7 @@ pub enum AcceleratorError {
 
 /// Escapes the control characters in a user's text, so that a message stays on one line and cannot
 /// control the terminal.
-fn one_line(text: &str) -> String {
+fn escaped_line(text: &str) -> String {
     let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
     text.trim_end().chars().map(shown).collect()
 }

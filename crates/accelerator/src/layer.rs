@@ -5,17 +5,17 @@ use crate::AcceleratorError;
 use std::ops::RangeInclusive;
 
 /// The most multiplications of a layer; with this limit no count can overflow.
-const MOST_MACS: u128 = 1_000_000_000_000_000;
+const MAX_MACS: u128 = 1_000_000_000_000_000;
 /// The most values along an axis.
-const LONGEST: u64 = 1 << 20;
+const MAX_AXIS_LENGTH: u64 = 1 << 20;
 /// The most images that run together.
-const MOST_IMAGES: u64 = 1024;
+const MAX_IMAGES: u64 = 1024;
 /// The most positions of a tensor, whose masks are kept in memory.
-const MOST_POSITIONS: u64 = 1 << 28;
+const MAX_POSITIONS: u64 = 1 << 28;
 
 /// The channels, rows and columns of a tensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shape {
+pub struct TensorShape {
     /// The number of values of a position.
     pub channels: u64,
     /// The number of rows.
@@ -24,7 +24,7 @@ pub struct Shape {
     pub width: u64,
 }
 
-impl Shape {
+impl TensorShape {
     /// Returns the number of positions: rows times columns.
     #[must_use]
     pub fn positions(&self) -> u64 {
@@ -41,7 +41,7 @@ impl Shape {
 /// The inputs that an output depends on along one axis: output `o` depends on the inputs
 /// `o * stride - before + k * dilation`, for `k` below `kernel`, as far as they exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Window {
+pub struct KernelWindow {
     /// The number of inputs of an output.
     pub kernel: u64,
     /// The distance between the inputs of consecutive outputs.
@@ -49,24 +49,24 @@ pub struct Window {
     /// The distance between consecutive taps, in inputs.
     pub dilation: u64,
     /// The padding before the first input.
-    pub before: u64,
+    pub padding_before: u64,
 }
 
-impl Window {
+impl KernelWindow {
     /// The window of one tap, in which an output depends only on the input of its own position.
-    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, before: 0 };
+    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, padding_before: 0 };
 
     /// Makes a window of adjacent inputs.
     #[must_use]
     pub const fn of(kernel: u64, stride: u64, before: u64) -> Self {
-        Self { kernel, stride, dilation: 1, before }
+        Self { kernel, stride, dilation: 1, padding_before: before }
     }
 
     /// Returns the inputs, of `inputs` in all, that an output depends on.
     pub(crate) fn taps(self, output: u64, inputs: u64) -> impl Iterator<Item = u64> {
         let first = output * self.stride;
         (0..self.kernel)
-            .filter_map(move |tap| (first + tap * self.dilation).checked_sub(self.before))
+            .filter_map(move |tap| (first + tap * self.dilation).checked_sub(self.padding_before))
             .filter(move |&input| input < inputs)
     }
 }
@@ -74,17 +74,17 @@ impl Window {
 /// The shapes of a layer of a network.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
-    pub(crate) inputs: Shape,
-    pub(crate) outputs: Shape,
+    pub(crate) inputs: TensorShape,
+    pub(crate) outputs: TensorShape,
     /// The windows along the rows axis and along the columns axis.
-    pub(crate) windows: [Window; 2],
-    pub(crate) products: Option<Products>,
+    pub(crate) windows: [KernelWindow; 2],
+    pub(crate) products: Option<ChannelGroups>,
     pub(crate) images: u64,
 }
 
 /// The groups of channels of a layer whose outputs are sums of products.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Products {
+pub(crate) struct ChannelGroups {
     /// The number of groups of channels, which are independent of each other.
     pub(crate) groups: u64,
     /// The number of input channels of a group.
@@ -100,23 +100,23 @@ impl Layer {
     /// Fails if a number is 0 or exceeds its limit, or if the number of channels is not a multiple
     /// of the number of groups.
     pub fn convolution(
-        inputs: Shape,
-        outputs: Shape,
-        windows: [Window; 2],
+        inputs: TensorShape,
+        outputs: TensorShape,
+        windows: [KernelWindow; 2],
         groups: u64,
     ) -> Result<Self, AcceleratorError> {
         check_shapes(inputs, outputs, windows)?;
-        check("number of groups", groups, 1..=LONGEST)?;
+        check("number of groups", groups, 1..=MAX_AXIS_LENGTH)?;
         for (what, channels) in [
             ("number of input channels", inputs.channels),
             ("number of output channels", outputs.channels),
         ] {
             if channels % groups != 0 {
                 let valid = format!("a multiple of its {groups} groups");
-                return Err(AcceleratorError::Layer { what, value: channels.into(), valid });
+                return Err(AcceleratorError::InvalidLayer { what, value: channels.into(), valid });
             }
         }
-        let products = Products {
+        let products = ChannelGroups {
             groups,
             inputs: inputs.channels / groups,
             outputs: outputs.channels / groups,
@@ -130,9 +130,9 @@ impl Layer {
     /// # Errors
     /// Fails if a number is 0 or exceeds its limit.
     pub fn product(rows: u64, inner: u64, columns: u64) -> Result<Self, AcceleratorError> {
-        let inputs = Shape { channels: inner, height: rows, width: 1 };
-        let outputs = Shape { channels: columns, height: rows, width: 1 };
-        Self::convolution(inputs, outputs, [Window::SAME; 2], 1)
+        let inputs = TensorShape { channels: inner, height: rows, width: 1 };
+        let outputs = TensorShape { channels: columns, height: rows, width: 1 };
+        Self::convolution(inputs, outputs, [KernelWindow::SAME; 2], 1)
     }
 
     /// Makes a layer without sums of products, such as pooling, activation or addition. The
@@ -141,9 +141,9 @@ impl Layer {
     /// # Errors
     /// Fails if a number is 0 or exceeds its limit.
     pub fn transfer(
-        inputs: Shape,
-        outputs: Shape,
-        windows: [Window; 2],
+        inputs: TensorShape,
+        outputs: TensorShape,
+        windows: [KernelWindow; 2],
     ) -> Result<Self, AcceleratorError> {
         check_shapes(inputs, outputs, windows)?;
         Self { inputs, outputs, windows, products: None, images: 1 }.within_limits()
@@ -155,14 +155,14 @@ impl Layer {
     /// # Errors
     /// Fails if the number of images is 0 or exceeds its limit.
     pub fn with_images(mut self, images: u64) -> Result<Self, AcceleratorError> {
-        check("number of images", images, 1..=MOST_IMAGES)?;
+        check("number of images", images, 1..=MAX_IMAGES)?;
         self.images = images;
         self.within_limits()
     }
 
     /// Returns the shape of the output of one image.
     #[must_use]
-    pub fn outputs(&self) -> Shape {
+    pub fn outputs(&self) -> TensorShape {
         self.outputs
     }
 
@@ -186,7 +186,7 @@ impl Layer {
     }
 
     /// Returns the number of inputs of one sum.
-    pub(crate) fn inputs_per_sum(&self, products: &Products) -> u64 {
+    pub(crate) fn inputs_per_sum(&self, products: &ChannelGroups) -> u64 {
         products.inputs * self.windows[0].kernel * self.windows[1].kernel
     }
 
@@ -196,35 +196,35 @@ impl Layer {
             * u128::from(self.windows[0].kernel * self.windows[1].kernel);
         let positions = u128::from(self.outputs.positions().max(self.inputs.positions()));
         let macs = per_position.saturating_mul(positions).saturating_mul(self.images.into());
-        if macs <= MOST_MACS {
+        if macs <= MAX_MACS {
             return Ok(self);
         }
-        Err(AcceleratorError::Layer {
+        Err(AcceleratorError::InvalidLayer {
             what: "number of multiplications",
             value: macs,
-            valid: format!("at most {MOST_MACS}, were it dense"),
+            valid: format!("at most {MAX_MACS}, were it dense"),
         })
     }
 }
 
 fn check_shapes(
-    inputs: Shape,
-    outputs: Shape,
-    windows: [Window; 2],
+    inputs: TensorShape,
+    outputs: TensorShape,
+    windows: [KernelWindow; 2],
 ) -> Result<(), AcceleratorError> {
-    check("number of input channels", inputs.channels, 1..=LONGEST)?;
-    check("input height", inputs.height, 1..=LONGEST)?;
-    check("input width", inputs.width, 1..=LONGEST)?;
-    check("number of output channels", outputs.channels, 1..=LONGEST)?;
-    check("output height", outputs.height, 1..=LONGEST)?;
-    check("output width", outputs.width, 1..=LONGEST)?;
-    check("number of input positions", inputs.positions(), 1..=MOST_POSITIONS)?;
-    check("number of output positions", outputs.positions(), 1..=MOST_POSITIONS)?;
+    check("number of input channels", inputs.channels, 1..=MAX_AXIS_LENGTH)?;
+    check("input height", inputs.height, 1..=MAX_AXIS_LENGTH)?;
+    check("input width", inputs.width, 1..=MAX_AXIS_LENGTH)?;
+    check("number of output channels", outputs.channels, 1..=MAX_AXIS_LENGTH)?;
+    check("output height", outputs.height, 1..=MAX_AXIS_LENGTH)?;
+    check("output width", outputs.width, 1..=MAX_AXIS_LENGTH)?;
+    check("number of input positions", inputs.positions(), 1..=MAX_POSITIONS)?;
+    check("number of output positions", outputs.positions(), 1..=MAX_POSITIONS)?;
     for window in windows {
-        check("kernel", window.kernel, 1..=LONGEST)?;
-        check("stride", window.stride, 1..=LONGEST)?;
-        check("dilation", window.dilation, 1..=LONGEST)?;
-        check("padding", window.before, 0..=LONGEST)?;
+        check("kernel", window.kernel, 1..=MAX_AXIS_LENGTH)?;
+        check("stride", window.stride, 1..=MAX_AXIS_LENGTH)?;
+        check("dilation", window.dilation, 1..=MAX_AXIS_LENGTH)?;
+        check("padding", window.padding_before, 0..=MAX_AXIS_LENGTH)?;
     }
     Ok(())
 }
@@ -238,5 +238,5 @@ fn check(
         return Ok(());
     }
     let valid = format!("{} to {}", range.start(), range.end());
-    Err(AcceleratorError::Layer { what, value: value.into(), valid })
+    Err(AcceleratorError::InvalidLayer { what, value: value.into(), valid })
 }

@@ -44,18 +44,18 @@
 //! ```
 
 mod accelerator;
-mod computed;
+mod computed_positions;
 mod cost;
 mod error;
 mod layer;
 mod plan;
 mod preset;
 mod row_stationary;
-mod systolic;
+mod systolic_array;
 
-pub use accelerator::{Accelerator, Dataflow, Energy, Objective, RowStationary, Systolic};
-pub use cost::{Cost, Picojoules, Traffic};
+pub use accelerator::{Accelerator, Dataflow, AccessEnergies, MappingObjective, RowStationaryArray, SystolicArray};
+pub use cost::{LayerCost, EnergyCost, MemoryAccesses};
 pub use error::AcceleratorError;
-pub use layer::{Layer, Shape, Window};
-pub use plan::Plan;
-pub use preset::{PRESETS, Preset};
+pub use layer::{Layer, TensorShape, KernelWindow};
+pub use plan::LayerPlan;
+pub use preset::{PRESETS, AcceleratorPreset};

@@ -2,27 +2,27 @@
 //! A layer on an accelerator. The mapping is chosen once for the whole layer, and is used for every
 //! mask.
 
-use crate::accelerator::{Accelerator, Dataflow, RowStationary, Systolic};
-use crate::computed::Computed;
-use crate::cost::{Cost, Counts, Traffic};
-use crate::layer::{Layer, Products};
-use crate::row_stationary::{self, Mapping};
-use crate::{AcceleratorError, systolic};
+use crate::accelerator::{Accelerator, Dataflow, RowStationaryArray, SystolicArray};
+use crate::computed_positions::ComputedPositions;
+use crate::cost::{LayerCost, LayerCounts, MemoryAccesses};
+use crate::layer::{Layer, ChannelGroups};
+use crate::row_stationary::{self, PassMapping};
+use crate::{AcceleratorError, systolic_array};
 
 /// A layer that is mapped onto an accelerator.
 #[derive(Clone, Debug)]
-pub struct Plan<'a> {
+pub struct LayerPlan<'a> {
     accelerator: &'a Accelerator,
     layer: Layer,
-    way: Way<'a>,
+    execution: LayerExecution<'a>,
 }
 
 /// The way in which a layer runs.
 #[derive(Clone, Copy, Debug)]
-enum Way<'a> {
-    WeightStationary(&'a Systolic, Products),
-    OutputStationary(&'a Systolic, Products),
-    RowStationary(&'a RowStationary, Products, Mapping),
+enum LayerExecution<'a> {
+    WeightStationary(&'a SystolicArray, ChannelGroups),
+    OutputStationary(&'a SystolicArray, ChannelGroups),
+    RowStationary(&'a RowStationaryArray, ChannelGroups, PassMapping),
     /// The layer runs without the array.
     Transfer,
 }
@@ -33,26 +33,26 @@ impl Accelerator {
     /// # Errors
     /// Fails if the buffer of a row-stationary array is too small for any mapping, or if the
     /// accelerator was changed to values that [`Accelerator::from_toml`] rejects.
-    pub fn plan(&self, layer: Layer) -> Result<Plan<'_>, AcceleratorError> {
+    pub fn plan(&self, layer: Layer) -> Result<LayerPlan<'_>, AcceleratorError> {
         self.validate()?;
         let way = match (layer.products, &self.array) {
-            (None, _) => Way::Transfer,
+            (None, _) => LayerExecution::Transfer,
             (Some(products), Dataflow::WeightStationary(array)) => {
-                Way::WeightStationary(array, products)
+                LayerExecution::WeightStationary(array, products)
             }
             (Some(products), Dataflow::OutputStationary(array)) => {
-                Way::OutputStationary(array, products)
+                LayerExecution::OutputStationary(array, products)
             }
             (Some(products), Dataflow::RowStationary(array)) => {
-                let mapping = row_stationary::search(self, array, &layer, &products)?;
-                Way::RowStationary(array, products, mapping)
+                let mapping = row_stationary::best_mapping(self, array, &layer, &products)?;
+                LayerExecution::RowStationary(array, products, mapping)
             }
         };
-        Ok(Plan { accelerator: self, layer, way })
+        Ok(LayerPlan { accelerator: self, layer, execution: way })
     }
 }
 
-impl Plan<'_> {
+impl LayerPlan<'_> {
     /// Returns the layer.
     #[must_use]
     pub fn layer(&self) -> &Layer {
@@ -61,48 +61,48 @@ impl Plan<'_> {
 
     /// Returns the cost of the whole layer.
     #[must_use]
-    pub fn whole(&self) -> Cost {
-        self.cost(&Computed::all(&self.layer))
+    pub fn whole_cost(&self) -> LayerCost {
+        self.cost(&ComputedPositions::all(&self.layer))
     }
 
     /// Returns the cost of the needed positions of the output, rounded up to tiles. `is_needed`
     /// takes column and row. If the layer has several images, the mask applies to each of them.
     #[must_use]
-    pub fn masked(&self, is_needed: impl Fn(usize, usize) -> bool) -> Cost {
-        self.cost(&Computed::tiles(&self.layer, self.accelerator.tile, is_needed))
+    pub fn masked_cost(&self, is_needed: impl Fn(usize, usize) -> bool) -> LayerCost {
+        self.cost(&ComputedPositions::in_tiles(&self.layer, self.accelerator.tile, is_needed))
     }
 
-    fn cost(&self, computed: &Computed<'_>) -> Cost {
+    fn cost(&self, computed: &ComputedPositions<'_>) -> LayerCost {
         let (accelerator, layer) = (self.accelerator, &self.layer);
-        if computed.positions(0..layer.outputs.height) == 0 {
-            return Cost::default();
+        if computed.position_count(0..layer.outputs.height) == 0 {
+            return LayerCost::default();
         }
-        let counts = match &self.way {
-            Way::WeightStationary(array, products) => {
-                systolic::weight_stationary(accelerator, array, layer, products, computed)
+        let counts = match &self.execution {
+            LayerExecution::WeightStationary(array, products) => {
+                systolic_array::weight_stationary(accelerator, array, layer, products, computed)
             }
-            Way::OutputStationary(array, products) => {
-                systolic::output_stationary(accelerator, array, layer, products, computed)
+            LayerExecution::OutputStationary(array, products) => {
+                systolic_array::output_stationary(accelerator, array, layer, products, computed)
             }
-            Way::RowStationary(array, products, mapping) => {
-                row_stationary::count(array, layer, products, mapping, computed)
+            LayerExecution::RowStationary(array, products, mapping) => {
+                row_stationary::count_layer(array, layer, products, mapping, computed)
             }
-            Way::Transfer => transfer(layer, computed),
+            LayerExecution::Transfer => transfer_counts(layer, computed),
         };
-        Cost::of(&counts, accelerator)
+        LayerCost::from_counts(&counts, accelerator)
     }
 }
 
 /// Counts a layer without products: inputs come from the DRAM through the buffer, and outputs go
 /// back.
-fn transfer(layer: &Layer, computed: &Computed<'_>) -> Counts {
+fn transfer_counts(layer: &Layer, computed: &ComputedPositions<'_>) -> LayerCounts {
     let rows = 0..layer.outputs.height;
-    let dram = Traffic {
-        inputs: layer.images * layer.inputs.channels * computed.inputs(rows.clone()),
-        outputs: layer.images * layer.outputs.channels * computed.positions(rows),
-        ..Traffic::default()
+    let dram = MemoryAccesses {
+        inputs: layer.images * layer.inputs.channels * computed.input_count(rows.clone()),
+        outputs: layer.images * layer.outputs.channels * computed.position_count(rows),
+        ..MemoryAccesses::default()
     };
     let buffer =
-        Traffic { inputs: 2 * dram.inputs, outputs: 2 * dram.outputs, ..Traffic::default() };
-    Counts { dram, buffer, ..Counts::default() }
+        MemoryAccesses { inputs: 2 * dram.inputs, outputs: 2 * dram.outputs, ..MemoryAccesses::default() };
+    LayerCounts { dram, buffer, ..LayerCounts::default() }
 }

@@ -5,7 +5,7 @@ use crate::AcceleratorError;
 
 /// A named accelerator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Preset {
+pub struct AcceleratorPreset {
     /// The name on the command line.
     pub name: &'static str,
     /// A description in one line.
@@ -15,25 +15,25 @@ pub struct Preset {
 }
 
 /// All presets.
-pub const PRESETS: &[Preset] = &[
-    Preset {
+pub const PRESETS: &[AcceleratorPreset] = &[
+    AcceleratorPreset {
         name: "systolic-ws",
         summary: "16 x 16 weight-stationary systolic array, 8 bits",
         toml: include_str!("../presets/systolic-ws.toml"),
     },
-    Preset {
+    AcceleratorPreset {
         name: "systolic-os",
         summary: "16 x 16 output-stationary systolic array, 8 bits",
         toml: include_str!("../presets/systolic-os.toml"),
     },
-    Preset {
+    AcceleratorPreset {
         name: "eyeriss",
         summary: "12 x 14 row-stationary array like Eyeriss, 16 bits",
         toml: include_str!("../presets/eyeriss.toml"),
     },
 ];
 
-impl Preset {
+impl AcceleratorPreset {
     /// Returns the preset of that name.
     ///
     /// # Errors

@@ -26,17 +26,17 @@
 
 mod mapping;
 
-pub(crate) use mapping::{Mapping, search};
+pub(crate) use mapping::{PassMapping, best_mapping};
 
-use crate::accelerator::RowStationary;
-use crate::computed::Computed;
-use crate::cost::{Counts, Traffic};
-use crate::layer::{Layer, Products};
+use crate::accelerator::RowStationaryArray;
+use crate::computed_positions::ComputedPositions;
+use crate::cost::{LayerCounts, MemoryAccesses};
+use crate::layer::{Layer, ChannelGroups};
 use std::ops::Range;
 
 /// The computed part of a strip in one image.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Strip {
+pub(crate) struct ComputedStrip {
     /// The number of computed positions of the output.
     positions: u64,
     /// The number of computed positions in the row that has most.
@@ -45,9 +45,9 @@ pub(crate) struct Strip {
     inputs: u64,
 }
 
-impl Strip {
+impl ComputedStrip {
     /// Returns the strips with at least one computed position.
-    fn all(layer: &Layer, height: u64, computed: &Computed<'_>) -> Vec<Self> {
+    fn all(layer: &Layer, height: u64, computed: &ComputedPositions<'_>) -> Vec<Self> {
         let rows = layer.outputs.height;
         (0..rows.div_ceil(height))
             .map(|at| Self::of(computed, at * height..((at + 1) * height).min(rows)))
@@ -55,47 +55,47 @@ impl Strip {
             .collect()
     }
 
-    fn of(computed: &Computed<'_>, rows: Range<u64>) -> Self {
+    fn of(computed: &ComputedPositions<'_>, rows: Range<u64>) -> Self {
         Self {
-            positions: computed.positions(rows.clone()),
+            positions: computed.position_count(rows.clone()),
             longest: computed.longest_row(rows.clone()),
-            inputs: computed.inputs(rows),
+            inputs: computed.input_count(rows),
         }
     }
 }
 
 /// Counts the cycles and accesses of a layer.
-pub(crate) fn count(
-    array: &RowStationary,
+pub(crate) fn count_layer(
+    array: &RowStationaryArray,
     layer: &Layer,
-    products: &Products,
-    mapping: &Mapping,
-    computed: &Computed<'_>,
-) -> Counts {
-    count_strips(array, layer, products, mapping, &Strip::all(layer, mapping.strip, computed))
+    products: &ChannelGroups,
+    mapping: &PassMapping,
+    computed: &ComputedPositions<'_>,
+) -> LayerCounts {
+    count_strips(array, layer, products, mapping, &ComputedStrip::all(layer, mapping.strip, computed))
 }
 
 fn count_strips(
-    array: &RowStationary,
+    array: &RowStationaryArray,
     layer: &Layer,
-    products: &Products,
-    mapping: &Mapping,
-    strips: &[Strip],
-) -> Counts {
+    products: &ChannelGroups,
+    mapping: &PassMapping,
+    strips: &[ComputedStrip],
+) -> LayerCounts {
     let cuts = mapping.cuts(array, layer, products);
-    let dram = dram(layer, products, strips, &cuts);
+    let dram = dram_accesses(layer, products, strips, &cuts);
     let positions: u64 = strips.iter().map(|strip| strip.positions).sum();
     let inputs: u64 = strips.iter().map(|strip| strip.inputs).sum();
     let (images, groups) = (layer.images, products.groups);
     let macs = images * positions * layer.macs_per_position();
     let sums = images * positions * groups * products.outputs;
     let kernel_rows = layer.windows[0].kernel;
-    Counts {
-        array_cycles: strips.iter().map(|strip| cycles(layer, products, strip, &cuts)).sum(),
+    LayerCounts {
+        array_cycles: strips.iter().map(|strip| strip_cycles(layer, products, strip, &cuts)).sum(),
         macs,
         // In each multiplication an element reads an input, a weight and a sum, and writes the sum.
-        register: Traffic { inputs: macs, weights: macs, sums: 2 * macs, outputs: 0 },
-        array: Traffic {
+        register: MemoryAccesses { inputs: macs, weights: macs, sums: 2 * macs, outputs: 0 },
+        array: MemoryAccesses {
             // An element uses an input for every filter and every column of the kernel, or for
             // fewer columns if the stride is larger than 1.
             inputs: images
@@ -109,7 +109,7 @@ fn count_strips(
             sums: sums * kernel_rows * products.inputs.div_ceil(mapping.channels),
             outputs: 0,
         },
-        buffer: Traffic {
+        buffer: MemoryAccesses {
             inputs: dram.inputs + images * groups * products.inputs * inputs * cuts.filters,
             // Weights do not pass through the buffer of inputs and sums, but through one that only
             // holds the next weights.
@@ -123,9 +123,9 @@ fn count_strips(
 
 /// The number of parts that a group is cut into, and the largest amounts of a pass.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cuts {
+pub(crate) struct MappingCuts {
     /// The number of parts of the filters whose sums are kept.
-    kept: u64,
+    kept_parts: u64,
     /// The number of parts of the filters that run at once.
     filters: u64,
     /// The number of parts of the channels, and of a kernel that is larger than the array.
@@ -133,9 +133,9 @@ pub(crate) struct Cuts {
     /// The number of parts of the images.
     images: u64,
     /// The cycles in which a pass loads its weights.
-    loading: u64,
+    loading_cycles: u64,
     /// The cycles of a position in an element.
-    busy: u64,
+    cycles_per_position: u64,
     /// The number of sums of a position.
     sums: u64,
     /// The number of channels of a pass.
@@ -145,21 +145,21 @@ pub(crate) struct Cuts {
 }
 
 /// Returns the cycles of all passes of a strip.
-fn cycles(layer: &Layer, products: &Products, strip: &Strip, cuts: &Cuts) -> u64 {
-    let busy = strip.longest * cuts.busy;
+fn strip_cycles(layer: &Layer, products: &ChannelGroups, strip: &ComputedStrip, cuts: &MappingCuts) -> u64 {
+    let busy = strip.longest * cuts.cycles_per_position;
     let inputs = (strip.inputs * cuts.inputs).div_ceil(cuts.inputs_per_cycle);
     let sums = (strip.positions * cuts.sums).div_ceil(cuts.sums_per_cycle);
-    let pass = layer.images * busy.max(inputs).max(sums) + cuts.images * cuts.loading;
+    let pass = layer.images * busy.max(inputs).max(sums) + cuts.images * cuts.loading_cycles;
     products.groups * cuts.filters * cuts.channels * pass
 }
 
 /// Returns the accesses to the DRAM: inputs are read once for each `kept` filters, weights once for
 /// each strip, and outputs are written once.
-fn dram(layer: &Layer, products: &Products, strips: &[Strip], cuts: &Cuts) -> Traffic {
+fn dram_accesses(layer: &Layer, products: &ChannelGroups, strips: &[ComputedStrip], cuts: &MappingCuts) -> MemoryAccesses {
     let inputs: u64 = strips.iter().map(|strip| strip.inputs).sum();
     let positions: u64 = strips.iter().map(|strip| strip.positions).sum();
-    Traffic {
-        inputs: layer.images * products.groups * products.inputs * inputs * cuts.kept,
+    MemoryAccesses {
+        inputs: layer.images * products.groups * products.inputs * inputs * cuts.kept_parts,
         weights: layer.weights() * strips.len() as u64 * cuts.images,
         sums: 0,
         outputs: layer.images * layer.outputs.channels * positions,

@@ -13,7 +13,7 @@ use thiserror::Error;
 /// The error that is returned if a benchmark has no result.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum BenchError {
+pub enum BenchmarkError {
     /// The vectors could not be made, or a simulator failed.
     #[error(transparent)]
     Cosim(#[from] CosimError),
@@ -45,7 +45,7 @@ pub enum BenchError {
     Interrupted,
 }
 
-impl BenchError {
+impl BenchmarkError {
     /// Returns true if the user stopped the benchmark.
     #[must_use]
     pub fn is_interrupted(&self) -> bool {

@@ -17,25 +17,25 @@
 //! first compared, in a separate pass, and then timed from memory, without files, comparison or
 //! reading of outputs.
 
-mod bench;
-mod cycle;
+mod benchmark;
+mod cycle_level;
 mod error;
 #[cfg(test)]
-mod falsified;
+mod negative_control;
 mod frames;
-mod functional;
-mod memory;
-mod netlist;
-mod outcomes;
-mod rate;
+mod functional_levels;
+mod peak_memory;
+mod netlist_level;
+mod outcome_comparison;
+mod clock_rates;
 mod report;
-mod rtl;
+mod rtl_level;
 mod timer;
 mod tools;
 mod vectors;
 
-pub use bench::Bench;
-pub use error::BenchError;
+pub use benchmark::Benchmark;
+pub use error::BenchmarkError;
 pub use frames::random_frames;
-pub use report::{BenchReport, FORMAT_VERSION, Level, LevelRow, Measured};
-pub use tools::Tools;
+pub use report::{BenchmarkReport, FORMAT_VERSION, BenchmarkLevel, LevelRow, LevelMeasurement};
+pub use tools::ExternalTools;

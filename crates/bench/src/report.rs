@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The result of a benchmark.
 
-use foveate_cosim::Agreement;
+use foveate_cosim::OutputAgreement;
 use serde::Serialize;
 
 /// The version of [`BenchReport`] as JSON. It changes when a field changes its meaning or is
@@ -11,7 +11,7 @@ pub const FORMAT_VERSION: u32 = 2;
 /// A level of the design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Level {
+pub enum BenchmarkLevel {
     /// The functional model of whole frames, written to be read.
     FunctionalClear,
     /// The engine for whole frames, written to be fast.
@@ -26,7 +26,7 @@ pub enum Level {
 
 /// The results of all levels of one design, from top to bottom.
 #[derive(Clone, Debug, Serialize)]
-pub struct BenchReport {
+pub struct BenchmarkReport {
     /// The version of the format, [`FORMAT_VERSION`].
     pub format_version: u32,
     /// The fingerprint of the design.
@@ -41,7 +41,7 @@ pub struct BenchReport {
     pub frames: u64,
     /// The number of frames that the levels with clocks take: the same frames, with the last one
     /// repeated until all outputs have left.
-    pub streamed: u64,
+    pub streamed_frames: u64,
     /// The number of clocks for these frames.
     pub clocks: u64,
     /// The vector instructions of the processor that the fast levels use.
@@ -54,11 +54,11 @@ pub struct BenchReport {
 #[derive(Clone, Debug, Serialize)]
 pub struct LevelRow {
     /// The level.
-    pub level: Level,
+    pub level: BenchmarkLevel,
     /// The name of what runs at this level.
     pub name: String,
     /// The measurements, unless the level could not run.
-    pub measured: Option<Measured>,
+    pub measured: Option<LevelMeasurement>,
     /// The reason why the level could not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub missing: Option<String>,
@@ -66,7 +66,7 @@ pub struct LevelRow {
 
 /// The cost of a level, and its agreement with another level.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Measured {
+pub struct LevelMeasurement {
     /// The number of frames per second.
     pub frames_per_second: f64,
     /// The number of clocks per second, if the level has clocks.
@@ -82,7 +82,7 @@ pub struct Measured {
     /// The build was found in the cache, so its seconds mean nothing.
     pub is_cached: bool,
     /// The level with which this level was compared.
-    pub same_as: Option<Level>,
+    pub compared_with: Option<BenchmarkLevel>,
     /// The number of values that were compared.
     pub compared: u64,
     /// The number of values that differ.
@@ -97,41 +97,41 @@ pub struct Measured {
     pub files_clocks_per_second: Option<f64>,
     /// The share of the time for unpacking the inputs, 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub unpacking: Option<f64>,
+    pub unpacking_share: Option<f64>,
 }
 
-impl Measured {
-    pub(crate) fn agrees(self, level: Level, agreement: Agreement) -> Self {
-        let Agreement { compared, differing } = agreement;
-        Self { same_as: Some(level), compared, differing, ..self }
+impl LevelMeasurement {
+    pub(crate) fn with_agreement(self, level: BenchmarkLevel, agreement: OutputAgreement) -> Self {
+        let OutputAgreement { compared, differing } = agreement;
+        Self { compared_with: Some(level), compared, differing, ..self }
     }
 }
 
 impl LevelRow {
-    pub(crate) fn of(level: Level, name: &str, measured: Measured) -> Self {
+    pub(crate) fn measured(level: BenchmarkLevel, name: &str, measured: LevelMeasurement) -> Self {
         Self { level, name: name.to_owned(), measured: Some(measured), missing: None }
     }
 
-    pub(crate) fn missing(level: Level, name: &str, why: String) -> Self {
+    pub(crate) fn not_run(level: BenchmarkLevel, name: &str, why: String) -> Self {
         Self { level, name: name.to_owned(), measured: None, missing: Some(why) }
     }
 }
 
-impl BenchReport {
+impl BenchmarkReport {
     /// Returns the number of values that differ between levels that should agree.
     #[must_use]
-    pub fn differing(&self) -> u64 {
+    pub fn differing_values(&self) -> u64 {
         self.rows.iter().filter_map(|row| row.measured.as_ref()).map(|row| row.differing).sum()
     }
 
     /// Fills in the ratios of the levels' speeds to that of the RTL. A netlist has no ratio,
     /// because one RPU is not an array.
-    pub(crate) fn relate(&mut self) {
-        let rtl = self.rows.iter().find(|row| row.level == Level::Rtl);
+    pub(crate) fn fill_in_ratios(&mut self) {
+        let rtl = self.rows.iter().find(|row| row.level == BenchmarkLevel::Rtl);
         let Some(rtl) = rtl.and_then(|row| row.measured.as_ref()?.clocks_per_second) else {
             return;
         };
-        for row in self.rows.iter_mut().filter(|row| row.level != Level::Netlist) {
+        for row in self.rows.iter_mut().filter(|row| row.level != BenchmarkLevel::Netlist) {
             if let Some(measured) = &mut row.measured {
                 measured.times_rtl = measured.clocks_per_second.map(|clocks| clocks / rtl);
             }

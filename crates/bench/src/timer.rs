@@ -4,43 +4,43 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::error::BenchError;
+use crate::error::BenchmarkError;
 
 /// The shortest time of a measurement, and the flag that stops it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Timer<'a> {
-    pub(crate) at_least: Duration,
+pub(crate) struct PassTimer<'a> {
+    pub(crate) min_time: Duration,
     pub(crate) cancel: &'a AtomicBool,
 }
 
 /// The number of passes, and their time in seconds.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Time {
+pub(crate) struct PassTimes {
     pub(crate) passes: u64,
     pub(crate) seconds: f64,
 }
 
-impl Timer<'_> {
+impl PassTimer<'_> {
     /// Times whole passes, at least one.
-    pub(crate) fn time(
+    pub(crate) fn time_passes(
         self,
-        mut pass: impl FnMut() -> Result<(), BenchError>,
-    ) -> Result<Time, BenchError> {
+        mut pass: impl FnMut() -> Result<(), BenchmarkError>,
+    ) -> Result<PassTimes, BenchmarkError> {
         let start = Instant::now();
         let mut passes = 0;
         loop {
             pass()?;
             passes += 1;
             let elapsed = start.elapsed();
-            self.check()?;
-            if elapsed >= self.at_least {
-                return Ok(Time { passes, seconds: elapsed.as_secs_f64() });
+            self.check_cancelled()?;
+            if elapsed >= self.min_time {
+                return Ok(PassTimes { passes, seconds: elapsed.as_secs_f64() });
             }
         }
     }
 
     /// Fails if the user has stopped the benchmark.
-    pub(crate) fn check(self) -> Result<(), BenchError> {
-        if self.cancel.load(Ordering::Relaxed) { Err(BenchError::Interrupted) } else { Ok(()) }
+    pub(crate) fn check_cancelled(self) -> Result<(), BenchmarkError> {
+        if self.cancel.load(Ordering::Relaxed) { Err(BenchmarkError::Interrupted) } else { Ok(()) }
     }
 }

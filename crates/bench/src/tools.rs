@@ -6,11 +6,11 @@ use std::time::Duration;
 use foveate_toolchain::{Cache, Toolchain};
 
 /// The time limit of a run.
-pub(crate) const LIMIT: Duration = Duration::from_secs(3600);
+pub(crate) const RUN_TIME_LIMIT: Duration = Duration::from_secs(3600);
 
 /// The tools of the machine, and the cache of their builds.
 #[derive(Clone, Copy, Debug)]
-pub struct Tools<'a> {
+pub struct ExternalTools<'a> {
     /// The toolchain that finds and runs the tools. Its flag stops the benchmark.
     pub toolchain: &'a Toolchain,
     /// The cache of finished builds.

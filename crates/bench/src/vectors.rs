@@ -5,61 +5,61 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use foveate_cosim::{Agreement, Field, Layout, Recording};
+use foveate_cosim::{OutputAgreement, RecordField, RecordLayout, Recording};
 use foveate_design::{Design, PortRole};
-use foveate_model::{CoreInput, Thresholds};
+use foveate_model::{CoreInput, ThresholdInputs};
 
-use crate::error::BenchError;
+use crate::error::BenchmarkError;
 
 /// The inputs of every clock.
 #[derive(Debug)]
-pub(crate) struct Vectors {
-    controls: Vec<Control>,
+pub(crate) struct UnpackedInputs {
+    controls: Vec<ClockControls>,
     pixels: Vec<u16>,
     /// The pixels at the port of references, if the core has one.
     references: Vec<u16>,
     /// The number of pixels at the port per clock.
     width: usize,
     /// The number of frames that the core takes.
-    pub(crate) streamed: u64,
+    pub(crate) streamed_frames: u64,
 }
 
 /// The inputs of one clock, except its pixels.
 #[derive(Clone, Copy, Debug)]
-struct Control {
+struct ClockControls {
     reset: bool,
     valid: bool,
     /// The pixel is the first of a frame, if the core has a port for this.
-    sof: bool,
+    is_start_of_frame: bool,
     /// The reference is valid, if the core has a port for this.
     reference_valid: bool,
     /// The sink takes forwarded pixels, if the core has a port for this.
     forward_ready: bool,
-    thresholds: Thresholds,
+    thresholds: ThresholdInputs,
 }
 
-impl Vectors {
-    pub(crate) fn read(design: &Design, recording: &Recording) -> Result<Self, BenchError> {
+impl UnpackedInputs {
+    pub(crate) fn read(design: &Design, recording: &Recording) -> Result<Self, BenchmarkError> {
         let layout = recording.inputs();
-        let pixel = field(layout, PortRole::Pixel).expect("an array takes pixels");
-        let ready = field(recording.outputs(), PortRole::Ready);
+        let pixel = field_of_role(layout, PortRole::Pixel).expect("an array takes pixels");
+        let ready = field_of_role(recording.outputs(), PortRole::Ready);
         let held = (pixel.port.bits() / design.pixel_bits()) as usize;
-        let reference = field(layout, PortRole::ReferencePixel);
+        let reference = field_of_role(layout, PortRole::ReferencePixel);
         let (mut controls, mut pixels, mut references) = (Vec::new(), Vec::new(), Vec::new());
         let (mut is_ready, mut taken) = (true, 0);
-        each_clock(recording, |input, expected| {
-            let control = Control::of(design, layout, input);
+        for_each_clock(recording, |input, expected| {
+            let control = ClockControls::from_record(design, layout, input);
             taken += u64::from(control.valid && is_ready && !control.reset);
             is_ready = ready.is_none_or(|field| field.get(expected, 0) == 1);
             controls.push(control);
             let narrow = |value: u64| u16::try_from(value).expect("a pixel has at most 16 bits");
-            pixels.extend(pixel.words(input, held).map(narrow));
-            let words = reference.into_iter().flat_map(|port| port.words(input, held));
+            pixels.extend(pixel.lane_pixels(input, held).map(narrow));
+            let words = reference.into_iter().flat_map(|port| port.lane_pixels(input, held));
             references.extend(words.map(narrow));
         })?;
         Ok(Self {
             width: pixels.len() / controls.len().max(1),
-            streamed: taken / design.timing().pixels_per_frame(),
+            streamed_frames: taken / design.timing().pixels_per_frame(),
             controls,
             pixels,
             references,
@@ -76,14 +76,14 @@ impl Vectors {
         let pixels = self.pixels.chunks_exact(self.width.max(1));
         self.controls.iter().zip(pixels).enumerate().map(move |(clock, (control, pixels))| {
             let references = &self.references[clock * reference_width..][..reference_width];
-            control.with(pixels, references)
+            control.core_input(pixels, references)
         })
     }
 }
 
-impl Control {
-    fn of(design: &Design, layout: &Layout, input: &[u8]) -> Self {
-        let mut thresholds = Thresholds::of(design);
+impl ClockControls {
+    fn from_record(design: &Design, layout: &RecordLayout, input: &[u8]) -> Self {
+        let mut thresholds = ThresholdInputs::from_camera(design);
         let (mut reset, mut valid, mut forward_ready) = (false, false, true);
         let (mut sof, mut reference_valid) = (false, false);
         let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
@@ -114,29 +114,29 @@ impl Control {
                 _ => {}
             }
         }
-        Self { reset, valid, sof, reference_valid, forward_ready, thresholds }
+        Self { reset, valid, is_start_of_frame: sof, reference_valid, forward_ready, thresholds }
     }
 
-    fn with<'a>(&'a self, pixels: &'a [u16], reference_pixels: &'a [u16]) -> CoreInput<'a> {
-        let &Self { reset, valid, sof, reference_valid, forward_ready, ref thresholds } = self;
+    fn core_input<'a>(&'a self, pixels: &'a [u16], reference_pixels: &'a [u16]) -> CoreInput<'a> {
+        let &Self { reset, valid, is_start_of_frame: sof, reference_valid, forward_ready, ref thresholds } = self;
         let idle = CoreInput::idle(pixels, thresholds);
         CoreInput { reset, valid, sof, reference_valid, reference_pixels, forward_ready, ..idle }
     }
 }
 
 /// Returns the port with a role.
-pub(crate) fn field(layout: &Layout, role: PortRole) -> Option<&Field> {
+pub(crate) fn field_of_role(layout: &RecordLayout, role: PortRole) -> Option<&RecordField> {
     layout.fields().iter().find(|field| field.port.role == role)
 }
 
 /// Calls `look` with the inputs and the expected outputs of each clock.
-pub(crate) fn each_clock(
+pub(crate) fn for_each_clock(
     recording: &Recording,
     mut look: impl FnMut(&[u8], &[u8]),
-) -> Result<(), BenchError> {
+) -> Result<(), BenchmarkError> {
     let paths = [recording.inputs_path(), recording.expected_path()];
     let (mut inputs, mut outputs) = (open(&paths[0])?, open(&paths[1])?);
-    let (mut input, mut output) = (recording.inputs().record(), recording.outputs().record());
+    let (mut input, mut output) = (recording.inputs().zero_record(), recording.outputs().zero_record());
     for _ in 0..recording.clocks() {
         inputs.read_exact(&mut input).map_err(unreadable(&paths[0]))?;
         outputs.read_exact(&mut output).map_err(unreadable(&paths[1]))?;
@@ -147,24 +147,24 @@ pub(crate) fn each_clock(
 
 /// Compares the outputs of a model with the recording. `step` writes the outputs of the next clock
 /// into a record.
-pub(crate) fn compare(
+pub(crate) fn compare_recording(
     recording: &Recording,
     mut step: impl FnMut(&mut [u8]),
-) -> Result<Agreement, BenchError> {
-    let (mut got, mut agreement) = (recording.outputs().record(), Agreement::default());
-    each_clock(recording, |_, expected| {
+) -> Result<OutputAgreement, BenchmarkError> {
+    let (mut got, mut agreement) = (recording.outputs().zero_record(), OutputAgreement::default());
+    for_each_clock(recording, |_, expected| {
         step(&mut got);
         agreement.add(recording.outputs(), expected, &got);
     })?;
     Ok(agreement)
 }
 
-fn open(path: &Path) -> Result<BufReader<File>, BenchError> {
+fn open(path: &Path) -> Result<BufReader<File>, BenchmarkError> {
     let file = File::open(path).map_err(unreadable(path))?;
     Ok(BufReader::with_capacity(1 << 18, file))
 }
 
-fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> BenchError {
+fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> BenchmarkError {
     let path = path.display().to_string();
-    move |source| BenchError::Vectors { path, source }
+    move |source| BenchmarkError::Vectors { path, source }
 }

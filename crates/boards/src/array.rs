@@ -6,24 +6,24 @@ use std::borrow::Cow;
 
 use askama::Template;
 use foveate_design::{
-    Action, Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, bits_for,
+    RegionAction, Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, bits_for,
     index_bits,
 };
 use foveate_emit::array_scores;
 use foveate_engine::Engine;
-use foveate_toolchain::text::comment_text;
+use foveate_toolchain::escaping::comment_text;
 
-use crate::pattern::pattern;
-use crate::project::Project;
-use crate::sensor::Level;
-use crate::text::text_of;
+use crate::pattern::pattern_frame;
+use crate::project::BoardProject;
+use crate::sensor::LogicLevel;
+use crate::text::rendered;
 
 /// The number of bits of a byte.
 const BYTE: u32 = 8;
 
 #[derive(Template)]
 #[template(path = "array_board.v")]
-struct ArrayTop<'a> {
+struct ArrayTopTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     pair: bool,
@@ -41,8 +41,8 @@ struct ArrayTop<'a> {
     temporal_at: u32,
     minimum_at: u32,
     turn_bits: u32,
-    thresholds: Vec<Threshold>,
-    scores: Vec<Score>,
+    thresholds: Vec<ThresholdPort>,
+    scores: Vec<ScorePort>,
     has_summary: bool,
     head: Vec<String>,
     pins: Vec<(String, String)>,
@@ -52,29 +52,29 @@ struct ArrayTop<'a> {
 
 /// A threshold on its way to the array: its name, its range, and the output of `array_turn` that it
 /// waits for.
-struct Threshold {
+struct ThresholdPort {
     name: String,
     range: String,
-    turn: &'static str,
+    turn_signal: &'static str,
 }
 
 /// A port with a score of each region, or with its count of changed pixels.
-struct Score {
+struct ScorePort {
     name: String,
     width: u32,
     kind: Option<FeatureKind>,
 }
 
-impl Score {
-    fn bytes(&self) -> u32 {
+impl ScorePort {
+    fn byte_count(&self) -> u32 {
         self.width.div_ceil(BYTE)
     }
 }
 
 /// Returns the values of each region besides its decision: the count of changed pixels, and then
 /// the scores in the order of the design.
-fn scores(design: &Design) -> Vec<Score> {
-    let score = |port: foveate_design::Port| Score {
+fn score_ports(design: &Design) -> Vec<ScorePort> {
+    let score = |port: foveate_design::Port| ScorePort {
         name: port.name.trim_end_matches("_o").to_owned(),
         width: port.width,
         kind: match port.role {
@@ -86,7 +86,7 @@ fn scores(design: &Design) -> Vec<Score> {
 }
 
 /// Returns the output of `array_turn` that a threshold waits for.
-fn turn(role: PortRole) -> &'static str {
+fn turn_output(role: PortRole) -> &'static str {
     match role {
         PortRole::Level(_) => "level",
         PortRole::TemporalLevel => "temporal",
@@ -94,18 +94,18 @@ fn turn(role: PortRole) -> &'static str {
     }
 }
 
-fn range(width: u32) -> String {
+fn range_text(width: u32) -> String {
     if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
 }
 
 /// Returns the Verilog of the top around an array.
-pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
+pub(crate) fn array_top(project: &BoardProject, array: PipelinedDesign<'_>) -> String {
     let board = &project.board;
-    let (scores, timing) = (scores(&array), PipelinedTiming::of(array));
+    let (scores, timing) = (score_ports(&array), PipelinedTiming::from_design(array));
     let mut thresholds = Vec::new();
     for port in array.rcm_interface().controls {
         let name = port.name.trim_end_matches("_i").to_owned();
-        thresholds.push(Threshold { name, range: range(port.width), turn: turn(port.role) });
+        thresholds.push(ThresholdPort { name, range: range_text(port.width), turn_signal: turn_output(port.role) });
     }
     let minimum_at = timing.decision_latency + 1 + timing.decision_frames * timing.cycles_per_frame;
     let mut head: Vec<String> = Vec::new();
@@ -113,7 +113,7 @@ pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
     let mut low = BYTE;
     for score in &scores {
         let (name, width) = (&score.name, score.width);
-        let padding = score.bytes() * BYTE - width;
+        let padding = score.byte_count() * BYTE - width;
         let value = format!("{name}[region*{width}+:{width}]");
         head.push(if padding == 0 { value } else { format!("{padding}'d0, {value}") });
         let mut pin = |part: String, from: u32, width: u32| {
@@ -125,17 +125,17 @@ pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
         } else {
             pin(format!("captured_{name}_i"), low, width);
         }
-        low += score.bytes() * BYTE;
+        low += score.byte_count() * BYTE;
     }
     head.reverse();
     head.push("4'd0, active[region], summary[region], trs[region], srs[region]".to_owned());
-    text_of(&ArrayTop {
+    rendered(&ArrayTopTemplate {
         banner: project.banner(),
         title: comment_text(&board.title),
         pair: project.has_pair(),
         mhz: board.clock.mhz,
         leds: board.leds.pins.len(),
-        lit_low: board.leds.lit == Level::Low,
+        lit_low: board.leds.lit_level == LogicLevel::Low,
         columns: array.columns(),
         rows: array.rows(),
         side: array.region_size(),
@@ -152,27 +152,27 @@ pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
         has_summary: array.periphery().is_some(),
         head,
         pins,
-        divisor: board.divisor(),
-        blink: blink(board.clock.core_mhz * 1_000_000 / timing.cycles_per_frame),
+        divisor: board.baud_divisor(),
+        blink: blink_bit(board.clock.core_mhz * 1_000_000 / timing.cycles_per_frame),
     })
 }
 
 /// Returns the bit of the frame counter that changes about twice per second.
-fn blink(fps: u32) -> u32 {
+fn blink_bit(fps: u32) -> u32 {
     fps.max(2).ilog2() - 1
 }
 
 /// Returns the sums behind the first `frames` frames of the pattern.
-pub(crate) fn sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
-    let (scores, mut engine) = (scores(&array), Engine::new(&array));
+pub(crate) fn signature_sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
+    let (scores, mut engine) = (score_ports(&array), Engine::new(&array));
     let mut sum = 0_u32;
     let mut add = |number: u32| {
-        let frame = pattern(array.width(), array.height(), number);
-        if engine.step_raster(&frame).is_err() {
+        let frame = pattern_frame(array.width(), array.height(), number);
+        if engine.step_byte_frame(&frame).is_err() {
             unreachable!("a frame of the pattern fits its design");
         }
         for region in 0..array.regions() {
-            let said = said(&array, &scores, &engine, (number, region));
+            let said = signed_bytes(&array, &scores, &engine, (number, region));
             sum = sum.wrapping_add(crc32fast::hash(&said));
         }
         sum
@@ -182,15 +182,15 @@ pub(crate) fn sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
 
 /// Returns the bytes that the signature of a region covers, for the frame that the engine has just
 /// taken.
-fn said(
+fn signed_bytes(
     design: &Design,
-    scores: &[Score],
+    scores: &[ScorePort],
     engine: &Engine,
     (frame, region): (u32, u32),
 ) -> Vec<u8> {
     let (outcome, at) = (engine.outcome(), region as usize);
     let action = outcome.actions[at];
-    let bits = [outcome.srs[at], outcome.trs[at], action == Action::Summarize, outcome.active[at]];
+    let bits = [outcome.srs[at], outcome.trs[at], action == RegionAction::Summarize, outcome.active[at]];
     let decision: u8 = (0_u32..).zip(bits).map(|(bit, value)| u8::from(value) << bit).sum();
     let mut bytes = region.to_le_bytes().to_vec();
     bytes.push(decision);
@@ -202,14 +202,14 @@ fn said(
                 place.map_or(0, |place| outcome.scores[place][at])
             }
         };
-        bytes.extend(&value.to_le_bytes()[..score.bytes() as usize]);
+        bytes.extend(&value.to_le_bytes()[..score.byte_count() as usize]);
     }
     let mut values = Vec::new();
     match (action, design.payload()) {
-        (Action::Summarize, _) => engine.summary(region, &mut values),
-        (Action::Forward, Payload::Denoised) => engine.denoised_region(region, &mut values),
-        (Action::Forward, Payload::Raw) => values = raw(design, frame, region),
-        (Action::Hold | Action::Blank, _) => {}
+        (RegionAction::Summarize, _) => engine.summary(region, &mut values),
+        (RegionAction::Forward, Payload::Denoised) => engine.denoised_region(region, &mut values),
+        (RegionAction::Forward, Payload::Raw) => values = pattern_region(design, frame, region),
+        (RegionAction::Hold | RegionAction::Blank, _) => {}
     }
     // All pixels have 8 bits.
     bytes.extend(values.iter().map(|value| u8::try_from(*value).unwrap_or(u8::MAX)));
@@ -217,9 +217,9 @@ fn said(
 }
 
 /// Returns the pixels of the pattern in a region.
-fn raw(design: &Design, frame: u32, region: u32) -> Vec<u16> {
+fn pattern_region(design: &Design, frame: u32, region: u32) -> Vec<u16> {
     let side = design.region_size();
     let (left, top) = (region % design.columns() * side, region / design.columns() * side);
     let places = (top..top + side).flat_map(|y| (left..left + side).map(move |x| (x, y)));
-    places.map(|(x, y)| crate::pattern::pixel(x, y, frame).into()).collect()
+    places.map(|(x, y)| crate::pattern::pattern_pixel(x, y, frame).into()).collect()
 }

@@ -3,12 +3,12 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::{Config, Preset};
-use foveate_toolchain::text::shown;
+use foveate_design::{DesignConfig, Preset};
+use foveate_toolchain::escaping::message_excerpt;
 use serde::Deserialize;
 
-use crate::sensor::Level;
-use crate::{BoardError, Sensor, words};
+use crate::sensor::LogicLevel;
+use crate::{BoardError, Sensor, text_forms};
 
 /// The boards that come with the program: name and data.
 const BOARDS: &[(&str, &str)] = &[
@@ -39,17 +39,17 @@ pub struct Board {
     /// The command that loads a bitstream, without the name of the file.
     pub flash: String,
     /// The device.
-    pub device: Device,
+    pub device: BoardDevice,
     /// The clock of the board, and that of the core.
-    pub clock: Clock,
+    pub clock: BoardClock,
     /// The serial line.
-    pub serial: Serial,
+    pub serial: SerialLine,
     /// The LEDs.
-    pub leds: Leds,
+    pub leds: BoardLeds,
     /// The pins of the sensor; `None` for a pattern.
     pub pins: Option<SensorPins>,
     /// The default design.
-    design: Default,
+    design: DefaultDesign,
     /// The text of its file.
     #[serde(skip)]
     pub(crate) text: String,
@@ -60,9 +60,9 @@ pub struct Board {
 /// A device, as its tools name it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Device {
+pub struct BoardDevice {
     /// The family of the device.
-    pub family: Family,
+    pub family: DeviceFamily,
     /// The name of the part for its tool.
     pub part: String,
     /// The package; for Gowin, the die.
@@ -74,7 +74,7 @@ pub struct Device {
 /// A family of devices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Family {
+pub enum DeviceFamily {
     /// Lattice iCE40 UltraPlus.
     Ice40,
     /// Lattice ECP5.
@@ -85,9 +85,9 @@ pub enum Family {
     Vivado,
 }
 
-impl Family {
+impl DeviceFamily {
     /// Returns the part names of a family for which nextpnr has an option per part.
-    fn parts(self) -> &'static [&'static str] {
+    fn part_names(self) -> &'static [&'static str] {
         match self {
             Self::Ice40 => &[
                 "lp384", "lp1k", "lp4k", "lp8k", "hx1k", "hx4k", "hx8k", "up3k", "up5k", "u1k",
@@ -114,7 +114,7 @@ impl Family {
 /// The clock of a board, and that of the core.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Clock {
+pub struct BoardClock {
     /// The pin of the clock, or both pins of a differential pair.
     pub pins: Vec<String>,
     /// The I/O standard, if the tool needs it.
@@ -131,7 +131,7 @@ pub struct Clock {
 /// The serial line, with directions as the device sees them.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Serial {
+pub struct SerialLine {
     /// The pin of the line to the host.
     pub tx: String,
     /// The pin of the line from the host.
@@ -146,13 +146,13 @@ pub struct Serial {
 /// third one reports that all sums were right.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Leds {
+pub struct BoardLeds {
     /// The pins of the LEDs.
     pub pins: Vec<String>,
     /// The I/O standard, if the tool needs it.
     pub standard: Option<String>,
     /// The level that lights an LED.
-    pub lit: Level,
+    pub lit_level: LogicLevel,
 }
 
 /// The pins of a sensor.
@@ -181,7 +181,7 @@ pub struct SensorPins {
 
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Default {
+struct DefaultDesign {
     preset: String,
     set: Vec<String>,
 }
@@ -202,7 +202,7 @@ impl Board {
     pub fn find(name: &str) -> Result<Self, BoardError> {
         let path = Path::new(name);
         if path.extension().is_some_and(|extension| extension == "toml") {
-            let text = foveate_reading::settings(path)
+            let text = foveate_reading::read_settings(path)
                 .map_err(|source| BoardError::Read { path: path.to_owned(), source })?;
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             return Self::read(&stem, &text, path.parent().unwrap_or(Path::new("")));
@@ -211,7 +211,7 @@ impl Board {
             Some((name, text)) => Self::from_toml(name, text),
             None => {
                 let known: Vec<_> = BOARDS.iter().map(|board| board.0).collect();
-                Err(BoardError::Board { name: shown(name), known: known.join(", ") })
+                Err(BoardError::UnknownBoard { name: message_excerpt(name), known: known.join(", ") })
             }
         }
     }
@@ -225,10 +225,10 @@ impl Board {
     }
 
     fn read(name: &str, text: &str, folder: &Path) -> Result<Self, BoardError> {
-        let invalid = |reason: String| BoardError::Invalid { name: shown(name), reason };
-        words::check_name(name).map_err(invalid)?;
+        let invalid = |reason: String| BoardError::Invalid { name: message_excerpt(name), reason };
+        text_forms::check_name(name).map_err(invalid)?;
         let no_board = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
-        words::check(&text.parse().map_err(no_board)?).map_err(invalid)?;
+        text_forms::check_texts(&text.parse().map_err(no_board)?).map_err(invalid)?;
         let mut board: Self = toml::from_str(text).map_err(no_board)?;
         name.clone_into(&mut board.name);
         text.clone_into(&mut board.text);
@@ -241,7 +241,7 @@ impl Board {
     ///
     /// # Errors
     /// Fails if there is no such sensor, or if the board has no pins for it.
-    pub fn eye(&self) -> Result<Option<(Sensor, SensorPins)>, BoardError> {
+    pub fn sensor_with_pins(&self) -> Result<Option<(Sensor, SensorPins)>, BoardError> {
         if self.sensor == PATTERN {
             return Ok(None);
         }
@@ -257,15 +257,15 @@ impl Board {
     ///
     /// # Errors
     /// Fails if the configuration is not valid.
-    pub fn config(&self) -> Result<Config, BoardError> {
+    pub fn config(&self) -> Result<DesignConfig, BoardError> {
         let mut set = vec!["hardware.interface='axi'".to_owned()];
         set.extend(self.design.set.iter().cloned());
         let preset = Preset::find(&self.design.preset)?;
-        Ok(Config::from_toml_with(preset.toml, &set)?)
+        Ok(DesignConfig::from_toml_with(preset.toml, &set)?)
     }
 
     /// Returns the number of clocks per bit on the serial line.
-    pub(crate) fn divisor(&self) -> u32 {
+    pub(crate) fn baud_divisor(&self) -> u32 {
         (self.clock.core_mhz * 1_000_000 + self.serial.baud / 2) / self.serial.baud
     }
 
@@ -274,7 +274,7 @@ impl Board {
         Preset::find(&self.design.preset).map_err(|error| format!("design.preset: {error}"))?;
         let design = self.config().map_err(|error| format!("design.set: {error}"))?;
         design.validate().map_err(|error| format!("design.set: {error}"))?;
-        let eye = self.eye().map_err(|error| error.to_string())?;
+        let eye = self.sensor_with_pins().map_err(|error| error.to_string())?;
         if let Some((sensor, pins)) = &eye {
             self.check_sensor(sensor, pins)?;
         }
@@ -285,7 +285,7 @@ impl Board {
                 self.leds.pins.len()
             ));
         }
-        let is_closed = self.device.family == Family::Vivado;
+        let is_closed = self.device.family == DeviceFamily::Vivado;
         if is_closed && eye.is_some() {
             return Err(format!("device.family = vivado takes sensor = \"{PATTERN}\" alone"));
         }
@@ -294,7 +294,7 @@ impl Board {
             let pins = self.clock.pins.len();
             return Err(format!("clock.pins has {pins} pins; {wires} are needed"));
         }
-        if (self.device.family == Family::Ecp5) != self.device.speed.is_some() {
+        if (self.device.family == DeviceFamily::Ecp5) != self.device.speed.is_some() {
             return Err("device.speed is for ECP5, which needs it".to_owned());
         }
         if !(1..=1000).contains(&self.clock.core_mhz) || !(1..=1000).contains(&self.clock.mhz) {
@@ -306,7 +306,7 @@ impl Board {
     /// Checks the part. It becomes an option of nextpnr if nextpnr has an option per part of the
     /// family, and must be no other option.
     fn check_part(&self) -> Result<(), String> {
-        let (known, part) = (self.device.family.parts(), &self.device.part);
+        let (known, part) = (self.device.family.part_names(), &self.device.part);
         if known.is_empty() || known.contains(&part.as_str()) {
             return Ok(());
         }
@@ -317,7 +317,7 @@ impl Board {
     /// clock, and that the core is fast enough.
     fn check_sensor(&self, sensor: &Sensor, pins: &SensorPins) -> Result<(), String> {
         let name = &self.sensor;
-        let (lines, pins) = (sensor.format.lines(), pins.data.len());
+        let (lines, pins) = (sensor.format.data_lines(), pins.data.len());
         if pins != lines {
             return Err(format!("pins.data has {pins} pins; `{name}` has {lines} data lines"));
         }
@@ -325,7 +325,7 @@ impl Board {
         if !(least..=most).contains(&xclk) {
             return Err(format!("clock.mhz = {xclk}: `{name}` takes {least} to {most} MHz"));
         }
-        let pixels = xclk * sensor.pclk_per_xclk / f64::from(sensor.format.edges());
+        let pixels = xclk * sensor.pclk_per_xclk / f64::from(sensor.format.edges_per_pixel());
         if pixels > f64::from(self.clock.core_mhz) {
             let core = self.clock.core_mhz;
             return Err(format!(
@@ -343,7 +343,7 @@ impl Board {
         if baud == 0 || baud > clock / 4 {
             return Err(format!("serial.baud = {baud}: 1 to {} can be made", clock / 4));
         }
-        let divisor = self.divisor();
+        let divisor = self.baud_divisor();
         let off = (f64::from(clock) / f64::from(divisor) / f64::from(baud) - 1.0).abs();
         if off > 0.02 {
             let near = clock / divisor;

@@ -10,30 +10,30 @@ use foveate_toolchain::{Invocation, ToolError, Toolchain};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::{BoardError, Project};
+use crate::{BoardError, BoardProject};
 
 /// The kind of folder that is written. Only folders of this kind are replaced.
-pub const PROJECT: FolderKind = FolderKind {
-    what: "a project of a board (its board.f and sim/board_clock.v)",
-    is: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
+pub const PROJECT_FOLDER: FolderKind = FolderKind {
+    description: "a project of a board (its board.f and sim/board_clock.v)",
+    matches: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
 };
 
 /// The script's file about the seed that it packs, written after all seeds are done.
-const PACKED: &str = "build/packed";
+const PACKED_FILE: &str = "build/packed";
 /// The folder that the script makes.
-const BUILD: &str = "build";
+const BUILD_FOLDER: &str = "build";
 /// The time limit of the script. One seed takes minutes on a large device.
-const LIMIT: Duration = Duration::from_secs(4 * 3600);
+const SCRIPT_TIME: Duration = Duration::from_secs(4 * 3600);
 
 /// A bitstream, and its use of the device.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Built {
+pub struct BuildResult {
     /// The path of its file in the folder of the project.
     pub bitstream: String,
     /// The size in bytes.
     pub bytes: usize,
     /// The cells of the device that are used.
-    pub used: Vec<Used>,
+    pub used: Vec<CellUse>,
     /// The clock that the core needs, in MHz.
     pub core_mhz: u32,
     /// The clock of the core that each seed reaches, in MHz, the slowest first.
@@ -46,7 +46,7 @@ pub struct Built {
     pub pclk_reached_mhz: f64,
 }
 
-impl Built {
+impl BuildResult {
     /// Returns true if the packed seed reaches both clocks.
     #[must_use]
     pub fn is_fast_enough(&self) -> bool {
@@ -56,7 +56,7 @@ impl Built {
 
 /// The cells of one type.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Used {
+pub struct CellUse {
     /// The name of the type in nextpnr.
     pub cell: String,
     /// The number of used cells.
@@ -72,11 +72,11 @@ pub struct Used {
 /// # Errors
 /// Fails if the folder cannot be written, or if it holds anything else.
 pub fn write_project(
-    project: &Project,
+    project: &BoardProject,
     folder: &Path,
     overwrite: bool,
 ) -> Result<Vec<String>, BoardError> {
-    let staged = StagedFolder::new(folder, PROJECT, overwrite)?;
+    let staged = StagedFolder::new(folder, PROJECT_FOLDER, overwrite)?;
     let files = project.files();
     for file in &files {
         staged.write(&file.path, file.contents.as_bytes())?;
@@ -90,29 +90,29 @@ pub fn write_project(
 /// # Errors
 /// Fails if a tool is missing or fails, or if the design does not fit the device.
 pub fn build(
-    project: &Project,
+    project: &BoardProject,
     folder: &Path,
     seeds: u32,
     toolchain: &Toolchain,
-) -> Result<Built, BoardError> {
+) -> Result<BuildResult, BoardError> {
     if !project.is_open() {
-        return Err(BoardError::Closed { name: project.board.name.clone() });
+        return Err(BoardError::NoOpenTool { name: project.board.name.clone() });
     }
     let run =
-        Invocation::new("sh").args(["build.sh", &seeds.to_string()]).dir(folder).timeout(LIMIT);
-    let is_new = !folder.join(BUILD).exists();
+        Invocation::new("sh").args(["build.sh", &seeds.to_string()]).dir(folder).timeout(SCRIPT_TIME);
+    let is_new = !folder.join(BUILD_FOLDER).exists();
     let ran = toolchain.run_checked(&run);
     if is_new {
-        list_made(project, folder)?;
+        list_made_files(project, folder)?;
     }
     match ran {
         // The script has packed a bitstream, and reports that it is too slow.
-        Err(ToolError::Failed { .. }) if folder.join(PACKED).is_file() => {}
+        Err(ToolError::Failed { .. }) if folder.join(PACKED_FILE).is_file() => {}
         other => drop(other?),
     }
     let left = |name: &str| {
         let path = folder.join(name);
-        fs::read(&path).map_err(|source| BoardError::Left { path, source })
+        fs::read(&path).map_err(|source| BoardError::MissingOutput { path, source })
     };
     // Each line has the clock of the core, the pixel clock, and the seed; the slowest seed is
     // first.
@@ -122,13 +122,13 @@ pub fn build(
         Some((words.next()?.ok()?, words.next()?.ok()?))
     };
     let clocks: Vec<_> = sorted.lines().filter_map(line).collect();
-    let packed = line(String::from_utf8_lossy(&left(PACKED)?).trim_end()).unwrap_or_default();
+    let packed = line(String::from_utf8_lossy(&left(PACKED_FILE)?).trim_end()).unwrap_or_default();
     let bitstream = project.bitstream();
     let bytes = left(&bitstream)?.len();
-    Ok(Built {
+    Ok(BuildResult {
         bitstream,
         bytes,
-        used: used(&left("build/report.json")?),
+        used: used_cells(&left("build/report.json")?),
         core_mhz: project.board.clock.core_mhz,
         reached_mhz: clocks.iter().map(|clock| clock.0).collect(),
         pclk_mhz: project.pclk_mhz(),
@@ -139,20 +139,20 @@ pub fn build(
 
 /// Adds the files that the script has made to the list of the folder. The script cannot do so when
 /// it is stopped.
-fn list_made(project: &Project, folder: &Path) -> Result<(), StagingError> {
-    let made = fs::read_dir(folder.join(BUILD)).into_iter().flatten().flatten();
+fn list_made_files(project: &BoardProject, folder: &Path) -> Result<(), StagingError> {
+    let made = fs::read_dir(folder.join(BUILD_FOLDER)).into_iter().flatten().flatten();
     let names = made.filter_map(|entry| entry.file_name().into_string().ok());
-    let names = names.map(|name| format!("{BUILD}/{name}")).chain([project.bitstream()]);
-    ContinuedFolder::open(folder)?.note(names)
+    let names = names.map(|name| format!("{BUILD_FOLDER}/{name}")).chain([project.bitstream()]);
+    ContinuedFolder::open(folder)?.list_files(names)
 }
 
 /// Returns the cells in a report of nextpnr, without types of which no cell is used.
-fn used(report: &[u8]) -> Vec<Used> {
+fn used_cells(report: &[u8]) -> Vec<CellUse> {
     let report: Value = serde_json::from_slice(report).unwrap_or_default();
     let cells = report["utilization"].as_object().into_iter().flatten();
     let number = |value: &Value| value.as_u64().unwrap_or(0);
     cells
-        .map(|(cell, counts)| Used {
+        .map(|(cell, counts)| CellUse {
             cell: cell.clone(),
             used: number(&counts["used"]),
             available: number(&counts["available"]),

@@ -2,58 +2,58 @@
 //! The pins and clocks of a board, in the format of its tools.
 
 use foveate_emit::SourceFile;
-use foveate_toolchain::text::tcl_word;
+use foveate_toolchain::escaping::tcl_word;
 
-use crate::board::Family;
-use crate::project::{Project, Wire};
-use crate::text::file;
+use crate::board::DeviceFamily;
+use crate::project::{BoardProject, PortPin};
+use crate::text::source_file;
 
 /// The I/O standard of pins for which a board names none.
-const USUAL: &str = "LVCMOS33";
+const DEFAULT_STANDARD: &str = "LVCMOS33";
 
 /// Returns the name of the file with the pins.
-pub(crate) fn name(family: Family) -> &'static str {
+pub(crate) fn pin_file_name(family: DeviceFamily) -> &'static str {
     match family {
-        Family::Ice40 => "board.pcf",
-        Family::Ecp5 => "board.lpf",
-        Family::Gowin => "board.cst",
-        Family::Vivado => "board.xdc",
+        DeviceFamily::Ice40 => "board.pcf",
+        DeviceFamily::Ecp5 => "board.lpf",
+        DeviceFamily::Gowin => "board.cst",
+        DeviceFamily::Vivado => "board.xdc",
     }
 }
 
 /// Returns the file with the pins and, if its format has them, the clocks that come from outside.
-pub(crate) fn file_of(project: &Project) -> SourceFile {
+pub(crate) fn pin_file(project: &BoardProject) -> SourceFile {
     let family = project.board.device.family;
-    let comment = if family == Family::Gowin { "//" } else { "#" };
+    let comment = if family == DeviceFamily::Gowin { "//" } else { "#" };
     let mut text = format!("{comment} {}\n", project.banner());
-    text.extend(project.wires().iter().map(|wire| pin(family, wire)));
+    text.extend(project.port_pins().iter().map(|wire| pin_lines(family, wire)));
     let board = (project.clock_port(), f64::from(project.board.clock.mhz));
-    let sensor = project.eye.is_some().then(|| ("sensor_pclk_i", project.pclk_mhz()));
+    let sensor = project.sensor.is_some().then(|| ("sensor_pclk_i", project.pclk_mhz()));
     let clocks = [Some(board), sensor].into_iter().flatten();
-    text.extend(clocks.map(|(port, mhz)| clock(family, port, mhz)));
-    if family == Family::Vivado {
+    text.extend(clocks.map(|(port, mhz)| clock_line(family, port, mhz)));
+    if family == DeviceFamily::Vivado {
         text += "# Lights and the serial line have no clock outside.\n\
                  set_false_path -to [get_ports {tx_o led_o[*]}]\n\
                  set_false_path -from [get_ports rx_i]\n";
     }
-    file(name(family), text)
+    source_file(pin_file_name(family), text)
 }
 
-fn pin(family: Family, Wire { port, pin, standard }: &Wire) -> String {
-    let standard = standard.as_deref().unwrap_or(USUAL);
+fn pin_lines(family: DeviceFamily, PortPin { port, pin, standard }: &PortPin) -> String {
+    let standard = standard.as_deref().unwrap_or(DEFAULT_STANDARD);
     let is_pulled = port == "sensor_scl" || port == "sensor_sda";
     let pull = if is_pulled { "UP" } else { "NONE" };
     match family {
-        Family::Ice40 if is_pulled => format!("set_io -pullup yes {port} {pin}\n"),
-        Family::Ice40 => format!("set_io {port} {pin}\n"),
-        Family::Ecp5 => format!(
+        DeviceFamily::Ice40 if is_pulled => format!("set_io -pullup yes {port} {pin}\n"),
+        DeviceFamily::Ice40 => format!("set_io {port} {pin}\n"),
+        DeviceFamily::Ecp5 => format!(
             "LOCATE COMP \"{port}\" SITE \"{pin}\";\n\
              IOBUF PORT \"{port}\" IO_TYPE={standard} PULLMODE={pull};\n"
         ),
-        Family::Gowin => format!(
+        DeviceFamily::Gowin => format!(
             "IO_LOC \"{port}\" {pin};\nIO_PORT \"{port}\" IO_TYPE={standard} PULL_MODE={pull};\n"
         ),
-        Family::Vivado => format!(
+        DeviceFamily::Vivado => format!(
             "set_property -dict {{PACKAGE_PIN {} IOSTANDARD {}}} [get_ports {{{port}}}]\n",
             tcl_word(pin),
             tcl_word(standard)
@@ -61,13 +61,13 @@ fn pin(family: Family, Wire { port, pin, standard }: &Wire) -> String {
     }
 }
 
-fn clock(family: Family, port: &str, mhz: f64) -> String {
+fn clock_line(family: DeviceFamily, port: &str, mhz: f64) -> String {
     match family {
-        Family::Ice40 => format!("set_frequency {port} {mhz}\n"),
-        Family::Ecp5 => format!("FREQUENCY PORT \"{port}\" {mhz} MHZ;\n"),
+        DeviceFamily::Ice40 => format!("set_frequency {port} {mhz}\n"),
+        DeviceFamily::Ecp5 => format!("FREQUENCY PORT \"{port}\" {mhz} MHZ;\n"),
         // nextpnr takes one frequency for all clocks, as an option.
-        Family::Gowin => String::new(),
-        Family::Vivado => {
+        DeviceFamily::Gowin => String::new(),
+        DeviceFamily::Vivado => {
             let period = 1000.0 / mhz;
             format!("create_clock -name {port} -period {period:.3} [get_ports {port}]\n")
         }

@@ -13,7 +13,7 @@ use thiserror::Error;
 pub enum BoardError {
     /// There is no board of that name.
     #[error("there is no board `{name}`; there are {known}; a file with one ends in .toml")]
-    Board {
+    UnknownBoard {
         /// The given name.
         name: String,
         /// The names of all boards.
@@ -23,7 +23,7 @@ pub enum BoardError {
     #[error(
         "there is no sensor `{name}`; there are {known}, and `pattern` for a pattern in place of one"
     )]
-    Sensor {
+    UnknownSensor {
         /// The given name.
         name: String,
         /// The names of all sensors.
@@ -39,7 +39,7 @@ pub enum BoardError {
     },
     /// The script has not left a file that it should make.
     #[error("the build left no `{}`: {source}", path.display())]
-    Left {
+    MissingOutput {
         /// The path of the file.
         path: PathBuf,
         /// The cause.
@@ -63,7 +63,7 @@ pub enum BoardError {
     },
     /// No open tool makes a bitstream for the board.
     #[error("no open tool makes a bitstream for `{name}`; its folder has the scripts for Vivado")]
-    Closed {
+    NoOpenTool {
         /// The name of the board.
         name: String,
     },

@@ -4,48 +4,48 @@
 use foveate_design::{Design, Hardware};
 
 use crate::BoardError;
-use crate::board::{Board, Family, SensorPins};
-use crate::clock::{self, Source};
-use crate::fit::check;
+use crate::board::{Board, DeviceFamily, SensorPins};
+use crate::clock::{self, ClockSource};
+use crate::design_check::check_fit;
 use crate::sensor::Sensor;
 
 /// A design on a board.
 #[derive(Debug)]
-pub struct Project {
+pub struct BoardProject {
     /// The board.
     pub board: Board,
     /// The design on the board.
     pub design: Design,
     /// The sensor and its pins; `None` for a pattern.
-    pub(crate) eye: Option<(Sensor, SensorPins)>,
-    pub(crate) clock: Source,
+    pub(crate) sensor: Option<(Sensor, SensorPins)>,
+    pub(crate) clock: ClockSource,
 }
 
-impl Project {
+impl BoardProject {
     /// Puts a design on a board.
     ///
     /// # Errors
     /// Fails if the design is neither on AXI nor an array behind a pattern, or if it does not fit
     /// the sensor or the clock.
     pub fn new(board: Board, design: Design) -> Result<Self, BoardError> {
-        let eye = board.eye()?;
-        let clock = clock::source(&board)?;
-        match check(&design, eye.as_ref().map(|(sensor, _)| sensor)) {
+        let eye = board.sensor_with_pins()?;
+        let clock = clock::clock_source(&board)?;
+        match check_fit(&design, eye.as_ref().map(|(sensor, _)| sensor)) {
             Err(reason) => Err(BoardError::Design { name: board.name, reason }),
-            Ok(()) => Ok(Self { board, design, eye, clock }),
+            Ok(()) => Ok(Self { board, design, sensor: eye, clock }),
         }
     }
 
     /// Returns the full name of the sensor, for people.
     #[must_use]
     pub fn sensor_title(&self) -> &str {
-        self.eye.as_ref().map_or("a pattern", |(sensor, _)| &sensor.title)
+        self.sensor.as_ref().map_or("a pattern", |(sensor, _)| &sensor.title)
     }
 
     /// Returns true if open tools make a bitstream of the project.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        self.board.device.family != Family::Vivado
+        self.board.device.family != DeviceFamily::Vivado
     }
 
     /// Returns the name of the file that is loaded into the device.
@@ -56,7 +56,7 @@ impl Project {
 
     /// Returns the command that loads the bitstream.
     #[must_use]
-    pub fn flash(&self) -> String {
+    pub fn load_command(&self) -> String {
         if self.is_open() {
             format!("{} {}", self.board.flash, self.bitstream())
         } else {
@@ -68,15 +68,15 @@ impl Project {
     #[must_use]
     pub fn pclk_mhz(&self) -> f64 {
         let xclk = f64::from(self.board.clock.mhz);
-        self.eye.as_ref().map_or(0.0, |(sensor, _)| sensor.pclk_per_xclk * xclk)
+        self.sensor.as_ref().map_or(0.0, |(sensor, _)| sensor.pclk_per_xclk * xclk)
     }
 
     /// Returns the number of frames per second that the sensor or the pattern sends.
     #[must_use]
-    pub fn fps(&self) -> f64 {
+    pub fn incoming_fps(&self) -> f64 {
         let (clock, xclk) = (&self.board.clock, f64::from(self.board.clock.mhz));
         let pattern = || self.core_fps(f64::from(clock.core_mhz));
-        self.eye.as_ref().map_or_else(pattern, |(sensor, _)| sensor.frames_per_mhz * xclk)
+        self.sensor.as_ref().map_or_else(pattern, |(sensor, _)| sensor.frames_per_mhz * xclk)
     }
 
     /// Returns the number of frames per second that the core can take at a clock of `mhz` MHz.
@@ -112,15 +112,15 @@ impl Project {
     }
 
     /// Returns each port of the module `board` with its pin and I/O standard.
-    pub(crate) fn wires(&self) -> Vec<Wire> {
+    pub(crate) fn port_pins(&self) -> Vec<PortPin> {
         let Board { clock, serial, leds, .. } = &self.board;
         let clocks = [self.clock_port(), "clk_n_i"].into_iter().zip(&clock.pins);
         let mut wires: Vec<_> =
-            clocks.map(|(port, pin)| Wire::new(port, pin, clock.standard.as_ref())).collect();
-        wires.push(Wire::new("rx_i", &serial.rx, serial.standard.as_ref()));
-        wires.push(Wire::new("tx_o", &serial.tx, serial.standard.as_ref()));
-        wires.extend(Wire::numbered("led_o", &leds.pins, leds.standard.as_ref()));
-        if let Some((_, pins)) = &self.eye {
+            clocks.map(|(port, pin)| PortPin::new(port, pin, clock.standard.as_ref())).collect();
+        wires.push(PortPin::new("rx_i", &serial.rx, serial.standard.as_ref()));
+        wires.push(PortPin::new("tx_o", &serial.tx, serial.standard.as_ref()));
+        wires.extend(PortPin::indexed("led_o", &leds.pins, leds.standard.as_ref()));
+        if let Some((_, pins)) = &self.sensor {
             let ports = [
                 ("sensor_xclk_o", Some(&pins.xclk)),
                 ("sensor_pclk_i", Some(&pins.pclk)),
@@ -132,28 +132,28 @@ impl Project {
                 ("sensor_power_down_o", pins.power_down.as_ref()),
             ];
             let there =
-                ports.into_iter().filter_map(|(name, pin)| Some(Wire::new(name, pin?, None)));
+                ports.into_iter().filter_map(|(name, pin)| Some(PortPin::new(name, pin?, None)));
             wires.extend(there);
-            wires.extend(Wire::numbered("sensor_data_i", &pins.data, None));
+            wires.extend(PortPin::indexed("sensor_data_i", &pins.data, None));
         }
         wires
     }
 }
 
 /// A port of the module `board`, with its pin.
-pub(crate) struct Wire {
+pub(crate) struct PortPin {
     pub(crate) port: String,
     pub(crate) pin: String,
     /// The I/O standard, if the tool needs it.
     pub(crate) standard: Option<String>,
 }
 
-impl Wire {
+impl PortPin {
     fn new(port: &str, pin: &str, standard: Option<&String>) -> Self {
         Self { port: port.to_owned(), pin: pin.to_owned(), standard: standard.cloned() }
     }
 
-    fn numbered<'a>(
+    fn indexed<'a>(
         name: &'a str,
         pins: &'a [String],
         standard: Option<&'a String>,

@@ -4,16 +4,16 @@
 use std::borrow::Cow;
 
 use askama::Template;
-use foveate_toolchain::text::markdown_text;
+use foveate_toolchain::escaping::markdown_text;
 
-use crate::pattern::FRAMES;
-use crate::project::{Project, Wire};
+use crate::pattern::COMPARED_FRAMES;
+use crate::project::{BoardProject, PortPin};
 use crate::script;
-use crate::text::text_of;
+use crate::text::rendered;
 
 #[derive(Template)]
 #[template(path = "README.md")]
-struct Readme<'a> {
+struct ReadmeTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     page: &'a str,
@@ -25,8 +25,8 @@ struct Readme<'a> {
     core_mhz: u32,
     baud: u32,
     fps: String,
-    most: String,
-    wires: Vec<Wire>,
+    core_fps: String,
+    wires: Vec<PortPin>,
     is_open: bool,
     has_sensor: bool,
     is_array: bool,
@@ -37,10 +37,10 @@ struct Readme<'a> {
     flash: String,
 }
 
-pub(crate) fn readme(project: &Project) -> String {
-    let Project { board, design, .. } = project;
-    let tools = script::tools(board.device.family);
-    text_of(&Readme {
+pub(crate) fn readme(project: &BoardProject) -> String {
+    let BoardProject { board, design, .. } = project;
+    let tools = script::open_tools(board.device.family);
+    rendered(&ReadmeTemplate {
         banner: project.banner(),
         title: markdown_text(&board.title),
         page: &board.page,
@@ -51,16 +51,16 @@ pub(crate) fn readme(project: &Project) -> String {
         side: design.region_size(),
         core_mhz: board.clock.core_mhz,
         baud: board.serial.baud,
-        fps: format!("{:.0}", project.fps()),
-        most: format!("{:.0}", project.core_fps(f64::from(board.clock.core_mhz))),
-        wires: project.wires(),
+        fps: format!("{:.0}", project.incoming_fps()),
+        core_fps: format!("{:.0}", project.core_fps(f64::from(board.clock.core_mhz))),
+        wires: project.port_pins(),
         is_open: project.is_open(),
-        has_sensor: project.eye.is_some(),
+        has_sensor: project.sensor.is_some(),
         is_array: project.is_array(),
         columns: design.columns(),
         rows: design.rows(),
-        frames: FRAMES,
+        frames: COMPARED_FRAMES,
         install: tools.map_or("", |tools| tools.install),
-        flash: project.flash(),
+        flash: project.load_command(),
     })
 }

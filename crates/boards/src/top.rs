@@ -6,29 +6,29 @@ use std::borrow::Cow;
 use askama::Template;
 use foveate_design::{Hardware, PipelinedDesign, RasterDesign, index_bits};
 use foveate_emit::{
-    BOARD_LEAVES, LEAVES, Leaf, SourceFile, Top as CoreTop, array_registers, on_bus, verilog,
+    BOARD_LEAVES, LEAVES, Leaf, SourceFile, Top as CoreTop, array_registers, axi_modules, verilog,
 };
-use foveate_toolchain::text::comment_text;
+use foveate_toolchain::escaping::comment_text;
 
 use crate::array;
 use crate::board::SensorPins;
-use crate::clock::Source;
-use crate::pattern::{FRAMES, layout, sums};
-use crate::project::Project;
-use crate::sensor::{Level, Sensor};
-use crate::text::{file, text_of};
+use crate::clock::ClockSource;
+use crate::pattern::{COMPARED_FRAMES, packet_layout, packet_sums};
+use crate::project::BoardProject;
+use crate::sensor::{LogicLevel, Sensor};
+use crate::text::{source_file, rendered};
 
 /// The rate of I2C in bits per second.
 const I2C_HZ: u32 = 100_000;
-const QUARTERS: u32 = 4;
+const QUARTERS_PER_BIT: u32 = 4;
 
 /// The leaves between a sensor and the core.
-const BEFORE_A_SENSOR: &[&str] = &["clock_crossing", "dvp_capture", "i2c_setup"];
-const BEFORE_A_PATTERN: &[&str] = &["pattern_source", "packet_signature", "packet_sample"];
-const BEHIND: &[&str] = &["packet_bytes", "uart_sender", "uart_receiver", "uart_registers"];
+const SENSOR_LEAVES: &[&str] = &["clock_crossing", "dvp_capture", "i2c_setup"];
+const PATTERN_LEAVES: &[&str] = &["pattern_source", "packet_signature", "packet_sample"];
+const OUTPUT_LEAVES: &[&str] = &["packet_bytes", "uart_sender", "uart_receiver", "uart_registers"];
 /// The leaf of a core that an array needs, too.
-const PART_OF_A_CORE: &str = "packet_crc";
-const AROUND_AN_ARRAY: &[&str] = &[
+const ARRAY_CORE_LEAF: &str = "packet_crc";
+const ARRAY_LEAVES: &[&str] = &[
     "array_pattern",
     "array_turn",
     "array_signature",
@@ -40,12 +40,12 @@ const AROUND_AN_ARRAY: &[&str] = &[
 
 #[derive(Template)]
 #[template(path = "board.v")]
-struct Top<'a> {
+struct SensorTopTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     mhz: u32,
     core_mhz: u32,
-    capture: Capture,
+    capture: CaptureParameters,
     leds: usize,
     lit_low: bool,
     width: u32,
@@ -54,7 +54,7 @@ struct Top<'a> {
 }
 
 /// The parameters of the modules between a sensor and a core.
-struct Capture {
+struct CaptureParameters {
     lines: usize,
     reset: bool,
     power_down: bool,
@@ -75,7 +75,7 @@ struct Capture {
 
 #[derive(Template)]
 #[template(path = "sensor_steps.v")]
-struct Steps<'a> {
+struct SetupStepsTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     step_bits: u32,
@@ -85,7 +85,7 @@ struct Steps<'a> {
 
 #[derive(Template)]
 #[template(path = "pattern_board.v")]
-struct PatternTop<'a> {
+struct PatternTopTemplate<'a> {
     banner: String,
     title: Cow<'a, str>,
     pair: bool,
@@ -106,97 +106,97 @@ struct PatternTop<'a> {
 
 #[derive(Template)]
 #[template(path = "expected_sums.v")]
-struct Expected {
+struct ExpectedSumsTemplate {
     banner: String,
     sums: Vec<String>,
 }
 
 #[derive(Template)]
 #[template(path = "board_clock.v")]
-struct Clock {
+struct ClockTemplate {
     banner: String,
     pair: bool,
     mhz: u32,
     core_mhz: u32,
-    how: &'static str,
+    description: &'static str,
     body: String,
 }
 
 /// Returns the Verilog of a project, each module after those that it instantiates.
-pub(crate) fn modules(project: &Project) -> Vec<SourceFile> {
+pub(crate) fn modules(project: &BoardProject) -> Vec<SourceFile> {
     let design = &project.design;
-    let (core, leaves, own) = match (design.hardware(), &project.eye) {
+    let (core, leaves, own) = match (design.hardware(), &project.sensor) {
         (Hardware::Pipelined(hardware), _) => {
-            let array = design.on(hardware);
-            let own = [("expected_sums", expected(project)), ("board", array::top(project, array))];
-            (array_core(array), [AROUND_AN_ARRAY, &[]], own)
+            let array = design.with_hardware(hardware);
+            let own = [("expected_sums", expected_sums(project)), ("board", array::array_top(project, array))];
+            (array_core(array), [ARRAY_LEAVES, &[]], own)
         }
         (Hardware::Raster(_) | Hardware::Serial(_), Some((sensor, pins))) => {
             let own =
-                [("sensor_steps", steps(project, sensor)), ("board", top(project, sensor, pins))];
-            (on_bus(design).unwrap_or_default(), [BEFORE_A_SENSOR, BEHIND], own)
+                [("sensor_steps", setup_steps(project, sensor)), ("board", sensor_top(project, sensor, pins))];
+            (axi_modules(design).unwrap_or_default(), [SENSOR_LEAVES, OUTPUT_LEAVES], own)
         }
         (Hardware::Raster(hardware), None) => {
-            let top = pattern_top(project, design.on(hardware));
-            let own = [("expected_sums", expected(project)), ("board", top)];
-            (on_bus(design).unwrap_or_default(), [BEFORE_A_PATTERN, BEHIND], own)
+            let top = pattern_top(project, design.with_hardware(hardware));
+            let own = [("expected_sums", expected_sums(project)), ("board", top)];
+            (axi_modules(design).unwrap_or_default(), [PATTERN_LEAVES, OUTPUT_LEAVES], own)
         }
         // [`Project::new`] has refused such a design.
         (Hardware::Serial(_), None) => return Vec::new(),
     };
     let stands = |leaf: &&Leaf| leaves.iter().any(|names| names.contains(&leaf.name));
-    let leaves = BOARD_LEAVES.iter().filter(stands).map(leaf);
-    let clock = file(&path("board_clock"), clock(project, false));
-    let own = own.map(|(name, text)| file(&path(name), text));
+    let leaves = BOARD_LEAVES.iter().filter(stands).map(leaf_file);
+    let clock = source_file(&rtl_path("board_clock"), clock_module(project, false));
+    let own = own.map(|(name, text)| source_file(&rtl_path(name), text));
     core.into_iter().chain(leaves).chain([clock]).chain(own).collect()
 }
 
-fn path(name: &str) -> String {
+fn rtl_path(name: &str) -> String {
     format!("rtl/{name}.v")
 }
 
-fn leaf(leaf: &Leaf) -> SourceFile {
-    file(&path(leaf.name), leaf.contents.to_owned())
+fn leaf_file(leaf: &Leaf) -> SourceFile {
+    source_file(&rtl_path(leaf.name), leaf.contents.to_owned())
 }
 
 /// Returns an array with its registers, and the leaf of other cores that it needs.
 fn array_core(array: PipelinedDesign<'_>) -> Vec<SourceFile> {
-    let part = LEAVES.iter().filter(|leaf| leaf.name == PART_OF_A_CORE).map(leaf);
+    let part = LEAVES.iter().filter(|leaf| leaf.name == ARRAY_CORE_LEAF).map(leaf_file);
     verilog(&array, CoreTop::Rcm).into_iter().chain(part).chain([array_registers(array)]).collect()
 }
 
-fn top(project: &Project, sensor: &Sensor, pins: &SensorPins) -> String {
-    let Project { board, design, .. } = project;
-    text_of(&Top {
+fn sensor_top(project: &BoardProject, sensor: &Sensor, pins: &SensorPins) -> String {
+    let BoardProject { board, design, .. } = project;
+    rendered(&SensorTopTemplate {
         banner: project.banner(),
         title: comment_text(&board.title),
         mhz: board.clock.mhz,
         core_mhz: board.clock.core_mhz,
-        capture: capture(project, sensor, pins),
+        capture: capture_parameters(project, sensor, pins),
         leds: board.leds.pins.len(),
-        lit_low: board.leds.lit == Level::Low,
+        lit_low: board.leds.lit_level == LogicLevel::Low,
         width: design.width(),
         height: design.height(),
-        divisor: board.divisor(),
+        divisor: board.baud_divisor(),
     })
 }
 
-fn capture(project: &Project, sensor: &Sensor, pins: &SensorPins) -> Capture {
+fn capture_parameters(project: &BoardProject, sensor: &Sensor, pins: &SensorPins) -> CaptureParameters {
     let (design, clocks) = (&project.design, project.board.clock.core_mhz * 1_000_000);
-    let steps = sensor.words().len();
-    Capture {
-        lines: sensor.format.lines(),
+    let steps = sensor.setup_words().len();
+    CaptureParameters {
+        lines: sensor.format.data_lines(),
         reset: pins.reset_n.is_some(),
         power_down: pins.power_down.is_some(),
         device: format!("{:02X}", sensor.i2c.device),
         address_bytes: sensor.i2c.address_bytes,
         steps,
         step_bits: index_bits(steps as u64),
-        word_bits: sensor.word_bits(),
-        quarter: clocks.div_ceil(QUARTERS * I2C_HZ),
+        word_bits: sensor.setup_word_bits(),
+        quarter: clocks.div_ceil(QUARTERS_PER_BIT * I2C_HZ),
         pause: clocks / 1000,
-        format: sensor.format.number(),
-        vsync_high: u32::from(sensor.vsync == Level::High),
+        format: sensor.format.parameter_value(),
+        vsync_high: u32::from(sensor.vsync == LogicLevel::High),
         left: sensor.left,
         top: sensor.top,
         column_bits: index_bits(u64::from(sensor.left + design.width())),
@@ -204,10 +204,10 @@ fn capture(project: &Project, sensor: &Sensor, pins: &SensorPins) -> Capture {
     }
 }
 
-fn steps(project: &Project, sensor: &Sensor) -> String {
-    let (words, bits) = (sensor.words(), sensor.word_bits());
+fn setup_steps(project: &BoardProject, sensor: &Sensor) -> String {
+    let (words, bits) = (sensor.setup_words(), sensor.setup_word_bits());
     let digits = bits.div_ceil(4) as usize;
-    text_of(&Steps {
+    rendered(&SetupStepsTemplate {
         banner: project.banner(),
         title: comment_text(&sensor.title),
         step_bits: index_bits(words.len() as u64),
@@ -216,21 +216,21 @@ fn steps(project: &Project, sensor: &Sensor) -> String {
     })
 }
 
-fn pattern_top(project: &Project, design: RasterDesign<'_>) -> String {
+fn pattern_top(project: &BoardProject, design: RasterDesign<'_>) -> String {
     let board = &project.board;
     let lanes = design.pixels_per_clock();
     let words = design.width().div_ceil(lanes);
-    let layout = layout(&design);
+    let layout = packet_layout(&design);
     let lengths = [layout.frame_bytes(), layout.row_bytes(), layout.region_bytes(false)];
     let packet_words = lengths.into_iter().max().unwrap_or_default() / 8;
-    text_of(&PatternTop {
+    rendered(&PatternTopTemplate {
         banner: project.banner(),
         title: comment_text(&board.title),
         pair: project.has_pair(),
         mhz: board.clock.mhz,
         core_mhz: board.clock.core_mhz,
         leds: board.leds.pins.len(),
-        lit_low: board.leds.lit == Level::Low,
+        lit_low: board.leds.lit_level == LogicLevel::Low,
         lanes,
         video_bits: 8 * lanes,
         words,
@@ -239,17 +239,17 @@ fn pattern_top(project: &Project, design: RasterDesign<'_>) -> String {
         line_bits: index_bits(design.height().into()),
         packet_words,
         packet_bits: index_bits(packet_words as u64),
-        divisor: board.divisor(),
+        divisor: board.baud_divisor(),
     })
 }
 
-fn expected(project: &Project) -> String {
+fn expected_sums(project: &BoardProject) -> String {
     let design = &project.design;
     let sums = match design.hardware() {
-        Hardware::Pipelined(own) => array::sums(design.on(own), FRAMES),
-        Hardware::Serial(_) | Hardware::Raster(_) => sums(design, FRAMES),
+        Hardware::Pipelined(own) => array::signature_sums(design.with_hardware(own), COMPARED_FRAMES),
+        Hardware::Serial(_) | Hardware::Raster(_) => packet_sums(design, COMPARED_FRAMES),
     };
-    text_of(&Expected {
+    rendered(&ExpectedSumsTemplate {
         banner: project.banner(),
         sums: sums.iter().map(|sum| format!("{sum:08X}")).collect(),
     })
@@ -257,13 +257,13 @@ fn expected(project: &Project) -> String {
 
 /// Returns the module that makes the core's clock. In a simulation the clock of the board replaces
 /// it.
-pub(crate) fn clock(project: &Project, simulated: bool) -> String {
+pub(crate) fn clock_module(project: &BoardProject, simulated: bool) -> String {
     let (pair, one) = (project.has_pair(), project.clock_port());
     let (how, body) = match project.clock {
-        _ if simulated => (", in a simulation: the clock that comes is taken for it", direct(one)),
-        Source::Direct if pair => (", by the buffers of a Xilinx device", pair_of_wires()),
-        Source::Direct => ("", direct(one)),
-        Source::Ice40 { pad, reference, feedback, output, filter } => {
+        _ if simulated => (", in a simulation: the clock that comes is taken for it", direct_clock(one)),
+        ClockSource::Direct if pair => (", by the buffers of a Xilinx device", pair_of_wires()),
+        ClockSource::Direct => ("", direct_clock(one)),
+        ClockSource::Ice40 { pad, reference, feedback, output, filter } => {
             // A PLL at its own pin takes the pin's clock exclusively, and outputs it as well.
             let (cell, ports, raw) = if pad {
                 ("2_PAD", ".PACKAGEPIN(clk_i), .PLLOUTGLOBALA(raw_o), .PLLOUTGLOBALB(clk_o)", "")
@@ -278,7 +278,7 @@ pub(crate) fn clock(project: &Project, simulated: bool) -> String {
             );
             (", by the PLL of an iCE40", body)
         }
-        Source::Ecp5 { reference, feedback, output } => {
+        ClockSource::Ecp5 { reference, feedback, output } => {
             let phase = output / 2 - 1;
             let body = format!(
                 "    wire looped;\n    (* FREQUENCY_PIN_CLKI = \"{}\", FREQUENCY_PIN_CLKOP = \"{}\" *)\n    EHXPLLL #(\n        \
@@ -293,17 +293,17 @@ pub(crate) fn clock(project: &Project, simulated: bool) -> String {
             (", by the PLL of an ECP5", body)
         }
     };
-    text_of(&Clock {
+    rendered(&ClockTemplate {
         banner: project.banner(),
         pair,
         mhz: project.board.clock.mhz,
         core_mhz: project.board.clock.core_mhz,
-        how,
+        description: how,
         body,
     })
 }
 
-fn direct(clock: &str) -> String {
+fn direct_clock(clock: &str) -> String {
     let other = if clock == "clk_i" { "" } else { "    wire unused_half = clk_n_i;\n" };
     format!(
         "{other}    assign clk_o = {clock};\n    assign raw_o = {clock};\n    assign locked_o = 1'b1;"

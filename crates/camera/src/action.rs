@@ -3,7 +3,7 @@
 
 /// The effect of a decision on a region of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Action {
+pub enum RegionAction {
     /// The region is active: its current pixels are forwarded and shown.
     Forward,
     /// The screen keeps the pixels that it shows of the region.
@@ -14,7 +14,7 @@ pub enum Action {
     Summarize,
 }
 
-impl Action {
+impl RegionAction {
     /// Returns the name that tables use.
     #[must_use]
     pub fn name(self) -> &'static str {

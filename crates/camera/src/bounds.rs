@@ -2,16 +2,16 @@
 //! The valid values of keys whose range depends on other keys, for tools that offer one key at a
 //! time.
 
-use crate::periphery::blocks_for;
+use crate::periphery::valid_block_counts;
 use crate::ranges::largest_level;
 use crate::width::index_bits;
 use crate::{Camera, Decimal};
 
 /// The valid values of one key while all other keys stay as they are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Bound {
+pub enum KeyBound {
     /// The numbers from 0 to `largest`: whole numbers only, or decimal numbers too.
-    UpTo {
+    Maximum {
         /// The largest valid number.
         largest: Decimal,
         /// True if the number must be whole.
@@ -21,9 +21,9 @@ pub enum Bound {
     OneOf(Vec<u32>),
 }
 
-impl Bound {
-    fn whole(largest: u32) -> Self {
-        Self::UpTo { largest: Decimal::whole(largest.into()), whole: true }
+impl KeyBound {
+    fn whole_maximum(largest: u32) -> Self {
+        Self::Maximum { largest: Decimal::from_whole(largest.into()), whole: true }
     }
 }
 
@@ -31,19 +31,19 @@ impl Camera {
     /// Returns the keys of this camera whose range depends on other keys, with their valid values.
     /// Keys are written as overrides name them (`spatial.0.level`).
     #[must_use]
-    pub fn bounds(&self) -> Vec<(String, Bound)> {
+    pub fn bounds(&self) -> Vec<(String, KeyBound)> {
         let (max, pixels) = (self.pixel_max(), self.region_pixels());
         let mut bounds = vec![
             (
                 "temporal.level".to_owned(),
-                Bound::whole(largest_level(max, self.temporal().min_count == 0)),
+                KeyBound::whole_maximum(largest_level(max, self.temporal().min_count == 0)),
             ),
-            ("temporal.min_count".to_owned(), Bound::whole(pixels)),
+            ("temporal.min_count".to_owned(), KeyBound::whole_maximum(pixels)),
         ];
         if self.periphery().is_some() {
-            let blocks = blocks_for(self.region_size()).collect();
-            bounds.push(("periphery.blocks".to_owned(), Bound::OneOf(blocks)));
-            let level = Bound::whole(largest_level(max, false));
+            let blocks = valid_block_counts(self.region_size()).collect();
+            bounds.push(("periphery.blocks".to_owned(), KeyBound::OneOf(blocks)));
+            let level = KeyBound::whole_maximum(largest_level(max, false));
             bounds.push(("periphery.level".to_owned(), level));
         }
         let features = self.features().iter().zip(&self.config().spatial);
@@ -51,14 +51,14 @@ impl Camera {
             let key = |name| format!("spatial.{index}.{name}");
             if let Some(max) = feature.level_max() {
                 let level = largest_level(max, feature.min_score() == 0);
-                bounds.push((key("level"), Bound::whole(level)));
+                bounds.push((key("level"), KeyBound::whole_maximum(level)));
             }
             let largest = feature.largest_min_score();
-            let whole = feature.kind().measure().is_count();
-            bounds.push((key("min_score"), Bound::UpTo { largest, whole }));
-            if entry.has_mean() {
+            let whole = feature.kind().score_unit().is_count();
+            bounds.push((key("min_score"), KeyBound::Maximum { largest, whole }));
+            if entry.has_mean_fraction() {
                 let bits = index_bits(pixels.into());
-                bounds.push((key("mean_fraction_bits"), Bound::whole(bits)));
+                bounds.push((key("mean_fraction_bits"), KeyBound::whole_maximum(bits)));
             }
         }
         bounds
@@ -91,7 +91,7 @@ mod tests {
                 let is_taken =
                     |value: &dyn std::fmt::Display| camera(&format!("{key}={value}")).is_ok();
                 match bound {
-                    Bound::UpTo { largest, whole } => {
+                    KeyBound::Maximum { largest, whole } => {
                         // The largest decimal number is cut off after four digits, so `beyond` is
                         // the next whole number.
                         let beyond = largest.ceil_times(1)
@@ -101,9 +101,9 @@ mod tests {
                             "{overrides:?} {key} {largest}"
                         );
                         assert!(!is_taken(&beyond), "{overrides:?} {key} {beyond}");
-                        assert_eq!(is_taken(&0.5), !whole && largest != Decimal::whole(0), "{key}");
+                        assert_eq!(is_taken(&0.5), !whole && largest != Decimal::from_whole(0), "{key}");
                     }
-                    Bound::OneOf(values) => {
+                    KeyBound::OneOf(values) => {
                         for value in 0..=9 {
                             assert_eq!(is_taken(&value), values.contains(&value), "{key} {value}");
                         }

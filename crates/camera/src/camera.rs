@@ -2,8 +2,8 @@
 //! The validated camera: one immutable value from which all other numbers are derived.
 
 use crate::{
-    CameraConfig, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery,
-    Reference, SpatialFeature,
+    CameraConfig, VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery,
+    ReferencePolicy, SpatialFeature,
 };
 
 /// A region-based event camera: a configuration that has been checked, with every number that
@@ -14,20 +14,20 @@ pub struct Camera {
     width: u32,
     height: u32,
     features: Vec<SpatialFeature>,
-    temporal: Temporal,
+    temporal: TemporalParameters,
     periphery: Option<Periphery>,
 }
 
 /// The thresholds and the reference of the temporal score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Temporal {
+pub struct TemporalParameters {
     /// The per-pixel threshold in grey levels: a pixel has changed when it differs by more than
     /// this.
     pub level: u32,
     /// The per-region threshold in pixels: TRS is 1 when at least this many pixels have changed.
     pub min_count: u32,
     /// The reference that a frame is compared with.
-    pub reference: Reference,
+    pub reference: ReferencePolicy,
 }
 
 impl Camera {
@@ -37,7 +37,7 @@ impl Camera {
         config: CameraConfig,
         (width, height): (u32, u32),
         features: Vec<SpatialFeature>,
-        temporal: Temporal,
+        temporal: TemporalParameters,
         periphery: Option<Periphery>,
     ) -> Self {
         Self { config, width, height, features, temporal, periphery }
@@ -82,7 +82,7 @@ impl Camera {
 
     /// The filter in front of every score.
     #[must_use]
-    pub fn filter(&self) -> Filter {
+    pub fn filter(&self) -> DenoiseFilter {
         self.config.denoise.filter
     }
 
@@ -94,25 +94,25 @@ impl Camera {
 
     /// Returns the kinds of the spatial features, in the order of the configuration.
     #[must_use]
-    pub fn kinds(&self) -> Vec<FeatureKind> {
+    pub fn feature_kinds(&self) -> Vec<FeatureKind> {
         self.features.iter().map(SpatialFeature::kind).collect()
     }
 
     /// Returns the rule by which the votes of the features become SRS.
     #[must_use]
-    pub fn combine(&self) -> Combine {
+    pub fn combine(&self) -> VoteCombination {
         self.config.decision.combine
     }
 
     /// Returns the parameters of the temporal score.
     #[must_use]
-    pub fn temporal(&self) -> &Temporal {
+    pub fn temporal(&self) -> &TemporalParameters {
         &self.temporal
     }
 
     /// Returns the pixels that the screen shows where SRS is 0.
     #[must_use]
-    pub fn irrelevant(&self) -> Irrelevant {
+    pub fn irrelevant(&self) -> IrrelevantRendering {
         self.config.render.irrelevant
     }
 

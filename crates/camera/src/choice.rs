@@ -2,7 +2,7 @@
 //! The types of keys whose value is one of a few names.
 
 /// Returns the quoted names as a list in words: `"a", "b" or "c"`.
-pub(crate) fn listed(names: &[&str]) -> String {
+pub(crate) fn quoted_list(names: &[&str]) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
     match quoted.split_last() {
         Some((last, [])) => last.clone(),
@@ -55,7 +55,7 @@ choice! {
 choice! {
     /// The filter in front of every score.
     #[derive(Default)]
-    Filter {
+    DenoiseFilter {
         /// No filter.
         None = "none",
         /// The median: the fifth of the nine sorted values of a 3x3 window.
@@ -81,7 +81,7 @@ choice! {
 choice! {
     /// The rule by which the votes of several features become SRS.
     #[derive(Default)]
-    Combine {
+    VoteCombination {
         /// One vote is enough.
         #[default]
         Any = "any",
@@ -91,7 +91,7 @@ choice! {
 }
 choice! {
     /// The reference of the temporal score: the pixels that a frame is compared with.
-    Reference {
+    ReferencePolicy {
         /// The previous frame.
         Previous = "previous",
         /// The region as it was when it was last active.
@@ -101,7 +101,7 @@ choice! {
 choice! {
     /// The pixels that the screen shows where SRS is 0.
     #[derive(Default)]
-    Irrelevant {
+    IrrelevantRendering {
         /// Black: every pixel is 0.
         #[default]
         Zero = "zero",

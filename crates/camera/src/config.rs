@@ -6,7 +6,7 @@
 //! sees them, so that the message can name the nearest known key.
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::{Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference};
+use crate::{VoteCombination, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy};
 use serde::{Deserialize, Serialize};
 
 /// The tables of a configuration that say what is computed. [`CameraConfig::validate`] checks them.
@@ -52,13 +52,13 @@ impl CameraConfig {
     /// that are written are scaled from the depth of this configuration. Thresholds that are left
     /// out stay left out.
     #[must_use]
-    pub fn at_depth(&self, bits: u32) -> Self {
+    pub fn scaled_to_depth(&self, bits: u32) -> Self {
         let from = self.frame.pixel_bits;
         let mut config = self.clone();
         config.frame.pixel_bits = bits;
-        config.temporal.level = self.temporal.level.map(|value| depth::level(value, from, bits));
-        config.periphery.level = self.periphery.level.map(|value| depth::level(value, from, bits));
-        config.spatial = self.spatial.iter().map(|entry| entry.at_depth(from, bits)).collect();
+        config.temporal.level = self.temporal.level.map(|value| depth::scale_level(value, from, bits));
+        config.periphery.level = self.periphery.level.map(|value| depth::scale_level(value, from, bits));
+        config.spatial = self.spatial.iter().map(|entry| entry.scaled_to_depth(from, bits)).collect();
         config
     }
 }
@@ -106,7 +106,7 @@ impl Default for RegionConfig {
 #[serde(default, deny_unknown_fields)]
 pub struct DenoiseConfig {
     /// The filter in front of every score.
-    pub filter: Filter,
+    pub filter: DenoiseFilter,
 }
 
 /// An entry of `[[spatial]]`: one feature and its thresholds.
@@ -138,7 +138,7 @@ impl SpatialConfig {
 
     /// Returns true if `mean_fraction_bits` applies to the feature.
     #[must_use]
-    pub fn has_mean(&self) -> bool {
+    pub fn has_mean_fraction(&self) -> bool {
         self.feature.defaults().mean_fraction_bits.is_some()
     }
 
@@ -147,9 +147,9 @@ impl SpatialConfig {
     #[must_use]
     pub fn with_defaults(&self, bits: u32) -> Self {
         let defaults = self.feature.defaults();
-        let level = defaults.level.map(|value| depth::level(value, DEFAULT_BITS, bits));
-        let min_score = Decimal::whole(defaults.min_score);
-        let min_score = depth::min_score(self.feature, min_score, DEFAULT_BITS, bits);
+        let level = defaults.level.map(|value| depth::scale_level(value, DEFAULT_BITS, bits));
+        let min_score = Decimal::from_whole(defaults.min_score);
+        let min_score = depth::scale_min_score(self.feature, min_score, DEFAULT_BITS, bits);
         Self {
             feature: self.feature,
             level: self.level.or(level),
@@ -160,10 +160,10 @@ impl SpatialConfig {
 
     /// Returns the entry with the thresholds that are written scaled from `from` bits to `to` bits
     /// per pixel.
-    fn at_depth(&self, from: u32, to: u32) -> Self {
-        let min_score = |value| depth::min_score(self.feature, value, from, to);
+    fn scaled_to_depth(&self, from: u32, to: u32) -> Self {
+        let min_score = |value| depth::scale_min_score(self.feature, value, from, to);
         Self {
-            level: self.level.map(|value| depth::level(value, from, to)),
+            level: self.level.map(|value| depth::scale_level(value, from, to)),
             min_score: self.min_score.map(min_score),
             ..self.clone()
         }
@@ -175,7 +175,7 @@ impl SpatialConfig {
 #[serde(default, deny_unknown_fields)]
 pub struct DecisionConfig {
     /// The rule by which the votes of several features become SRS.
-    pub combine: Combine,
+    pub combine: VoteCombination,
 }
 
 /// The table `[temporal]`: the thresholds and the reference of the temporal score.
@@ -189,20 +189,20 @@ pub struct TemporalConfig {
     /// TRS is 1 when at least this many pixels have changed, 0..=n.
     pub min_count: u32,
     /// The reference that a frame is compared with.
-    pub reference: Reference,
+    pub reference: ReferencePolicy,
 }
 
 impl TemporalConfig {
     /// Returns the level, or its default for pixels of `bits` bits.
     #[must_use]
-    pub fn level_at(&self, bits: u32) -> u32 {
-        self.level.unwrap_or_else(|| depth::level(8, DEFAULT_BITS, bits))
+    pub fn level_or_default(&self, bits: u32) -> u32 {
+        self.level.unwrap_or_else(|| depth::scale_level(8, DEFAULT_BITS, bits))
     }
 }
 
 impl Default for TemporalConfig {
     fn default() -> Self {
-        Self { level: None, min_count: 5, reference: Reference::Previous }
+        Self { level: None, min_count: 5, reference: ReferencePolicy::Previous }
     }
 }
 
@@ -211,7 +211,7 @@ impl Default for TemporalConfig {
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
     /// The pixels that the screen shows where SRS is 0.
-    pub irrelevant: Irrelevant,
+    pub irrelevant: IrrelevantRendering,
     /// The pixels that an active region forwards.
     pub payload: Payload,
 }
@@ -240,13 +240,13 @@ impl PeripheryConfig {
 
     /// Returns the blocks per side, or their default for regions of `side` pixels a side.
     #[must_use]
-    pub fn blocks_of(&self, side: u32) -> u32 {
+    pub fn blocks_or_default(&self, side: u32) -> u32 {
         self.blocks.unwrap_or(if side.is_multiple_of(2) { 2 } else { 1 })
     }
 
     /// Returns the level, or its default for pixels of `bits` bits.
     #[must_use]
-    pub fn level_at(&self, bits: u32) -> u32 {
-        self.level.unwrap_or_else(|| depth::level(4, DEFAULT_BITS, bits))
+    pub fn level_or_default(&self, bits: u32) -> u32 {
+        self.level.unwrap_or_else(|| depth::scale_level(4, DEFAULT_BITS, bits))
     }
 }

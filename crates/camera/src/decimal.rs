@@ -21,7 +21,7 @@ pub struct Decimal {
 impl Decimal {
     /// Makes a whole number.
     #[must_use]
-    pub const fn whole(value: u64) -> Self {
+    pub const fn from_whole(value: u64) -> Self {
         Self { digits: value, scale: 0 }
     }
 
@@ -43,7 +43,7 @@ impl Decimal {
 
     /// Returns `billionths / 10^9`, with as few digits as possible.
     #[must_use]
-    pub const fn billionths(billionths: u64) -> Self {
+    pub const fn from_billionths(billionths: u64) -> Self {
         let (mut digits, mut scale) = (billionths, MAX_SCALE);
         while scale > 0 && digits.is_multiple_of(10) {
             digits /= 10;
@@ -92,26 +92,26 @@ impl Serialize for Decimal {
 
 impl<'de> Deserialize<'de> for Decimal {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Number;
-        impl Visitor<'_> for Number {
+        struct DecimalVisitor;
+        impl Visitor<'_> for DecimalVisitor {
             type Value = Decimal;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 write!(f, "a number >= 0 with at most {MAX_SCALE} digits after the point")
             }
             fn visit_i64<E: Error>(self, value: i64) -> Result<Decimal, E> {
                 u64::try_from(value)
-                    .map(Decimal::whole)
+                    .map(Decimal::from_whole)
                     .map_err(|_| E::invalid_value(Unexpected::Signed(value), &self))
             }
             fn visit_u64<E: Error>(self, value: u64) -> Result<Decimal, E> {
-                Ok(Decimal::whole(value))
+                Ok(Decimal::from_whole(value))
             }
             fn visit_f64<E: Error>(self, value: f64) -> Result<Decimal, E> {
                 Decimal::from_f64(value)
                     .ok_or_else(|| E::invalid_value(Unexpected::Float(value), &self))
             }
         }
-        deserializer.deserialize_any(Number)
+        deserializer.deserialize_any(DecimalVisitor)
     }
 }
 
@@ -125,15 +125,15 @@ mod tests {
         assert_eq!(tenth.ceil_times(640), 64);
         assert_eq!(tenth.ceil_times(641), 65);
         assert_eq!(Decimal::from_f64(4.35).unwrap().ceil_times(100), 435);
-        assert_eq!(Decimal::whole(5).ceil_times(64), 320);
+        assert_eq!(Decimal::from_whole(5).ceil_times(64), 320);
     }
 
     #[test]
     fn billionths_are_kept_in_the_shortest_form() {
-        assert_eq!(Decimal::billionths(625_000_000), Decimal::from_f64(0.625).unwrap());
-        assert_eq!(Decimal::billionths(5_000_000_000), Decimal::whole(5));
-        assert_eq!(Decimal::billionths(0), Decimal::whole(0));
-        assert_eq!(Decimal::billionths(1).to_string(), "0.000000001");
+        assert_eq!(Decimal::from_billionths(625_000_000), Decimal::from_f64(0.625).unwrap());
+        assert_eq!(Decimal::from_billionths(5_000_000_000), Decimal::from_whole(5));
+        assert_eq!(Decimal::from_billionths(0), Decimal::from_whole(0));
+        assert_eq!(Decimal::from_billionths(1).to_string(), "0.000000001");
     }
 
     #[test]
@@ -141,7 +141,7 @@ mod tests {
         for value in [-1.0, f64::NAN, f64::INFINITY, 1e-10, 1e30] {
             assert_eq!(Decimal::from_f64(value), None, "{value}");
         }
-        assert_eq!(Decimal::from_f64(-0.0), Some(Decimal::whole(0)));
+        assert_eq!(Decimal::from_f64(-0.0), Some(Decimal::from_whole(0)));
     }
 
     #[test]

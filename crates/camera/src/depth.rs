@@ -23,7 +23,7 @@ use crate::{Decimal, FeatureKind};
 pub(crate) const DEFAULT_BITS: u32 = 8;
 
 /// Converts a level from `from` bits to `to` bits per pixel.
-pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {
+pub(crate) fn scale_level(value: u32, from: u32, to: u32) -> u32 {
     if to >= from {
         u32::try_from(u64::from(value) << (to - from)).unwrap_or(u32::MAX)
     } else {
@@ -32,8 +32,8 @@ pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {
 }
 
 /// Converts a minimum score from `from` bits to `to` bits per pixel.
-pub(crate) fn min_score(feature: FeatureKind, value: Decimal, from: u32, to: u32) -> Decimal {
-    match feature.measure().power() {
+pub(crate) fn scale_min_score(feature: FeatureKind, value: Decimal, from: u32, to: u32) -> Decimal {
+    match feature.score_unit().scaling_exponent() {
         0 => value,
         power => times_power_of_two(value, from, to, power),
     }
@@ -48,13 +48,13 @@ fn times_power_of_two(value: Decimal, from: u32, to: u32, power: u32) -> Decimal
     } else {
         billionths.div_ceil(1 << (power * (from - to)))
     };
-    Decimal::billionths(u64::try_from(scaled).unwrap_or(u64::MAX))
+    Decimal::from_billionths(u64::try_from(scaled).unwrap_or(u64::MAX))
 }
 
 /// Returns the end of a message about a threshold that is out of range at fewer than 8 bits: the
 /// value that a threshold of 8 bits has at `bits` bits. The text is empty where that value would
 /// not be valid either.
-pub(crate) fn hint(value: &dyn Display, scaled: &dyn Display, fits: bool, bits: u32) -> String {
+pub(crate) fn depth_hint(value: &dyn Display, scaled: &dyn Display, fits: bool, bits: u32) -> String {
     if bits >= DEFAULT_BITS || !fits {
         return String::new();
     }

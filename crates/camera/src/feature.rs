@@ -17,13 +17,13 @@ pub struct SpatialFeature {
     unit: u64,
     min_score: u64,
     score_max: u64,
-    mean: Option<Mean>,
-    variance: Option<Variance>,
+    mean: Option<MeanDivision>,
+    variance: Option<VarianceWidths>,
 }
 
 /// The arithmetic of the mean of `mad`: `floor((2^f * sum + floor(n/2)) / n)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mean {
+pub struct MeanDivision {
     /// Fraction bits f of the mean.
     pub fraction_bits: u32,
     /// Bits of the mean, in units of `2^-f` grey levels.
@@ -36,7 +36,7 @@ pub struct Mean {
 
 /// The widths of the accumulators of `variance`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Variance {
+pub struct VarianceWidths {
     /// Bits of the square of a pixel.
     pub square_bits: u32,
     /// Bits of the sum of the squares of the pixels of a region.
@@ -54,12 +54,12 @@ impl SpatialFeature {
         n: u64,
         bits: u32,
     ) -> Result<Self, ConfigError> {
-        let entry = Entry { config, index, bits };
+        let entry = SpatialEntry { config, index, bits };
         let pixel_max = (1 << bits) - 1;
         let max = u64::from(pixel_max);
         let fraction_bits = entry.fraction_bits(n)?;
         let (kind, level_max) = (config.feature, config.feature.level_max(pixel_max));
-        let (mean, variance) = kind.sums(n, max, fraction_bits);
+        let (mean, variance) = kind.mean_and_variance(n, max, fraction_bits);
         let unit = kind.unit(n, fraction_bits);
         let score_max = kind.score_max(n, max, fraction_bits);
         Ok(Self {
@@ -123,7 +123,7 @@ impl SpatialFeature {
     /// after the point.
     #[must_use]
     pub fn largest_min_score(&self) -> Decimal {
-        largest_threshold(self.score_max, self.unit)
+        threshold_in_config_units(self.score_max, self.unit)
     }
 
     /// Returns the bits of the score and of its threshold.
@@ -134,18 +134,18 @@ impl SpatialFeature {
 
     /// Returns the arithmetic of the mean, for `mad` only.
     #[must_use]
-    pub fn mean(&self) -> Option<&Mean> {
+    pub fn mean(&self) -> Option<&MeanDivision> {
         self.mean.as_ref()
     }
 
     /// Returns the widths of the accumulators, for `variance` only.
     #[must_use]
-    pub fn variance(&self) -> Option<&Variance> {
+    pub fn variance(&self) -> Option<&VarianceWidths> {
         self.variance.as_ref()
     }
 }
 
-impl Mean {
+impl MeanDivision {
     pub(crate) fn new(n: u64, pixel_max: u64, fraction_bits: u32) -> Self {
         let dividend_max = ((n * pixel_max) << fraction_bits) + n / 2;
         Self {
@@ -157,7 +157,7 @@ impl Mean {
     }
 }
 
-impl Variance {
+impl VarianceWidths {
     pub(crate) fn new(n: u64, pixel_max: u64) -> Self {
         Self {
             square_bits: bits_for(pixel_max * pixel_max),
@@ -168,14 +168,14 @@ impl Variance {
 }
 
 /// One entry of `[[spatial]]` with its index, which errors name.
-struct Entry<'a> {
+struct SpatialEntry<'a> {
     config: &'a SpatialConfig,
     index: usize,
     /// Bits per pixel.
     bits: u32,
 }
 
-impl Entry<'_> {
+impl SpatialEntry<'_> {
     fn key(&self, name: &str) -> String {
         format!("spatial[{}].{name}", self.index)
     }
@@ -186,19 +186,19 @@ impl Entry<'_> {
     fn level(&self, max: Option<u32>) -> Result<Option<u32>, ConfigError> {
         let (level, max) = match (self.config.level, max) {
             (None, _) => return Ok(None),
-            (Some(level), None) => return Err(self.does_not_apply("level", level)),
+            (Some(level), None) => return Err(self.inapplicable_key_error("level", level)),
             (Some(level), Some(max)) => (level, max),
         };
-        let always = self.config.min_score == Some(Decimal::whole(0));
+        let always = self.config.min_score == Some(Decimal::from_whole(0));
         let largest = largest_level(max, always);
         let fits = |level: u32| level <= largest;
         if fits(level) {
             return Ok(Some(level));
         }
-        let scaled = depth::level(level, DEFAULT_BITS, self.bits);
-        let hint = depth::hint(&level, &scaled, fits(scaled), self.bits);
+        let scaled = depth::scale_level(level, DEFAULT_BITS, self.bits);
+        let hint = depth::depth_hint(&level, &scaled, fits(scaled), self.bits);
         let valid = format!("0..={largest} (pixels of {} bits reach {max})", self.bits);
-        Err(self.out_of_range("level", &level, &valid, &hint))
+        Err(self.out_of_range_error("level", &level, &valid, &hint))
     }
 
     fn fraction_bits(&self, n: u64) -> Result<u32, ConfigError> {
@@ -206,9 +206,9 @@ impl Entry<'_> {
         let applies = self.config.feature.defaults().mean_fraction_bits.is_some();
         match self.config.mean_fraction_bits {
             None => Ok(0),
-            Some(bits) if !applies => Err(self.does_not_apply("mean_fraction_bits", bits)),
+            Some(bits) if !applies => Err(self.inapplicable_key_error("mean_fraction_bits", bits)),
             Some(bits) if bits <= max => Ok(bits),
-            Some(bits) => Err(self.out_of_range(
+            Some(bits) => Err(self.out_of_range_error(
                 "mean_fraction_bits",
                 &bits,
                 &format!("0..={max} (regions of {n} pixels)"),
@@ -221,7 +221,7 @@ impl Entry<'_> {
     /// configuration.
     fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, ConfigError> {
         let minimum = self.config.min_score.expect("the defaults are filled in before");
-        let counts = self.config.feature.measure().is_count();
+        let counts = self.config.feature.score_unit().is_count();
         if counts && minimum.as_whole().is_none() {
             return Err(ConfigError::Type {
                 key: self.key("min_score"),
@@ -232,15 +232,15 @@ impl Entry<'_> {
             u64::try_from(minimum.ceil_times(unit)).ok().filter(|&score| score <= score_max)
         };
         threshold(minimum).ok_or_else(|| {
-            let max = largest_threshold(score_max, unit);
-            let scaled = depth::min_score(self.config.feature, minimum, DEFAULT_BITS, self.bits);
+            let max = threshold_in_config_units(score_max, unit);
+            let scaled = depth::scale_min_score(self.config.feature, minimum, DEFAULT_BITS, self.bits);
             let fits = !counts && threshold(scaled).is_some();
-            let hint = depth::hint(&minimum, &scaled, fits, self.bits);
-            self.out_of_range("min_score", &minimum, &format!("0..={max}"), &hint)
+            let hint = depth::depth_hint(&minimum, &scaled, fits, self.bits);
+            self.out_of_range_error("min_score", &minimum, &format!("0..={max}"), &hint)
         })
     }
 
-    fn out_of_range(&self, key: &str, value: &dyn Display, valid: &str, hint: &str) -> ConfigError {
+    fn out_of_range_error(&self, key: &str, value: &dyn Display, valid: &str, hint: &str) -> ConfigError {
         let feature = self.config.feature;
         ConfigError::Range {
             key: self.key(key),
@@ -249,7 +249,7 @@ impl Entry<'_> {
         }
     }
 
-    fn does_not_apply(&self, key: &str, value: u32) -> ConfigError {
+    fn inapplicable_key_error(&self, key: &str, value: u32) -> ConfigError {
         ConfigError::Combination {
             key: self.key(key),
             value: value.to_string(),
@@ -261,7 +261,7 @@ impl Entry<'_> {
 
 /// Returns `score_max / unit` in the unit of the configuration, rounded down to four digits after
 /// the point.
-fn largest_threshold(score_max: u64, unit: u64) -> Decimal {
+fn threshold_in_config_units(score_max: u64, unit: u64) -> Decimal {
     let billionths = u128::from(score_max) * 10_000 / u128::from(unit) * 100_000;
-    Decimal::billionths(u64::try_from(billionths).unwrap_or(u64::MAX))
+    Decimal::from_billionths(u64::try_from(billionths).unwrap_or(u64::MAX))
 }

@@ -2,9 +2,9 @@
 //! The keys of a configuration. An unknown key is refused by name, and the message suggests the
 //! nearest known key.
 
-use crate::choice::listed;
+use crate::choice::quoted_list;
 use crate::{
-    Combine, ConfigError, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+    VoteCombination, ConfigError, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy,
 };
 use crate::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
 use Takes::{Names, Text, Whole};
@@ -27,32 +27,32 @@ impl fmt::Display for Takes {
         match self {
             Whole(range) => write!(f, "a whole number, {}..={}", range.start(), range.end()),
             Text(text) => f.write_str(text),
-            Names(names) => f.write_str(&listed(names)),
+            Names(names) => f.write_str(&quoted_list(names)),
         }
     }
 }
 
 /// A dotted key and the values that it takes. The array of tables `spatial` is written without an
 /// index.
-pub type Key = (&'static str, Takes);
+pub type ConfigKey = (&'static str, Takes);
 
 /// Every key of a camera.
-pub const CAMERA_KEYS: &[Key] = &[
+pub const CAMERA_KEYS: &[ConfigKey] = &[
     ("frame.width", Whole(1..=MAX_SIDE)),
     ("frame.height", Whole(1..=MAX_SIDE)),
     ("frame.pixel_bits", Whole(PIXEL_BITS)),
     ("region.size", Whole(REGION_SIZES)),
     ("region.neighborhood", Names(Neighborhood::NAMES)),
-    ("denoise.filter", Names(Filter::NAMES)),
+    ("denoise.filter", Names(DenoiseFilter::NAMES)),
     ("spatial.feature", Names(FeatureKind::NAMES)),
     ("spatial.level", Text("a whole number >= 0, in grey levels")),
     ("spatial.min_score", Text("a number >= 0 with at most nine digits after the point")),
     ("spatial.mean_fraction_bits", Whole(MEAN_FRACTION_BITS)),
-    ("decision.combine", Names(Combine::NAMES)),
+    ("decision.combine", Names(VoteCombination::NAMES)),
     ("temporal.level", Text("a whole number >= 0, in grey levels")),
     ("temporal.min_count", Text("a whole number >= 0, in pixels")),
-    ("temporal.reference", Names(Reference::NAMES)),
-    ("render.irrelevant", Names(Irrelevant::NAMES)),
+    ("temporal.reference", Names(ReferencePolicy::NAMES)),
+    ("render.irrelevant", Names(IrrelevantRendering::NAMES)),
     ("render.payload", Names(Payload::NAMES)),
     ("periphery.blocks", Text("1, 2 or 4, and a divisor of region.size")),
     ("periphery.level", Text("a whole number >= 0, in grey levels")),
@@ -60,7 +60,7 @@ pub const CAMERA_KEYS: &[Key] = &[
 
 /// Returns a description of the values that the key at `path` takes. A path has indices, such as
 /// `spatial[0].level`.
-pub(crate) fn takes(mut known: impl Iterator<Item = &'static Key>, path: &str) -> String {
+pub(crate) fn takes(mut known: impl Iterator<Item = &'static ConfigKey>, path: &str) -> String {
     let dotted: String = path
         .split('[')
         .enumerate()
@@ -77,10 +77,10 @@ pub(crate) fn takes(mut known: impl Iterator<Item = &'static Key>, path: &str) -
 }
 
 /// Refuses the first key of `table` that is not in `known`.
-pub(crate) fn refuse_unknown(known: &[&Key], table: &Table) -> Result<(), ConfigError> {
+pub(crate) fn refuse_unknown(known: &[&ConfigKey], table: &Table) -> Result<(), ConfigError> {
     for (section, value) in table {
-        if !sections(known).any(|one| one == section) {
-            return Err(unknown(section, section, sections(known).map(str::to_owned)));
+        if !section_names(known).any(|one| one == section) {
+            return Err(unknown_key_error(section, section, section_names(known).map(str::to_owned)));
         }
         match value {
             Value::Table(keys) => refuse_unknown_in(known, section, section, keys)?,
@@ -99,7 +99,7 @@ pub(crate) fn refuse_unknown(known: &[&Key], table: &Table) -> Result<(), Config
 }
 
 fn refuse_unknown_in(
-    known: &[&Key],
+    known: &[&ConfigKey],
     section: &str,
     path: &str,
     keys: &Table,
@@ -109,22 +109,22 @@ fn refuse_unknown_in(
         None => Ok(()),
         Some(key) => {
             let all = known.iter().map(|(key, _)| (*key).to_owned());
-            Err(unknown(&format!("{path}.{key}"), &format!("{section}.{key}"), all))
+            Err(unknown_key_error(&format!("{path}.{key}"), &format!("{section}.{key}"), all))
         }
     }
 }
 
-fn sections(known: &[&Key]) -> impl Iterator<Item = &'static str> {
+fn section_names(known: &[&ConfigKey]) -> impl Iterator<Item = &'static str> {
     known.iter().filter_map(|(key, _)| key.split_once('.')).map(|(section, _)| section)
 }
 
 /// Returns the error for the key `shown`. The suggestion is the candidate that is most similar to
 /// `plain`, the key without indices.
-fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> ConfigError {
+fn unknown_key_error(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> ConfigError {
     /// A candidate below this similarity would only confuse.
     const SIMILAR: f64 = 0.6;
     let nearest = candidates
-        .map(|key| (strsim::jaro_winkler(&key, plain).max(same_leaf(&key, plain)), key))
+        .map(|key| (strsim::jaro_winkler(&key, plain).max(leaf_similarity(&key, plain)), key))
         .filter(|(similarity, _)| *similarity >= SIMILAR)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, key)| key);
@@ -132,7 +132,7 @@ fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -
 }
 
 /// Returns a high similarity for keys of the same name in different tables, else 0.
-fn same_leaf(a: &str, b: &str) -> f64 {
+fn leaf_similarity(a: &str, b: &str) -> f64 {
     let leaf = |key: &str| key.rsplit('.').next().map(str::to_owned);
     if leaf(a) == leaf(b) { 0.95 } else { 0.0 }
 }

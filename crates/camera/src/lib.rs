@@ -14,38 +14,38 @@ mod choice;
 mod config;
 mod decimal;
 mod depth;
-mod derived;
+mod derived_numbers;
 mod error;
 mod feature;
 mod keys;
-mod kind;
+mod feature_kind;
 mod periphery;
 mod ranges;
 mod reciprocal;
 mod reference;
-mod sent;
-pub mod text;
-mod validate;
+mod sent_values;
+pub mod toml_text;
+mod validation;
 mod width;
 
-pub use action::Action;
-pub use bounds::Bound;
-pub use camera::{Camera, Temporal};
-pub use choice::{Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference};
+pub use action::RegionAction;
+pub use bounds::KeyBound;
+pub use camera::{Camera, TemporalParameters};
+pub use choice::{VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy};
 pub use config::{
     CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, PeripheryConfig, RegionConfig,
     RenderConfig, SpatialConfig, TemporalConfig,
 };
 pub use decimal::Decimal;
 pub use error::ConfigError;
-pub use feature::{Mean, SpatialFeature, Variance};
-pub use keys::{CAMERA_KEYS, Key, Takes};
-pub use kind::Measure;
+pub use feature::{MeanDivision, SpatialFeature, VarianceWidths};
+pub use keys::{CAMERA_KEYS, ConfigKey, Takes};
+pub use feature_kind::ScoreUnit;
 pub use periphery::Periphery;
 pub use ranges::{
-    MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, in_range,
+    MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,
 };
 pub use reciprocal::Reciprocal;
-pub use reference::Written;
-pub use sent::DECISION_BITS;
+pub use reference::ReferenceWriteTime;
+pub use sent_values::DECISION_BITS;
 pub use width::{bits_for, index_bits, mad_score_max};

@@ -2,8 +2,8 @@
 //! The summaries that irrelevant regions send in place of their pixels: the means of their blocks.
 
 use crate::ranges::largest_level;
-use crate::{CameraConfig, ConfigError, Irrelevant, Reciprocal, bits_for};
-use crate::{SUMMARY_BLOCKS, in_range};
+use crate::{CameraConfig, ConfigError, IrrelevantRendering, Reciprocal, bits_for};
+use crate::{SUMMARY_BLOCKS, check_range};
 
 /// The parameters of summaries: q x q means per region, of blocks of b x b pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ impl Periphery {
     pub(crate) fn resolve(config: &CameraConfig) -> Result<Option<Self>, ConfigError> {
         let asked = &config.periphery;
         match config.render.irrelevant {
-            Irrelevant::Zero | Irrelevant::Hold => {
+            IrrelevantRendering::Zero | IrrelevantRendering::Hold => {
                 let given = [("blocks", asked.blocks), ("level", asked.level)];
                 match given.into_iter().find_map(|(key, value)| Some((key, value?))) {
                     None => Ok(None),
@@ -40,15 +40,15 @@ impl Periphery {
                     }),
                 }
             }
-            Irrelevant::Mean => {
+            IrrelevantRendering::Mean => {
                 let (side, bits) = (config.region.size, config.frame.pixel_bits);
-                let (blocks, level) = (asked.blocks_of(side), asked.level_at(bits));
+                let (blocks, level) = (asked.blocks_or_default(side), asked.level_or_default(bits));
                 check_blocks(blocks, side)?;
                 let pixel_max = (1 << bits) - 1;
                 let why = format!(
                     " for pixels of {bits} bits, whose means differ by at most {pixel_max}"
                 );
-                in_range("periphery.level", level, 0..=largest_level(pixel_max, false), &why)?;
+                check_range("periphery.level", level, 0..=largest_level(pixel_max, false), &why)?;
                 Ok(Some(Self::new(side, blocks, level, pixel_max)))
             }
         }
@@ -69,7 +69,7 @@ impl Periphery {
 
     /// Returns the number of means of a region, q * q.
     #[must_use]
-    pub fn means(&self) -> u32 {
+    pub fn mean_count(&self) -> u32 {
         self.blocks * self.blocks
     }
 
@@ -81,15 +81,15 @@ impl Periphery {
 }
 
 /// Returns the valid numbers of blocks per side for regions of `side` pixels a side.
-pub(crate) fn blocks_for(side: u32) -> impl Iterator<Item = u32> {
+pub(crate) fn valid_block_counts(side: u32) -> impl Iterator<Item = u32> {
     SUMMARY_BLOCKS.iter().copied().filter(move |&blocks| side.is_multiple_of(blocks))
 }
 
 fn check_blocks(blocks: u32, side: u32) -> Result<(), ConfigError> {
-    if blocks_for(side).any(|valid| valid == blocks) {
+    if valid_block_counts(side).any(|valid| valid == blocks) {
         return Ok(());
     }
-    let valid: Vec<_> = blocks_for(side).map(|blocks| blocks.to_string()).collect();
+    let valid: Vec<_> = valid_block_counts(side).map(|blocks| blocks.to_string()).collect();
     Err(ConfigError::Range {
         key: "periphery.blocks".to_owned(),
         value: blocks.to_string(),

@@ -27,7 +27,7 @@ pub(crate) fn largest_level(max: u32, always: bool) -> u32 {
 ///
 /// # Errors
 /// Returns [`ConfigError::Range`] if the value is outside the range.
-pub fn in_range(
+pub fn check_range(
     key: &str,
     value: u32,
     range: RangeInclusive<u32>,

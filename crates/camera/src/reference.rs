@@ -2,31 +2,31 @@
 //! The demands of a reference on the hardware that stores it. A new reference must be added to
 //! every match here. Each implementation of the camera defines what it computes with the reference.
 
-use crate::Reference;
+use crate::ReferencePolicy;
 
 /// The time at which the reference of a region is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Written {
+pub enum ReferenceWriteTime {
     /// The reference is written with every frame, whatever the decision for the region is.
-    WithEveryFrame,
+    EveryFrame,
     /// The reference is written when pixels of the region leave, and at no other time.
     WhenSent,
 }
 
-impl Reference {
+impl ReferencePolicy {
     /// Returns the time at which the reference of a region is written.
     #[must_use]
-    pub fn written(self) -> Written {
+    pub fn write_time(self) -> ReferenceWriteTime {
         match self {
-            Self::Previous => Written::WithEveryFrame,
-            Self::LastSent => Written::WhenSent,
+            Self::Previous => ReferenceWriteTime::EveryFrame,
+            Self::LastSent => ReferenceWriteTime::WhenSent,
         }
     }
 
     /// Returns true if, in a sequence of equal frames, scores and decisions do not change any more
     /// from the second frame on.
     #[must_use]
-    pub fn settles(self) -> bool {
+    pub fn is_stable_on_equal_frames(self) -> bool {
         match self {
             // Both references hold the same pixels as the new frame.
             Self::Previous | Self::LastSent => true,

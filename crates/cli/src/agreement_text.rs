@@ -5,8 +5,8 @@ use foveate_inference::{ConfidenceIntervals, NoiseAgreement};
 
 /// Returns the confidence interval of an agreement over few samples, to be put behind it. The text
 /// is empty if there is no such interval.
-pub(crate) fn confidence(intervals: &ConfidenceIntervals) -> String {
-    intervals.of_few().map_or_else(String::new, |[low, high]| {
+pub(crate) fn interval_text(intervals: &ConfidenceIntervals) -> String {
+    intervals.wide_agreement().map_or_else(String::new, |[low, high]| {
         format!(" (95 % interval {:.1} to {:.1} %)", 100.0 * low, 100.0 * high)
     })
 }
@@ -19,11 +19,11 @@ pub(crate) fn grey_levels(levels: f64) -> String {
 }
 
 /// Returns the text about the agreement under noise.
-pub(crate) fn noisy_shares(noisy: &NoiseAgreement) -> String {
+pub(crate) fn noise_text(noisy: &NoiseAgreement) -> String {
     let detections = noisy.kept_share.zip(noisy.precision).map_or_else(
         || format!("; relative RMS error of the outputs {:.2e}", noisy.relative_rms),
         |(kept, right)| format!("; {:.1} % kept, {:.1} % right", 100.0 * kept, 100.0 * right),
     );
-    let (agreement, interval) = (100.0 * noisy.agreement, confidence(&noisy.intervals));
+    let (agreement, interval) = (100.0 * noisy.agreement, interval_text(&noisy.intervals));
     format!("agreement {agreement:.1} %{interval}{detections}")
 }

@@ -23,14 +23,14 @@ mod page;
 mod stress;
 mod threads;
 mod view;
-mod viewing;
+mod network_framing;
 
 use std::path::PathBuf;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_design::{Config, ConfigError, Design, Preset};
+use foveate_design::{DesignConfig, ConfigError, Design, Preset};
 use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
 
 use self::input::InputArgs;
@@ -39,14 +39,14 @@ use crate::error::CliError;
 pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
 pub(crate) use build::BuildArgs;
-pub(crate) use check::{CheckArgs, Clock, Rate};
+pub(crate) use check::{CheckArgs, ClockFrequency, FramesPerSecond};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use decode::DecodeArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
 pub(crate) use infer::InferArgs;
-pub(crate) use input::warn_of;
+pub(crate) use input::warn_about_inputs;
 pub(crate) use link::LinkArgs;
 pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
@@ -107,20 +107,20 @@ pub(crate) struct DesignArgs {
 impl DesignArgs {
     /// Returns the configuration with the changes of `--set`. Without a file or a preset, it starts
     /// from the defaults.
-    pub(crate) fn read(&self) -> Result<Config, CliError> {
+    pub(crate) fn config(&self) -> Result<DesignConfig, CliError> {
         let text = self.text()?;
-        Config::from_toml_with(&text, &self.overrides).map_err(|error| self.blame(&text, error))
+        DesignConfig::from_toml_with(&text, &self.overrides).map_err(|error| self.config_error(&text, error))
     }
 
     /// Returns the validated design.
     pub(crate) fn design(&self) -> Result<Design, CliError> {
-        let config = self.read()?;
-        config.validate().or_else(|error| Err(self.blame(&self.text()?, error)))
+        let config = self.config()?;
+        config.validate().or_else(|error| Err(self.config_error(&self.text()?, error)))
     }
 
     fn text(&self) -> Result<String, CliError> {
         Ok(match (&self.config, &self.preset) {
-            (Some(file), _) => foveate_reading::settings(file)
+            (Some(file), _) => foveate_reading::read_settings(file)
                 .map_err(CliError::io("read the configuration", file))?,
             (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
             (None, None) => String::new(),
@@ -129,9 +129,9 @@ impl DesignArgs {
 
     /// Returns the error for the user. It names the file if the configuration is wrong without the
     /// changes of `--set`, too.
-    fn blame(&self, text: &str, error: ConfigError) -> CliError {
-        let alone = Config::from_toml(text).and_then(|config| config.validate());
-        CliError::Spec { file: self.config.clone().filter(|_| alone.is_err()), error }
+    fn config_error(&self, text: &str, error: ConfigError) -> CliError {
+        let alone = DesignConfig::from_toml(text).and_then(|config| config.validate());
+        CliError::Config { file: self.config.clone().filter(|_| alone.is_err()), error }
     }
 }
 
@@ -181,7 +181,7 @@ pub(crate) struct CosimArgs {
     /// raster designs, the whole frame; a file, or a module with parameter values, that none of
     /// these parts contains is then an error
     #[arg(long, value_enum)]
-    pub(crate) level: Option<Level>,
+    pub(crate) level: Option<DesignPart>,
     /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two
     /// lanes need more regions, but at most the grid of the frame
     #[arg(long, value_name = "CxR", value_parser = parse_grid)]
@@ -242,7 +242,7 @@ pub(crate) struct CosimArgs {
 
 /// The part of a design that is simulated or placed.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Level {
+pub(crate) enum DesignPart {
     Rpu,
     Rcm,
     Axi,
@@ -268,7 +268,7 @@ pub(crate) struct EstimateArgs {
     pub(crate) compare: bool,
     /// Place and route the design with nextpnr instead, and print its use of these devices and the
     /// clock that it reaches
-    #[arg(long, value_name = "DEVICE", value_delimiter = ',', value_parser = device, conflicts_with = "compare")]
+    #[arg(long, value_name = "DEVICE", value_delimiter = ',', value_parser = parse_device, conflicts_with = "compare")]
     pub(crate) place_and_route: Vec<&'static RouteDevice>,
     /// Number of placements, each with another seed
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = at_least_one(), requires = "place_and_route")]
@@ -277,7 +277,7 @@ pub(crate) struct EstimateArgs {
     /// whole array, and `axi` a core on AXI. The default is `axi` if the design is a core on AXI,
     /// and `rpu` otherwise
     #[arg(long, value_enum, requires = "place_and_route")]
-    pub(crate) level: Option<Level>,
+    pub(crate) level: Option<DesignPart>,
     /// Place the same Verilog for every device: for an ECP5, without the memories of that family
     /// (`FOVEATE_ECP5`)
     #[arg(long, requires = "place_and_route")]
@@ -297,9 +297,9 @@ pub(crate) struct EstimateArgs {
     pub(crate) quiet: bool,
 }
 
-fn device(name: &str) -> Result<&'static RouteDevice, String> {
+fn parse_device(name: &str) -> Result<&'static RouteDevice, String> {
     let names = || ROUTE_DEVICES.iter().map(|device| device.name).collect::<Vec<_>>().join(", ");
-    RouteDevice::named(name).ok_or_else(|| format!("the devices are {}", names()))
+    RouteDevice::by_name(name).ok_or_else(|| format!("the devices are {}", names()))
 }
 
 /// Run a design over video or images, and write scores, decisions and rendered frames

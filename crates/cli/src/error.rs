@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_bench::BenchError;
+use foveate_bench::BenchmarkError;
 use foveate_boards::BoardError;
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
@@ -20,14 +20,14 @@ use foveate_toolchain::ToolError;
 use foveate_view::ViewError;
 use thiserror::Error;
 
-use crate::interrupt::{self, DeafError};
+use crate::interrupt::{self, SignalError};
 
 /// An error that ends a command. The user sees nothing but its message.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
     /// An invalid configuration, from a file or from the command line.
-    #[error("{}{error}", origin(file.as_deref()))]
-    Spec { file: Option<PathBuf>, error: ConfigError },
+    #[error("{}{error}", file_prefix(file.as_deref()))]
+    Config { file: Option<PathBuf>, error: ConfigError },
     #[error(transparent)]
     Tool(#[from] ToolError),
     #[error(transparent)]
@@ -53,7 +53,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     View(#[from] ViewError),
     #[error(transparent)]
-    Deaf(#[from] DeafError),
+    Signals(#[from] SignalError),
     /// A file or folder that could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io { action: &'static str, path: PathBuf, source: std::io::Error },
@@ -82,60 +82,60 @@ impl CliError {
             Self::Study(error) => match error.as_ref() {
                 StudyError::Cancelled => interrupt::exit_code(),
                 StudyError::Footage(error) => footage_code(error),
-                _ => INPUT,
+                _ => INPUT_CODE,
             },
             Self::Explore(error) => match error.as_ref() {
                 ExploreError::Cancelled => interrupt::exit_code(),
                 ExploreError::Footage(error) => footage_code(error),
                 ExploreError::Estimate(error) => estimate_code(error),
-                _ => INPUT,
+                _ => INPUT_CODE,
             },
             Self::Inference(error) => match error.as_ref() {
                 InferenceError::Cancelled => interrupt::exit_code(),
                 InferenceError::Footage(error) => footage_code(error),
-                _ => INPUT,
+                _ => INPUT_CODE,
             },
             Self::Link(error) => match error.as_ref() {
                 LinkError::Cancelled => interrupt::exit_code(),
                 LinkError::Footage(error) => footage_code(error),
                 LinkError::Tool(error) => tool_code(error),
-                LinkError::NoEncoder { .. } | LinkError::Frames { .. } => TOOL,
-                _ => INPUT,
+                LinkError::NoEncoder { .. } | LinkError::LostFrames { .. } => TOOL_CODE,
+                _ => INPUT_CODE,
             },
-            Self::Board(error) if matches!(**error, BoardError::Left { .. }) => TOOL,
+            Self::Board(error) if matches!(**error, BoardError::MissingOutput { .. }) => TOOL_CODE,
             Self::Failed(_) => 1,
             Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::exit_code(),
             Self::Tool(error) => tool_code(error),
             Self::Cosim(CosimError::Tool(error)) => tool_code(error),
-            Self::Cosim(CosimError::Short { .. } | CosimError::NoModel { .. }) => TOOL,
+            Self::Cosim(CosimError::EndedEarly { .. } | CosimError::NoModel { .. }) => TOOL_CODE,
             Self::Estimate(error) => estimate_code(error),
             Self::Simulator(error) => simulator_code(error),
             Self::View(ViewError::Footage(error)) => footage_code(error),
-            _ => INPUT,
+            _ => INPUT_CODE,
         }
     }
 }
 
 /// The exit code for bad usage or bad input.
-const INPUT: u8 = 2;
+const INPUT_CODE: u8 = 2;
 /// The exit code for a tool that is missing or has failed.
-const TOOL: u8 = 3;
+const TOOL_CODE: u8 = 3;
 
 fn tool_code(error: &ToolError) -> u8 {
     match error {
         _ if error.is_interrupted() => interrupt::exit_code(),
         // An entry of the cache that cannot be used counts as a failed tool. A cache or temporary
         // folder that cannot be used is bad input, because the user chooses it.
-        ToolError::Unusable { .. } => TOOL,
-        _ if error.is_environment() => INPUT,
-        _ => TOOL,
+        ToolError::Unusable { .. } => TOOL_CODE,
+        _ if error.is_environment() => INPUT_CODE,
+        _ => TOOL_CODE,
     }
 }
 
 fn estimate_code(error: &EstimateError) -> u8 {
     match error {
         EstimateError::Tool(error) => tool_code(error),
-        _ => TOOL,
+        _ => TOOL_CODE,
     }
 }
 
@@ -144,8 +144,8 @@ fn simulator_code(error: &SimulatorError) -> u8 {
         SimulatorError::Cancelled => interrupt::exit_code(),
         SimulatorError::Footage(error) => footage_code(error),
         SimulatorError::Tool(error) | SimulatorError::NoVideo(error) => tool_code(error),
-        SimulatorError::VideoOutput { .. } => TOOL,
-        _ => INPUT,
+        SimulatorError::VideoOutput { .. } => TOOL_CODE,
+        _ => INPUT_CODE,
     }
 }
 
@@ -153,7 +153,7 @@ fn footage_code(error: &FootageError) -> u8 {
     match error {
         FootageError::Tool(error) => tool_code(error),
         FootageError::Interrupted => interrupt::exit_code(),
-        _ => INPUT,
+        _ => INPUT_CODE,
     }
 }
 
@@ -204,11 +204,11 @@ impl From<InferenceError> for CliError {
     }
 }
 
-impl From<BenchError> for CliError {
-    fn from(error: BenchError) -> Self {
+impl From<BenchmarkError> for CliError {
+    fn from(error: BenchmarkError) -> Self {
         match error {
-            BenchError::Cosim(error) => error.into(),
-            BenchError::Design(error) => error.into(),
+            BenchmarkError::Cosim(error) => error.into(),
+            BenchmarkError::Design(error) => error.into(),
             error if error.is_interrupted() => Self::Cosim(ToolError::Interrupted.into()),
             error => Self::Usage(error.to_string()),
         }
@@ -217,10 +217,10 @@ impl From<BenchError> for CliError {
 
 impl From<ConfigError> for CliError {
     fn from(error: ConfigError) -> Self {
-        Self::Spec { file: None, error }
+        Self::Config { file: None, error }
     }
 }
 
-fn origin(file: Option<&Path>) -> String {
+fn file_prefix(file: Option<&Path>) -> String {
     file.map(|file| format!("{}: ", file.display())).unwrap_or_default()
 }

@@ -22,7 +22,7 @@ use std::ffi::OsString;
 
 use args::{Cli, Command};
 use clap::Parser;
-use foveate_toolchain::end_all_families;
+use foveate_toolchain::end_all_process_families;
 
 /// Runs the command with these words, of which the first is its name, and returns its exit code.
 /// The process listens for signals from then on, so this is for processes that do nothing else.
@@ -33,19 +33,19 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => {
             let error = hint::with_hint(error);
-            notice::usage(&error);
+            notice::print_usage(&error);
             return u8::try_from(error.exit_code()).expect("clap ends with 0 or 2");
         }
     };
     let code = match run_command(&cli, &words) {
         Ok(()) => 0,
         Err(error) => {
-            notice::say(&error);
+            notice::print_notice(&error);
             error.exit_code()
         }
     };
     // A thread that still waits for a tool does not end that tool.
-    end_all_families();
+    end_all_process_families();
     code
 }
 

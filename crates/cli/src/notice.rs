@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use foveate_footage::redacted;
+use foveate_footage::text_without_secrets;
 
 /// Returns text that cannot control a terminal, even if it contains the name of a file, the message
 /// of a tool or data. Control characters are written out, such as `\u{1b}`, except tabs and ends of
@@ -28,21 +28,21 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 
 /// Prints a notice on standard error. It never shows the secrets of an address or controls the
 /// terminal, whatever the origin of its text.
-pub(crate) fn say(text: &(impl Display + ?Sized)) {
+pub(crate) fn print_notice(text: &(impl Display + ?Sized)) {
     // A notice to a terminal that was closed is lost, and that changes no exit code.
-    let _ = writeln!(io::stderr(), "foveate: {}", printable(&redacted(&text.to_string())));
+    let _ = writeln!(io::stderr(), "foveate: {}", printable(&text_without_secrets(&text.to_string())));
 }
 
 /// Prints a warning on standard error. The command goes on.
-pub(crate) fn warn(text: &str) {
-    say(&format_args!("warning: {text}"));
+pub(crate) fn print_warning(text: &str) {
+    print_notice(&format_args!("warning: {text}"));
 }
 
 /// Prints help, or the error in the words of the command line.
-pub(crate) fn usage(error: &clap::Error) {
+pub(crate) fn print_usage(error: &clap::Error) {
     let plain = error.render().to_string();
-    if error.use_stderr() && redacted(&plain) != plain {
-        let _ = write!(io::stderr(), "{}", redacted(&plain));
+    if error.use_stderr() && text_without_secrets(&plain) != plain {
+        let _ = write!(io::stderr(), "{}", text_without_secrets(&plain));
         return;
     }
     // Help goes to standard output, which may be closed.

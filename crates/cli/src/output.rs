@@ -10,11 +10,11 @@ use crate::error::CliError;
 use crate::notice::printable;
 
 /// Prints `text`. A closed pipe (`foveate ... | head`) is no error.
-pub(crate) fn text(text: &str) -> Result<(), CliError> {
-    print(&printable(text))
+pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
+    write_text(&printable(text))
 }
 
-fn print(text: &str) -> Result<(), CliError> {
+fn write_text(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
@@ -25,16 +25,16 @@ fn print(text: &str) -> Result<(), CliError> {
 }
 
 /// Prints `value` as indented JSON.
-pub(crate) fn json(value: &impl Serialize) -> Result<(), CliError> {
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), CliError> {
     let rendered = serde_json::to_string_pretty(value)
         .map_err(|e| CliError::Usage(format!("cannot write JSON: {e}")))?;
     // JSON has its own way to write control characters.
-    print(&(rendered + "\n"))
+    write_text(&(rendered + "\n"))
 }
 
 /// Returns the columns to fill, 40 to 120: the value of the environment variable `COLUMNS`, or else
 /// the width of the terminal, or else 80.
-pub(crate) fn width() -> usize {
+pub(crate) fn text_width() -> usize {
     let from_environment = || std::env::var("COLUMNS").ok()?.parse().ok();
     let from_terminal =
         || terminal_size::terminal_size().map(|(Width(columns), _)| usize::from(columns));

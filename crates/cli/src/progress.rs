@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Progress on standard error: a bar on a terminal, or a line now and then in a log.
 
-mod lines;
+mod logger;
 mod stage;
-mod words;
+mod stage_text;
 
 use std::fmt::Write;
 use std::io::IsTerminal as _;
@@ -14,26 +14,26 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use terminal_size::Width;
 
 use crate::notice::printable;
-use lines::Lines;
-use stage::{Stage, StageAmount, StageUnit, locked};
-use words::drawn;
+use logger::ProgressLogger;
+use stage::{ProgressStage, StageAmount, StageUnit, lock_stage};
+use stage_text::terminal_line;
 
 /// The template of the line for a source of unknown length.
-const OPEN: &str = "{spinner} {told}";
+const OPEN_TEMPLATE: &str = "{spinner} {told}";
 /// The template of the line for a source of known length.
-const BAR: &str = "{told} {wide_bar}";
+const BAR_TEMPLATE: &str = "{told} {wide_bar}";
 /// The columns of a terminal whose width is unknown.
-const COLUMNS: usize = 80;
+const DEFAULT_COLUMNS: usize = 80;
 /// The time between two drawings of the elapsed time.
-const TICK: Duration = Duration::from_millis(120);
+const REDRAW_INTERVAL: Duration = Duration::from_millis(120);
 
 /// The progress of a command. Nothing is shown before the command reports its first stage, and
 /// nothing if it is quiet. Nothing remains on a terminal after the drop.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    stage: Arc<Mutex<Stage>>,
+    stage: Arc<Mutex<ProgressStage>>,
     /// The lines of a log, until the end, if standard error is no terminal.
-    lines: Mutex<Option<Lines>>,
+    log_lines: Mutex<Option<ProgressLogger>>,
 }
 
 impl Progress {
@@ -45,36 +45,36 @@ impl Progress {
         } else {
             ProgressDrawTarget::stderr()
         });
-        let stage = Arc::new(Mutex::new(Stage::new(Instant::now())));
+        let stage = Arc::new(Mutex::new(ProgressStage::new(Instant::now())));
         let lines = !quiet && !terminal;
-        let lines = lines.then(|| Lines::start(Arc::clone(&stage))).flatten();
-        Self { bar, stage, lines: Mutex::new(lines) }
+        let lines = lines.then(|| ProgressLogger::start(Arc::clone(&stage))).flatten();
+        Self { bar, stage, log_lines: Mutex::new(lines) }
     }
 
     /// Reports work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
-    pub(crate) fn work(&self, what: &str) {
-        self.enter(StageUnit::Work, what, StageAmount::default());
+    pub(crate) fn report_work(&self, what: &str) {
+        self.enter(StageUnit::Uncounted, what, StageAmount::default());
     }
 
     /// Reports that `done` of `all` steps are done, such as `designs over clips`. If there are no
     /// steps, this is the same as [`Progress::work`].
-    pub(crate) fn steps(&self, what: &str, done: u64, all: u64) {
+    pub(crate) fn report_steps(&self, what: &str, done: u64, all: u64) {
         if all == 0 {
-            return self.work(what);
+            return self.report_work(what);
         }
         self.enter(StageUnit::Steps, what, StageAmount::new(done, Some(all)));
     }
 
     /// Reports that `done` frames are done, of `all` if the total is known. `note` is shown beside
     /// the count.
-    pub(crate) fn frames(&self, done: u64, all: Option<u64>, note: &str) {
+    pub(crate) fn report_frames(&self, done: u64, all: Option<u64>, note: &str) {
         self.enter(StageUnit::Frames, note, StageAmount::new(done, all));
     }
 
     /// Clears the line of the terminal, and shows nothing from then on. This comes before results
     /// are printed.
     pub(crate) fn finish(&self) {
-        drop(self.lines.lock().unwrap_or_else(PoisonError::into_inner).take());
+        drop(self.log_lines.lock().unwrap_or_else(PoisonError::into_inner).take());
         self.bar.finish_and_clear();
     }
 
@@ -82,36 +82,36 @@ impl Progress {
         let what = &*printable(what);
         // The lock is not held while the bar is updated, because the bar takes it when it draws.
         let before = {
-            let mut stage = locked(&self.stage);
-            let before = stage.counted.map(|_| stage.amount.all.is_some());
+            let mut stage = lock_stage(&self.stage);
+            let before = stage.unit.map(|_| stage.amount.total.is_some());
             stage.enter(counted, what, amount, Instant::now());
             before
         };
         // The bar takes its words from the stage. The template is set first, or a plain bar would
         // be drawn.
-        let has_length = amount.all.is_some();
+        let has_length = amount.total.is_some();
         if before != Some(has_length) {
-            self.show(if has_length { BAR } else { OPEN });
+            self.set_template(if has_length { BAR_TEMPLATE } else { OPEN_TEMPLATE });
         }
-        match amount.all {
+        match amount.total {
             Some(all) => self.bar.set_length(all),
             None => self.bar.unset_length(),
         }
         self.bar.set_position(amount.done);
         if before.is_none() && !self.bar.is_hidden() {
-            self.bar.enable_steady_tick(TICK);
+            self.bar.enable_steady_tick(REDRAW_INTERVAL);
         }
     }
 
     /// Draws with this template from now on.
-    fn show(&self, template: &'static str) {
+    fn set_template(&self, template: &'static str) {
         // A template is unreadable only through a fault of the program; the bar is then the plain
         // one.
         if let Ok(style) = ProgressStyle::with_template(template) {
             let stage = Arc::clone(&self.stage);
             let told = move |bar: &ProgressState, text: &mut dyn Write| {
-                let room = room(columns(), template);
-                let told = drawn(&locked(&stage), bar.elapsed(), Instant::now(), room);
+                let room = text_columns(terminal_columns(), template);
+                let told = terminal_line(&lock_stage(&stage), bar.elapsed(), Instant::now(), room);
                 let _ = text.write_str(&told);
             };
             self.bar.set_style(style.with_key("told", told));
@@ -120,17 +120,17 @@ impl Progress {
 }
 
 /// Returns the columns of the terminal that shows the progress.
-fn columns() -> usize {
+fn terminal_columns() -> usize {
     let size = terminal_size::terminal_size_of(std::io::stderr());
-    size.map_or(COLUMNS, |(Width(columns), _)| columns.into())
+    size.map_or(DEFAULT_COLUMNS, |(Width(columns), _)| columns.into())
 }
 
 /// Returns the columns for words. The spinner and the space behind it take two columns; a bar takes
 /// a space and a quarter of the line.
-fn room(columns: usize, template: &str) -> usize {
+fn text_columns(columns: usize, template: &str) -> usize {
     // A line that fills all columns would be followed by an empty one.
     let columns = columns.saturating_sub(1);
-    columns.saturating_sub(if template == BAR { 1 + columns / 4 } else { 2 })
+    columns.saturating_sub(if template == BAR_TEMPLATE { 1 + columns / 4 } else { 2 })
 }
 
 impl Drop for Progress {

@@ -10,31 +10,31 @@ use crate::error::CliError;
 use crate::{interrupt, notice, output};
 
 /// The time between two checks for notices.
-const LOOK: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A command that serves a page. It listens for signals before it opens anything.
-pub(crate) struct Serving {
+pub(crate) struct ServingCommand {
     interrupted: Arc<AtomicBool>,
 }
 
-impl Serving {
-    pub(crate) fn begin() -> Result<Self, CliError> {
-        Ok(Self { interrupted: interrupt::flag()? })
+impl ServingCommand {
+    pub(crate) fn new() -> Result<Self, CliError> {
+        Ok(Self { interrupted: interrupt::stop_flag()? })
     }
 
     /// Prints the link, and then the notices until a signal comes.
-    pub(crate) fn until_stopped(
+    pub(crate) fn run_until_stopped(
         self,
         link: &str,
         news: impl Fn() -> Vec<String>,
         frames: impl Fn() -> u64,
     ) -> Result<(), CliError> {
-        output::text(&format!("{link}\n"))?;
+        output::print_text(&format!("{link}\n"))?;
         while !self.interrupted.load(Ordering::Relaxed) {
             for text in news() {
-                notice::say(&text);
+                notice::print_notice(&text);
             }
-            sleep(LOOK);
+            sleep(POLL_INTERVAL);
         }
         Err(CliError::Stopped { done: format!("{} frames", frames()) })
     }

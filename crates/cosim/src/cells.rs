@@ -6,12 +6,12 @@
 //! other mode is refused when the netlist is compiled.
 
 use crate::error::CosimError;
-use crate::harness::rendered;
+use crate::harness::render;
 use askama::Template;
 use foveate_toolchain::yosys;
 
 /// The text of the model of a DSP slice that multiplies.
-const DSP: &str = include_str!("../tb/cells/dsp48e2.v");
+const DSP_MODEL: &str = include_str!("../tb/cells/dsp48e2.v");
 
 /// A block RAM with one port for reads and one for writes, or with one port for both.
 #[derive(Template)]
@@ -36,11 +36,11 @@ impl BlockRam {
 }
 
 /// Returns our model of a cell, if there is one.
-fn own(cell: &str) -> Option<String> {
+fn own_model(cell: &str) -> Option<String> {
     match cell {
-        "DSP48E2" => Some(DSP.to_owned()),
-        "RAMB18E2" => Some(rendered(&BlockRam::new("RAMB18E2", 14, 2))),
-        "RAMB36E2" => Some(rendered(&BlockRam::new("RAMB36E2", 15, 4))),
+        "DSP48E2" => Some(DSP_MODEL.to_owned()),
+        "RAMB18E2" => Some(render(&BlockRam::new("RAMB18E2", 14, 2))),
+        "RAMB36E2" => Some(render(&BlockRam::new("RAMB36E2", 15, 4))),
         _ => None,
     }
 }
@@ -55,7 +55,7 @@ pub fn cell_models(
 ) -> Result<String, CosimError> {
     let mut text = "// Models of cells: those of Yosys (ISC license), and Foveate's.\n".to_owned();
     for cell in cells {
-        let model = own(&cell).or_else(|| yosys::module(library, &cell));
+        let model = own_model(&cell).or_else(|| yosys::module_text(library, &cell));
         text.push('\n');
         text += &model.ok_or(CosimError::NoModel { cell })?;
     }
@@ -66,7 +66,7 @@ pub fn cell_models(
 /// those of the lower half. Yosys did so before April 2026 if a word has more than 36 bits:
 /// <https://github.com/YosysHQ/yosys/pull/5833>. Some of these bits hold data.
 #[must_use]
-pub fn wired_wrongly(netlist: &str) -> bool {
+pub fn has_miswired_block_ram(netlist: &str) -> bool {
     let port = |cell: &str, name: &str| {
         cell.lines().find_map(|line| line.trim().strip_prefix(name).map(str::to_owned))
     };

@@ -29,7 +29,7 @@ pub enum CosimError {
         "{yosys} wires block RAM of 64 bits and more wrongly (YosysHQ/yosys#5833), so its netlist is not this design; \
          take a Yosys of May 2026 or later (FOVEATE_YOSYS), fewer `hardware.pixels_per_clock`, or co-simulate the RTL"
     )]
-    WiredWrongly {
+    MiswiredBlockRam {
         /// The version of Yosys.
         yosys: String,
     },
@@ -40,7 +40,7 @@ pub enum CosimError {
 
     /// The hierarchy that Verilator wrote cannot be read.
     #[error("the hierarchy that Verilator wrote cannot be read: {why}; Verilator 5 is expected")]
-    Elaboration {
+    UnreadableHierarchy {
         /// The problem with the hierarchy.
         why: String,
     },
@@ -83,7 +83,7 @@ pub enum CosimError {
     #[error(
         "there is nothing to simulate: no frames are given and rounds is 0; give frames, or 1 round or more"
     )]
-    Nothing,
+    NothingToSimulate,
 
     /// The array is too large for memory.
     #[error(
@@ -124,7 +124,7 @@ pub enum CosimError {
 
     /// The simulator ended early.
     #[error("{simulator} ended after {got} of {clocks} clocks ({status}){log}")]
-    Short {
+    EndedEarly {
         /// The name of the simulator.
         simulator: String,
         /// The number of clocks to simulate.
@@ -146,7 +146,7 @@ pub enum CosimError {
         "cannot {action} `{}`: {source}; set TMPDIR to a writable folder with free space",
         path.display()
     )]
-    Temporary {
+    TemporaryFile {
         /// The attempted action, such as "write".
         action: &'static str,
         /// The file or folder.
@@ -175,7 +175,7 @@ impl From<ToolError> for CosimError {
             ToolError::PortWidth { top, port, found, wanted } => {
                 Self::PortWidth { top, port, found, wanted }
             }
-            ToolError::NoPort { top, port } => Self::NoPort { top, port },
+            ToolError::MissingPort { top, port } => Self::NoPort { top, port },
             error => Self::Tool(error),
         }
     }
@@ -194,7 +194,7 @@ impl CosimError {
     pub fn is_environment(&self) -> bool {
         match self {
             Self::Tool(error) => error.is_environment(),
-            Self::Temporary { .. } | Self::Output(_) | Self::Io { .. } => true,
+            Self::TemporaryFile { .. } | Self::Output(_) | Self::Io { .. } => true,
             _ => false,
         }
     }
@@ -202,11 +202,11 @@ impl CosimError {
     /// Returns the error with paths as the user knows them: those in a staged folder are shown in
     /// the output folder.
     #[must_use]
-    pub fn named(self, staged: &StagedFolder) -> Self {
+    pub fn with_final_paths(self, staged: &StagedFolder) -> Self {
         match self {
-            Self::Output(error) => Self::Output(staged.named(error)),
+            Self::Output(error) => Self::Output(staged.with_shown_path(error)),
             Self::Io { action, path, source } => {
-                Self::Io { action, path: staged.shown(&path), source }
+                Self::Io { action, path: staged.shown_path(&path), source }
             }
             other => other,
         }
@@ -217,7 +217,7 @@ impl CosimError {
         action: &'static str,
         path: &Path,
     ) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::Temporary { action, path: path.to_owned(), source }
+        move |source| Self::TemporaryFile { action, path: path.to_owned(), source }
     }
 
     /// Returns a function for `map_err` that reports a file and the attempted action.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The place of one port in a record.
 
-use crate::gate::Gate;
+use crate::gate::ComparisonGate;
 use foveate_design::Port;
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ const WORD: usize = size_of::<u128>();
 
 /// The place of one port in a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Field {
+pub struct RecordField {
     /// The port.
     pub port: Port,
     /// The offset of its first byte.
@@ -18,15 +18,15 @@ pub struct Field {
     /// The number of its bytes.
     pub bytes: usize,
     /// The condition under which it is compared.
-    pub gate: Gate,
+    pub gate: ComparisonGate,
 }
 
-impl Field {
+impl RecordField {
     /// Writes one lane; bits of `value` above the lane's width are dropped.
     #[inline]
     pub fn set(&self, record: &mut [u8], lane: u32, value: u64) {
-        let (start, shift) = self.place(lane);
-        let mask = u128::from(mask(self.port.width));
+        let (start, shift) = self.bit_position(lane);
+        let mask = u128::from(low_bits_mask(self.port.width));
         let word = word_at(record, start) & !(mask << shift);
         let word = word | (u128::from(value) & mask) << shift;
         let rest = &mut record[start..];
@@ -41,7 +41,7 @@ impl Field {
         let mut rest = &mut record[self.offset..self.end()];
         let (mut waiting, mut bits) = (0u128, 0);
         for value in values.take(self.port.lanes as usize) {
-            waiting |= u128::from(value & mask(self.port.width)) << bits;
+            waiting |= u128::from(value & low_bits_mask(self.port.width)) << bits;
             bits += self.port.width;
             if bits >= u64::BITS {
                 let (step, more) = rest.split_at_mut(STEP);
@@ -61,7 +61,7 @@ impl Field {
     /// port.
     #[inline]
     pub(crate) fn set_values(&self, record: &mut [u8], values: &[u64]) {
-        let (held, bits) = self.word(values.len());
+        let (held, bits) = self.lane_shape(values.len());
         let lanes = self.port.lanes as usize;
         assert_eq!(values.len(), lanes * held, "{}: a value for each place", self.port.name);
         let word = |values: &[u64]| values.iter().rev().fold(0, |word, value| word << bits | value);
@@ -69,12 +69,12 @@ impl Field {
     }
 
     /// Reads the `count` pixels of all lanes, as `set_values` has written them.
-    pub fn words(&self, record: &[u8], count: usize) -> impl Iterator<Item = u64> {
-        let (held, bits) = self.word(count);
+    pub fn lane_pixels(&self, record: &[u8], count: usize) -> impl Iterator<Item = u64> {
+        let (held, bits) = self.lane_shape(count);
         let lanes = (0..self.port.lanes).map(|lane| self.get(record, lane));
         let pixels = move |word: u64| {
             let next = move |left: &mut u64, _| {
-                let pixel = *left & mask(bits);
+                let pixel = *left & low_bits_mask(bits);
                 *left = left.checked_shr(bits).unwrap_or(0);
                 Some(pixel)
             };
@@ -86,7 +86,7 @@ impl Field {
     /// Returns the number of pixels of a lane and of bits of a pixel, if all lanes together have
     /// `pixels` pixels.
     #[inline]
-    fn word(&self, pixels: usize) -> (usize, u32) {
+    fn lane_shape(&self, pixels: usize) -> (usize, u32) {
         let held = (pixels / self.port.lanes as usize).max(1);
         (held, self.port.width / u32::try_from(held).unwrap_or(u32::MAX))
     }
@@ -95,15 +95,15 @@ impl Field {
     #[must_use]
     #[inline]
     pub fn get(&self, record: &[u8], lane: u32) -> u64 {
-        let (start, shift) = self.place(lane);
-        let value = (word_at(record, start) >> shift) & u128::from(mask(self.port.width));
+        let (start, shift) = self.bit_position(lane);
+        let value = (word_at(record, start) >> shift) & u128::from(low_bits_mask(self.port.width));
         u64::try_from(value).expect("the mask has 64 bits")
     }
 
     /// Returns the bytes of the port.
     #[must_use]
     #[inline]
-    pub fn slice<'a>(&self, record: &'a [u8]) -> &'a [u8] {
+    pub fn bytes_in<'a>(&self, record: &'a [u8]) -> &'a [u8] {
         &record[self.offset..self.end()]
     }
 
@@ -111,7 +111,7 @@ impl Field {
     #[must_use]
     pub fn hex(&self, record: &[u8]) -> String {
         let mut digits = String::with_capacity(2 * self.bytes);
-        for byte in self.slice(record).iter().rev() {
+        for byte in self.bytes_in(record).iter().rev() {
             // Writing to a string cannot fail.
             let _ = write!(digits, "{byte:02x}");
         }
@@ -126,41 +126,41 @@ impl Field {
 
     /// Returns the first byte of a lane, and its first bit in that byte.
     #[inline]
-    fn place(&self, lane: u32) -> (usize, u32) {
+    fn bit_position(&self, lane: u32) -> (usize, u32) {
         debug_assert!(lane < self.port.lanes, "lane {lane} of {}", self.port.name);
         let bit = lane * self.port.width;
         (self.offset + (bit / 8) as usize, bit % 8)
     }
 }
 
-impl Gate {
+impl ComparisonGate {
     /// Returns true if no lane of a value is compared at this clock.
     #[inline]
-    pub(crate) fn is_shut(self, fields: &[Field], expected: &[u8]) -> bool {
+    pub(crate) fn is_closed(self, fields: &[RecordField], expected: &[u8]) -> bool {
         match self {
             Self::Always => false,
             Self::SameLane(valid) | Self::AnyLane(valid) => {
-                fields[valid].slice(expected).iter().all(|&byte| byte == 0)
+                fields[valid].bytes_in(expected).iter().all(|&byte| byte == 0)
             }
         }
     }
 
     /// Returns the number of lanes of a value that are compared at this clock.
     #[inline]
-    pub(crate) fn open_lanes(self, fields: &[Field], expected: &[u8], all: u32) -> u32 {
+    pub(crate) fn open_lanes(self, fields: &[RecordField], expected: &[u8], all: u32) -> u32 {
         match self {
             // The valid field has one bit for each lane.
             Self::SameLane(valid) => {
-                fields[valid].slice(expected).iter().map(|byte| byte.count_ones()).sum()
+                fields[valid].bytes_in(expected).iter().map(|byte| byte.count_ones()).sum()
             }
-            Self::Always | Self::AnyLane(_) if self.is_shut(fields, expected) => 0,
+            Self::Always | Self::AnyLane(_) if self.is_closed(fields, expected) => 0,
             Self::Always | Self::AnyLane(_) => all,
         }
     }
 
     /// Returns true if a lane is compared at a clock at which the gate is not shut.
     #[inline]
-    pub(crate) fn lets_pass(self, fields: &[Field], expected: &[u8], lane: u32) -> bool {
+    pub(crate) fn compares_lane(self, fields: &[RecordField], expected: &[u8], lane: u32) -> bool {
         match self {
             Self::Always | Self::AnyLane(_) => true,
             Self::SameLane(valid) => fields[valid].get(expected, lane) == 1,
@@ -185,6 +185,6 @@ fn word_at(record: &[u8], start: usize) -> u128 {
 
 /// Returns a mask with ones in the lowest `width` bits.
 #[inline]
-pub(crate) fn mask(width: u32) -> u64 {
+pub(crate) fn low_bits_mask(width: u32) -> u64 {
     u64::MAX.checked_shr(u64::BITS.saturating_sub(width)).unwrap_or(0)
 }

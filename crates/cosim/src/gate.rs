@@ -8,7 +8,7 @@
 /// The condition under which a value is compared. The numbers are indices of fields in the same
 /// layout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Gate {
+pub enum ComparisonGate {
     /// The value is compared at every clock.
     #[default]
     Always,

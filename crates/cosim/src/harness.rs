@@ -2,11 +2,11 @@
 //! The sources that are made from a port list alone: the C++ harness for Verilator and the replay
 //! bench.
 
-use crate::field::Field;
-use crate::gate::Gate;
-use crate::layout::Layout;
+use crate::field::RecordField;
+use crate::gate::ComparisonGate;
+use crate::layout::RecordLayout;
 use askama::Template;
-use foveate_design::{Direction, Port, PortRole};
+use foveate_design::{PortDirection, Port, PortRole};
 use foveate_emit::Parameter;
 
 /// Returns the C++ main that clocks module `top` with packed records; [`Layout`] describes their
@@ -14,8 +14,8 @@ use foveate_emit::Parameter;
 #[must_use]
 pub fn cpp_harness(top: &str, ports: &[Port]) -> String {
     let clock = clock_name(ports);
-    let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
-    rendered(&Harness { top, clock, inputs, outputs })
+    let (inputs, outputs) = (RecordLayout::inputs(ports), RecordLayout::outputs(ports));
+    render(&CppHarness { top, clock, inputs, outputs })
 }
 
 /// Returns the name of the bench that [`replay_bench`] writes for module `top`.
@@ -35,20 +35,20 @@ pub fn bench_file(top: &str) -> String {
 /// [`crate::Packer`] writes the vectors.
 #[must_use]
 pub fn replay_bench(top: &str, ports: &[Port], parameters: &[Parameter]) -> String {
-    told_bench(top, ports, parameters, &[], None)
+    annotated_bench(top, ports, parameters, &[], None)
 }
 
 /// Returns the bench of [`replay_bench`] with the lines `about` in its first comment. With a
 /// `shortcoming` of the vectors it prints `INCOMPLETE` instead of `PASS`.
-pub(crate) fn told_bench(
+pub(crate) fn annotated_bench(
     top: &str,
     ports: &[Port],
     parameters: &[Parameter],
     about: &[String],
     shortcoming: Option<&str>,
 ) -> String {
-    let (inputs, outputs) = (Layout::inputs(ports), Layout::outputs(ports));
-    let bench_ports = |layout: &Layout| -> Vec<BenchPort> {
+    let (inputs, outputs) = (RecordLayout::inputs(ports), RecordLayout::outputs(ports));
+    let bench_ports = |layout: &RecordLayout| -> Vec<BenchPort> {
         layout.fields().iter().map(|field| BenchPort::new(field, layout.fields())).collect()
     };
     let (inputs, outputs) = (bench_ports(&inputs), bench_ports(&outputs));
@@ -57,7 +57,7 @@ pub(crate) fn told_bench(
         declared: clock_name(ports).to_owned(),
         ..BenchPort::default()
     };
-    rendered(&Bench {
+    render(&ReplayBench {
         top,
         parameters: parameters.iter().map(|(name, value)| format!(".{name}({value})")).collect(),
         bench: bench_name(top),
@@ -66,23 +66,23 @@ pub(crate) fn told_bench(
         columns: inputs.len() + outputs.len(),
         inputs,
         outputs,
-        about,
+        comment_lines: about,
         shortcoming,
     })
 }
 
 #[derive(Template)]
 #[template(path = "harness.cpp")]
-struct Harness<'a> {
+struct CppHarness<'a> {
     top: &'a str,
     clock: &'a str,
-    inputs: Layout,
-    outputs: Layout,
+    inputs: RecordLayout,
+    outputs: RecordLayout,
 }
 
 #[derive(Template)]
 #[template(path = "replay_bench.v")]
-struct Bench<'a> {
+struct ReplayBench<'a> {
     top: &'a str,
     parameters: Vec<String>,
     bench: String,
@@ -93,7 +93,7 @@ struct Bench<'a> {
     /// The number of values of a line. It is also the index of the bit that says that a number of
     /// clocks comes first.
     columns: usize,
-    about: &'a [String],
+    comment_lines: &'a [String],
     shortcoming: Option<&'a str>,
 }
 
@@ -113,7 +113,7 @@ struct BenchPort {
 }
 
 impl BenchPort {
-    fn new(field: &Field, fields: &[Field]) -> Self {
+    fn new(field: &RecordField, fields: &[RecordField]) -> Self {
         let port = &field.port;
         let name = &port.name;
         let range = match port.bits() {
@@ -132,31 +132,31 @@ impl BenchPort {
             lanes: port.lanes,
             lane: lane(name),
             expected_lane: lane(&format!("{name}_expected")),
-            gate: gate(field, fields),
+            gate: gate_condition(field, fields),
         }
     }
 }
 
-fn gate(field: &Field, fields: &[Field]) -> String {
+fn gate_condition(field: &RecordField, fields: &[RecordField]) -> String {
     match field.gate {
-        Gate::Always => String::new(),
-        Gate::SameLane(valid) if field.port.lanes == 1 => {
+        ComparisonGate::Always => String::new(),
+        ComparisonGate::SameLane(valid) if field.port.lanes == 1 => {
             format!("{}_expected && ", fields[valid].port.name)
         }
-        Gate::SameLane(valid) => format!("{}_expected[lane] && ", fields[valid].port.name),
-        Gate::AnyLane(valid) => format!("|{}_expected && ", fields[valid].port.name),
+        ComparisonGate::SameLane(valid) => format!("{}_expected[lane] && ", fields[valid].port.name),
+        ComparisonGate::AnyLane(valid) => format!("|{}_expected && ", fields[valid].port.name),
     }
 }
 
 /// Returns the name of the clock. A hand-made module without a clock role has `clk_i`.
 fn clock_name(ports: &[Port]) -> &str {
     let is_clock =
-        |port: &&Port| port.direction == Direction::Input && matches!(port.role, PortRole::Clock);
+        |port: &&Port| port.direction == PortDirection::Input && matches!(port.role, PortRole::Clock);
     ports.iter().find(is_clock).map_or("clk_i", |port| port.name.as_str())
 }
 
 /// Returns a filled template, with the final newline that askama drops.
-pub(crate) fn rendered(template: &impl Template) -> String {
+pub(crate) fn render(template: &impl Template) -> String {
     template.render().expect("no template calls something that can fail") + "\n"
 }
 
@@ -164,14 +164,14 @@ pub(crate) fn rendered(template: &impl Template) -> String {
 mod tests {
     use super::*;
     use crate::testing::port;
-    use foveate_design::Qualifier;
+    use foveate_design::OutputQualifier;
 
     #[test]
     fn ports_of_every_width_are_named_once_per_use() {
         let ports = [
-            port("clk_i", Direction::Input, 1, 1),
-            port("a_i", Direction::Input, 33, 1),
-            port("b_o", Direction::Output, 8, 25),
+            port("clk_i", PortDirection::Input, 1, 1),
+            port("a_i", PortDirection::Input, 33, 1),
+            port("b_o", PortDirection::Output, 8, 25),
         ];
         let cpp = cpp_harness("tiny", &ports);
         assert!(cpp.contains("#include \"Vtiny.h\""), "{cpp}");
@@ -190,11 +190,11 @@ mod tests {
     fn a_port_without_its_valid_bit_is_not_compared() {
         let valid = |lanes| Port {
             role: PortRole::ForwardValid,
-            ..port("v_o", Direction::Output, 1, lanes)
+            ..port("v_o", PortDirection::Output, 1, lanes)
         };
         let gated = |name, lanes| Port {
-            qualifier: Qualifier::With(PortRole::ForwardValid),
-            ..port(name, Direction::Output, 8, lanes)
+            qualifier: OutputQualifier::WhileSet(PortRole::ForwardValid),
+            ..port(name, PortDirection::Output, 8, lanes)
         };
         let bench = replay_bench("tiny", &[gated("a_o", 1), gated("b_o", 3), valid(3)], &[]);
         assert!(bench.contains("if (|v_o_expected && a_o !== a_o_expected"), "{bench}");

@@ -12,14 +12,14 @@ use std::fmt;
 
 /// The modules of one file that no simulation has reached.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct NotSimulated {
+pub struct UnsimulatedModules {
     /// The path of the file.
     pub file: String,
     /// The modules that were not reached, in their order in the file; never empty.
     pub modules: Vec<String>,
 }
 
-impl fmt::Display for NotSimulated {
+impl fmt::Display for UnsimulatedModules {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = if self.modules.len() == 1 { "module" } else { "modules" };
         write!(f, "{} ({what} {})", self.file, self.modules.join(", "))
@@ -28,25 +28,25 @@ impl fmt::Display for NotSimulated {
 
 /// A module, reduced to what the hierarchy needs.
 #[derive(Debug, PartialEq, Eq)]
-struct Module {
+struct VerilogModule {
     name: String,
     /// The names at places at which an instance names its module. Some of them are not modules.
-    instantiates: BTreeSet<String>,
+    instantiated_names: BTreeSet<String>,
 }
 
 /// Returns true if a file declares the module.
 pub(crate) fn declares(sources: &[SourceFile], module: &str) -> bool {
-    sources.iter().flat_map(|file| modules(&file.contents)).any(|found| found.name == module)
+    sources.iter().flat_map(|file| declared_modules(&file.contents)).any(|found| found.name == module)
 }
 
 /// Returns the prefixes of the cores among the files: those of the modules `rpu` and `rcm` with a
 /// prefix. If one core has no prefix, only that core is returned, because other modules whose names
 /// end in `_rpu` or `_rcm` may belong to the user.
 #[must_use]
-pub fn prefixes(sources: &[SourceFile]) -> BTreeSet<Prefix> {
-    let modules = sources.iter().flat_map(|file| modules(&file.contents));
+pub fn core_prefixes(sources: &[SourceFile]) -> BTreeSet<Prefix> {
+    let modules = sources.iter().flat_map(|file| declared_modules(&file.contents));
     let found: BTreeSet<Prefix> = modules
-        .flat_map(|module| [Top::Rpu, Top::Rcm].map(|top| Prefix::of_top(&module.name, top)))
+        .flat_map(|module| [Top::Rpu, Top::Rcm].map(|top| Prefix::of_top_module(&module.name, top)))
         .flatten()
         .collect();
     if found.contains(&Prefix::default()) { BTreeSet::from([Prefix::default()]) } else { found }
@@ -54,37 +54,37 @@ pub fn prefixes(sources: &[SourceFile]) -> BTreeSet<Prefix> {
 
 /// Returns the modules, by file, that are neither among `tops` nor below them.
 #[must_use]
-pub fn not_simulated(sources: &[SourceFile], tops: &[&str]) -> Vec<NotSimulated> {
-    let files: Vec<(&str, Vec<Module>)> =
-        sources.iter().map(|file| (file.path.as_str(), modules(&file.contents))).collect();
+pub fn unsimulated_modules(sources: &[SourceFile], tops: &[&str]) -> Vec<UnsimulatedModules> {
+    let files: Vec<(&str, Vec<VerilogModule>)> =
+        sources.iter().map(|file| (file.path.as_str(), declared_modules(&file.contents))).collect();
     let (mut reached, mut open) = (BTreeSet::new(), tops.to_vec());
     while let Some(name) = open.pop() {
         if reached.insert(name) {
             let of_name = files.iter().flat_map(|(_, modules)| modules).filter(|m| m.name == name);
-            open.extend(of_name.flat_map(|module| &module.instantiates).map(String::as_str));
+            open.extend(of_name.flat_map(|module| &module.instantiated_names).map(String::as_str));
         }
     }
-    let unreached = |(file, modules): &(&str, Vec<Module>)| {
+    let unreached = |(file, modules): &(&str, Vec<VerilogModule>)| {
         let left = modules.iter().filter(|module| !reached.contains(module.name.as_str()));
         let modules: Vec<String> = left.map(|module| module.name.clone()).collect();
-        (!modules.is_empty()).then(|| NotSimulated { file: (*file).to_owned(), modules })
+        (!modules.is_empty()).then(|| UnsimulatedModules { file: (*file).to_owned(), modules })
     };
     files.iter().filter_map(unreached).collect()
 }
 
 /// Returns the modules that a text declares.
-fn modules(text: &str) -> Vec<Module> {
+fn declared_modules(text: &str) -> Vec<VerilogModule> {
     let tokens = tokens(text);
     let (mut modules, mut under_way) = (Vec::new(), None);
     for (at, token) in tokens.iter().enumerate() {
         match (token.as_str(), under_way.as_mut()) {
             ("module" | "macromodule", None) => {
                 let name = tokens.get(at + 1).cloned().unwrap_or_default();
-                under_way = Some(Module { name, instantiates: BTreeSet::new() });
+                under_way = Some(VerilogModule { name, instantiated_names: BTreeSet::new() });
             }
             ("endmodule", Some(_)) => modules.extend(under_way.take()),
             (name, Some(module)) if is_instance(&tokens[at..]) => {
-                module.instantiates.insert(name.to_owned());
+                module.instantiated_names.insert(name.to_owned());
             }
             _ => {}
         }
@@ -110,7 +110,7 @@ fn tokens(text: &str) -> Vec<String> {
             after(rest, "\n")
         } else if let Some(comment) = rest.strip_prefix("/*") {
             2 + after(comment, "*/")
-        } else if let Some(attribute) = attribute(rest) {
+        } else if let Some(attribute) = attribute_text(rest) {
             2 + after(attribute, "*)")
         } else if first == '"' {
             string_length(rest)
@@ -136,7 +136,7 @@ fn tokens(text: &str) -> Vec<String> {
 
 /// Returns the text after the beginning of an attribute; `(*)` in a sensitivity list is not an
 /// attribute.
-fn attribute(text: &str) -> Option<&str> {
+fn attribute_text(text: &str) -> Option<&str> {
     text.strip_prefix("(*").filter(|rest| !rest.trim_start().starts_with(')'))
 }
 
@@ -180,14 +180,14 @@ mod tests {
                 end endgenerate
             endmodule
             module second; endmodule"#;
-        let found = modules(text);
+        let found = declared_modules(text);
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].name.as_str(), found[1].name.as_str()), ("top", "second"));
         for name in ["plain", "with_parameters", "array", "attributed", "escaped", "branch"] {
-            assert!(found[0].instantiates.contains(name), "{name}: {found:?}");
+            assert!(found[0].instantiated_names.contains(name), "{name}: {found:?}");
         }
         for name in ["c0", "c1", "c2", "ghost"] {
-            assert!(!found[0].instantiates.contains(name), "{name}: {found:?}");
+            assert!(!found[0].instantiated_names.contains(name), "{name}: {found:?}");
         }
     }
 
@@ -200,9 +200,9 @@ mod tests {
             file("defines.v", "`define WIDTH 8\n"),
         ];
         let named: Vec<String> =
-            not_simulated(&sources, &["a"]).iter().map(ToString::to_string).collect();
+            unsimulated_modules(&sources, &["a"]).iter().map(ToString::to_string).collect();
         assert_eq!(named, ["a.v (module spare)", "c.v (module c)"]);
-        assert_eq!(not_simulated(&sources, &["a", "spare"]), []);
+        assert_eq!(unsimulated_modules(&sources, &["a", "spare"]), []);
     }
 
     #[test]
@@ -212,7 +212,7 @@ mod tests {
                 .iter()
                 .map(|name| file("a.v", &format!("module {name}; endmodule")))
                 .collect();
-            let found = prefixes(&sources);
+            let found = core_prefixes(&sources);
             found.iter().map(|prefix| prefix.text().to_owned()).collect::<Vec<_>>()
         };
         assert_eq!(of(&["rpu", "rcm", "my_rcm"]), [""]);
@@ -234,7 +234,7 @@ mod tests {
                     sources.push(file);
                 }
             }
-            assert_eq!(not_simulated(&sources, &["rpu", "rcm"]), [], "{}", preset.name);
+            assert_eq!(unsimulated_modules(&sources, &["rpu", "rcm"]), [], "{}", preset.name);
         }
     }
 }

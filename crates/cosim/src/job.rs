@@ -2,17 +2,17 @@
 //! A whole co-simulation: vectors from the model, a run of the RTL, and a report.
 
 use crate::error::CosimError;
-use crate::level::Level;
+use crate::level::CosimLevel;
 use crate::mismatch::Mismatch;
 use crate::netlist::Netlist;
 use crate::recording::Recording;
-use crate::replay::{self, About};
-use crate::report::{CosimReport, Seconds};
-use crate::simulate::{Dut, Outcome, Run, Simulator};
+use crate::replay::{self, ReplaySubject};
+use crate::report::{CosimReport, StepSeconds};
+use crate::simulation::{DesignUnderTest, SimulationOutcome, SimulationRun, Simulator};
 use crate::stimulus::Stimulus;
 use foveate_design::{ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, verilog};
-use foveate_toolchain::verilator::Optimize;
+use foveate_toolchain::verilator::OptimizationLevel;
 use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -23,7 +23,7 @@ const INLINED_REGIONS: u32 = 16;
 
 /// A co-simulation to run.
 #[derive(Clone, Debug)]
-pub struct Job {
+pub struct CosimJob {
     /// The design.
     pub design: Design,
     /// The Verilog: the files that the emitter makes of the design, or an edited version of them.
@@ -48,7 +48,7 @@ pub struct Job {
 
 /// The current step of a job, for progress bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
+pub enum CosimProgress {
     /// The model makes the vectors.
     Vectors {
         /// The number of sequences that are complete.
@@ -63,7 +63,7 @@ pub enum Progress {
     },
 }
 
-impl Job {
+impl CosimJob {
     /// Creates a job with the Verilog that the emitter makes for the level of the stimulus.
     ///
     /// # Errors
@@ -97,7 +97,7 @@ impl Job {
     pub fn synthesize(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Netlist, CosimError> {
         let design = self.stimulus.level.design(&self.design)?;
         let top = self.stimulus.level.top();
-        Netlist::of(&design, top, &self.prefix, self.named_sources(), toolchain, cache)
+        Netlist::synthesize(&design, top, &self.prefix, self.named_sources(), toolchain, cache)
     }
 
     /// Runs the job and returns its report. A mismatch is a result and not an error.
@@ -111,14 +111,14 @@ impl Job {
         &self,
         toolchain: &Toolchain,
         cache: &Cache,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(CosimProgress),
     ) -> Result<CosimReport, CosimError> {
         self.prepare(toolchain)?;
         let start = Instant::now();
         let recording = self.stimulus.record_until(
             &self.design,
             toolchain.cancel_flag(),
-            &mut |done, total| progress(Progress::Vectors { done, total }),
+            &mut |done, total| progress(CosimProgress::Vectors { done, total }),
         )?;
         let vectors = start.elapsed();
         let mut report = self.simulate(&recording, toolchain, cache, progress)?;
@@ -135,7 +135,7 @@ impl Job {
         recording: &Recording,
         toolchain: &Toolchain,
         cache: &Cache,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(CosimProgress),
     ) -> Result<CosimReport, CosimError> {
         self.prepare(toolchain)?;
         self.simulate(recording, toolchain, cache, progress)
@@ -145,11 +145,11 @@ impl Job {
     /// run.
     fn prepare(&self, toolchain: &Toolchain) -> Result<(), CosimError> {
         self.stimulus.level.design(&self.design)?;
-        replay::check(&self.output)?;
+        replay::check_folder(&self.output)?;
         for &tool in self.simulator.tools() {
             toolchain.find(tool)?;
         }
-        replay::remove(&self.output)
+        replay::remove_earlier(&self.output)
     }
 
     fn simulate(
@@ -157,25 +157,25 @@ impl Job {
         recording: &Recording,
         toolchain: &Toolchain,
         cache: &Cache,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(CosimProgress),
     ) -> Result<CosimReport, CosimError> {
         let design = self.stimulus.level.design(&self.design)?;
         let dut = self.dut(&design);
-        progress(Progress::Simulation { clocks: recording.clocks() });
-        let run = Run {
+        progress(CosimProgress::Simulation { clocks: recording.clocks() });
+        let run = SimulationRun {
             simulator: self.simulator,
             seed: self.stimulus.seed,
             trace: self.trace,
             toolchain,
             cache,
             limit: self.limit,
-            optimize: Optimize::Build,
+            optimize: OptimizationLevel::FastBuild,
         };
         let outcome = run.run(&dut, recording)?;
         let mut report = self.report(&design, recording, &outcome)?;
         if let Some(mismatch) = &report.mismatch {
-            let about = About { mismatch, fingerprint: &report.design };
-            let folder = replay::write(&self.output, &run, &dut, recording, &outcome, &about)?;
+            let about = ReplaySubject { mismatch, fingerprint: &report.design };
+            let folder = replay::write_replay(&self.output, &run, &dut, recording, &outcome, &about)?;
             report.replay = Some(folder);
         } else if let Some(waves) = &outcome.waves {
             report.waves = Some(replay::write_waves(&self.output, waves)?);
@@ -197,16 +197,16 @@ impl Job {
 
     /// Returns the module that is simulated; `design` is the design at the level.
     #[must_use]
-    pub fn dut(&self, design: &Design) -> Dut {
+    pub fn dut(&self, design: &Design) -> DesignUnderTest {
         let top = self.stimulus.level.top();
-        let array = self.stimulus.level != Level::Rpu && design.regions() > INLINED_REGIONS;
-        let dut = Dut {
-            top: self.prefix.name(top.module()),
+        let array = self.stimulus.level != CosimLevel::Rpu && design.regions() > INLINED_REGIONS;
+        let dut = DesignUnderTest {
+            top: self.prefix.prefixed_name(top.module()),
             ports: top.ports(design),
             parameters: top.parameters(design),
             sources: self.named_sources(),
             no_inline: if array {
-                vec![self.prefix.name(design.unit().module)]
+                vec![self.prefix.prefixed_name(design.unit().module)]
             } else {
                 Vec::new()
             },
@@ -214,7 +214,7 @@ impl Job {
         match &self.netlist {
             None => dut,
             Some(Netlist { sources, .. }) => {
-                Dut { parameters: Vec::new(), sources: sources.clone(), ..dut }
+                DesignUnderTest { parameters: Vec::new(), sources: sources.clone(), ..dut }
             }
         }
     }
@@ -223,10 +223,10 @@ impl Job {
         &self,
         design: &Design,
         recording: &Recording,
-        outcome: &Outcome,
+        outcome: &SimulationOutcome,
     ) -> Result<CosimReport, CosimError> {
         let level = self.stimulus.level;
-        let mismatch = Mismatch::of(&outcome.differences, design, recording, level)?;
+        let mismatch = Mismatch::from_differences(&outcome.differences, design, recording, level)?;
         let clocks = mismatch.as_ref().map_or(recording.clocks(), |mismatch| mismatch.clock + 1);
         Ok(CosimReport {
             name: self.name(),
@@ -236,7 +236,7 @@ impl Job {
             simulator: self.simulator,
             simulator_version: outcome.version.clone(),
             rtl_sha256: sources_sha256(&self.named_sources()),
-            netlist: self.netlist.as_ref().map(Netlist::record),
+            netlist: self.netlist.as_ref().map(Netlist::to_record),
             seed: self.stimulus.seed,
             sequences: recording.sequences(),
             frames: recording.frames(),
@@ -246,7 +246,7 @@ impl Job {
             mismatch,
             replay: None,
             waves: None,
-            seconds: Seconds {
+            seconds: StepSeconds {
                 vectors: 0.0,
                 build: outcome.build.as_secs_f64(),
                 run: outcome.run.as_secs_f64(),

@@ -2,14 +2,14 @@
 //! Results as JUnit XML, which test servers read.
 
 use crate::report::CosimReport;
-use crate::summary::Summary;
+use crate::summary::CosimSummary;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::time::Duration;
 
 /// Returns one test case per run, and a failed or skipped one if some of the given Verilog was not
 /// simulated.
 #[must_use]
-pub fn junit_xml(summary: &Summary) -> String {
+pub fn junit_xml(summary: &CosimSummary) -> String {
     let mut suite = TestSuite::new("foveate cosim");
     let class = format!("foveate.{}", summary.design);
     for report in &summary.runs {
@@ -30,12 +30,12 @@ pub fn junit_xml(summary: &Summary) -> String {
     }
     let reached_all = summary.not_simulated.is_empty() && summary.not_elaborated.is_empty();
     if !reached_all {
-        let mut status = if summary.whole {
+        let mut status = if summary.must_be_whole {
             TestCaseStatus::non_success(NonSuccessKind::Failure)
         } else {
             TestCaseStatus::skipped()
         };
-        status.set_type("not simulated").set_message(summary.left_out());
+        status.set_type("not simulated").set_message(summary.describe_unreached());
         let mut case = TestCase::new("every file and every parameter value is simulated", status);
         case.set_classname(class);
         suite.add_test_case(case);

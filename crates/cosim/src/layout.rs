@@ -6,39 +6,39 @@
 //! as in the Verilog vector: lane i takes bits `i * width ..= i * width + width - 1`. So the bytes
 //! of a port, read as one little-endian number, are the value of the Verilog vector.
 
-use crate::field::Field;
-use crate::gate::Gate;
-use foveate_design::{Direction, Port, PortRole, Qualifier};
+use crate::field::RecordField;
+use crate::gate::ComparisonGate;
+use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
 
 /// The layout of a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layout {
-    fields: Vec<Field>,
+pub struct RecordLayout {
+    fields: Vec<RecordField>,
     bytes: usize,
 }
 
-impl Layout {
+impl RecordLayout {
     /// Returns the layout of all inputs but the clock.
     #[must_use]
     pub fn inputs(ports: &[Port]) -> Self {
         let wanted = |port: &&Port| {
-            port.direction == Direction::Input && !matches!(port.role, PortRole::Clock)
+            port.direction == PortDirection::Input && !matches!(port.role, PortRole::Clock)
         };
-        Self::of(ports.iter().filter(wanted))
+        Self::from_ports(ports.iter().filter(wanted))
     }
 
     /// Returns the layout of all outputs.
     #[must_use]
     pub fn outputs(ports: &[Port]) -> Self {
-        Self::of(ports.iter().filter(|port| port.direction == Direction::Output))
+        Self::from_ports(ports.iter().filter(|port| port.direction == PortDirection::Output))
     }
 
-    fn of<'a>(ports: impl Iterator<Item = &'a Port>) -> Self {
+    fn from_ports<'a>(ports: impl Iterator<Item = &'a Port>) -> Self {
         let mut offset = 0;
         let ports: Vec<_> = ports.collect();
         let place = |port: &&Port| {
             let bytes = port.bits().div_ceil(8) as usize;
-            let field = Field { port: (*port).clone(), offset, bytes, gate: gate(port, &ports) };
+            let field = RecordField { port: (*port).clone(), offset, bytes, gate: gate_of(port, &ports) };
             offset += bytes;
             field
         };
@@ -49,7 +49,7 @@ impl Layout {
     /// Returns the ports and their places.
     #[must_use]
     #[inline]
-    pub fn fields(&self) -> &[Field] {
+    pub fn fields(&self) -> &[RecordField] {
         &self.fields
     }
 
@@ -61,29 +61,29 @@ impl Layout {
 
     /// Returns a record of zeros.
     #[must_use]
-    pub fn record(&self) -> Vec<u8> {
+    pub fn zero_record(&self) -> Vec<u8> {
         vec![0; self.bytes]
     }
 
     /// Returns true if every value is compared at every clock.
     #[must_use]
     pub fn is_ungated(&self) -> bool {
-        self.fields.iter().all(|field| field.gate == Gate::Always)
+        self.fields.iter().all(|field| field.gate == ComparisonGate::Always)
     }
 
     /// Returns the number of values of a record that are compared: one per port and lane. If a
     /// valid bit belongs to the port, only lanes with that bit count.
     #[must_use]
-    pub fn values(&self, expected: &[u8]) -> u64 {
-        let lanes = |field: &Field| field.gate.open_lanes(&self.fields, expected, field.port.lanes);
+    pub fn compared_values(&self, expected: &[u8]) -> u64 {
+        let lanes = |field: &RecordField| field.gate.open_lanes(&self.fields, expected, field.port.lanes);
         self.fields.iter().map(|field| u64::from(lanes(field))).sum()
     }
 
     /// Returns the number of values that are compared and differ.
     #[must_use]
-    pub fn differing(&self, expected: &[u8], got: &[u8]) -> u64 {
-        let differs = |field: &&Field| field.slice(expected) != field.slice(got);
-        let lanes = |field: &Field| {
+    pub fn differing_values(&self, expected: &[u8], got: &[u8]) -> u64 {
+        let differs = |field: &&RecordField| field.bytes_in(expected) != field.bytes_in(got);
+        let lanes = |field: &RecordField| {
             let unequal = |lane: &u32| field.get(expected, *lane) != field.get(got, *lane);
             self.compared_lanes(field, expected).filter(unequal).count() as u64
         };
@@ -93,47 +93,47 @@ impl Layout {
     /// Returns the lanes of a port that are compared, by the valid bits of the expected record.
     pub(crate) fn compared_lanes<'a>(
         &'a self,
-        field: &'a Field,
+        field: &'a RecordField,
         expected: &'a [u8],
     ) -> impl Iterator<Item = u32> + 'a {
-        let lanes = if field.gate.is_shut(&self.fields, expected) { 0 } else { field.port.lanes };
-        (0..lanes).filter(|&lane| field.gate.lets_pass(&self.fields, expected, lane))
+        let lanes = if field.gate.is_closed(&self.fields, expected) { 0 } else { field.port.lanes };
+        (0..lanes).filter(|&lane| field.gate.compares_lane(&self.fields, expected, lane))
     }
 }
 
 /// Returns the gate of a port among the ports of a layout: the valid bit of its lane if there is
 /// one per lane, or else the valid bit of any lane.
-fn gate(port: &Port, ports: &[&Port]) -> Gate {
+fn gate_of(port: &Port, ports: &[&Port]) -> ComparisonGate {
     let valid = |role| ports.iter().position(|other| other.role == role);
     let valid = match port.qualifier {
-        Qualifier::Always => None,
-        Qualifier::With(role) => valid(role),
+        OutputQualifier::Always => None,
+        OutputQualifier::WhileSet(role) => valid(role),
     };
     match valid {
-        None => Gate::Always,
-        Some(valid) if ports[valid].per_lane == port.per_lane => Gate::SameLane(valid),
-        Some(valid) => Gate::AnyLane(valid),
+        None => ComparisonGate::Always,
+        Some(valid) if ports[valid].per_lane == port.per_lane => ComparisonGate::SameLane(valid),
+        Some(valid) => ComparisonGate::AnyLane(valid),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::mask;
+    use crate::field::low_bits_mask;
     use crate::testing::port;
     use proptest::prelude::*;
 
     #[test]
     fn bytes_are_those_of_the_verilog_vector() {
         let ports = [
-            port("clk_i", Direction::Input, 1, 1),
-            port("a_i", Direction::Input, 1, 1),
-            port("b_i", Direction::Input, 12, 3),
-            port("c_o", Direction::Output, 54, 1),
+            port("clk_i", PortDirection::Input, 1, 1),
+            port("a_i", PortDirection::Input, 1, 1),
+            port("b_i", PortDirection::Input, 12, 3),
+            port("c_o", PortDirection::Output, 54, 1),
         ];
-        let layout = Layout::inputs(&ports);
+        let layout = RecordLayout::inputs(&ports);
         assert_eq!(layout.record_bytes(), 1 + 5);
-        let mut record = layout.record();
+        let mut record = layout.zero_record();
         layout.fields()[0].set(&mut record, 0, 1);
         for (lane, value) in [(0, 0xabc), (1, 0xdef), (2, 0x123)] {
             layout.fields()[1].set(&mut record, lane, value);
@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(record, [1, 0xbc, 0xfa, 0xde, 0x23, 0x01]);
         let hex: Vec<_> = layout.fields().iter().map(|field| field.hex(&record)).collect();
         assert_eq!(hex, ["1", "123defabc"]);
-        assert_eq!(Layout::outputs(&ports).record_bytes(), 7);
+        assert_eq!(RecordLayout::outputs(&ports).record_bytes(), 7);
     }
 
     proptest! {
@@ -153,11 +153,11 @@ mod tests {
         ) {
             let ports: Vec<_> = shapes
                 .iter()
-                .map(|&(width, lanes)| port("p_o", Direction::Output, width, lanes))
+                .map(|&(width, lanes)| port("p_o", PortDirection::Output, width, lanes))
                 .collect();
-            let layout = Layout::outputs(&ports);
-            let mut record = layout.record();
-            let lanes = |layout: &Layout| -> Vec<(usize, u32)> {
+            let layout = RecordLayout::outputs(&ports);
+            let mut record = layout.zero_record();
+            let lanes = |layout: &RecordLayout| -> Vec<(usize, u32)> {
                 let fields = layout.fields().iter().enumerate();
                 fields.flat_map(|(i, f)| (0..f.port.lanes).map(move |lane| (i, lane))).collect()
             };
@@ -165,17 +165,17 @@ mod tests {
             for ((index, lane), value) in lanes(&layout).into_iter().zip(values.iter().cycle()) {
                 let field = &layout.fields()[index];
                 field.set(&mut record, lane, *value);
-                expected.push((index, lane, value & mask(field.port.width)));
+                expected.push((index, lane, value & low_bits_mask(field.port.width)));
             }
             let chosen = usize::try_from(again % expected.len() as u64).unwrap();
             let (index, lane, value) = &mut expected[chosen];
             let field = &layout.fields()[*index];
             field.set(&mut record, *lane, again);
-            *value = again & mask(field.port.width);
+            *value = again & low_bits_mask(field.port.width);
             for (index, lane, value) in expected {
                 prop_assert_eq!(layout.fields()[index].get(&record, lane), value);
             }
-            let mut at_once = layout.record();
+            let mut at_once = layout.zero_record();
             for field in layout.fields() {
                 let lanes = 0..field.port.lanes;
                 field.set_all(&mut at_once, lanes.map(|lane| field.get(&record, lane)));

@@ -2,7 +2,7 @@
 //! The part of the hardware that is simulated.
 
 use crate::hierarchy::declares;
-use foveate_design::{Array, ConfigError, Design};
+use foveate_design::{ArrayStructure, ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -13,7 +13,7 @@ const MAX_UNITS: u32 = 1024;
 /// The part of the hardware that is simulated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Level {
+pub enum CosimLevel {
     /// One RPU, through which the regions of the frames go one after the other. Of a serial design
     /// it is one lane, with as many regions as share it.
     #[default]
@@ -29,12 +29,12 @@ pub enum Level {
     Full,
 }
 
-impl Level {
+impl CosimLevel {
     /// Returns the array that stands for the design's own if that would take long. It has 3x2
     /// regions, so that rows and columns cannot be confused, or more if a lane serves more regions,
     /// so that there are two lanes. It never has more regions than the frame.
     #[must_use]
-    pub fn sample(design: &Design) -> Self {
+    pub fn small_array(design: &Design) -> Self {
         let (all_columns, all_rows) = (design.columns(), design.rows());
         let wanted = design.slots() + 1;
         let rows_for = |columns: u32| wanted.div_ceil(columns).max(2).min(all_rows);
@@ -53,8 +53,8 @@ impl Level {
     #[must_use]
     pub fn is_whole_affordable(design: &Design) -> bool {
         match design.unit().array {
-            Array::Copies => false,
-            Array::Whole => design.unit().count <= MAX_UNITS,
+            ArrayStructure::RpuCopies => false,
+            ArrayStructure::SharedLogic => design.unit().count <= MAX_UNITS,
         }
     }
 
@@ -63,12 +63,12 @@ impl Level {
     /// and, if the whole array is larger and [affordable](Self::is_whole_affordable), also whole.
     /// Without either module it is `rpu`, whose simulation reports what is missing.
     #[must_use]
-    pub fn all_of(design: &Design, sources: &[SourceFile], prefix: &Prefix) -> Vec<Self> {
-        let mut levels = vec![Self::Rpu, Self::sample(design)];
+    pub fn for_sources(design: &Design, sources: &[SourceFile], prefix: &Prefix) -> Vec<Self> {
+        let mut levels = vec![Self::Rpu, Self::small_array(design)];
         if Self::is_whole_affordable(design) && !levels[1].is_whole(design) {
             levels.push(Self::Full);
         }
-        let is_there = |level: &Self| declares(sources, &prefix.name(level.top().module()));
+        let is_there = |level: &Self| declares(sources, &prefix.prefixed_name(level.top().module()));
         let found: Vec<Self> = levels.into_iter().filter(is_there).collect();
         if found.is_empty() { vec![Self::Rpu] } else { found }
     }
@@ -117,7 +117,7 @@ fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, ConfigE
     config.validate()
 }
 
-impl fmt::Display for Level {
+impl fmt::Display for CosimLevel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Rpu => f.pad("rpu"),
@@ -130,15 +130,15 @@ impl fmt::Display for Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::Config;
+    use foveate_design::DesignConfig;
 
-    fn sample(toml: &str) -> Level {
-        Level::sample(&Config::from_toml(toml).unwrap().validate().unwrap())
+    fn sample(toml: &str) -> CosimLevel {
+        CosimLevel::small_array(&DesignConfig::from_toml(toml).unwrap().validate().unwrap())
     }
 
     #[test]
     fn a_sample_has_two_lanes_where_the_frame_has() {
-        let grid = |columns, rows| Level::Rcm { columns, rows };
+        let grid = |columns, rows| CosimLevel::Rcm { columns, rows };
         assert_eq!(sample(""), grid(3, 2));
         assert_eq!(sample("[frame]\nwidth = 8\nheight = 80\n"), grid(1, 2));
         assert_eq!(sample("[frame]\nwidth = 8\nheight = 8\n"), grid(1, 1));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A mismatch in terms of the vectors: every port that differs, with its place and time.
 
-use crate::compare::Difference;
+use crate::comparison::PortDifference;
 use crate::error::CosimError;
-use crate::level::Level;
-use crate::locate;
-use crate::moment::{Moment, moments};
+use crate::level::CosimLevel;
+use crate::mismatch_region;
+use crate::core_activity::{CoreActivity, core_activities};
 use crate::recording::Recording;
 use foveate_design::{Design, PortRole};
 use serde::{Deserialize, Serialize};
@@ -31,11 +31,11 @@ pub struct Mismatch {
     pub score: Option<String>,
     /// The activity of the hardware: the pixel that enters, or the slot, phase and step of its
     /// work.
-    pub at: String,
+    pub activity: String,
     /// The value of the model, in hexadecimal.
     pub expected: String,
     /// The value of the simulator, in hexadecimal; unknown digits are `x`.
-    pub got: String,
+    pub actual: String,
     /// The ports that differ before the sequence ends, each at its first clock. Ports that differ
     /// at the same clock are in the order of the module. The first one is that of the fields above.
     pub ports: Vec<PortMismatch>,
@@ -49,7 +49,7 @@ pub struct PortMismatch {
     pub clock: u64,
     pub region: Option<u32>,
     pub score: Option<String>,
-    pub at: String,
+    pub activity: String,
     pub expected: String,
     pub got: String,
 }
@@ -57,57 +57,57 @@ pub struct PortMismatch {
 impl Mismatch {
     /// Returns the mismatch for the differences of one sequence, which are in order, or `None` if
     /// there are none.
-    pub(crate) fn of(
-        differences: &[Difference],
+    pub(crate) fn from_differences(
+        differences: &[PortDifference],
         design: &Design,
         recording: &Recording,
-        level: Level,
+        level: CosimLevel,
     ) -> Result<Option<Self>, CosimError> {
         let clocks: Vec<u64> = differences.iter().map(|difference| difference.clock).collect();
-        let moments = moments(design, recording, &clocks)?;
-        let named = |(difference, moment): (&Difference, &Moment)| {
-            port(difference, moment, design, recording, level)
+        let moments = core_activities(design, recording, &clocks)?;
+        let named = |(difference, moment): (&PortDifference, &CoreActivity)| {
+            port_mismatch(difference, moment, design, recording, level)
         };
         let ports: Vec<PortMismatch> =
             differences.iter().zip(&moments).map(named).collect::<Result<_, _>>()?;
         let Some(first) = ports.first().cloned() else { return Ok(None) };
         let span = recording.span(first.clock);
-        let PortMismatch { port, clock, region, score, at, expected, got } = first;
+        let PortMismatch { port, clock, region, score, activity: at, expected, got } = first;
         let sequence = span.map_or_else(String::new, |span| span.sequence.clone());
         let frame = span.map_or(0, |span| span.frame);
         let clock_in_frame = clock - span.map_or(0, |span| span.first_clock);
         #[rustfmt::skip]
         let mismatch = Self {
-            sequence, frame, clock, clock_in_frame, region, port, score, at, expected, got, ports,
+            sequence, frame, clock, clock_in_frame, region, port, score, activity: at, expected, actual: got, ports,
         };
         Ok(Some(mismatch))
     }
 }
 
-fn port(
-    difference: &Difference,
-    moment: &Moment,
+fn port_mismatch(
+    difference: &PortDifference,
+    moment: &CoreActivity,
     design: &Design,
     recording: &Recording,
-    level: Level,
+    level: CosimLevel,
 ) -> Result<PortMismatch, CosimError> {
-    let Difference { clock, port, expected, got, .. } = difference.clone();
+    let PortDifference { clock, port, expected, got, .. } = difference.clone();
     let record = recording.expected_at(clock)?;
     let first = recording.span(clock).and_then(|span| span.region);
     let layout = recording.outputs();
-    let region = locate::region(design, level, layout, &record, difference, first);
+    let region = mismatch_region::region_of_difference(design, level, layout, &record, difference, first);
     let role = layout.fields().iter().find(|field| field.port.name == port).map(|f| f.port.role);
     let is_score = matches!(
         role,
         Some(PortRole::ScoreValid | PortRole::ScoreIndex | PortRole::Region | PortRole::AnyScore)
     );
     let score = moment.score().filter(|_| is_score).map(str::to_owned);
-    Ok(PortMismatch { port, clock, region, score, at: moment.to_string(), expected, got })
+    Ok(PortMismatch { port, clock, region, score, activity: moment.to_string(), expected, got })
 }
 
 impl fmt::Display for PortMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { port, clock, region, score, at, expected, got } = self;
+        let Self { port, clock, region, score, activity: at, expected, got } = self;
         write!(f, "clock {clock}: {port}")?;
         if let Some(score) = score {
             write!(f, " ({score})")?;
@@ -131,6 +131,6 @@ impl fmt::Display for Mismatch {
         if let Some(score) = &self.score {
             write!(f, " ({score})")?;
         }
-        write!(f, " is 'h{}, expected 'h{}", self.got, self.expected)
+        write!(f, " is 'h{}, expected 'h{}", self.actual, self.expected)
     }
 }

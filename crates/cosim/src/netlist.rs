@@ -6,9 +6,9 @@
 //! initial value, so that an X shows even where the RTL would not have one. Registers with an
 //! initial value start with it, as on the device.
 
-use crate::cells::{cell_models, wired_wrongly};
+use crate::cells::{cell_models, has_miswired_block_ram};
 use crate::error::CosimError;
-use foveate_design::{Array, Design};
+use foveate_design::{ArrayStructure, Design};
 use foveate_emit::{Prefix, Top};
 use foveate_toolchain::{
     Cache, Source, SynthesisJob, ToolRecord, Toolchain, sources_sha256, yosys,
@@ -41,7 +41,7 @@ pub struct NetlistRecord {
 impl Netlist {
     /// Synthesizes `top` of the design at a level, from Verilog for it. At the level of one RPU the
     /// netlist is that of the design's array, as in the estimate. Module names begin with `prefix`.
-    pub(crate) fn of(
+    pub(crate) fn synthesize(
         design: &Design,
         top: Top,
         prefix: &Prefix,
@@ -50,53 +50,53 @@ impl Netlist {
         cache: &Cache,
     ) -> Result<Self, CosimError> {
         match design.unit().array {
-            Array::Copies => {
+            ArrayStructure::RpuCopies => {
                 // The Verilog of one RPU lacks the array around it, which comes last.
                 let array = prefix.apply(foveate_emit::verilog(design, Top::Rcm));
                 let array = array.into_iter().next_back().map(Source::from);
                 let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
                 verilog.extend(array.filter(is_new));
             }
-            Array::Whole => {}
+            ArrayStructure::SharedLogic => {}
         }
-        let array = top.array(design);
+        let array = top.array_top(design);
         let job = SynthesisJob {
             sources: verilog,
-            unit: prefix.name(design.unit().module),
-            array: prefix.name(array.module()),
+            unit: prefix.prefixed_name(design.unit().module),
+            array: prefix.prefixed_name(array.module()),
             parameters: array.parameters(design),
         };
         let synthesis = job.run(toolchain, cache)?;
-        if wired_wrongly(&synthesis.verilog) {
-            return Err(CosimError::WiredWrongly { yosys: synthesis.tool.version });
+        if has_miswired_block_ram(&synthesis.verilog) {
+            return Err(CosimError::MiswiredBlockRam { yosys: synthesis.tool.version });
         }
         let library = yosys::cell_models(toolchain, cache, "xilinx/cells_sim.v")?;
-        let models = cell_models(&library, synthesis.cells())?;
-        let verilog = chosen(&synthesis.verilog);
+        let models = cell_models(&library, synthesis.cell_types())?;
+        let verilog = with_initial_bits(&synthesis.verilog);
         let sources = vec![(MODELS_FILE.to_owned(), models), (NETLIST_FILE.to_owned(), verilog)];
         Ok(Self { tool: synthesis.tool, sources })
     }
 
     /// Returns the description of the netlist for a report.
-    pub(crate) fn record(&self) -> NetlistRecord {
+    pub(crate) fn to_record(&self) -> NetlistRecord {
         let sha256 = sources_sha256(&self.sources);
         NetlistRecord { tool: self.tool.clone(), sha256 }
     }
 }
 
 /// The memory of the leaf `raster_valid` that may start with any bits, but not with X.
-const ANY_BITS: &str = "lost_bits_q.";
+const MEMORY_WITH_ANY_BITS: &str = "lost_bits_q.";
 
 /// Returns the netlist with fixed initial bits in that memory. In a simulation the leaf turns an X
 /// into bits, but a lookup table cannot.
-fn chosen(netlist: &str) -> String {
+fn with_initial_bits(netlist: &str) -> String {
     let mut lines: Vec<String> = netlist.lines().map(str::to_owned).collect();
     let mut begins = 0;
     for at in 0..lines.len() {
         if lines[at].starts_with("  RAM") {
             begins = at;
         }
-        if lines[at].starts_with("  ) ") && lines[at].contains(ANY_BITS) {
+        if lines[at].starts_with("  ) ") && lines[at].contains(MEMORY_WITH_ANY_BITS) {
             for line in lines[begins..at].iter_mut().filter(|line| line.contains(".INIT")) {
                 // The bits must not be all equal.
                 *line = line.replace("xx", "59").replace('x', "0");
@@ -117,6 +117,6 @@ mod tests {
         };
         let text = [cell("a.words_q", "xxxx"), cell("a.lost_bits_q", "xxxx")].concat();
         let expected = [cell("a.words_q", "xxxx"), cell("a.lost_bits_q", "5959")].concat();
-        assert_eq!(chosen(&text), expected);
+        assert_eq!(with_initial_bits(&text), expected);
     }
 }

@@ -5,9 +5,9 @@
 //! run is limited by the disk and not by memory, and the simulator reads the inputs directly.
 
 use crate::error::CosimError;
-use crate::layout::Layout;
-use crate::packer::Packer;
-use crate::situations::{Occurrences, Watch};
+use crate::layout::RecordLayout;
+use crate::vector_packer::VectorPacker;
+use crate::situations::{Occurrences, SituationMonitor};
 use foveate_design::{Design, Port};
 use foveate_emit::Top;
 use foveate_staging::ScratchFolder;
@@ -19,7 +19,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// The sequence and frame of a stretch of clocks, for messages about a mismatch.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Span {
+pub struct RecordingSpan {
     /// The first clock of the stretch, which ends where the next one begins.
     pub first_clock: u64,
     /// The name of the sequence of frames.
@@ -42,11 +42,11 @@ pub struct Recording {
     folder: ScratchFolder,
     /// True if the folder has the files of the replay bench.
     has_bench_files: Mutex<bool>,
-    inputs: Layout,
-    outputs: Layout,
+    inputs: RecordLayout,
+    outputs: RecordLayout,
     clocks: u64,
     frames: u64,
-    spans: Vec<Span>,
+    spans: Vec<RecordingSpan>,
     situations: Occurrences,
 }
 
@@ -59,13 +59,13 @@ impl Recording {
 
     /// Returns the layout of an input record.
     #[must_use]
-    pub fn inputs(&self) -> &Layout {
+    pub fn inputs(&self) -> &RecordLayout {
         &self.inputs
     }
 
     /// Returns the layout of an output record.
     #[must_use]
-    pub fn outputs(&self) -> &Layout {
+    pub fn outputs(&self) -> &RecordLayout {
         &self.outputs
     }
 
@@ -80,8 +80,8 @@ impl Recording {
     /// # Errors
     /// Fails if they cannot be read.
     pub(crate) fn expected_at(&self, clock: u64) -> Result<Vec<u8>, CosimError> {
-        let (path, mut record) = (self.expected_path(), self.outputs.record());
-        let mut file = open(&path)?;
+        let (path, mut record) = (self.expected_path(), self.outputs.zero_record());
+        let mut file = open_buffered(&path)?;
         file.seek(SeekFrom::Start(clock * record.len() as u64))
             .and_then(|_| file.read_exact(&mut record))
             .map_err(CosimError::io("read", &path))?;
@@ -93,15 +93,15 @@ impl Recording {
     /// # Errors
     /// Fails if the expected outputs cannot be read.
     pub fn comparisons(&self, clocks: u64) -> Result<u64, CosimError> {
-        let mut record = self.outputs.record();
+        let mut record = self.outputs.zero_record();
         if self.outputs.is_ungated() {
-            return Ok(clocks * self.outputs.values(&record));
+            return Ok(clocks * self.outputs.compared_values(&record));
         }
         let path = self.expected_path();
-        let (mut expected, mut values) = (open(&path)?, 0);
+        let (mut expected, mut values) = (open_buffered(&path)?, 0);
         for _ in 0..clocks {
             expected.read_exact(&mut record).map_err(CosimError::io("read", &path))?;
-            values += self.outputs.values(&record);
+            values += self.outputs.compared_values(&record);
         }
         Ok(values)
     }
@@ -121,7 +121,7 @@ impl Recording {
 
     /// Returns the stretch to which a clock belongs.
     #[must_use]
-    pub fn span(&self, clock: u64) -> Option<&Span> {
+    pub fn span(&self, clock: u64) -> Option<&RecordingSpan> {
         let after = self.spans.partition_point(|span| span.first_clock <= clock);
         after.checked_sub(1).and_then(|index| self.spans.get(index))
     }
@@ -131,7 +131,7 @@ impl Recording {
     pub fn sequence(&self, clock: u64) -> Range<u64> {
         let after = self.spans.partition_point(|span| span.first_clock <= clock);
         let (before, after) = self.spans.split_at(after);
-        let starts = |span: &&Span| span.frame == 0;
+        let starts = |span: &&RecordingSpan| span.frame == 0;
         let start = before.iter().rfind(starts).map_or(0, |span| span.first_clock);
         start..after.iter().find(starts).map_or(self.clocks, |span| span.first_clock)
     }
@@ -150,14 +150,14 @@ impl Recording {
     ///
     /// # Errors
     /// Fails if the files cannot be read.
-    pub(crate) fn walk(
+    pub(crate) fn for_each_clock(
         &self,
         clocks: Range<u64>,
         mut see: impl FnMut(u64, &[u8], &[u8]),
     ) -> Result<(), CosimError> {
         let (inputs_path, expected_path) = (self.inputs_path(), self.expected_path());
-        let (mut inputs, mut outputs) = (open(&inputs_path)?, open(&expected_path)?);
-        let (mut input, mut expected) = (self.inputs.record(), self.outputs.record());
+        let (mut inputs, mut outputs) = (open_buffered(&inputs_path)?, open_buffered(&expected_path)?);
+        let (mut input, mut expected) = (self.inputs.zero_record(), self.outputs.zero_record());
         inputs
             .seek(SeekFrom::Start(clocks.start * input.len() as u64))
             .map_err(CosimError::io("read", &inputs_path))?;
@@ -194,7 +194,7 @@ impl Recording {
     ///
     /// # Errors
     /// Fails if the folder cannot be created.
-    pub(crate) fn folder_of_a_run(&self) -> Result<PathBuf, CosimError> {
+    pub(crate) fn create_run_folder(&self) -> Result<PathBuf, CosimError> {
         let folder = tempfile::Builder::new()
             .prefix("run-")
             .tempdir_in(self.folder())
@@ -223,16 +223,16 @@ impl Recording {
     /// Fails if a file cannot be read or written.
     pub fn write_hex(&self, path: &Path, limit: u64) -> Result<(), CosimError> {
         let file = File::create(path).map_err(CosimError::io("write", path))?;
-        self.pack(limit, BufWriter::with_capacity(1 << 18, file), path).map(drop)
+        self.pack_vectors(limit, BufWriter::with_capacity(1 << 18, file), path).map(drop)
     }
 
     /// Packs the first `limit` clocks as vectors of a replay bench; errors name `to`.
-    fn pack<W: Write>(&self, limit: u64, out: W, to: &Path) -> Result<W, CosimError> {
+    fn pack_vectors<W: Write>(&self, limit: u64, out: W, to: &Path) -> Result<W, CosimError> {
         let (inputs, expected) = (self.inputs_path(), self.expected_path());
-        let mut sources = [open(&inputs)?, open(&expected)?];
+        let mut sources = [open_buffered(&inputs)?, open_buffered(&expected)?];
         let [input, output] = &mut sources;
-        let (mut applied, mut wanted) = (self.inputs.record(), self.outputs.record());
-        let mut packer = Packer::new(&self.inputs, &self.outputs, out);
+        let (mut applied, mut wanted) = (self.inputs.zero_record(), self.outputs.zero_record());
+        let mut packer = VectorPacker::new(&self.inputs, &self.outputs, out);
         for _ in 0..self.clocks.min(limit) {
             input.read_exact(&mut applied).map_err(CosimError::io("read", &inputs))?;
             output.read_exact(&mut wanted).map_err(CosimError::io("read", &expected))?;
@@ -248,7 +248,7 @@ impl Recording {
 /// # Errors
 /// Fails if the recording cannot be read.
 pub fn vectors_hex(recording: &Recording, limit: u64) -> Result<String, CosimError> {
-    let bytes = recording.pack(limit, Vec::new(), Path::new("vectors"))?;
+    let bytes = recording.pack_vectors(limit, Vec::new(), Path::new("vectors"))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
@@ -256,7 +256,7 @@ pub fn vectors_hex(recording: &Recording, limit: u64) -> Result<String, CosimErr
 #[derive(Debug)]
 pub struct Recorder {
     recording: Recording,
-    watch: Option<Watch>,
+    watch: Option<SituationMonitor>,
     input: BufWriter<File>,
     expected: BufWriter<File>,
 }
@@ -282,8 +282,8 @@ impl Recorder {
                 situations: Occurrences::default(),
                 folder,
                 has_bench_files: Mutex::new(false),
-                inputs: Layout::inputs(ports),
-                outputs: Layout::outputs(ports),
+                inputs: RecordLayout::inputs(ports),
+                outputs: RecordLayout::outputs(ports),
                 clocks: 0,
                 frames: 0,
                 spans: Vec::new(),
@@ -292,19 +292,19 @@ impl Recorder {
     }
 
     /// Counts the situations of this module of a design from now on.
-    pub(crate) fn watch(&mut self, design: &Design, top: Top) {
-        self.watch = Some(Watch::new(design, top, self.inputs(), self.outputs()));
+    pub(crate) fn count_situations(&mut self, design: &Design, top: Top) {
+        self.watch = Some(SituationMonitor::new(design, top, self.inputs(), self.outputs()));
     }
 
     /// Returns the layout of an input record.
     #[must_use]
-    pub fn inputs(&self) -> &Layout {
+    pub fn inputs(&self) -> &RecordLayout {
         &self.recording.inputs
     }
 
     /// Returns the layout of an output record.
     #[must_use]
-    pub fn outputs(&self) -> &Layout {
+    pub fn outputs(&self) -> &RecordLayout {
         &self.recording.outputs
     }
 
@@ -319,7 +319,7 @@ impl Recorder {
         let first_clock = self.recording.clocks;
         self.recording.frames += 1;
         let sequence = sequence.to_owned();
-        self.recording.spans.push(Span { first_clock, sequence, frame, region });
+        self.recording.spans.push(RecordingSpan { first_clock, sequence, frame, region });
     }
 
     /// Adds one clock: the inputs of an edge, and the outputs after it.
@@ -328,7 +328,7 @@ impl Recorder {
     /// Fails if the files cannot be written.
     pub fn push(&mut self, input: &[u8], expected: &[u8]) -> Result<(), CosimError> {
         if let Some(watch) = &mut self.watch {
-            watch.see(input, expected, 1);
+            watch.add_clocks(input, expected, 1);
         }
         let folder = self.recording.folder.path();
         self.input.write_all(input).map_err(CosimError::temporary("write", folder))?;
@@ -361,7 +361,7 @@ fn expected_path(folder: &Path) -> PathBuf {
 }
 
 /// Opens a file with a large buffer.
-pub(crate) fn open(path: &Path) -> Result<BufReader<File>, CosimError> {
+pub(crate) fn open_buffered(path: &Path) -> Result<BufReader<File>, CosimError> {
     let file = File::open(path).map_err(CosimError::io("read", path))?;
     Ok(BufReader::with_capacity(1 << 18, file))
 }

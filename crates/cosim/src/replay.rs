@@ -2,13 +2,13 @@
 //! The folder that a failing run leaves. It reproduces the mismatch without Foveate.
 
 use crate::error::CosimError;
-use crate::harness::{bench_file, bench_name, rendered, replay_bench};
+use crate::harness::{bench_file, bench_name, render, replay_bench};
 use crate::mismatch::Mismatch;
 use crate::recording::{Recording, VECTORS_FILE};
-use crate::simulate::{Dut, Outcome, Run, Simulator, WAVES_FILE};
+use crate::simulation::{DesignUnderTest, SimulationOutcome, SimulationRun, Simulator, WAVES_FILE};
 use askama::Template;
 use foveate_staging::{FolderKind, StagedFolder};
-use foveate_toolchain::text::shell_word;
+use foveate_toolchain::escaping::shell_word;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -18,15 +18,15 @@ pub(crate) const README: &str = "README.md";
 pub(crate) const TRAFFIC_FILE: &str = "traffic.txt";
 /// The kind of folder that is written, and the only kind that may be replaced.
 pub const REPLAY: FolderKind = FolderKind {
-    what: "a replay (its replay.sh) or waves (its waves.fst)",
-    is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
+    description: "a replay (its replay.sh) or waves (its waves.fst)",
+    matches: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
 };
 /// The number of clocks that are kept after the last port's first mismatch.
-const MARGIN: u64 = 16;
+const KEPT_CLOCKS: u64 = 16;
 
 #[derive(Template)]
 #[template(path = "replay.sh")]
-struct Script<'a> {
+struct ReplayScript<'a> {
     top: &'a str,
     bench: String,
     bench_file: String,
@@ -38,7 +38,7 @@ struct Script<'a> {
 
 #[derive(Template)]
 #[template(path = "replay.md")]
-struct Readme<'a> {
+struct ReplayReadme<'a> {
     top: &'a str,
     bench_file: String,
     vectors_file: &'a str,
@@ -50,34 +50,34 @@ struct Readme<'a> {
 }
 
 /// The subject of a replay, for its README.
-pub(crate) struct About<'a> {
+pub(crate) struct ReplaySubject<'a> {
     pub(crate) mismatch: &'a Mismatch,
     pub(crate) fingerprint: &'a str,
 }
 
 /// Refuses a folder that holds something else, before anything is simulated.
-pub(crate) fn check(folder: &Path) -> Result<(), CosimError> {
+pub(crate) fn check_folder(folder: &Path) -> Result<(), CosimError> {
     Ok(StagedFolder::check(folder, REPLAY, true)?)
 }
 
 /// Removes the replay of an earlier run, so that it is not mistaken for that of this run.
-pub(crate) fn remove(folder: &Path) -> Result<(), CosimError> {
+pub(crate) fn remove_earlier(folder: &Path) -> Result<(), CosimError> {
     Ok(StagedFolder::remove(folder, REPLAY)?)
 }
 
 /// Writes the folder under a temporary name, then moves it to its place, where it replaces an
 /// earlier replay.
-pub(crate) fn write(
+pub(crate) fn write_replay(
     folder: &Path,
-    run: &Run<'_>,
-    dut: &Dut,
+    run: &SimulationRun<'_>,
+    dut: &DesignUnderTest,
     recording: &Recording,
-    outcome: &Outcome,
-    about: &About<'_>,
+    outcome: &SimulationOutcome,
+    about: &ReplaySubject<'_>,
 ) -> Result<PathBuf, CosimError> {
     let staged = StagedFolder::new(folder, REPLAY, true)?;
-    fill(staged.folder(), run, dut, recording, outcome, about)
-        .map_err(|error| error.named(&staged))?;
+    fill_folder(staged.folder(), run, dut, recording, outcome, about)
+        .map_err(|error| error.with_final_paths(&staged))?;
     staged.commit()?;
     Ok(folder.to_owned())
 }
@@ -85,7 +85,7 @@ pub(crate) fn write(
 /// Writes the folder of a run without a mismatch whose waves were asked for.
 pub(crate) fn write_waves(folder: &Path, waves: &Path) -> Result<PathBuf, CosimError> {
     let staged = StagedFolder::new(folder, REPLAY, true)?;
-    copy_waves(waves, staged.folder()).map_err(|error| error.named(&staged))?;
+    copy_waves(waves, staged.folder()).map_err(|error| error.with_final_paths(&staged))?;
     staged.commit()?;
     Ok(folder.join(WAVES_FILE))
 }
@@ -95,20 +95,20 @@ pub(crate) fn copy_waves(waves: &Path, dir: &Path) -> Result<(), CosimError> {
     fs::copy(waves, &to).map(drop).map_err(CosimError::io("write", &to))
 }
 
-fn fill(
+fn fill_folder(
     dir: &Path,
-    run: &Run<'_>,
-    dut: &Dut,
+    run: &SimulationRun<'_>,
+    dut: &DesignUnderTest,
     recording: &Recording,
-    outcome: &Outcome,
-    about: &About<'_>,
+    outcome: &SimulationOutcome,
+    about: &ReplaySubject<'_>,
 ) -> Result<(), CosimError> {
     let last = about.mismatch.ports.iter().map(|port| port.clock).max();
     let last = last.unwrap_or(about.mismatch.clock);
-    let limit = last.saturating_add(MARGIN).min(recording.clocks());
+    let limit = last.saturating_add(KEPT_CLOCKS).min(recording.clocks());
     let bench = replay_bench(&dut.top, &dut.ports, &dut.parameters);
     let files = dut.sources.iter().map(|(name, _)| shell_word(name).into_owned()).collect();
-    let script = rendered(&Script {
+    let script = render(&ReplayScript {
         top: &dut.top,
         bench: bench_name(&dut.top),
         bench_file: bench_file(&dut.top),
@@ -117,7 +117,7 @@ fn fill(
         seed: run.seed,
         files,
     });
-    let readme = rendered(&Readme {
+    let readme = render(&ReplayReadme {
         top: &dut.top,
         bench_file: bench_file(&dut.top),
         vectors_file: VECTORS_FILE,
@@ -128,17 +128,17 @@ fn fill(
         fingerprint: about.fingerprint,
     });
     for (name, contents) in &dut.sources {
-        put(dir, name, contents)?;
+        write_file(dir, name, contents)?;
     }
-    put(dir, &bench_file(&dut.top), &bench)?;
-    put(dir, README, &readme)?;
-    put(dir, SCRIPT, &script)?;
+    write_file(dir, &bench_file(&dut.top), &bench)?;
+    write_file(dir, README, &readme)?;
+    write_file(dir, SCRIPT, &script)?;
     make_executable(&dir.join(SCRIPT))?;
     recording.write_hex(&dir.join(VECTORS_FILE), limit)?;
     outcome.waves.as_ref().map_or(Ok(()), |waves| copy_waves(waves, dir))
 }
 
-pub(crate) fn put(dir: &Path, name: &str, contents: &str) -> Result<(), CosimError> {
+pub(crate) fn write_file(dir: &Path, name: &str, contents: &str) -> Result<(), CosimError> {
     let path = dir.join(name);
     if let Some(parent) = path.parent() {
         fs::create_dir_all(parent).map_err(CosimError::io("create", parent))?;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The result of a co-simulation, for people and for programs.
 
-use crate::level::Level;
+use crate::level::CosimLevel;
 use crate::mismatch::Mismatch;
 use crate::netlist::NetlistRecord;
-use crate::simulate::Simulator;
+use crate::simulation::Simulator;
 use crate::situations::Occurrences;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -19,7 +19,7 @@ pub struct CosimReport {
     /// part of it that was simulated.
     pub design: String,
     /// The part of the hardware that was simulated.
-    pub level: Level,
+    pub level: CosimLevel,
     /// The columns and rows of regions.
     pub grid: (u32, u32),
     /// The simulator.
@@ -54,7 +54,7 @@ pub struct CosimReport {
     /// The file with the waves of a run without a mismatch, if they were asked for.
     pub waves: Option<PathBuf>,
     /// The time of each step.
-    pub seconds: Seconds,
+    pub seconds: StepSeconds,
 }
 
 impl CosimReport {
@@ -67,7 +67,7 @@ impl CosimReport {
 
 /// The durations of the steps, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Seconds {
+pub struct StepSeconds {
     /// The time to make the vectors and run the model.
     pub vectors: f64,
     /// The time to build the simulation; almost zero if it was found in the cache.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A small hand-made module, to test the machinery without model and RTL.
 
-use foveate_design::{Direction, Port, PortRole, Qualifier};
+use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
 
 /// Returns a port of any name and shape. It has the role of the clock for `clk_i`, and otherwise a
 /// role without meaning.
-pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> Port {
+pub(crate) fn port(name: &str, direction: PortDirection, width: u32, lanes: u32) -> Port {
     let role = match (name, direction) {
         ("clk_i", _) => PortRole::Clock,
-        (_, Direction::Input) => PortRole::Pixel,
-        (_, Direction::Output) => PortRole::TemporalCount,
+        (_, PortDirection::Input) => PortRole::Pixel,
+        (_, PortDirection::Output) => PortRole::TemporalCount,
     };
     let (name, doc, per_lane) = (name.to_owned(), String::new(), lanes > 1);
-    Port { name, direction, role, width, lanes, per_lane, qualifier: Qualifier::Always, doc }
+    Port { name, direction, role, width, lanes, per_lane, qualifier: OutputQualifier::Always, doc }
 }

@@ -19,7 +19,7 @@ choice! {
 choice! {
     /// The order in which pixels enter the serial organization.
     #[derive(Default)]
-    Feed {
+    PixelFeed {
         /// One pixel per lane at a time. Every lane has its own stream.
         #[default]
         Parallel = "parallel",
@@ -29,7 +29,7 @@ choice! {
 }
 choice! {
     /// The kind of memory of a lane of the serial organization.
-    MemoryKind {
+    LaneMemoryKind {
         /// Distributed memory, with data in the clock of the address.
         Distributed = "distributed",
         /// Block memory, with data one clock after the address.
@@ -50,7 +50,7 @@ choice! {
 choice! {
     /// The memory that the frame store of the raster organization is built of.
     #[derive(Default)]
-    Store {
+    FrameStoreKind {
         /// Block RAM with two ports, inside the core.
         #[default]
         Block = "block",
@@ -65,7 +65,7 @@ choice! {
 choice! {
     /// The interface by which a core is connected.
     #[derive(Default)]
-    Bus {
+    InterfaceKind {
         /// Plain ports.
         #[default]
         Ports = "ports",
@@ -75,7 +75,7 @@ choice! {
 }
 choice! {
     /// The source of the thresholds of a core.
-    Thresholds {
+    ThresholdSource {
         /// Input ports.
         Runtime = "runtime",
         /// Constants in the core.
@@ -83,9 +83,9 @@ choice! {
     }
 }
 
-impl Bus {
+impl InterfaceKind {
     /// Returns the value of the key in a complete configuration: `None` for the default.
-    pub(crate) fn if_any(self) -> Option<Self> {
+    pub(crate) fn non_default(self) -> Option<Self> {
         match self {
             Self::Ports => None,
             Self::Axi => Some(self),
@@ -95,7 +95,7 @@ impl Bus {
 
 impl Pipelining {
     /// Returns the value of the key in a complete configuration: `None` for the default.
-    pub(crate) fn if_deep(self) -> Option<Self> {
+    pub(crate) fn non_default(self) -> Option<Self> {
         match self {
             Self::Plain => None,
             Self::Deep => Some(self),

@@ -3,15 +3,15 @@
 //! that computes it. The defaults are those of the paper's design.
 
 use crate::{
-    Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds, keys::HARDWARE_KEYS,
+    InterfaceKind, PixelFeed, LaneMemoryKind, Organization, Pipelining, FrameStoreKind, ThresholdSource, keys::HARDWARE_KEYS,
 };
-use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, Key, text};
+use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, ConfigKey, toml_text};
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
 /// A whole configuration file. [`Config::validate`] checks it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Config {
+pub struct DesignConfig {
     /// The tables that say what is computed: every table except `[hardware]`.
     #[serde(flatten)]
     pub camera: CameraConfig,
@@ -20,13 +20,13 @@ pub struct Config {
     pub hardware: HardwareConfig,
 }
 
-impl Config {
+impl DesignConfig {
     /// Reads a configuration. Keys that are left out have their defaults.
     ///
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml`].
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
-        Self::from_toml_with(text, &[] as &[&str])
+        Self::from_toml_with(toml_text, &[] as &[&str])
     }
 
     /// Reads a configuration and applies `overrides`, by the rules of
@@ -35,49 +35,49 @@ impl Config {
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml_with`].
     pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, ConfigError> {
-        text::read(text, overrides)
+        toml_text::read(toml_text, overrides)
     }
 
     /// Returns the text of the configuration as a TOML file.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        text::write(self)
+        toml_text::write(self)
     }
 
     /// Returns the configuration at `bits` bits per pixel, scaled by the rules of
     /// [`CameraConfig::at_depth`].
     #[must_use]
-    pub fn at_depth(&self, bits: u32) -> Self {
-        Self { camera: self.camera.at_depth(bits), hardware: self.hardware.clone() }
+    pub fn scaled_to_depth(&self, bits: u32) -> Self {
+        Self { camera: self.camera.scaled_to_depth(bits), hardware: self.hardware.clone() }
     }
 }
 
 /// Combines the camera with the default hardware.
-impl From<CameraConfig> for Config {
+impl From<CameraConfig> for DesignConfig {
     fn from(camera: CameraConfig) -> Self {
         Self { camera, hardware: HardwareConfig::default() }
     }
 }
 
-impl text::AsToml for Config {
-    fn keys() -> impl Iterator<Item = &'static Key> {
+impl toml_text::TomlConfig for DesignConfig {
+    fn keys() -> impl Iterator<Item = &'static ConfigKey> {
         CAMERA_KEYS.iter().chain(HARDWARE_KEYS)
     }
 
     fn from_table(mut table: Table) -> Result<Self, ConfigError> {
         /// The table of the file that is not part of the camera.
         #[derive(Deserialize)]
-        struct Rest {
+        struct HardwareTable {
             #[serde(default)]
             hardware: HardwareConfig,
         }
         let hardware = table.remove_entry("hardware").into_iter().collect();
-        let Rest { hardware } = text::read_table(Self::keys(), hardware)?;
+        let HardwareTable { hardware } = toml_text::read_table(Self::keys(), hardware)?;
         Ok(Self { camera: CameraConfig::from_table(table)?, hardware })
     }
 
-    fn at_depth(&self, bits: u32) -> Self {
-        Self::at_depth(self, bits)
+    fn scaled_to_depth(&self, bits: u32) -> Self {
+        Self::scaled_to_depth(self, bits)
     }
 }
 
@@ -93,12 +93,12 @@ pub struct HardwareConfig {
     /// The order in which pixels enter the serial organization. If the key is left out, it is
     /// `parallel`. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub feed: Option<Feed>,
+    pub feed: Option<PixelFeed>,
     /// The kind of memory of the lanes of the serial organization, which affects its cycle counts.
     /// If the key is left out, the memory is distributed where that takes at most 128 memory LUTs,
     /// else block; see [`crate::LaneMemory`]. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub memory: Option<MemoryKind>,
+    pub memory: Option<LaneMemoryKind>,
     /// Pixels that the raster organization takes per clock, K: 1, 2 or 4. If the key is left out,
     /// it is 1. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,7 +111,7 @@ pub struct HardwareConfig {
     /// The memory of the frame store of the raster organization. If the key is left out, it is
     /// `block`. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub store: Option<Store>,
+    pub store: Option<FrameStoreKind>,
     /// True if the pixels of active regions leave a raster core. If the key is left out, they do.
     /// Other organizations refuse the key. In the configuration of a validated design the key is
     /// present only with the value `false`.
@@ -121,14 +121,14 @@ pub struct HardwareConfig {
     /// organization accepts the key. In the configuration of a validated design the key is present
     /// only for a core on AXI.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub interface: Option<Bus>,
+    pub interface: Option<InterfaceKind>,
     /// True if the core has an input that marks the start of a frame and finds its frames again
     /// after an error. If the key is left out, it is false. In the configuration of a validated
     /// design the key is present only with the value `true`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sync: Option<bool>,
     /// The source of the thresholds: input ports, or constants in the core.
-    pub thresholds: Thresholds,
+    pub thresholds: ThresholdSource,
 }
 
 impl Default for HardwareConfig {
@@ -144,7 +144,7 @@ impl Default for HardwareConfig {
             forward: None,
             interface: None,
             sync: None,
-            thresholds: Thresholds::Runtime,
+            thresholds: ThresholdSource::Runtime,
         }
     }
 }

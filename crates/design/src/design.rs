@@ -4,7 +4,7 @@
 use std::ops::Deref;
 
 use crate::{
-    Bus, Config, Hardware, HardwareConfig, Organization, Pipelining, Thresholds, fingerprint,
+    InterfaceKind, DesignConfig, Hardware, HardwareConfig, Organization, Pipelining, ThresholdSource, fingerprint,
 };
 use foveate_camera::Camera;
 
@@ -13,8 +13,8 @@ use foveate_camera::Camera;
 pub struct Design {
     camera: Camera,
     hardware: Hardware,
-    syncs: bool,
-    thresholds: Thresholds,
+    has_frame_sync: bool,
+    threshold_source: ThresholdSource,
 }
 
 impl Deref for Design {
@@ -30,10 +30,10 @@ impl Design {
     pub(crate) fn new(
         camera: Camera,
         hardware: Hardware,
-        syncs: bool,
-        thresholds: Thresholds,
+        has_frame_sync: bool,
+        thresholds: ThresholdSource,
     ) -> Self {
-        Self { camera, hardware, syncs, thresholds }
+        Self { camera, hardware, has_frame_sync: syncs: has_frame_sync, threshold_source: thresholds }
     }
 
     /// Returns the camera: what is computed.
@@ -47,15 +47,15 @@ impl Design {
     /// `memory`, `pipelining`, `forward`, `interface` and `sync` may be left out while they have
     /// their defaults. [`Design::spelled_out`] fills in two of them.
     #[must_use]
-    pub fn config(&self) -> Config {
+    pub fn config(&self) -> DesignConfig {
         let hardware = HardwareConfig {
             // A default is left out, so that the fingerprint of a design is the same as before the
             // key existed.
-            sync: self.syncs.then_some(true),
-            thresholds: self.thresholds,
+            sync: self.has_frame_sync.then_some(true),
+            thresholds: self.threshold_source,
             ..self.hardware.config()
         };
-        Config { camera: self.camera.config().clone(), hardware }
+        DesignConfig { camera: self.camera.config().clone(), hardware }
     }
 
     /// Returns the hardware: what computes the camera.
@@ -68,7 +68,7 @@ impl Design {
     /// configurations.
     #[must_use]
     pub fn fingerprint(&self) -> String {
-        fingerprint::of(&self.config())
+        fingerprint::config_fingerprint(&self.config())
     }
 
     /// Returns the organization of the hardware.
@@ -85,50 +85,50 @@ impl Design {
 
     /// Returns true if the pixels of active regions leave the array or core.
     #[must_use]
-    pub fn forwards(&self) -> bool {
-        self.hardware.forwards()
+    pub fn has_forwarding(&self) -> bool {
+        self.hardware.has_forwarding()
     }
 
     /// Returns the interface by which the core is connected; see `docs/axi.md`.
     #[must_use]
-    pub fn bus(&self) -> Bus {
-        self.hardware.bus()
+    pub fn interface_kind(&self) -> InterfaceKind {
+        self.hardware.interface_kind()
     }
 
     /// Returns true if the core has the AXI interface.
     #[must_use]
     pub fn is_on_axi(&self) -> bool {
-        match self.bus() {
-            Bus::Ports => false,
-            Bus::Axi => true,
+        match self.interface_kind() {
+            InterfaceKind::Ports => false,
+            InterfaceKind::Axi => true,
         }
     }
 
     /// Returns true if the core has an input for the start of a frame and finds its frames again
     /// after an error; see `docs/sync.md`.
     #[must_use]
-    pub fn syncs(&self) -> bool {
-        self.syncs
+    pub fn has_frame_sync(&self) -> bool {
+        self.has_frame_sync
     }
 
     /// Returns the configuration of the design, in which `pipelining`, and `forward` of a raster
     /// core, are filled in although they have their defaults. `memory`, `interface` and `sync` are
     /// still left out where they have their defaults.
     #[must_use]
-    pub fn spelled_out(&self) -> Config {
+    pub fn complete_config(&self) -> DesignConfig {
         let mut config = self.config();
         let hardware = &mut config.hardware;
         hardware.pipelining = Some(self.pipelining());
         hardware.forward = match self.hardware {
             Hardware::Pipelined(_) | Hardware::Serial(_) => None,
-            Hardware::Raster(_) => Some(self.forwards()),
+            Hardware::Raster(_) => Some(self.has_forwarding()),
         };
         config
     }
 
     /// Returns the source of the thresholds.
     #[must_use]
-    pub fn thresholds(&self) -> Thresholds {
-        self.thresholds
+    pub fn threshold_source(&self) -> ThresholdSource {
+        self.threshold_source
     }
 }

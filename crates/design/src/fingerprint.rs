@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The fingerprint of a design: a short hash of its configuration.
 
-use crate::Config;
+use crate::DesignConfig;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use std::fmt::Write;
 const CONTRACT: &str = "foveate design 1\n";
 
 /// Returns the first 64 bits of the SHA-256 of a validated configuration, as 16 hexadecimal digits.
-pub(crate) fn of(config: &Config) -> String {
+pub(crate) fn config_fingerprint(config: &DesignConfig) -> String {
     let mut hash = Sha256::new();
     hash.update(CONTRACT);
     hash.update(config.to_toml());

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hardware of a validated design: an organization with its own properties.
 
-use crate::pipelined::Pipelined;
-use crate::raster::Raster;
-use crate::serial::Serial;
-use crate::{Bus, HardwareConfig, Organization, Pipelining};
+use crate::pipelined::PipelinedHardware;
+use crate::raster::RasterHardware;
+use crate::serial::SerialHardware;
+use crate::{InterfaceKind, HardwareConfig, Organization, Pipelining};
 
 /// The hardware that computes a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Hardware {
     /// One RPU per region.
-    Pipelined(Pipelined),
+    Pipelined(PipelinedHardware),
     /// Lanes that regions share, under one sequencer.
-    Serial(Serial),
+    Serial(SerialHardware),
     /// One core for all regions.
-    Raster(Raster),
+    Raster(RasterHardware),
 }
 
 impl Hardware {
@@ -40,19 +40,19 @@ impl Hardware {
 
     /// Returns true if the pixels of active regions leave.
     #[must_use]
-    pub fn forwards(&self) -> bool {
+    pub fn has_forwarding(&self) -> bool {
         match self {
             Self::Pipelined(_) | Self::Serial(_) => true,
-            Self::Raster(own) => own.forwards,
+            Self::Raster(own) => own.has_forwarding,
         }
     }
 
     /// Returns the interface by which the core is connected.
     #[must_use]
-    pub fn bus(&self) -> Bus {
+    pub fn interface_kind(&self) -> InterfaceKind {
         match self {
-            Self::Pipelined(_) | Self::Serial(_) => Bus::Ports,
-            Self::Raster(own) => own.bus,
+            Self::Pipelined(_) | Self::Serial(_) => InterfaceKind::Ports,
+            Self::Raster(own) => own.interface_kind,
         }
     }
 

@@ -2,7 +2,7 @@
 //! The interface of a core: a clock, a reset, streams, and control inputs. The list of ports
 //! follows from it, and so do headers, test harnesses, vectors and benches.
 
-use crate::{Direction, Port, PortRole, Qualifier};
+use crate::{PortDirection, Port, PortRole, OutputQualifier};
 
 /// The contents of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -12,15 +12,15 @@ pub enum StreamRole {
     /// The words that an external frame store returns to the core.
     References,
     /// The words that the core writes to an external frame store.
-    Stored,
+    StoredWords,
     /// The scores of regions, one after the other.
     Scores,
     /// The decisions of regions.
     Decisions,
     /// The pixels of active regions, and the means of summaries.
-    Forwarded,
+    ForwardedPixels,
     /// The regions that were lost because the sink stalled.
-    Lost,
+    LostRegions,
 }
 
 impl StreamRole {
@@ -30,11 +30,11 @@ impl StreamRole {
         match self {
             Self::Pixels => "pixels",
             Self::References => "references",
-            Self::Stored => "stored",
+            Self::StoredWords => "stored",
             Self::Scores => "scores",
             Self::Decisions => "decisions",
-            Self::Forwarded => "forwarded",
-            Self::Lost => "lost",
+            Self::ForwardedPixels => "forwarded",
+            Self::LostRegions => "lost",
         }
     }
 }
@@ -55,11 +55,11 @@ pub enum BeatRegion {
 /// A group of ports that carry one beat together. A beat is transferred at an edge if `valid` is 1
 /// before the edge, and `ready`, where the stream has it, is 1 too.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stream {
+pub struct CoreStream {
     /// The contents of the stream.
     pub role: StreamRole,
     /// The direction of the beats, seen from the core.
-    pub direction: Direction,
+    pub direction: PortDirection,
     /// The meaning of one beat, such as "a pixel of every region".
     pub beat: &'static str,
     /// The port that is 1 while there is a beat.
@@ -80,19 +80,19 @@ pub struct Stream {
 
 /// The ports of a core, grouped by their purpose.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Interface {
+pub struct CoreInterface {
     /// The clock.
     pub clock: Port,
     /// The reset.
     pub reset: Port,
     /// The streams, in the order of their ports.
-    pub streams: Vec<Stream>,
+    pub streams: Vec<CoreStream>,
     /// Inputs that stay constant while a frame is under way: thresholds, and the borders of a
     /// single RPU.
     pub controls: Vec<Port>,
 }
 
-impl Stream {
+impl CoreStream {
     /// Makes a stream into the core without back-pressure: every beat is taken.
     pub(crate) fn into_core(
         role: StreamRole,
@@ -101,7 +101,7 @@ impl Stream {
         payload: Vec<Port>,
     ) -> Self {
         let (ready, start, last) = (None, None, None);
-        let (region, status, direction) = (BeatRegion::None, Vec::new(), Direction::Input);
+        let (region, status, direction) = (BeatRegion::None, Vec::new(), PortDirection::Input);
         Self { role, direction, beat, valid, ready, start, payload, region, last, status }
     }
 
@@ -112,14 +112,14 @@ impl Stream {
         valid: Port,
         payload: Vec<Port>,
     ) -> Self {
-        Self { direction: Direction::Output, ..Self::into_core(role, beat, valid, payload) }
+        Self { direction: PortDirection::Output, ..Self::into_core(role, beat, valid, payload) }
     }
 
     /// Returns the input ports of the stream, in their order.
     fn inputs(&self) -> impl Iterator<Item = &Port> {
         let (beat, ready) = match self.direction {
-            Direction::Input => (Some(self.beat_ports()), None),
-            Direction::Output => (None, self.ready.as_ref()),
+            PortDirection::Input => (Some(self.beat_ports()), None),
+            PortDirection::Output => (None, self.ready.as_ref()),
         };
         beat.into_iter().flatten().chain(ready)
     }
@@ -127,8 +127,8 @@ impl Stream {
     /// Returns the output ports of the stream, in their order.
     fn outputs(&self) -> impl Iterator<Item = &Port> {
         let (beat, ready) = match self.direction {
-            Direction::Input => (None, self.ready.as_ref()),
-            Direction::Output => (Some(self.beat_ports()), None),
+            PortDirection::Input => (None, self.ready.as_ref()),
+            PortDirection::Output => (Some(self.beat_ports()), None),
         };
         ready.into_iter().chain(beat.into_iter().flatten()).chain(&self.status)
     }
@@ -139,16 +139,16 @@ impl Stream {
     }
 
     /// Returns every port of the stream.
-    fn all_mut(&mut self) -> impl Iterator<Item = &mut Port> {
+    fn ports_mut(&mut self) -> impl Iterator<Item = &mut Port> {
         let beat = std::iter::once(&mut self.valid).chain(&mut self.start).chain(&mut self.payload);
         beat.chain(&mut self.ready).chain(&mut self.status)
     }
 }
 
-impl Interface {
+impl CoreInterface {
     /// Makes an interface with a clock, a reset, and the given streams and controls.
-    pub(crate) fn new(streams: Vec<Stream>, controls: Vec<Port>) -> Self {
-        let input = |role, doc| Port::single(Direction::Input, role, 1, doc);
+    pub(crate) fn new(streams: Vec<CoreStream>, controls: Vec<Port>) -> Self {
+        let input = |role, doc| Port::scalar(PortDirection::Input, role, 1, doc);
         Self {
             clock: input(PortRole::Clock, "clock, rising edge"),
             reset: input(PortRole::Reset, "synchronous reset, active high"),
@@ -161,36 +161,36 @@ impl Interface {
     #[must_use]
     pub fn ports(&self) -> Vec<Port> {
         let common = [&self.clock, &self.reset];
-        let inputs = self.streams.iter().flat_map(Stream::inputs).chain(&self.controls);
-        let outputs = self.streams.iter().flat_map(Stream::outputs);
+        let inputs = self.streams.iter().flat_map(CoreStream::inputs).chain(&self.controls);
+        let outputs = self.streams.iter().flat_map(CoreStream::outputs);
         common.into_iter().chain(inputs).chain(outputs).cloned().collect()
     }
 
     /// Returns the stream that has a port of the role, or `None` for the clock, the reset and
     /// controls.
     #[must_use]
-    pub fn stream_of(&self, role: PortRole) -> Option<&Stream> {
+    pub fn stream_with_port(&self, role: PortRole) -> Option<&CoreStream> {
         let has =
-            |stream: &&Stream| stream.inputs().chain(stream.outputs()).any(|p| p.role == role);
+            |stream: &&CoreStream| stream.inputs().chain(stream.outputs()).any(|p| p.role == role);
         self.streams.iter().find(has)
     }
 
     /// Returns the stream of the role, or `None` if the core does not have it.
     #[must_use]
-    pub fn stream(&self, role: StreamRole) -> Option<&Stream> {
+    pub fn stream(&self, role: StreamRole) -> Option<&CoreStream> {
         self.streams.iter().find(|stream| stream.role == role)
     }
 
     /// Applies `change` to every port of every stream.
-    pub(crate) fn each_of_streams(&mut self, change: impl Fn(&mut Port)) {
-        self.streams.iter_mut().flat_map(Stream::all_mut).for_each(change);
+    pub(crate) fn change_stream_ports(&mut self, change: impl Fn(&mut Port)) {
+        self.streams.iter_mut().flat_map(CoreStream::ports_mut).for_each(change);
     }
 }
 
 impl Port {
     /// Makes an output that has a meaning only while the port of role `valid` is 1.
-    pub(crate) fn with(valid: PortRole, role: PortRole, width: u32, doc: &str) -> Self {
-        let port = Self::single(Direction::Output, role, width, doc);
-        Self { qualifier: Qualifier::With(valid), ..port }
+    pub(crate) fn qualified_output(valid: PortRole, role: PortRole, width: u32, doc: &str) -> Self {
+        let port = Self::scalar(PortDirection::Output, role, width, doc);
+        Self { qualifier: OutputQualifier::WhileSet(valid), ..port }
     }
 }

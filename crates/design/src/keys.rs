@@ -2,29 +2,29 @@
 //! The keys of `[hardware]`. An unknown key is refused by name, and the message suggests the
 //! nearest known key.
 
-use crate::{Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
-use foveate_camera::Key;
+use crate::{InterfaceKind, PixelFeed, LaneMemoryKind, Organization, Pipelining, FrameStoreKind, ThresholdSource};
+use foveate_camera::ConfigKey;
 use foveate_camera::Takes::{Names, Text};
 
 /// Every key of `[hardware]`.
-pub(crate) const HARDWARE_KEYS: &[Key] = &[
+pub(crate) const HARDWARE_KEYS: &[ConfigKey] = &[
     ("hardware.organization", Names(Organization::NAMES)),
     ("hardware.fold", Text("a whole number >= 1")),
-    ("hardware.feed", Names(Feed::NAMES)),
-    ("hardware.memory", Names(MemoryKind::NAMES)),
+    ("hardware.feed", Names(PixelFeed::NAMES)),
+    ("hardware.memory", Names(LaneMemoryKind::NAMES)),
     ("hardware.pixels_per_clock", Text("1, 2 or 4")),
     ("hardware.pipelining", Names(Pipelining::NAMES)),
-    ("hardware.store", Names(Store::NAMES)),
+    ("hardware.store", Names(FrameStoreKind::NAMES)),
     ("hardware.forward", Text("true or false")),
-    ("hardware.interface", Names(Bus::NAMES)),
+    ("hardware.interface", Names(InterfaceKind::NAMES)),
     ("hardware.sync", Text("true or false")),
-    ("hardware.thresholds", Names(Thresholds::NAMES)),
+    ("hardware.thresholds", Names(ThresholdSource::NAMES)),
 ];
 
 #[cfg(test)]
 mod tests {
-    use crate::Config;
-    use foveate_camera::text::AsToml;
+    use crate::DesignConfig;
+    use foveate_camera::toml_text::TomlConfig;
 
     /// `docs/configuration.md` has one row per key, and the row of a key lists every name that it
     /// takes.
@@ -36,7 +36,7 @@ mod tests {
             .filter_map(|line| line.strip_prefix("| `")?.split_once("` |"))
             .filter(|(key, _)| key.contains('.'))
             .collect();
-        for (key, takes) in Config::keys() {
+        for (key, takes) in DesignConfig::keys() {
             let row = rows.iter().find(|(name, _)| name == key);
             let (_, row) =
                 row.unwrap_or_else(|| panic!("{key} has no row in docs/configuration.md"));
@@ -48,8 +48,8 @@ mod tests {
             }
         }
         for (key, _) in &rows {
-            assert!(Config::keys().any(|(known, _)| known == key), "{key} is no key");
+            assert!(DesignConfig::keys().any(|(known, _)| known == key), "{key} is no key");
         }
-        assert_eq!(rows.len(), Config::keys().count(), "a key has two rows");
+        assert_eq!(rows.len(), DesignConfig::keys().count(), "a key has two rows");
     }
 }

@@ -23,31 +23,31 @@ mod rules;
 mod serial;
 mod takes;
 mod timing;
-mod validate;
-mod view;
+mod validation;
+mod hardware_view;
 
-pub use choice::{Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
-pub use config::{Config, HardwareConfig};
+pub use choice::{InterfaceKind, PixelFeed, LaneMemoryKind, Organization, Pipelining, FrameStoreKind, ThresholdSource};
+pub use config::{DesignConfig, HardwareConfig};
 pub use design::Design;
 pub use foveate_camera::{
-    Action, Camera, CameraConfig, Combine, ConfigError, DECISION_BITS, Decimal, DecisionConfig,
-    DenoiseConfig, FeatureKind, Filter, FrameConfig, Irrelevant, Mean, Measure, Neighborhood,
-    Payload, Periphery, PeripheryConfig, Reciprocal, Reference, RegionConfig, RenderConfig,
-    SUMMARY_BLOCKS, SpatialConfig, SpatialFeature, Temporal, TemporalConfig, Variance, Written,
+    RegionAction, Camera, CameraConfig, VoteCombination, ConfigError, DECISION_BITS, Decimal, DecisionConfig,
+    DenoiseConfig, FeatureKind, DenoiseFilter, FrameConfig, IrrelevantRendering, MeanDivision, ScoreUnit, Neighborhood,
+    Payload, Periphery, PeripheryConfig, Reciprocal, ReferencePolicy, RegionConfig, RenderConfig,
+    SUMMARY_BLOCKS, SpatialConfig, SpatialFeature, TemporalParameters, TemporalConfig, VarianceWidths, ReferenceWriteTime,
     bits_for, index_bits, mad_score_max,
 };
 pub use hardware::Hardware;
-pub use interface::{BeatRegion, Interface, Stream, StreamRole};
+pub use interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 pub use organization::is_taken;
-pub use pipelined::{Pipelined, PipelinedTiming};
-pub use port::{Direction, Port, PortRole, Qualifier};
+pub use pipelined::{PipelinedHardware, PipelinedTiming};
+pub use port::{PortDirection, Port, PortRole, OutputQualifier};
 pub use preset::{PRESETS, Preset};
 pub use raster::{
-    FRAME_NUMBERS, Raster, RasterMemory, RasterStream, RasterTiming, RowDeparture, SecondPass,
+    FRAME_NUMBERS, RasterHardware, RasterMemory, RasterStreamTiming, RasterTiming, RowDeparture, SecondPassTiming,
 };
-pub use rules::{Array, Unit};
+pub use rules::{ArrayStructure, ArrayUnit};
 pub use serial::{
-    Area, AreaKind, BlockSums, LaneMemory, LaneWidths, MemoryChoice, Phase, Serial, SerialTiming,
+    SlotArea, SlotAreaKind, BlockMeanDivision, LaneMemory, LaneWidths, MemoryChoice, SerialPhase, SerialHardware, SerialTiming,
 };
-pub use timing::{Departure, Timing};
-pub use view::{DesignOn, PipelinedDesign, RasterDesign, SerialDesign};
+pub use timing::{DepartureTiming, DesignTiming};
+pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};

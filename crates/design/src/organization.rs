@@ -5,20 +5,20 @@
 //! Each organization implements [`crate::rules::Rules`] in its own module, which defines these
 //! properties.
 
-use crate::pipelined::Pipelined;
-use crate::raster::Raster;
-use crate::rules::{Rules, Unit};
-use crate::serial::Serial;
+use crate::pipelined::PipelinedHardware;
+use crate::raster::RasterHardware;
+use crate::rules::{OrganizationRules, ArrayUnit};
+use crate::serial::SerialHardware;
 use crate::takes::Taken;
-use crate::{Design, Feed, Hardware, HardwareConfig, Interface, Organization, Port, Timing};
-use foveate_camera::{CameraConfig, FeatureKind, Reference};
+use crate::{Design, PixelFeed, Hardware, HardwareConfig, CoreInterface, Organization, Port, DesignTiming};
+use foveate_camera::{CameraConfig, FeatureKind, ReferencePolicy};
 
 impl Organization {
     fn taken(self) -> Taken {
         match self {
-            Self::Pipelined => Taken::by::<Pipelined>(),
-            Self::Serial => Taken::by::<Serial>(),
-            Self::Raster => Taken::by::<Raster>(),
+            Self::Pipelined => Taken::by::<PipelinedHardware>(),
+            Self::Serial => Taken::by::<SerialHardware>(),
+            Self::Raster => Taken::by::<RasterHardware>(),
         }
     }
 
@@ -30,7 +30,7 @@ impl Organization {
 
     /// Returns true if the organization can store the reference.
     #[must_use]
-    pub fn takes_reference(self, reference: Reference) -> bool {
+    pub fn takes_reference(self, reference: ReferencePolicy) -> bool {
         (self.taken().reference)(reference)
     }
 
@@ -55,16 +55,16 @@ impl Organization {
     /// Returns the values that `hardware.feed` may have, the default first. The list is empty if
     /// the key is refused.
     #[must_use]
-    pub fn feeds(self) -> &'static [Feed] {
+    pub fn feeds(self) -> &'static [PixelFeed] {
         match self {
-            Self::Serial => Feed::ALL,
+            Self::Serial => PixelFeed::ALL,
             Self::Pipelined | Self::Raster => &[],
         }
     }
 
     /// Returns true if regions can share a unit, so that `hardware.fold` may be more than 1.
     #[must_use]
-    pub fn folds(self) -> bool {
+    pub fn has_folding(self) -> bool {
         match self {
             Self::Serial => true,
             Self::Pipelined | Self::Raster => false,
@@ -83,7 +83,7 @@ pub fn is_taken(camera: &CameraConfig) -> bool {
 impl Design {
     /// Returns the unit that the array repeats.
     #[must_use]
-    pub fn unit(&self) -> Unit {
+    pub fn unit(&self) -> ArrayUnit {
         self.rules().unit()
     }
 
@@ -97,19 +97,19 @@ impl Design {
 
     /// Returns the timing of the design.
     #[must_use]
-    pub fn timing(&self) -> Timing {
+    pub fn timing(&self) -> DesignTiming {
         self.rules().timing()
     }
 
     /// Returns the interface of module `rpu`.
     #[must_use]
-    pub fn rpu_interface(&self) -> Interface {
+    pub fn rpu_interface(&self) -> CoreInterface {
         self.rules().rpu_interface()
     }
 
     /// Returns the interface of module `rcm`.
     #[must_use]
-    pub fn rcm_interface(&self) -> Interface {
+    pub fn rcm_interface(&self) -> CoreInterface {
         self.rules().rcm_interface()
     }
 
@@ -126,11 +126,11 @@ impl Design {
     }
 
     /// Returns the implementation of the organization of this design.
-    fn rules(&self) -> Box<dyn Rules + '_> {
+    fn rules(&self) -> Box<dyn OrganizationRules + '_> {
         match self.hardware() {
-            Hardware::Pipelined(own) => Box::new(self.on(own)),
-            Hardware::Serial(own) => Box::new(self.on(own)),
-            Hardware::Raster(own) => Box::new(self.on(own)),
+            Hardware::Pipelined(own) => Box::new(self.with_hardware(own)),
+            Hardware::Serial(own) => Box::new(self.with_hardware(own)),
+            Hardware::Raster(own) => Box::new(self.with_hardware(own)),
         }
     }
 }
@@ -138,11 +138,11 @@ impl Design {
 impl HardwareConfig {
     /// Returns a short description of the hardware, such as "serial, raster feed, fold 4".
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         let mut words = vec![self.organization.name().to_owned()];
         let default = self.organization.feeds().first().copied();
         words.extend(self.feed.or(default).map(|feed| format!("{feed} feed")));
-        words.extend(self.organization.folds().then(|| format!("fold {}", self.fold)));
+        words.extend(self.organization.has_folding().then(|| format!("fold {}", self.fold)));
         words.extend(self.memory.map(|memory| format!("{memory} memory")));
         words.extend(self.pixels_per_clock.map(|pixels| {
             let plural = if pixels == 1 { "" } else { "s" };

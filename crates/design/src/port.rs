@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of an RPU or an RCM. The [`crate::Interface`] of each organization is made of them.
 
-use crate::{Design, FeatureKind, Thresholds};
+use crate::{Design, FeatureKind, ThresholdSource};
 
 /// The direction of a port, seen from the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub enum PortDirection {
     /// Into the core.
     Input,
     /// Out of the core.
@@ -176,13 +176,13 @@ impl PortRole {
 /// The condition under which the value of an output has a meaning. Otherwise the value is undefined
 /// and is not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Qualifier {
+pub enum OutputQualifier {
     /// The value has a meaning at every clock.
     Always,
     /// The value has a meaning while the port of this role is 1. If both ports have a value per
     /// lane, the condition holds lane by lane. If only the port of this role has, one lane with 1
     /// is enough.
-    With(PortRole),
+    WhileSet(PortRole),
 }
 
 /// A port with `lanes` values of `width` bits, lane 0 in the lowest bits.
@@ -191,7 +191,7 @@ pub struct Port {
     /// Name of the port in the Verilog.
     pub name: String,
     /// Direction of the port, seen from the core.
-    pub direction: Direction,
+    pub direction: PortDirection,
     /// The meaning of the port.
     pub role: PortRole,
     /// Width of one lane in bits.
@@ -202,7 +202,7 @@ pub struct Port {
     /// True if the port has a value per lane, also in an array with only one lane.
     pub per_lane: bool,
     /// The condition under which the value has a meaning. It is [`Qualifier::Always`] for an input.
-    pub qualifier: Qualifier,
+    pub qualifier: OutputQualifier,
     /// Documentation of the port in one line.
     pub doc: String,
 }
@@ -215,7 +215,7 @@ impl Port {
     }
 
     /// Makes a port with one value, which has a meaning at every clock.
-    pub(crate) fn single(direction: Direction, role: PortRole, width: u32, doc: &str) -> Self {
+    pub(crate) fn scalar(direction: PortDirection, role: PortRole, width: u32, doc: &str) -> Self {
         Self {
             name: port_name(role),
             direction,
@@ -223,7 +223,7 @@ impl Port {
             width,
             lanes: 1,
             per_lane: false,
-            qualifier: Qualifier::Always,
+            qualifier: OutputQualifier::Always,
             doc: doc.to_owned(),
         }
     }
@@ -233,25 +233,25 @@ impl Port {
 /// organization. Returns `None` for a design without `hardware.sync`.
 pub(crate) fn sync_input(design: &Design) -> Option<Port> {
     let doc = "what comes is the first of a frame; only with valid_i";
-    let port = || Port::single(Direction::Input, PortRole::StartOfFrame, 1, doc);
-    design.syncs().then(port)
+    let port = || Port::scalar(PortDirection::Input, PortRole::StartOfFrame, 1, doc);
+    design.has_frame_sync().then(port)
 }
 
 /// Returns the output that reports a pixel or word that fits no frame, or `None` for a design
 /// without `hardware.sync`.
 pub(crate) fn sync_output(design: &Design) -> Option<Port> {
     let doc = "what came at this edge fits no frame";
-    let port = || Port::single(Direction::Output, PortRole::SyncError, 1, doc);
-    design.syncs().then(port)
+    let port = || Port::scalar(PortDirection::Output, PortRole::SyncError, 1, doc);
+    design.has_frame_sync().then(port)
 }
 
 /// Returns the ports of a decision, which are the same for every organization. `whose` names the
 /// region in the documentation of its means, such as "the region's".
-pub(crate) fn decided_ports(design: &Design, whose: &str) -> Vec<Port> {
+pub(crate) fn decision_ports(design: &Design, whose: &str) -> Vec<Port> {
     let mut list = Vec::new();
     let mut add = |role, doc: &str| {
         let doc = format!("{doc}; 0 unless decision_valid_o");
-        list.push(Port::single(Direction::Output, role, 1, &doc));
+        list.push(Port::scalar(PortDirection::Output, role, 1, &doc));
     };
     add(PortRole::Srs, "spatial relevance");
     add(PortRole::Trs, "temporal relevance");
@@ -266,11 +266,11 @@ pub(crate) fn decided_ports(design: &Design, whose: &str) -> Vec<Port> {
 /// thresholds are constants.
 pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
     let mut list = Vec::new();
-    match design.thresholds() {
-        Thresholds::Constant => return list,
-        Thresholds::Runtime => {}
+    match design.threshold_source() {
+        ThresholdSource::Constant => return list,
+        ThresholdSource::Runtime => {}
     }
-    let mut add = |role, width, doc| list.push(Port::single(Direction::Input, role, width, doc));
+    let mut add = |role, width, doc| list.push(Port::scalar(PortDirection::Input, role, width, doc));
     for feature in design.features() {
         let kind = feature.kind();
         if feature.level().is_some() {

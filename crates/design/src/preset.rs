@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Named configurations as a starting point.
 
-use crate::Config;
+use crate::DesignConfig;
 use foveate_camera::ConfigError;
 
 /// A named configuration.
@@ -82,29 +82,29 @@ impl Preset {
     ///
     /// # Errors
     /// Returns no error for the presets of this crate, which a test proves.
-    pub fn config(&self) -> Result<Config, ConfigError> {
-        Config::from_toml(self.toml)
+    pub fn config(&self) -> Result<DesignConfig, ConfigError> {
+        DesignConfig::from_toml(self.toml)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Organization, Reference};
-    use foveate_camera::Irrelevant;
+    use crate::{Organization, ReferencePolicy};
+    use foveate_camera::IrrelevantRendering;
 
     /// The compiler does not check that a new name has a preset.
     #[test]
     fn every_organization_reference_and_way_to_show_has_a_preset() {
-        let configs: Vec<Config> = PRESETS.iter().map(|preset| preset.config().unwrap()).collect();
-        let some = |holds: &dyn Fn(&Config) -> bool| configs.iter().any(holds);
+        let configs: Vec<DesignConfig> = PRESETS.iter().map(|preset| preset.config().unwrap()).collect();
+        let some = |holds: &dyn Fn(&DesignConfig) -> bool| configs.iter().any(holds);
         for &own in Organization::ALL {
             assert!(some(&|config| config.hardware.organization == own), "{own}");
         }
-        for &own in Reference::ALL {
+        for &own in ReferencePolicy::ALL {
             assert!(some(&|config| config.camera.temporal.reference == own), "{own}");
         }
-        for &own in Irrelevant::ALL {
+        for &own in IrrelevantRendering::ALL {
             assert!(some(&|config| config.camera.render.irrelevant == own), "{own}");
         }
     }

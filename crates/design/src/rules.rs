@@ -2,22 +2,22 @@
 //! The properties that every organization defines for its designs. The methods of `Design` in
 //! [`crate::organization`] return them.
 
-use crate::{Design, Interface, Timing};
+use crate::{Design, CoreInterface, DesignTiming};
 
 /// The structure of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Array {
+pub enum ArrayStructure {
     /// The array consists of copies of module `rpu` and nothing else. The size of the array is only
     /// the number of copies, and no copy depends on it.
-    Copies,
+    RpuCopies,
     /// The array has units that share logic, or is one core. Widths, memories and counters depend
     /// on its size. Module `rpu` is not a part of it, but an array of its own with one unit.
-    Whole,
+    SharedLogic,
 }
 
 /// The unit that an array repeats: an RPU, a lane, or the one core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unit {
+pub struct ArrayUnit {
     /// Name of one unit for users.
     pub name: &'static str,
     /// Verilog module of the unit.
@@ -27,24 +27,24 @@ pub struct Unit {
     /// Number of regions that one unit serves. The last unit may serve fewer.
     pub regions: u32,
     /// Structure of the array.
-    pub array: Array,
+    pub array: ArrayStructure,
     /// Verilog module whose instances the area is reported for.
-    pub split: &'static str,
+    pub area_module: &'static str,
 }
 
 /// The properties of a [`crate::DesignOn`] the hardware of one organization.
-pub(crate) trait Rules {
+pub(crate) trait OrganizationRules {
     /// Returns the unit that the array repeats.
-    fn unit(&self) -> Unit;
+    fn unit(&self) -> ArrayUnit;
     /// Returns the design that module `rpu` belongs to.
     fn lone_unit(&self) -> Design;
     /// Returns the timing of the design.
-    fn timing(&self) -> Timing;
+    fn timing(&self) -> DesignTiming;
     /// Returns the interface of module `rpu`. Where the RPU is not a part of the array, it is that
     /// of an array with one unit.
-    fn rpu_interface(&self) -> Interface {
+    fn rpu_interface(&self) -> CoreInterface {
         self.lone_unit().rcm_interface()
     }
     /// Returns the interface of module `rcm`.
-    fn rcm_interface(&self) -> Interface;
+    fn rcm_interface(&self) -> CoreInterface;
 }

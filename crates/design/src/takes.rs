@@ -3,8 +3,8 @@
 //! feature and every reference, so that a new one is refused by the organizations that do not
 //! compute it yet.
 
-use crate::{HardwareConfig, Thresholds};
-use foveate_camera::{Camera, CameraConfig, ConfigError, FeatureKind, Irrelevant, Reference};
+use crate::{HardwareConfig, ThresholdSource};
+use foveate_camera::{Camera, CameraConfig, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy};
 
 /// The configurations that an organization supports. The trait is implemented by the properties of
 /// the organization.
@@ -12,11 +12,11 @@ pub(crate) trait Takes: Sized {
     /// Returns true if the organization computes the score of the feature.
     fn takes_feature(kind: FeatureKind) -> bool;
     /// Returns true if the organization can store the reference.
-    fn takes_reference(reference: Reference) -> bool;
+    fn takes_reference(reference: ReferencePolicy) -> bool;
     /// Returns true if the organization can render irrelevant regions in this way.
-    fn takes_irrelevant(irrelevant: Irrelevant) -> bool;
+    fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool;
     /// Returns true if the organization supports this source of thresholds.
-    fn takes_thresholds(thresholds: Thresholds) -> bool;
+    fn takes_thresholds(thresholds: ThresholdSource) -> bool;
     /// Returns true if the organization supports `hardware.sync`: an input for the start of a
     /// frame, at which it finds its frames again.
     fn takes_sync() -> bool;
@@ -28,8 +28,8 @@ pub(crate) trait Takes: Sized {
 /// The features, references and renderings that an organization supports.
 pub(crate) struct Taken {
     pub(crate) feature: fn(FeatureKind) -> bool,
-    pub(crate) reference: fn(Reference) -> bool,
-    irrelevant: fn(Irrelevant) -> bool,
+    pub(crate) reference: fn(ReferencePolicy) -> bool,
+    irrelevant: fn(IrrelevantRendering) -> bool,
 }
 
 impl Taken {
@@ -54,7 +54,7 @@ impl Taken {
 pub(crate) fn taken<O: Takes>(asked: &HardwareConfig, camera: &Camera) -> Result<O, ConfigError> {
     let refuse = |key: &str, value: &str, remedy: &str| {
         let remedy = format!("{remedy}, or another organization");
-        Err(asked.clash(key, format!("\"{value}\""), &remedy))
+        Err(asked.combination_error(key, format!("\"{value}\""), &remedy))
     };
     for (index, feature) in camera.features().iter().enumerate() {
         let kind = feature.kind();
@@ -79,7 +79,7 @@ pub(crate) fn taken<O: Takes>(asked: &HardwareConfig, camera: &Camera) -> Result
     }
     if asked.sync == Some(true) && !O::takes_sync() {
         let remedy = "leave the key out, or use another organization";
-        return Err(asked.clash("hardware.sync", true.to_string(), remedy));
+        return Err(asked.combination_error("hardware.sync", true.to_string(), remedy));
     }
     asked.refuse_foreign_keys()?;
     O::validate(asked, camera)
@@ -88,27 +88,27 @@ pub(crate) fn taken<O: Takes>(asked: &HardwareConfig, camera: &Camera) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Config;
+    use crate::DesignConfig;
 
     /// An organization that supports only a few configurations.
     #[derive(Debug, PartialEq)]
-    struct Narrow;
+    struct NarrowOrganization;
 
-    impl Takes for Narrow {
+    impl Takes for NarrowOrganization {
         fn takes_feature(kind: FeatureKind) -> bool {
             kind.has_window()
         }
 
-        fn takes_reference(reference: Reference) -> bool {
-            reference == Reference::Previous
+        fn takes_reference(reference: ReferencePolicy) -> bool {
+            reference == ReferencePolicy::Previous
         }
 
-        fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
-            irrelevant == Irrelevant::Hold
+        fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
+            irrelevant == IrrelevantRendering::Hold
         }
 
-        fn takes_thresholds(thresholds: Thresholds) -> bool {
-            thresholds == Thresholds::Runtime
+        fn takes_thresholds(thresholds: ThresholdSource) -> bool {
+            thresholds == ThresholdSource::Runtime
         }
 
         fn takes_sync() -> bool {
@@ -120,16 +120,16 @@ mod tests {
         }
     }
 
-    fn asked(text: &str) -> Result<Narrow, String> {
-        let config = Config::from_toml(text).unwrap();
+    fn asked(text: &str) -> Result<NarrowOrganization, String> {
+        let config = DesignConfig::from_toml(text).unwrap();
         let camera = config.camera.validate().unwrap();
         taken(&config.hardware, &camera).map_err(|error| error.to_string())
     }
 
     #[test]
     fn a_camera_is_taken_if_all_of_it_is() {
-        let config = Config::from_toml("[render]\nirrelevant = \"hold\"\n").unwrap().camera;
-        let taken = |config: &CameraConfig| Taken::by::<Narrow>().takes(config);
+        let config = DesignConfig::from_toml("[render]\nirrelevant = \"hold\"\n").unwrap().camera;
+        let taken = |config: &CameraConfig| Taken::by::<NarrowOrganization>().takes(config);
         let with = |change: &dyn Fn(&mut CameraConfig)| {
             let mut other = config.clone();
             change(&mut other);
@@ -137,8 +137,8 @@ mod tests {
         };
         assert!(taken(&config));
         let mad = with(&|config| config.spatial[0].feature = FeatureKind::Mad);
-        let sent = with(&|config| config.temporal.reference = Reference::LastSent);
-        let zero = with(&|config| config.render.irrelevant = Irrelevant::Zero);
+        let sent = with(&|config| config.temporal.reference = ReferencePolicy::LastSent);
+        let zero = with(&|config| config.render.irrelevant = IrrelevantRendering::Zero);
         for other in [mad, sent, zero] {
             assert!(!taken(&other), "{}", other.to_toml());
             assert!(crate::is_taken(&other), "{}", other.to_toml());
@@ -151,7 +151,7 @@ mod tests {
         let previous = format!("{held}[temporal]\nreference = \"previous\"\n");
         let refusal = |more: &str| asked(&format!("{more}{previous}")).unwrap_err();
         let features = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n";
-        assert_eq!(asked(&previous), Ok(Narrow));
+        assert_eq!(asked(&previous), Ok(NarrowOrganization));
         for (text, key, value) in [
             (refusal(features), "spatial[1].feature", "mad"),
             (refusal("[hardware]\nthresholds = \"constant\"\n"), "hardware.thresholds", "constant"),
@@ -166,6 +166,6 @@ mod tests {
             assert!(text.contains(key) && text.contains(value), "{text}");
             assert!(text.contains("organization = \"pipelined\""), "{text}");
         }
-        assert_eq!(asked(&format!("[hardware]\nsync = false\n{previous}")), Ok(Narrow));
+        assert_eq!(asked(&format!("[hardware]\nsync = false\n{previous}")), Ok(NarrowOrganization));
     }
 }

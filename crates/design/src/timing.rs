@@ -4,13 +4,13 @@
 
 /// The timing of a design in terms that every organization has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Timing {
+pub struct DesignTiming {
     pub(crate) clocks_per_frame: u64,
     pub(crate) pixels_per_frame: u64,
     pub(crate) figures: Vec<(&'static str, u64)>,
     pub(crate) phases: Vec<(String, u64)>,
-    pub(crate) text: Vec<(&'static str, String)>,
-    pub(crate) departure: Departure,
+    pub(crate) descriptions: Vec<(&'static str, String)>,
+    pub(crate) departure: DepartureTiming,
 }
 
 /// The times at which the decisions and pixels of a frame leave the array, if the frame is taken as
@@ -19,7 +19,7 @@ pub struct Timing {
 /// out, and gives the decisions and pixels of one row of regions while it takes others;
 /// [`crate::RasterStream`] has those times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Departure {
+pub struct DepartureTiming {
     /// Clocks that the array needs to take a frame whose pixels are all available.
     pub take_clocks: u64,
     /// Number of frames that must be taken after a frame before its decisions are known.
@@ -34,12 +34,12 @@ pub struct Departure {
     pub slot_clocks: u64,
     /// Number of rows of regions whose pixels are buffered for a sink that stalls. A region that
     /// waits longer is lost. `None` if no region is ever lost.
-    pub kept_rows: Option<u32>,
+    pub buffered_rows: Option<u32>,
     /// True if each unit can work on its region while other units still wait for their pixels.
-    pub alone: bool,
+    pub has_independent_units: bool,
 }
 
-impl Timing {
+impl DesignTiming {
     /// Returns the clocks from one frame to the next where frames follow each other without a gap.
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
@@ -68,14 +68,14 @@ impl Timing {
 
     /// Returns the times at which decisions and pixels leave.
     #[must_use]
-    pub fn departure(&self) -> Departure {
+    pub fn departure(&self) -> DepartureTiming {
         self.departure
     }
 
     /// Returns a description of the timing for users: headings of at most 17 characters, each with
     /// its text.
     #[must_use]
-    pub fn text(&self) -> &[(&'static str, String)] {
-        &self.text
+    pub fn descriptions(&self) -> &[(&'static str, String)] {
+        &self.descriptions
     }
 }

@@ -10,7 +10,7 @@ pub enum EmitError {
         "the prefix `{prefix}` {wrong}; use letters, digits and single `_` between them, a letter first, at most \
          {most} in all, such as `cam0`"
     )]
-    Prefix {
+    InvalidPrefix {
         /// The prefix.
         prefix: String,
         /// The fault of the prefix, as words that follow its text.

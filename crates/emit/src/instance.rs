@@ -4,7 +4,7 @@
 
 use crate::thresholds::threshold_value;
 use crate::{Prefix, Top};
-use foveate_design::{Design, Direction, Port, PortRole};
+use foveate_design::{Design, PortDirection, Port, PortRole};
 
 /// Returns declarations and an instance of `rcm`, as lines of Verilog-2005. The signals have the
 /// names of the ports without `_i` and `_o`; threshold inputs are the constants of the
@@ -16,15 +16,15 @@ pub(crate) fn instance(design: &Design, prefix: &Prefix) -> Vec<String> {
     let widest = signals.iter().map(|port| range(port).len()).max().unwrap_or(0);
     let declare = |port: &&Port| {
         let driven = match (port.direction, port.role) {
-            (Direction::Input, PortRole::Clock) => "  // yours",
-            (Direction::Input, _) => "  // yours, changes after the clock's rising edge",
-            (Direction::Output, _) => "",
+            (PortDirection::Input, PortRole::Clock) => "  // yours",
+            (PortDirection::Input, _) => "  // yours, changes after the clock's rising edge",
+            (PortDirection::Output, _) => "",
         };
         format!("wire {:widest$} {};{driven}", range(port), signal(port))
     };
     let mut lines: Vec<String> = signals.iter().map(declare).collect();
     lines.push(String::new());
-    lines.push(format!("{} u_{0} (", prefix.name(Top::Rcm.module())));
+    lines.push(format!("{} u_{0} (", prefix.prefixed_name(Top::Rcm.module())));
     let last = ports.len() - 1;
     for (number, port) in ports.iter().enumerate() {
         let value = threshold_value(design, port)

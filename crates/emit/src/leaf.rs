@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules of cores and boards, and which of them a design needs.
 
-use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
+use foveate_design::{Design, FeatureKind, DenoiseFilter, Neighborhood, Pipelining, ReferencePolicy};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,7 +159,7 @@ pub const LEAVES: &[Leaf] = leaves! {
 
 /// Returns the leaves of these names and those that they elaborate, in compile order. `is_taken`
 /// says whether a leaf contains a part.
-pub(crate) fn with_parts(
+pub(crate) fn leaves_with_parts(
     mut names: Vec<&'static str>,
     is_taken: impl Fn(&str, &str) -> bool,
 ) -> impl Iterator<Item = &'static Leaf> {
@@ -173,7 +173,7 @@ pub(crate) fn with_parts(
 }
 
 /// Returns the leaves that a pipelined `rpu.v` instantiates directly.
-pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
+pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
     let mut names =
         vec!["frame_progress", "frame_store", "hit_counter", "vote", "decision", "forward_gate"];
     let mut need = |condition: bool, leaves: &[&'static str]| {
@@ -181,13 +181,13 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
             names.extend(leaves);
         }
     };
-    let denoise = design.filter() != Filter::None;
+    let denoise = design.filter() != DenoiseFilter::None;
     let window = design.has_feature_window();
     let deep = design.pipelining() == Pipelining::Deep;
     need(true, &[if deep { "magnitude_above" } else { "change_detector" }]);
     need(denoise && !deep, &["median3x3"]);
     need(denoise && deep, &["median_columns", "bit_delay"]);
-    need(design.keeps_raw(), &["line_delay"]);
+    need(design.has_separate_raw_pixels(), &["line_delay"]);
     if denoise || window {
         need(true, &["window_column"]);
         match design.neighborhood() {
@@ -208,8 +208,8 @@ pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
         }
     }
     match design.temporal().reference {
-        Reference::Previous => {}
-        Reference::LastSent => {
+        ReferencePolicy::Previous => {}
+        ReferencePolicy::LastSent => {
             need(true, &[if deep { "deep_last_sent" } else { "last_sent" }]);
             need(design.has_second_pass(), &["candidate_count"]);
         }

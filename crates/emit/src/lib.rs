@@ -6,12 +6,12 @@
 //! no dates and no paths, and only what the design needs.
 
 mod axi;
-mod branch;
-mod camera;
-mod core;
+mod leaf_parts;
+mod camera_flags;
+mod core_files;
 mod error;
 mod instance;
-mod kinds;
+mod feature_numbers;
 mod leaf;
 mod organization;
 mod prefix;
@@ -20,18 +20,18 @@ mod rcm;
 mod readme;
 mod rpu;
 mod serial;
-mod sync;
-mod synth;
-mod text;
+mod frame_sync;
+mod synthesis_scripts;
+mod verilog_text;
 mod thresholds;
 mod top;
 mod verilog;
-mod wrapped;
+mod wrapped_port;
 
 pub use crate::axi::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
-pub use crate::axi::{AXI_PARTS, Field, Kind, Register};
-pub use crate::axi::{on_bus, register_table, registers, software};
-pub use crate::core::core;
+pub use crate::axi::{AXI_PARTS, RegisterField, FieldKind, Register};
+pub use crate::axi::{axi_modules, register_table, axi_registers, axi_software};
+pub use crate::core_files::core_files;
 pub use error::EmitError;
 pub use leaf::{BOARD_LEAVES, LEAVES, Leaf};
 pub use prefix::Prefix;
@@ -57,8 +57,8 @@ impl From<SourceFile> for (String, String) {
 }
 
 /// Returns the latency of a decision of a pipelined design, as words.
-fn latency(design: PipelinedDesign<'_>) -> String {
-    let timing = PipelinedTiming::of(design);
+fn latency_text(design: PipelinedDesign<'_>) -> String {
+    let timing = PipelinedTiming::from_design(design);
     let last = if timing.decision_frames == 0 { "" } else { " of the following frame" };
     format!(
         "a decision is valid {} clocks after the edge that takes the last pixel{last}",

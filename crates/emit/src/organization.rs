@@ -2,19 +2,19 @@
 //! The trait that each organization implements to be emitted. No other place of this crate lists
 //! the organizations.
 
-use crate::branch::Values;
-use crate::{Prefix, SourceFile, Top, branch, leaf, raster, rcm, readme, serial};
+use crate::leaf_parts::ParameterValues;
+use crate::{Prefix, SourceFile, Top, leaf_parts, leaf, raster, rcm, readme, serial};
 use foveate_design::{Design, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 
 /// The parts of a core that depend on the organization of its design.
 pub(crate) trait Emitter {
     /// Returns the leaves that the generated modules of the design instantiate directly.
-    fn leaves(&self) -> Vec<&'static str>;
+    fn direct_leaves(&self) -> Vec<&'static str>;
     /// Returns whether `leaf` contains `part` with the parameters that the leaf has in the design.
-    fn is_taken(&self, leaf: &str, part: &str) -> bool;
+    fn has_part(&self, leaf: &str, part: &str) -> bool;
     /// Returns the parameters of a leaf that decide which modules it elaborates, with their values
     /// in the design.
-    fn values(&self, leaf: &str) -> Values;
+    fn leaf_parameters(&self, leaf: &str) -> ParameterValues;
     /// Returns the generated modules of `top`, each after those it instantiates.
     fn modules(&self, top: Top) -> Vec<SourceFile>;
     /// Returns the README of the core.
@@ -24,22 +24,22 @@ pub(crate) trait Emitter {
 /// Returns the emitter of a design.
 pub(crate) fn emitter(design: &Design) -> Box<dyn Emitter + '_> {
     match design.hardware() {
-        Hardware::Pipelined(own) => Box::new(design.on(own)),
-        Hardware::Serial(own) => Box::new(design.on(own)),
-        Hardware::Raster(own) => Box::new(design.on(own)),
+        Hardware::Pipelined(own) => Box::new(design.with_hardware(own)),
+        Hardware::Serial(own) => Box::new(design.with_hardware(own)),
+        Hardware::Raster(own) => Box::new(design.with_hardware(own)),
     }
 }
 
 impl Emitter for PipelinedDesign<'_> {
-    fn leaves(&self) -> Vec<&'static str> {
-        leaf::pipelined(self)
+    fn direct_leaves(&self) -> Vec<&'static str> {
+        leaf::pipelined_leaves(self)
     }
 
-    fn is_taken(&self, _: &str, _: &str) -> bool {
+    fn has_part(&self, _: &str, _: &str) -> bool {
         true
     }
 
-    fn values(&self, _: &str) -> Values {
+    fn leaf_parameters(&self, _: &str) -> ParameterValues {
         Vec::new()
     }
 
@@ -53,16 +53,16 @@ impl Emitter for PipelinedDesign<'_> {
 }
 
 impl Emitter for SerialDesign<'_> {
-    fn leaves(&self) -> Vec<&'static str> {
-        with_sync(self, "serial_array")
+    fn direct_leaves(&self) -> Vec<&'static str> {
+        leaves_with_sync(self, "serial_array")
     }
 
-    fn is_taken(&self, leaf: &str, part: &str) -> bool {
-        branch::of_serial(*self, leaf, part)
+    fn has_part(&self, leaf: &str, part: &str) -> bool {
+        leaf_parts::serial_leaf_has_part(*self, leaf, part)
     }
 
-    fn values(&self, leaf: &str) -> Values {
-        serial::values(*self, leaf)
+    fn leaf_parameters(&self, leaf: &str) -> ParameterValues {
+        serial::leaf_parameters(*self, leaf)
     }
 
     fn modules(&self, top: Top) -> Vec<SourceFile> {
@@ -75,16 +75,16 @@ impl Emitter for SerialDesign<'_> {
 }
 
 impl Emitter for RasterDesign<'_> {
-    fn leaves(&self) -> Vec<&'static str> {
-        with_sync(self, "raster_core")
+    fn direct_leaves(&self) -> Vec<&'static str> {
+        leaves_with_sync(self, "raster_core")
     }
 
-    fn is_taken(&self, leaf: &str, part: &str) -> bool {
-        branch::of_raster(*self, leaf, part)
+    fn has_part(&self, leaf: &str, part: &str) -> bool {
+        leaf_parts::raster_leaf_has_part(*self, leaf, part)
     }
 
-    fn values(&self, leaf: &str) -> Values {
-        raster::values(*self, leaf)
+    fn leaf_parameters(&self, leaf: &str) -> ParameterValues {
+        raster::leaf_parameters(*self, leaf)
     }
 
     fn modules(&self, top: Top) -> Vec<SourceFile> {
@@ -98,7 +98,7 @@ impl Emitter for RasterDesign<'_> {
 
 /// Returns the leaves of a top that instantiates `leaf`, including `frame_sync` if the design has
 /// it.
-fn with_sync(design: &Design, leaf: &'static str) -> Vec<&'static str> {
-    let sync = design.syncs().then_some("frame_sync");
+fn leaves_with_sync(design: &Design, leaf: &'static str) -> Vec<&'static str> {
+    let sync = design.has_frame_sync().then_some("frame_sync");
     [leaf].into_iter().chain(sync).collect()
 }

@@ -10,11 +10,11 @@ use crate::{EmitError, LEAVES, SourceFile, Top};
 use foveate_design::Design;
 
 /// The largest number of characters of a prefix.
-const MOST: usize = 32;
+const MAX_CHARACTERS: usize = 32;
 /// The word that requests the prefix made from the fingerprint.
-const AUTO: &str = "auto";
+const AUTO_WORD: &str = "auto";
 /// The number of digits of the fingerprint in the prefix made from it.
-const DIGITS: usize = 8;
+const FINGERPRINT_DIGITS: usize = 8;
 /// The keywords of Verilog and SystemVerilog that are likely to be tried as a prefix.
 const KEYWORDS: &[&str] = &[
     "always",
@@ -121,9 +121,9 @@ impl Prefix {
     pub fn new(text: &str) -> Result<Self, EmitError> {
         // The message shows only the characters needed to see that the text is too long, and no
         // control characters.
-        let shown = || text.chars().take(MOST + 1).flat_map(char::escape_debug).collect();
+        let shown = || text.chars().take(MAX_CHARACTERS + 1).flat_map(char::escape_debug).collect();
         let wrong = |wrong: &str| {
-            Err(EmitError::Prefix { prefix: shown(), wrong: wrong.to_owned(), most: MOST })
+            Err(EmitError::InvalidPrefix { prefix: shown(), wrong: wrong.to_owned(), most: MAX_CHARACTERS })
         };
         if !text.starts_with(|first: char| first.is_ascii_alphabetic()) {
             return wrong("does not begin with a letter");
@@ -134,7 +134,7 @@ impl Prefix {
         if text.ends_with('_') || text.contains("__") {
             return wrong("has a `_` at its end, or two side by side");
         }
-        if text.len() > MOST {
+        if text.len() > MAX_CHARACTERS {
             return wrong(&format!("has {} characters", text.len()));
         }
         if KEYWORDS.contains(&text.to_ascii_lowercase().as_str()) {
@@ -142,7 +142,7 @@ impl Prefix {
         }
         let prefix = Self(text.to_owned());
         let names = || LEAVES.iter().map(|leaf| leaf.name);
-        match names().map(|name| prefix.name(name)).find(|made| names().any(|name| name == made)) {
+        match names().map(|name| prefix.prefixed_name(name)).find(|made| names().any(|name| name == made)) {
             Some(made) => wrong(&format!("makes the name `{made}`, which cores without it have")),
             None => Ok(prefix),
         }
@@ -153,10 +153,10 @@ impl Prefix {
     ///
     /// # Errors
     /// Fails like [`Prefix::new`].
-    pub fn asked(text: Option<&str>, design: &Design) -> Result<Self, EmitError> {
+    pub fn from_request(text: Option<&str>, design: &Design) -> Result<Self, EmitError> {
         match text {
             None => Ok(Self::default()),
-            Some(AUTO) => Ok(Self::of(design)),
+            Some(AUTO_WORD) => Ok(Self::from_fingerprint(design)),
             Some(text) => Self::new(text),
         }
     }
@@ -164,8 +164,8 @@ impl Prefix {
     /// Makes a prefix from the fingerprint of a design, so that different designs have different
     /// prefixes.
     #[must_use]
-    pub fn of(design: &Design) -> Self {
-        Self(format!("fv{}", &design.fingerprint()[..DIGITS]))
+    pub fn from_fingerprint(design: &Design) -> Self {
+        Self(format!("fv{}", &design.fingerprint()[..FINGERPRINT_DIGITS]))
     }
 
     /// Returns the text of the prefix; empty without a prefix.
@@ -176,13 +176,13 @@ impl Prefix {
 
     /// Returns the name of a module or file of the core, with the prefix.
     #[must_use]
-    pub fn name(&self, plain: &str) -> String {
+    pub fn prefixed_name(&self, plain: &str) -> String {
         if self.0.is_empty() { plain.to_owned() } else { format!("{}_{plain}", self.0) }
     }
 
     /// Returns the prefix of a module that is `top` in some core; `None` for other modules.
     #[must_use]
-    pub fn of_top(module: &str, top: Top) -> Option<Self> {
+    pub fn of_top_module(module: &str, top: Top) -> Option<Self> {
         match module.strip_suffix(top.module())? {
             "" => Some(Self::default()),
             before => Self::new(before.strip_suffix('_')?).ok(),
@@ -196,11 +196,11 @@ impl Prefix {
             return files;
         }
         let names: BTreeSet<String> =
-            files.iter().filter_map(|file| Some(module_of(&file.path)?.to_owned())).collect();
-        let renamed = |file: SourceFile| match module_of(&file.path) {
+            files.iter().filter_map(|file| Some(file_module(&file.path)?.to_owned())).collect();
+        let renamed = |file: SourceFile| match file_module(&file.path) {
             None => file,
             Some(module) => SourceFile {
-                path: path_of(&self.name(module)),
+                path: module_path(&self.prefixed_name(module)),
                 contents: self.rename(&file.contents, &names),
             },
         };
@@ -221,7 +221,7 @@ impl Prefix {
             let (name, after) = rest.split_at(end);
             let is_instance = [" #(", " u_"].iter().any(|word| after.starts_with(word));
             if names.contains(name) && (is_instance || !start.is_empty()) {
-                format!("{indent}{start}{}{after}", self.name(name))
+                format!("{indent}{start}{}{after}", self.prefixed_name(name))
             } else {
                 line.to_owned()
             }
@@ -231,12 +231,12 @@ impl Prefix {
 }
 
 /// Returns the path of the file of a module.
-pub(crate) fn path_of(module: &str) -> String {
+pub(crate) fn module_path(module: &str) -> String {
     format!("rtl/{module}.v")
 }
 
 /// Returns the module of a Verilog file; `None` for other files.
-fn module_of(path: &str) -> Option<&str> {
+fn file_module(path: &str) -> Option<&str> {
     path.strip_prefix("rtl/")?.strip_suffix(".v")
 }
 
@@ -247,7 +247,7 @@ mod tests {
     #[test]
     fn a_prefix_begins_names_that_no_other_core_has() {
         for good in ["cam0", "a", "Left_eye", "fv00c0ffee", "x2_y3"] {
-            assert_eq!(Prefix::new(good).unwrap().name("rcm"), format!("{good}_rcm"));
+            assert_eq!(Prefix::new(good).unwrap().prefixed_name("rcm"), format!("{good}_rcm"));
         }
         for (bad, why) in [
             ("", "does not begin with a letter"),
@@ -274,7 +274,7 @@ mod tests {
     #[test]
     fn names_are_changed_where_they_name_modules_and_nowhere_else() {
         let file = |name: &str, contents: &str| SourceFile {
-            path: path_of(name),
+            path: module_path(name),
             contents: contents.to_owned(),
         };
         let vote = "// A vote.\nmodule vote #(\n    parameter A = 1\n) (\n    input wire vote\n);\nendmodule\n";
@@ -294,7 +294,7 @@ mod tests {
 
     #[test]
     fn the_prefix_of_a_top_is_what_stands_before_it() {
-        let of = |module| Prefix::of_top(module, Top::Rcm).map(|prefix| prefix.text().to_owned());
+        let of = |module| Prefix::of_top_module(module, Top::Rcm).map(|prefix| prefix.text().to_owned());
         assert_eq!(of("rcm").as_deref(), Some(""));
         assert_eq!(of("left_eye_rcm").as_deref(), Some("left_eye"));
         for other in ["rpu", "xrcm", "_rcm", "cam0_rcm_replay", "1_rcm"] {

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
-use crate::branch::Values;
-use crate::camera::{blanks, last_sent};
-use crate::kinds::{deviations, kinds};
-use crate::sync::{self, Sync};
-use crate::text::{PortLine, file, text_of};
-use crate::thresholds::{Constant, constants, signal, summary, summary_level};
+use crate::leaf_parts::ParameterValues;
+use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::feature_numbers::{deviation_mean, kinds_value};
+use crate::frame_sync::{self, FrameSync};
+use crate::verilog_text::{PortLine, module_file, rendered_text};
+use crate::thresholds::{ThresholdConstant, threshold_constants, threshold_signal, scores_text, summary_level_signal};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    Combine, Design, FRAME_NUMBERS, FeatureKind, Filter, Neighborhood, Pipelining, Port, PortRole,
-    RasterDesign, RasterTiming, SpatialFeature, Store, bits_for, index_bits,
+    VoteCombination, Design, FRAME_NUMBERS, FeatureKind, DenoiseFilter, Neighborhood, Pipelining, Port, PortRole,
+    RasterDesign, RasterTiming, SpatialFeature, FrameStoreKind, bits_for, index_bits,
 };
 
 #[derive(Template)]
 #[template(path = "raster.v")]
-struct Raster {
+struct RasterTop {
     banner: String,
-    what: String,
+    title: String,
     summary: String,
     lanes: u32,
     pipelining: &'static str,
@@ -30,9 +30,9 @@ struct Raster {
     pad_columns: u32,
     pad_rows: u32,
     ports: Vec<PortLine>,
-    constants: Vec<Constant>,
+    constants: Vec<ThresholdConstant>,
     /// The outputs of the core that are no ports of the design.
-    unused: Vec<Unused>,
+    unused: Vec<UnusedOutput>,
     parameters: Vec<(&'static str, String)>,
     /// The inputs of the core for the levels of pixels, and the signals connected to them.
     levels: Vec<(String, String)>,
@@ -42,12 +42,12 @@ struct Raster {
     /// The ports of the core to an external frame store and for the pixels that leave, and the
     /// signals connected to them.
     streams: Vec<(&'static str, String)>,
-    sync: Option<Sync>,
+    sync: Option<FrameSync>,
     valid: &'static str,
     ready: &'static str,
 }
 
-struct Unused {
+struct UnusedOutput {
     name: String,
     /// The range of the signal; empty for one bit.
     range: String,
@@ -57,14 +57,14 @@ struct Unused {
 pub(crate) fn modules(design: RasterDesign<'_>, top: Top) -> Vec<SourceFile> {
     let lone = design.lone_unit();
     let view = match top {
-        Top::Rpu => view(lone.on(design.own()), &design, top),
+        Top::Rpu => view(lone.with_hardware(design.own_hardware()), &design, top),
         Top::Rcm => view(design, &design, top),
     };
-    vec![file(top.module(), text_of(&view))]
+    vec![module_file(top.module(), rendered_text(&view))]
 }
 
 /// Returns the parameters of a leaf that decide which parts it has.
-pub(crate) fn values(design: RasterDesign<'_>, leaf: &str) -> Values {
+pub(crate) fn leaf_parameters(design: RasterDesign<'_>, leaf: &str) -> ParameterValues {
     match leaf {
         "raster_core" => {
             let grid = [
@@ -75,32 +75,32 @@ pub(crate) fn values(design: RasterDesign<'_>, leaf: &str) -> Values {
                 ("REGION_BITS", index_bits(design.regions().into())),
             ];
             let grid = grid.into_iter().map(|(name, value)| (name, value.to_string()));
-            grid.chain(parameters(design, &RasterTiming::of(design))).collect()
+            grid.chain(core_parameters(design, &RasterTiming::from_design(design))).collect()
         }
-        "raster_store" => vec![("KIND", store(design).to_string())],
+        "raster_store" => vec![("KIND", store_number(design).to_string())],
         _ => Vec::new(),
     }
 }
 
 /// Returns the range of a port whose width depends on the grid; `None` for other ports.
-fn range(port: &Port) -> Option<String> {
+fn port_range(port: &Port) -> Option<String> {
     use PortRole::{ForwardRegion, LostRegion, Region};
     let of_region = matches!(port.role, Region | ForwardRegion | LostRegion);
     of_region.then(|| "[$clog2(COLUMNS*ROWS)-1:0]".to_owned())
 }
 
-fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> Raster {
-    let timing = RasterTiming::of(design);
+fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> RasterTop {
+    let timing = RasterTiming::from_design(design);
     let n = design.region_size();
     let mut unused = Vec::new();
-    let streams = streams(design, &mut unused);
-    Raster {
+    let streams = stream_connections(design, &mut unused);
+    RasterTop {
         banner: banner(named),
-        what: format!(
+        title: format!(
             "The camera for frames that come row by row: COLUMNS x ROWS regions of {n}x{n} {}-bit pixels.",
             design.pixel_bits()
         ),
-        summary: summary(&design),
+        summary: scores_text(&design),
         lanes: design.pixels_per_clock(),
         pipelining: design.pipelining().name(),
         clocks: format!("{} clocks, with the grid above", timing.clocks_per_frame()),
@@ -110,23 +110,23 @@ fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> Raster {
         n,
         pad_columns: design.columns() * n - design.width(),
         pad_rows: design.rows() * n - design.height(),
-        ports: PortLine::all(&top.ports(named), range),
-        constants: constants(&design),
+        ports: PortLine::aligned(&top.ports(named), port_range),
+        constants: threshold_constants(&design),
         unused,
-        parameters: parameters(design, &timing),
-        levels: levels(design),
+        parameters: core_parameters(design, &timing),
+        levels: level_inputs(design),
         minima: minima(design),
-        scores: scores(design),
+        scores: score_signals(design),
         streams,
-        sync: Sync::with_ready(&design, beats(design)),
-        valid: sync::valid(&design),
-        ready: sync::ready(&design),
+        sync: FrameSync::with_ready(&design, frame_beats(design)),
+        valid: frame_sync::valid_signal(&design),
+        ready: frame_sync::ready_signal(&design),
     }
 }
 
 /// Returns the number of beats of a frame in terms of the grid: the taken words of a row times the
 /// rows.
-fn beats(design: RasterDesign<'_>) -> String {
+fn frame_beats(design: RasterDesign<'_>) -> String {
     let (n, pixels) = (design.region_size(), design.pixels_per_clock());
     let length = |regions: &str, beyond: u32| match beyond {
         0 => format!("{regions} * {n}"),
@@ -141,12 +141,12 @@ fn beats(design: RasterDesign<'_>) -> String {
 }
 
 /// Returns the range of a signal of this width; empty for one bit.
-fn bits(width: u32) -> String {
+fn bit_range(width: u32) -> String {
     if width == 1 { String::new() } else { format!("[{}:0]", width - 1) }
 }
 
 /// Connects the streams of the core to the ports that the design has.
-fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static str, String)> {
+fn stream_connections(design: RasterDesign<'_>, unused: &mut Vec<UnusedOutput>) -> Vec<(&'static str, String)> {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let has: Vec<String> = design.rcm_ports().into_iter().map(|port| port.name).collect();
     let mut list = Vec::new();
@@ -161,23 +161,23 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
         ("summary_o", String::new()),
         ("reference_ready_o", String::new()),
         ("store_valid_o", String::new()),
-        ("store_pixel_o", bits(word)),
+        ("store_pixel_o", bit_range(word)),
         ("store_last_o", String::new()),
         ("underrun_o", String::new()),
         ("forward_valid_o", String::new()),
         ("forward_region_o", region.clone()),
-        ("forward_position_o", bits(design.position_bits())),
-        ("forward_pixel_o", bits(word)),
+        ("forward_position_o", bit_range(design.position_bits())),
+        ("forward_pixel_o", bit_range(word)),
         ("forward_first_o", String::new()),
         ("forward_last_o", String::new()),
         ("forward_abort_o", String::new()),
-        ("forward_frame_o", bits(frame)),
+        ("forward_frame_o", bit_range(frame)),
         ("forward_summary_o", String::new()),
         ("lost_o", String::new()),
-        ("lost_count_o", bits(16)),
+        ("lost_count_o", bit_range(16)),
         ("lost_valid_o", String::new()),
         ("lost_region_o", region),
-        ("lost_frame_o", bits(frame)),
+        ("lost_frame_o", bit_range(frame)),
     ] {
         let given = has.iter().any(|port| port == name);
         let signal = if given {
@@ -185,7 +185,7 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
         } else {
             let name = name.trim_end_matches("_o").to_owned();
             let signal = format!("unused_{name}");
-            unused.push(Unused { name, range });
+            unused.push(UnusedOutput { name, range });
             signal
         };
         list.push((name, signal));
@@ -195,15 +195,15 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
 
 /// Returns the features in the order in which the core has their scores: counts, sums, and the
 /// score of a second pass.
-fn features(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
+fn features_in_core_order(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
     let mut list: Vec<_> = design.design().features().iter().collect();
-    list.sort_by_key(|feature| turn(feature.kind()));
+    list.sort_by_key(|feature| score_rank(feature.kind()));
     list
 }
 
 /// Returns the rank of a feature's score in the core: counts come first, then sums, then the score
 /// of the second pass.
-fn turn(kind: FeatureKind) -> u32 {
+fn score_rank(kind: FeatureKind) -> u32 {
     match kind {
         FeatureKind::Edge | FeatureKind::Corner => 0,
         FeatureKind::Variance => 1,
@@ -212,8 +212,8 @@ fn turn(kind: FeatureKind) -> u32 {
 }
 
 /// Returns the end of each score in the bits of all scores.
-fn ends(design: RasterDesign<'_>) -> Vec<u32> {
-    let widths = features(design).into_iter().map(SpatialFeature::score_bits);
+fn score_ends(design: RasterDesign<'_>) -> Vec<u32> {
+    let widths = features_in_core_order(design).into_iter().map(SpatialFeature::score_bits);
     let widths = [design.count_bits()].into_iter().chain(widths);
     widths
         .scan(0, |end, width| {
@@ -223,22 +223,22 @@ fn ends(design: RasterDesign<'_>) -> Vec<u32> {
         .collect()
 }
 
-fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
+fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
     let flag = |condition: bool| u32::from(condition);
-    let ends = ends(design);
+    let ends = score_ends(design);
     let edge_level_bits = level_bits(design, FeatureKind::Edge).expect("edge has a level");
     let mut list = vec![
         ("WIDTH", design.pixel_bits()),
         ("LANES", design.pixels_per_clock()),
         ("SIDE", design.region_size()),
         ("ISOLATED", flag(design.neighborhood() == Neighborhood::Isolated)),
-        ("MEDIAN", flag(design.filter() == Filter::Median3x3)),
-        ("ALL", flag(design.combine() == Combine::All)),
-        ("LAST_SENT", flag(last_sent(&design))),
-        ("BLANKS", flag(blanks(&design))),
-        ("RAW", flag(design.keeps_raw())),
-        ("FORWARD", flag(design.forwards())),
-        ("STORE", store(design)),
+        ("MEDIAN", flag(design.filter() == DenoiseFilter::Median3x3)),
+        ("ALL", flag(design.combine() == VoteCombination::All)),
+        ("LAST_SENT", flag(last_sent_flag(&design))),
+        ("BLANKS", flag(blanks_flag(&design))),
+        ("RAW", flag(design.has_separate_raw_pixels())),
+        ("FORWARD", flag(design.has_forwarding())),
+        ("STORE", store_number(design)),
         ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("SETTLE", timing.decision_latency),
         ("COUNT_BITS", design.count_bits()),
@@ -249,14 +249,14 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
     ];
     let ends: Vec<_> = ends.iter().rev().map(|end| format!("32'd{end}")).collect();
     let mut wide = vec![
-        ("FEATURES", features(design).len().to_string()),
-        ("KINDS", kinds(features(design).into_iter())),
+        ("FEATURES", features_in_core_order(design).len().to_string()),
+        ("KINDS", kinds_value(features_in_core_order(design).into_iter())),
         ("ENDS", format!("{{{}}}", ends.join(", "))),
     ];
-    for feature in features(design) {
-        let new = sums(design, feature).into_iter().filter(|new| !list.contains(new));
+    for feature in features_in_core_order(design) {
+        let new = sum_widths(design, feature).into_iter().filter(|new| !list.contains(new));
         list.extend(new.collect::<Vec<_>>());
-        if let Some(mean) = deviations(feature) {
+        if let Some(mean) = deviation_mean(feature) {
             let factor = mean.reciprocal.multiplier();
             wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
         }
@@ -276,7 +276,7 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
 }
 
 /// Returns the widths of the sums that a score is computed from; none if the score is a count.
-fn sums(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
+fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
     let sum = ("SUM_BITS", design.pixel_sum_bits());
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => vec![],
@@ -314,25 +314,25 @@ fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
 }
 
 /// Returns the number of the design's frame store in the core.
-fn store(design: RasterDesign<'_>) -> u32 {
+fn store_number(design: RasterDesign<'_>) -> u32 {
     match design.store() {
-        Store::Block => 0,
-        Store::Ultra => 1,
-        Store::SinglePort => 2,
-        Store::External => 3,
+        FrameStoreKind::Block => 0,
+        FrameStoreKind::Ultra => 1,
+        FrameStoreKind::SinglePort => 2,
+        FrameStoreKind::External => 3,
     }
 }
 
 /// Returns the inputs of the core for the levels of pixels, and the signals connected to them.
-fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
-    let temporal = signal(&design, PortRole::TemporalLevel);
+fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
+    let temporal = threshold_signal(&design, PortRole::TemporalLevel);
     let mut list = vec![
         ("temporal_level_i".to_owned(), temporal),
-        ("summary_level_i".to_owned(), summary_level(&design)),
+        ("summary_level_i".to_owned(), summary_level_signal(&design)),
     ];
     for &kind in FeatureKind::ALL {
         if let Some(width) = level_bits(design, kind) {
-            let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));
+            let given = design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
             list.push((format!("{kind}_level_i"), given.unwrap_or_else(|| format!("{width}'d0"))));
         }
     }
@@ -341,14 +341,14 @@ fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
 
 /// Returns the minima of all scores, that of the changed pixels last.
 fn minima(design: RasterDesign<'_>) -> Vec<String> {
-    let roles = features(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
+    let roles = features_in_core_order(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
     let roles = roles.chain([PortRole::TemporalMinCount]);
-    roles.map(|role| signal(&design, role)).collect()
+    roles.map(|role| threshold_signal(&design, role)).collect()
 }
 
 /// Returns the ports of all scores, that of the changed pixels last.
-fn scores(design: RasterDesign<'_>) -> Vec<String> {
-    let features = features(design).into_iter().rev();
+fn score_signals(design: RasterDesign<'_>) -> Vec<String> {
+    let features = features_in_core_order(design).into_iter().rev();
     let ports = features.map(|feature| format!("{}_score_o", feature.kind()));
     ports.chain(["temporal_count_o".to_owned()]).collect()
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Generates the modules of a pipelined design, and fills `rcm.v`.
 
-use crate::sync::{self, Sync};
-use crate::text::{PortLine, file, text_of};
+use crate::frame_sync::{self, FrameSync};
+use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner, leaf, rpu};
 use askama::Template;
 use foveate_design::{PipelinedDesign, Port, PortRole};
 
 #[derive(Template)]
 #[template(path = "rcm.v")]
-struct Rcm {
+struct RcmModule {
     banner: String,
     columns: u32,
     rows: u32,
@@ -17,35 +17,35 @@ struct Rcm {
     widest: u32,
     highest: u32,
     ports: Vec<PortLine>,
-    pins: Vec<Pin>,
-    sync: Option<Sync>,
+    pins: Vec<PortConnection>,
+    sync: Option<FrameSync>,
 }
 
 /// A port of the RPU, and the signal that the array connects to it.
-struct Pin {
+struct PortConnection {
     name: String,
     connection: String,
 }
 
 /// Returns the modules of `top`; the array consists of RPUs.
 pub(crate) fn modules(design: PipelinedDesign<'_>, top: Top) -> Vec<SourceFile> {
-    let rpu = file(Top::Rpu.module(), rpu::render(design));
+    let rpu = module_file(Top::Rpu.module(), rpu::render(design));
     match top {
         Top::Rpu => vec![rpu],
         Top::Rcm => {
             // `frame_sync` is part of the array and not of the RPU, so it is not among the leaves
             // of the RPU.
-            let sync = design.syncs().then_some("frame_sync");
-            let leaves = leaf::with_parts(sync.into_iter().collect(), |_, _| true);
-            let leaves = leaves.map(|leaf| file(leaf.name, leaf.contents.to_owned()));
-            let array = file(top.module(), render(design));
+            let sync = design.has_frame_sync().then_some("frame_sync");
+            let leaves = leaf::leaves_with_parts(sync.into_iter().collect(), |_, _| true);
+            let leaves = leaves.map(|leaf| module_file(leaf.name, leaf.contents.to_owned()));
+            let array = module_file(top.module(), render(design));
             leaves.chain([rpu, array]).collect()
         }
     }
 }
 
 /// Returns the range of a port that has a value per region; `None` for other ports.
-fn range(port: &Port) -> Option<String> {
+fn port_range(port: &Port) -> Option<String> {
     match (port.per_lane, port.width) {
         (true, 1) => Some("[COLUMNS*ROWS-1:0]".to_owned()),
         (true, width) => Some(format!("[COLUMNS*ROWS*{width}-1:0]")),
@@ -55,25 +55,25 @@ fn range(port: &Port) -> Option<String> {
 
 fn render(design: PipelinedDesign<'_>) -> String {
     let ports = design.rcm_ports();
-    let pins = design.rpu_ports().iter().map(|port| pin(design, port, &ports)).collect();
-    let view = Rcm {
+    let pins = design.rpu_ports().iter().map(|port| port_connection(design, port, &ports)).collect();
+    let view = RcmModule {
         banner: banner(&design),
         columns: design.columns(),
         rows: design.rows(),
-        widest: design.most_in_line(),
-        highest: design.most_in_line(),
-        ports: PortLine::all(&ports, range),
+        widest: design.max_regions_per_line(),
+        highest: design.max_regions_per_line(),
+        ports: PortLine::aligned(&ports, port_range),
         pins,
-        sync: Sync::always_open(&design, design.stream_pixels().to_string()),
+        sync: FrameSync::without_ready(&design, design.stream_pixels().to_string()),
     };
-    text_of(&view)
+    rendered_text(&view)
 }
 
-fn pin(design: PipelinedDesign<'_>, port: &Port, rcm_ports: &[Port]) -> Pin {
+fn port_connection(design: PipelinedDesign<'_>, port: &Port, rcm_ports: &[Port]) -> PortConnection {
     let name = port.name.clone();
     let per_lane = rcm_ports.iter().any(|outer| outer.name == name && outer.per_lane);
     let connection = match port.role {
-        PortRole::Valid => sync::valid(&design).to_owned(),
+        PortRole::Valid => frame_sync::valid_signal(&design).to_owned(),
         PortRole::DecisionValid => "decision_valid[REGION]".to_owned(),
         PortRole::Border => {
             "{row == ROWS - 1, row == 0, column == COLUMNS - 1, column == 0}".to_owned()
@@ -82,5 +82,5 @@ fn pin(design: PipelinedDesign<'_>, port: &Port, rcm_ports: &[Port]) -> Pin {
         _ if port.width == 1 => format!("{name}[REGION]"),
         _ => format!("{name}[REGION*{0}+:{0}]", port.width),
     };
-    Pin { name, connection }
+    PortConnection { name, connection }
 }

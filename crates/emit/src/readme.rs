@@ -7,18 +7,18 @@ mod sync;
 pub(crate) use raster::raster_readme;
 
 use crate::instance::instance;
-use crate::text::text_of;
+use crate::verilog_text::rendered_text;
 use crate::thresholds::threshold_value;
-use crate::{Prefix, Top, banner, latency};
+use crate::{Prefix, Top, banner, latency_text};
 use askama::Template;
 use foveate_design::{
-    Design, Direction, Feed, MemoryKind, PipelinedDesign, PipelinedTiming, Port, SerialDesign,
-    SerialTiming, Stream, Thresholds,
+    Design, PortDirection, PixelFeed, LaneMemoryKind, PipelinedDesign, PipelinedTiming, Port, SerialDesign,
+    SerialTiming, CoreStream, ThresholdSource,
 };
 
 #[derive(Template)]
 #[template(path = "README.md")]
-struct Readme {
+struct PipelinedReadme {
     banner: String,
     /// The beginning of the names of modules: the prefix and its `_`.
     before: String,
@@ -123,7 +123,7 @@ struct StreamRow {
 struct PortRow {
     name: String,
     /// The stream that the port belongs to, or the purpose of the port.
-    of: &'static str,
+    group: &'static str,
     direction: &'static str,
     bits: String,
     doc: String,
@@ -135,11 +135,11 @@ struct ThresholdRow {
 }
 
 pub(crate) fn pipelined_readme(design: PipelinedDesign<'_>, prefix: &Prefix) -> String {
-    text_of(&pipelined_view(design, prefix, PipelinedTiming::of(design)))
+    rendered_text(&pipelined_view(design, prefix, PipelinedTiming::from_design(design)))
 }
 
 pub(crate) fn serial_readme(design: SerialDesign<'_>, prefix: &Prefix) -> String {
-    text_of(&serial_view(design, prefix, &SerialTiming::of(design)))
+    rendered_text(&serial_view(design, prefix, &SerialTiming::from_design(design)))
 }
 
 fn score_names(design: &Design) -> String {
@@ -151,7 +151,7 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
     let memory = design.lane_memory();
     SerialReadme {
         banner: banner(&design),
-        before: prefix.name(""),
+        before: prefix.prefixed_name(""),
         width: design.width(),
         height: design.height(),
         p: design.pixel_bits(),
@@ -167,13 +167,13 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         neighborhood: design.neighborhood().name(),
         filter: design.filter().name(),
         feed: design.feed().name(),
-        raster: design.feed() == Feed::Raster,
+        raster: design.feed() == PixelFeed::Raster,
         halo: design.halo(),
         stream_side: design.stream_side(),
         depth: memory.depth,
         memory: match memory.kind {
-            MemoryKind::Distributed => "distributed RAM",
-            MemoryKind::Block => "block RAM",
+            LaneMemoryKind::Distributed => "distributed RAM",
+            LaneMemoryKind::Block => "block RAM",
         },
         load_pixels: timing.load_pixels(),
         load_clocks: timing.load_clocks(),
@@ -184,14 +184,14 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         pauses: timing.load_clocks() - timing.load_pixels(),
         longest_pause: longest_pause(design),
         empty: design.lanes() * design.fold() - design.regions(),
-        sync: sync::section(&design, "pixel", fed(design)),
+        sync: sync::sync_section(&design, "pixel", feed_unit(design)),
         stream_pixels: design.stream_pixels(),
-        runtime: design.thresholds() == Thresholds::Runtime,
+        runtime: design.threshold_source() == ThresholdSource::Runtime,
         streams: stream_rows(&design),
         rcm_ports: port_rows(&design),
-        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold_row(&design, port)).collect(),
         instance: instance(&design, prefix),
-        synthesized: crate::top::placed(&design),
+        synthesized: crate::top::placed_top(&design),
         has_rpu: Top::has_rpu(&design),
         on_axi: design.is_on_axi(),
         compared: " at which it is valid",
@@ -199,10 +199,10 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
 }
 
 /// Returns how many pixels of the feed come at an edge, as words after "pixel".
-fn fed(design: SerialDesign<'_>) -> &'static str {
+fn feed_unit(design: SerialDesign<'_>) -> &'static str {
     match design.feed() {
-        Feed::Parallel => " of every lane",
-        Feed::Raster => "",
+        PixelFeed::Parallel => " of every lane",
+        PixelFeed::Raster => "",
     }
 }
 
@@ -214,18 +214,18 @@ fn longest_pause(design: SerialDesign<'_>) -> u32 {
         (0..regions * side).map(places).max().expect("a frame has pixels")
     };
     match design.feed() {
-        Feed::Parallel => 0,
-        Feed::Raster => {
+        PixelFeed::Parallel => 0,
+        PixelFeed::Raster => {
             let columns = most(&|x| design.column_places(x), design.columns());
             columns * most(&|y| design.row_places(y), design.rows()) - 1
         }
     }
 }
 
-fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: PipelinedTiming) -> Readme {
-    Readme {
+fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: PipelinedTiming) -> PipelinedReadme {
+    PipelinedReadme {
         banner: banner(&design),
-        before: prefix.name(""),
+        before: prefix.prefixed_name(""),
         width: design.width(),
         height: design.height(),
         p: design.pixel_bits(),
@@ -242,20 +242,20 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
         stream_pixels: design.stream_pixels(),
         clocks: design.timing().clocks_per_frame(),
         halo: design.halo(),
-        latency: latency(design),
+        latency: latency_text(design),
         forward: if timing.forward_frames == 1 {
             "the next frame"
         } else {
             "the next frame but one"
         },
-        sync: sync::section(&design, "pixel", " of every region"),
+        sync: sync::sync_section(&design, "pixel", " of every region"),
         border: design.needs_border(),
-        runtime: design.thresholds() == Thresholds::Runtime,
+        runtime: design.threshold_source() == ThresholdSource::Runtime,
         streams: stream_rows(&design),
         rcm_ports: port_rows(&design),
-        thresholds: design.rpu_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
+        thresholds: design.rpu_ports().iter().filter_map(|port| threshold_row(&design, port)).collect(),
         instance: instance(&design, prefix),
-        synthesized: crate::top::placed(&design),
+        synthesized: crate::top::placed_top(&design),
         has_rpu: Top::has_rpu(&design),
         on_axi: design.is_on_axi(),
         compared: "",
@@ -267,7 +267,7 @@ fn stream_rows(design: &Design) -> Vec<StreamRow> {
         let names: Vec<_> = ports.iter().flatten().map(|name| format!("`{name}`")).collect();
         names.join(", ")
     };
-    let row = |stream: &Stream| {
+    let row = |stream: &CoreStream| {
         let name = |port: &Option<Port>| port.as_ref().map(|port| port.name.clone());
         let last = stream.payload.iter().find(|port| Some(port.role) == stream.last);
         let (ready, start) = (name(&stream.ready), name(&stream.start));
@@ -286,7 +286,7 @@ fn port_rows(design: &Design) -> Vec<PortRow> {
     let interface = design.rcm_interface();
     let row = |port: &Port| PortRow {
         name: port.name.clone(),
-        of: match interface.stream_of(port.role) {
+        group: match interface.stream_with_port(port.role) {
             Some(stream) => stream.role.name(),
             None if interface.controls.contains(port) => "control",
             None => "",
@@ -301,14 +301,14 @@ fn port_rows(design: &Design) -> Vec<PortRow> {
     interface.ports().iter().map(row).collect()
 }
 
-fn direction(direction: Direction) -> &'static str {
+fn direction(direction: PortDirection) -> &'static str {
     match direction {
-        Direction::Input => "in",
-        Direction::Output => "out",
+        PortDirection::Input => "in",
+        PortDirection::Output => "out",
     }
 }
 
-fn threshold(design: &Design, port: &Port) -> Option<ThresholdRow> {
+fn threshold_row(design: &Design, port: &Port) -> Option<ThresholdRow> {
     let value = threshold_value(design, port)?;
     Some(ThresholdRow { name: port.name.clone(), value })
 }

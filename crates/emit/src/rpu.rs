@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `rpu.v`: every number and name of the template is computed here, from the design.
 
-mod temporal;
+mod temporal_score;
 
-use self::temporal::{Candidate, candidates, compared, keeps_second, unused};
-use crate::camera::{blanks, last_sent};
-use crate::text::{PortLine, text_of};
-use crate::thresholds::{Constant, constants, signal, summary};
-use crate::{banner, latency};
+use self::temporal_score::{ReferenceCandidate, reference_candidates, compared_values, keeps_second_frame, unused_flags};
+use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::verilog_text::{PortLine, rendered_text};
+use crate::thresholds::{ThresholdConstant, threshold_constants, threshold_signal, scores_text};
+use crate::{banner, latency_text};
 use askama::Template;
 use foveate_design::{
-    Combine, FeatureKind, Filter, Mean, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming,
-    Pipelining, PortRole, SpatialFeature, Variance, bits_for, index_bits,
+    VoteCombination, FeatureKind, DenoiseFilter, MeanDivision, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming,
+    Pipelining, PortRole, SpatialFeature, VarianceWidths, bits_for, index_bits,
 };
 
 #[derive(Template)]
 #[template(path = "rpu.v")]
-struct Rpu {
+struct RpuModule {
     banner: String,
     summary: String,
     latency: String,
     ports: Vec<PortLine>,
-    constants: Vec<Constant>,
+    constants: Vec<ThresholdConstant>,
     // Geometry.
     n: u32,
     p: u32,
@@ -51,18 +51,18 @@ struct Rpu {
     last_sent: bool,
     blanks: u32,
     // Scores.
-    windowed: Vec<Windowed>,
+    windowed: Vec<WindowFeature>,
     sums: bool,
     sum_bits: u32,
-    mad: Option<Mad>,
+    mad: Option<MadParameters>,
     variance: Option<VarianceWidths>,
     compared: Vec<&'static str>,
-    references: Vec<Candidate>,
+    references: Vec<ReferenceCandidate>,
     temporal_level: String,
-    scores: Vec<Score>,
+    scores: Vec<ScorePort>,
     votes: Vec<String>,
     all: u32,
-    periphery: Option<Summaries>,
+    periphery: Option<SummaryParameters>,
     decided_pixel: &'static str,
     forward_pixel: &'static str,
     unused: Vec<&'static str>,
@@ -70,23 +70,23 @@ struct Rpu {
 
 /// The parts that the features of a design need.
 #[derive(Default)]
-struct Spatial {
-    windowed: Vec<Windowed>,
+struct SpatialParts {
+    windowed: Vec<WindowFeature>,
     /// Whether the pixels of a region are summed.
     sums: bool,
-    mad: Option<Mad>,
+    mad: Option<MadParameters>,
     variance: Option<VarianceWidths>,
 }
 
 /// A feature whose score is the number of hits of a window.
-struct Windowed {
+struct WindowFeature {
     name: &'static str,
     level: String,
     /// The parameters of the detector in addition to the width of a pixel.
     parameters: String,
 }
 
-struct Mad {
+struct MadParameters {
     fraction: u32,
     mean_bits: u32,
     dividend_bits: u32,
@@ -104,7 +104,7 @@ struct VarianceWidths {
 }
 
 /// The computation of the means of blocks, and the level above which they are sent.
-struct Summaries {
+struct SummaryParameters {
     blocks: u32,
     sum_bits: u32,
     factor: u64,
@@ -116,34 +116,34 @@ struct Summaries {
 }
 
 /// A score between its computation and its port and vote.
-struct Score {
+struct ScorePort {
     name: String,
     width: u32,
     minimum: String,
     /// Whether the score waits for a feature with a second pass.
-    held: bool,
+    is_held: bool,
 }
 
 pub(crate) fn render(design: PipelinedDesign<'_>) -> String {
-    text_of(&view(design))
+    rendered_text(&view(design))
 }
 
-fn view(design: PipelinedDesign<'_>) -> Rpu {
+fn view(design: PipelinedDesign<'_>) -> RpuModule {
     let second_pass = design.has_second_pass();
     let reference = design.temporal().reference;
-    let keeps_raw = design.keeps_raw();
+    let keeps_raw = design.has_separate_raw_pixels();
     let shared = design.neighborhood() == Neighborhood::Shared;
     let features = design.features();
     let window_side = design.denoised_side();
-    let timing = PipelinedTiming::of(design);
+    let timing = PipelinedTiming::from_design(design);
     let deep = design.pipelining() == Pipelining::Deep;
-    let Spatial { windowed, sums, mad, variance } = Spatial::of(design);
-    Rpu {
+    let SpatialParts { windowed, sums, mad, variance } = SpatialParts::of(design);
+    RpuModule {
         banner: banner(&design),
-        summary: summary(&design),
-        latency: latency(design),
-        ports: PortLine::all(&design.rpu_ports(), |_| None),
-        constants: constants(&design),
+        summary: scores_text(&design),
+        latency: latency_text(design),
+        ports: PortLine::aligned(&design.rpu_ports(), |_| None),
+        constants: threshold_constants(&design),
         n: design.region_size(),
         p: design.pixel_bits(),
         pixels: design.region_pixels(),
@@ -157,29 +157,29 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
         window_side_bits: index_bits(window_side.into()),
         shared,
         border: design.needs_border(),
-        median: design.filter() != Filter::None,
+        median: design.filter() != DenoiseFilter::None,
         window: design.has_feature_window(),
         keeps_raw,
-        keeps_second: keeps_second(design),
+        keeps_second: keeps_second_frame(design),
         tail_delay: has_tail_registers(&timing, deep),
         deep,
         median_registers: timing.median_registers,
         count: if deep { "count" } else { "tail" },
         second_pass,
-        last_sent: last_sent(&design),
-        blanks: u32::from(blanks(&design)),
+        last_sent: last_sent_flag(&design),
+        blanks: u32::from(blanks_flag(&design)),
         windowed,
         sums,
         sum_bits: design.pixel_sum_bits(),
         mad,
         variance,
-        compared: compared(reference, second_pass, deep),
-        references: candidates(reference, second_pass, deep),
-        temporal_level: signal(&design, PortRole::TemporalLevel),
-        scores: scores(design),
+        compared: compared_values(reference, second_pass, deep),
+        references: reference_candidates(reference, second_pass, deep),
+        temporal_level: threshold_signal(&design, PortRole::TemporalLevel),
+        scores: score_ports(design),
         votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
-        all: u32::from(design.combine() == Combine::All),
-        periphery: design.periphery().map(|periphery| summaries(design, periphery)),
+        all: u32::from(design.combine() == VoteCombination::All),
+        periphery: design.periphery().map(|periphery| summary_parameters(design, periphery)),
         decided_pixel: if second_pass { "second_pixel" } else { "previous_pixel" },
         forward_pixel: match (second_pass, keeps_raw) {
             (false, false) => "previous_pixel",
@@ -187,7 +187,7 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
             (true, false) => "second_pixel",
             (true, true) => "second_raw",
         },
-        unused: unused(reference, second_pass),
+        unused: unused_flags(reference, second_pass),
     }
 }
 
@@ -201,22 +201,22 @@ fn has_tail_registers(timing: &PipelinedTiming, deep: bool) -> bool {
     }
 }
 
-impl Spatial {
+impl SpatialParts {
     fn of(design: PipelinedDesign<'_>) -> Self {
         let mut own = Self::default();
         for feature in design.features() {
             match feature.kind() {
                 FeatureKind::Edge | FeatureKind::Corner => {
-                    own.windowed.push(windowed(design, feature));
+                    own.windowed.push(window_feature(design, feature));
                 }
                 FeatureKind::Mad => {
                     own.sums = true;
-                    own.mad = Some(mad(feature, feature.mean().expect("mad has a mean")));
+                    own.mad = Some(mad_parameters(feature, feature.mean().expect("mad has a mean")));
                 }
                 FeatureKind::Variance => {
                     own.sums = true;
                     let widths = feature.variance().expect("variance has accumulators");
-                    own.variance = Some(variance(feature, widths));
+                    own.variance = Some(variance_widths(feature, widths));
                 }
             }
         }
@@ -224,19 +224,19 @@ impl Spatial {
     }
 }
 
-fn windowed(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Windowed {
+fn window_feature(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> WindowFeature {
     let kind = feature.kind();
     // A level that is not compared with a pixel has a width of its own.
     let parameters = match feature.level_bits() {
         bits if bits == design.pixel_bits() => String::new(),
         bits => format!(", .LEVEL_BITS({bits})"),
     };
-    let level = signal(&design, PortRole::Level(kind));
-    Windowed { name: kind.name(), level, parameters }
+    let level = threshold_signal(&design, PortRole::Level(kind));
+    WindowFeature { name: kind.name(), level, parameters }
 }
 
-fn mad(feature: &SpatialFeature, mean: &Mean) -> Mad {
-    Mad {
+fn mad_parameters(feature: &SpatialFeature, mean: &MeanDivision) -> MadParameters {
+    MadParameters {
         fraction: mean.fraction_bits,
         mean_bits: mean.mean_bits,
         dividend_bits: mean.dividend_bits,
@@ -247,7 +247,7 @@ fn mad(feature: &SpatialFeature, mean: &Mean) -> Mad {
     }
 }
 
-fn variance(feature: &SpatialFeature, widths: &Variance) -> VarianceWidths {
+fn variance_widths(feature: &SpatialFeature, widths: &VarianceWidths) -> VarianceWidths {
     VarianceWidths {
         square_bits: widths.square_bits,
         square_sum_bits: widths.square_sum_bits,
@@ -256,35 +256,35 @@ fn variance(feature: &SpatialFeature, widths: &Variance) -> VarianceWidths {
     }
 }
 
-fn summaries(design: PipelinedDesign<'_>, periphery: &Periphery) -> Summaries {
-    Summaries {
+fn summary_parameters(design: PipelinedDesign<'_>, periphery: &Periphery) -> SummaryParameters {
+    SummaryParameters {
         blocks: periphery.blocks,
         sum_bits: periphery.sum_bits,
         factor: periphery.reciprocal.multiplier(),
         factor_bits: bits_for(periphery.reciprocal.multiplier()),
         shift: periphery.reciprocal.shift(),
-        level: signal(&design, PortRole::SummaryLevel),
-        pixel: if design.keeps_raw() { "tail_raw" } else { "tail_pixel" },
+        level: threshold_signal(&design, PortRole::SummaryLevel),
+        pixel: if design.has_separate_raw_pixels() { "tail_raw" } else { "tail_pixel" },
     }
 }
 
-fn scores(design: PipelinedDesign<'_>) -> Vec<Score> {
+fn score_ports(design: PipelinedDesign<'_>) -> Vec<ScorePort> {
     let second_pass = design.has_second_pass();
     let mut list: Vec<_> = design
         .features()
         .iter()
-        .map(|feature| Score {
+        .map(|feature| ScorePort {
             name: format!("{}_score", feature.kind()),
             width: feature.score_bits(),
-            minimum: signal(&design, PortRole::MinScore(feature.kind())),
-            held: second_pass && !feature.kind().has_second_pass(),
+            minimum: threshold_signal(&design, PortRole::MinScore(feature.kind())),
+            is_held: second_pass && !feature.kind().has_second_pass(),
         })
         .collect();
-    list.push(Score {
+    list.push(ScorePort {
         name: "temporal_count".to_owned(),
         width: design.count_bits(),
-        minimum: signal(&design, PortRole::TemporalMinCount),
-        held: second_pass,
+        minimum: threshold_signal(&design, PortRole::TemporalMinCount),
+        is_held: second_pass,
     });
     list
 }

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `serial.v`, the top of a serial design: the array, or an array that has one lane.
 
-use crate::branch::Values;
-use crate::camera::{blanks, last_sent};
-use crate::kinds::{deviations, kinds};
-use crate::sync::{self, Sync};
-use crate::text::{PortLine, file, text_of};
-use crate::thresholds::{Constant, constants, signal, summary, summary_level};
+use crate::leaf_parts::ParameterValues;
+use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::feature_numbers::{deviation_mean, kinds_value};
+use crate::frame_sync::{self, FrameSync};
+use crate::verilog_text::{PortLine, module_file, rendered_text};
+use crate::thresholds::{ThresholdConstant, threshold_constants, threshold_signal, scores_text, summary_level_signal};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    AreaKind, Combine, FeatureKind, Feed, Filter, MemoryKind, Neighborhood, Pipelining, Port,
-    PortRole, SerialDesign, SerialTiming, SpatialFeature, Thresholds, bits_for, index_bits,
+    SlotAreaKind, VoteCombination, FeatureKind, PixelFeed, DenoiseFilter, LaneMemoryKind, Neighborhood, Pipelining, Port,
+    PortRole, SerialDesign, SerialTiming, SpatialFeature, ThresholdSource, bits_for, index_bits,
 };
 
 #[derive(Template)]
 #[template(path = "serial.v")]
-struct Serial {
+struct SerialTop {
     banner: String,
-    what: String,
+    title: String,
     summary: String,
     memory: &'static str,
     clocks: String,
@@ -29,7 +29,7 @@ struct Serial {
     widest: u32,
     highest: u32,
     ports: Vec<PortLine>,
-    constants: Vec<Constant>,
+    constants: Vec<ThresholdConstant>,
     parameters: Vec<(&'static str, String)>,
     fold: u32,
     slot_bits: u32,
@@ -52,7 +52,7 @@ struct Serial {
     minima: Vec<String>,
     summary_level: String,
     summarizes: bool,
-    sync: Option<Sync>,
+    sync: Option<FrameSync>,
     valid: &'static str,
     ready: &'static str,
 }
@@ -62,16 +62,16 @@ const REGION_RANGE: &str = "(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1";
 
 /// Returns the top: the array, or the array that has one lane.
 pub(crate) fn modules(design: SerialDesign<'_>, top: Top) -> Vec<SourceFile> {
-    let lane = design.one_lane();
+    let lane = design.single_lane_design();
     let view = match top {
-        Top::Rpu => view(lane.on(design.own()), design, top),
+        Top::Rpu => view(lane.with_hardware(design.own_hardware()), design, top),
         Top::Rcm => view(design, design, top),
     };
-    vec![file(top.module(), text_of(&view))]
+    vec![module_file(top.module(), rendered_text(&view))]
 }
 
 /// Returns the parameters of a leaf that decide which parts it has.
-pub(crate) fn values(design: SerialDesign<'_>, leaf: &str) -> Values {
+pub(crate) fn leaf_parameters(design: SerialDesign<'_>, leaf: &str) -> ParameterValues {
     match leaf {
         "serial_array" => {
             let slots = design.lanes() * design.fold();
@@ -84,10 +84,10 @@ pub(crate) fn values(design: SerialDesign<'_>, leaf: &str) -> Values {
                 ("REGION_BITS", index_bits(slots.into()).max(1)),
             ];
             let grid = grid.into_iter().map(|(name, value)| (name, value.to_string()));
-            grid.chain(parameters(design)).collect()
+            grid.chain(array_parameters(design)).collect()
         }
         "serial_lane" | "serial_memory" => {
-            let block = design.lane_memory().kind == MemoryKind::Block;
+            let block = design.lane_memory().kind == LaneMemoryKind::Block;
             vec![("BLOCK", u32::from(block).to_string())]
         }
         _ => Vec::new(),
@@ -95,17 +95,17 @@ pub(crate) fn values(design: SerialDesign<'_>, leaf: &str) -> Values {
 }
 
 /// Returns the range of a port whose width depends on the grid; `None` for other ports.
-fn range(port: &Port, design: SerialDesign<'_>) -> Option<String> {
+fn port_range(port: &Port, design: SerialDesign<'_>) -> Option<String> {
     match (port.role, port.per_lane, port.width) {
         (PortRole::Region | PortRole::ForwardRegion, _, _) => Some(format!("[{REGION_RANGE}:0]")),
-        (_, true, 1) => Some(format!("[{}-1:0]", lanes(design))),
-        (_, true, width) => Some(format!("[{}*{width}-1:0]", lanes(design))),
+        (_, true, 1) => Some(format!("[{}-1:0]", lane_count(design))),
+        (_, true, width) => Some(format!("[{}*{width}-1:0]", lane_count(design))),
         (_, false, _) => None,
     }
 }
 
 /// Returns the number of lanes in terms of the grid.
-fn lanes(design: SerialDesign<'_>) -> String {
+fn lane_count(design: SerialDesign<'_>) -> String {
     match design.fold() {
         1 => "COLUMNS*ROWS".to_owned(),
         fold => format!("((COLUMNS*ROWS+{})/{fold})", fold - 1),
@@ -113,57 +113,57 @@ fn lanes(design: SerialDesign<'_>) -> String {
 }
 
 /// Returns the number of beats of a frame in terms of the grid.
-fn beats(design: SerialDesign<'_>) -> String {
+fn frame_beats(design: SerialDesign<'_>) -> String {
     match design.feed() {
-        Feed::Parallel => (design.fold() * design.stream_pixels()).to_string(),
-        Feed::Raster => format!("COLUMNS * ROWS * {}", design.region_pixels()),
+        PixelFeed::Parallel => (design.fold() * design.stream_pixels()).to_string(),
+        PixelFeed::Raster => format!("COLUMNS * ROWS * {}", design.region_pixels()),
     }
 }
 
-fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> Serial {
+fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> SerialTop {
     let memory = design.lane_memory();
     let edge = design.feature(FeatureKind::Edge);
-    let runtime = design.thresholds() == Thresholds::Runtime;
-    Serial {
+    let runtime = design.threshold_source() == ThresholdSource::Runtime;
+    SerialTop {
         banner: banner(&named),
-        what: what(design, top),
-        summary: summary(&design),
+        title: title(design, top),
+        summary: scores_text(&design),
         memory: match memory.kind {
-            MemoryKind::Distributed => "distributed RAM",
-            MemoryKind::Block => "block RAM",
+            LaneMemoryKind::Distributed => "distributed RAM",
+            LaneMemoryKind::Block => "block RAM",
         },
-        clocks: clocks(design),
+        clocks: clocks_text(design),
         module: top.module(),
         columns: design.columns(),
         rows: design.rows(),
         // An array that has one lane may have more columns.
-        widest: design.most_in_line().max(design.columns()),
-        highest: design.most_in_line(),
-        ports: PortLine::all(&top.ports(&named), |port| range(port, named)),
-        constants: constants(&design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
-        parameters: parameters(design),
+        widest: design.max_regions_per_line().max(design.columns()),
+        highest: design.max_regions_per_line(),
+        ports: PortLine::aligned(&top.ports(&named), |port| port_range(port, named)),
+        constants: threshold_constants(&design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
+        parameters: array_parameters(design),
         fold: design.fold(),
         slot_bits: design.slot_bits(),
         center_bits: design.lane_widths().center,
         position_bits: design.position_bits(),
-        raster: design.feed() == Feed::Raster,
-        lanes: lanes(design),
+        raster: design.feed() == PixelFeed::Raster,
+        lanes: lane_count(design),
         slots: format!("LANES*{}", design.fold()),
         slot_range: "(SLOTS > 1 ? $clog2(SLOTS) : 1)-1",
         region_range: REGION_RANGE,
         half_level: edge.is_some() && runtime,
-        temporal_level: signal(&design, PortRole::TemporalLevel),
-        levels: FeatureKind::ALL.iter().filter_map(|&kind| level(design, kind)).collect(),
+        temporal_level: threshold_signal(&design, PortRole::TemporalLevel),
+        levels: FeatureKind::ALL.iter().filter_map(|&kind| level_input(design, kind)).collect(),
         minima: minima(design),
-        summary_level: summary_level(&design),
+        summary_level: summary_level_signal(&design),
         summarizes: design.periphery().is_some(),
-        sync: Sync::with_ready(&design, beats(design)),
-        valid: sync::valid(&design),
-        ready: sync::ready(&design),
+        sync: FrameSync::with_ready(&design, frame_beats(design)),
+        valid: frame_sync::valid_signal(&design),
+        ready: frame_sync::ready_signal(&design),
     }
 }
 
-fn what(design: SerialDesign<'_>, top: Top) -> String {
+fn title(design: SerialDesign<'_>, top: Top) -> String {
     let size = design.region_size();
     let p = design.pixel_bits();
     match top {
@@ -177,8 +177,8 @@ fn what(design: SerialDesign<'_>, top: Top) -> String {
     }
 }
 
-fn clocks(design: SerialDesign<'_>) -> String {
-    let timing = SerialTiming::of(design);
+fn clocks_text(design: SerialDesign<'_>) -> String {
+    let timing = SerialTiming::from_design(design);
     format!(
         "{} clocks to take it and {} steps, with the grid above",
         timing.load_clocks(),
@@ -186,13 +186,13 @@ fn clocks(design: SerialDesign<'_>) -> String {
     )
 }
 
-fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
+fn array_parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     let memory = design.lane_memory();
     let widths = design.lane_widths();
-    let median = design.filter() == Filter::Median3x3;
+    let median = design.filter() == DenoiseFilter::Median3x3;
     let region = design.region_size();
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
-    let fraction = design.features().iter().find_map(deviations);
+    let fraction = design.features().iter().find_map(deviation_mean);
     let flag = |condition: bool| u32::from(condition);
     let numbers = [
         ("WIDTH", design.pixel_bits()),
@@ -201,24 +201,24 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("DENOISED_SIDE", if median { design.denoised_side() } else { region }),
         ("MEDIAN", flag(median)),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
-        ("LAST_SENT", flag(last_sent(&design))),
-        ("BLANKS", flag(blanks(&design))),
-        ("RAW_PAYLOAD", flag(design.keeps_raw())),
-        ("RASTER", flag(design.feed() == Feed::Raster)),
-        ("BLOCK", flag(memory.kind == MemoryKind::Block)),
+        ("LAST_SENT", flag(last_sent_flag(&design))),
+        ("BLANKS", flag(blanks_flag(&design))),
+        ("RAW_PAYLOAD", flag(design.has_separate_raw_pixels())),
+        ("RASTER", flag(design.feed() == PixelFeed::Raster)),
+        ("BLOCK", flag(memory.kind == LaneMemoryKind::Block)),
         ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("FEATURES", design.score_count() - 1),
-        ("ALL", flag(design.combine() == Combine::All)),
+        ("ALL", flag(design.combine() == VoteCombination::All)),
         ("FRACTION", fraction.map_or(0, |mean| mean.fraction_bits)),
-        ("DENOISED_BASE", base(AreaKind::Denoised)),
-        ("REFERENCE_BASE", base(AreaKind::Reference)),
+        ("DENOISED_BASE", base(SlotAreaKind::Denoised)),
+        ("REFERENCE_BASE", base(SlotAreaKind::Reference)),
         ("WORD_BITS", memory.slot_words.trailing_zeros()),
         ("SLOT_BITS", design.slot_bits()),
         ("ADDRESS_BITS", memory.address_bits),
         ("POSITION_BITS", widths.center),
         ("INDEX_BITS", design.score_index_bits()),
         ("COUNT_BITS", design.count_bits()),
-        ("SCORE_BITS", design.any_score_bits()),
+        ("SCORE_BITS", design.max_score_bits()),
         ("SUM_BITS", design.pixel_sum_bits()),
         ("SCALE_BITS", widths.scale),
         ("ACC_BITS", widths.accumulator),
@@ -226,13 +226,13 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("CHAIN_BITS", widths.chain),
     ];
     let mut list: Vec<_> = numbers.iter().map(|(name, value)| (*name, value.to_string())).collect();
-    list.push(("KINDS", kinds(design.features().iter())));
-    if let (Some(periphery), Some(sums)) = (design.periphery(), design.block_sums()) {
+    list.push(("KINDS", kinds_value(design.features().iter())));
+    if let (Some(periphery), Some(sums)) = (design.periphery(), design.block_mean_division()) {
         let factor_bits = bits_for(sums.factor);
         list.extend([
             ("BLOCKS", periphery.blocks.to_string()),
-            ("MEAN_DROPPED", sums.dropped.to_string()),
-            ("MEAN_SUM_BITS", sums.passing.to_string()),
+            ("MEAN_DROPPED", sums.dropped_bits.to_string()),
+            ("MEAN_SUM_BITS", sums.passing_bits.to_string()),
             ("MEAN_FACTOR_BITS", factor_bits.to_string()),
             ("MEAN_FACTOR", format!("{factor_bits}'d{}", sums.factor)),
             ("MEAN_SHIFT", sums.shift.to_string()),
@@ -244,11 +244,11 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
 /// Returns the input of the array for the level of a feature, and the signal connected to it. The
 /// array has this input even if the design lacks the feature. Returns `None` for a feature that has
 /// no level.
-fn level(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, String)> {
+fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, String)> {
     match kind {
-        FeatureKind::Edge => Some(("edge_half_i", edge_half(design))),
+        FeatureKind::Edge => Some(("edge_half_i", half_edge_level(design))),
         FeatureKind::Corner => {
-            let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));
+            let given = design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
             let level = given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()));
             Some(("corner_level_i", level))
         }
@@ -257,31 +257,31 @@ fn level(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, S
 }
 
 /// Returns floor(level / 2) of `edge`, two bits wider than a pixel.
-fn edge_half(design: SerialDesign<'_>) -> String {
+fn half_edge_level(design: SerialDesign<'_>) -> String {
     let width = design.pixel_bits() + 2;
     let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
-    match design.thresholds() {
-        Thresholds::Constant => format!("{width}'d{}", edge.level().expect("edge has a level") / 2),
-        Thresholds::Runtime => {
+    match design.threshold_source() {
+        ThresholdSource::Constant => format!("{width}'d{}", edge.level().expect("edge has a level") / 2),
+        ThresholdSource::Runtime => {
             let half = format!("edge_level_i[{}:1]", edge.level_bits() - 1);
-            padded(&half, edge.level_bits() - 1, width)
+            zero_extended(&half, edge.level_bits() - 1, width)
         }
     }
 }
 
 fn minima(design: SerialDesign<'_>) -> Vec<String> {
-    let width = design.any_score_bits();
+    let width = design.max_score_bits();
     let minimum = |feature: &SpatialFeature| {
-        let name = signal(&design, PortRole::MinScore(feature.kind()));
-        padded(&name, feature.score_bits(), width)
+        let name = threshold_signal(&design, PortRole::MinScore(feature.kind()));
+        zero_extended(&name, feature.score_bits(), width)
     };
     let mut list: Vec<_> = design.features().iter().rev().map(minimum).collect();
-    list.push(padded(&signal(&design, PortRole::TemporalMinCount), design.count_bits(), width));
+    list.push(zero_extended(&threshold_signal(&design, PortRole::TemporalMinCount), design.count_bits(), width));
     list
 }
 
 /// Returns a value of `bits` bits, extended with zeros to `width` bits.
-fn padded(value: &str, bits: u32, width: u32) -> String {
+fn zero_extended(value: &str, bits: u32, width: u32) -> String {
     match width - bits {
         0 => value.to_owned(),
         zeros => format!("{{{zeros}'d0, {value}}}"),

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds as inputs or constants, and the scores as words, for all organizations.
 
-use foveate_design::{Design, FeatureKind, Port, PortRole, Thresholds};
+use foveate_design::{Design, FeatureKind, Port, PortRole, ThresholdSource};
 
 /// A threshold that is a constant in the Verilog.
-pub(crate) struct Constant {
+pub(crate) struct ThresholdConstant {
     pub(crate) name: String,
     pub(crate) width: u32,
     pub(crate) value: u64,
 }
 
 /// Returns the scores and how they are formed, as words.
-pub(crate) fn summary(design: &Design) -> String {
+pub(crate) fn scores_text(design: &Design) -> String {
     let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
     format!(
         "{} ({}), temporal against {}; {} neighborhood, filter {}",
@@ -24,9 +24,9 @@ pub(crate) fn summary(design: &Design) -> String {
 }
 
 /// Returns the input port of a threshold, or the constant that takes its place.
-pub(crate) fn signal(design: &Design, role: PortRole) -> String {
-    match design.thresholds() {
-        Thresholds::Runtime => {
+pub(crate) fn threshold_signal(design: &Design, role: PortRole) -> String {
+    match design.threshold_source() {
+        ThresholdSource::Runtime => {
             design
                 .rpu_ports()
                 .into_iter()
@@ -34,15 +34,15 @@ pub(crate) fn signal(design: &Design, role: PortRole) -> String {
                 .expect("a threshold of the design is a port")
                 .name
         }
-        Thresholds::Constant => constant_name(role),
+        ThresholdSource::Constant => constant_name(role),
     }
 }
 
 /// Returns the input port or the constant of the summary level. The array and the core have this
 /// input whether irrelevant regions send summaries or not.
-pub(crate) fn summary_level(design: &Design) -> String {
+pub(crate) fn summary_level_signal(design: &Design) -> String {
     match design.periphery() {
-        Some(_) => signal(design, PortRole::SummaryLevel),
+        Some(_) => threshold_signal(design, PortRole::SummaryLevel),
         None => format!("{}'d0", design.pixel_bits()),
     }
 }
@@ -60,13 +60,13 @@ fn constant_name(role: PortRole) -> String {
 }
 
 /// Returns the constants of the thresholds; none if thresholds are inputs.
-pub(crate) fn constants(design: &Design) -> Vec<Constant> {
-    if design.thresholds() == Thresholds::Runtime {
+pub(crate) fn threshold_constants(design: &Design) -> Vec<ThresholdConstant> {
+    if design.threshold_source() == ThresholdSource::Runtime {
         return Vec::new();
     }
     let mut list = Vec::new();
     let mut add = |role, width, value| {
-        list.push(Constant { name: constant_name(role), width, value });
+        list.push(ThresholdConstant { name: constant_name(role), width, value });
     };
     for feature in design.features() {
         if let Some(level) = feature.level() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The modules that may be on top of a design: its RPU or lane, its array, and the core on AXI.
 
-use foveate_design::{Array, Bus, Design, Hardware, Interface, Port};
+use foveate_design::{ArrayStructure, InterfaceKind, Design, Hardware, CoreInterface, Port};
 
 /// The top module of a core on AXI, which contains the array.
 pub const AXI_TOP: &str = "rcm_axi";
@@ -36,10 +36,10 @@ impl Top {
     /// Returns the top that contains this one as an array: this top itself, if its module is an
     /// array of its own.
     #[must_use]
-    pub fn array(self, design: &Design) -> Self {
+    pub fn array_top(self, design: &Design) -> Self {
         match (self, design.unit().array) {
-            (Self::Rpu, Array::Whole) => Self::Rpu,
-            (Self::Rpu, Array::Copies) | (Self::Rcm, Array::Copies | Array::Whole) => Self::Rcm,
+            (Self::Rpu, ArrayStructure::SharedLogic) => Self::Rpu,
+            (Self::Rpu, ArrayStructure::RpuCopies) | (Self::Rcm, ArrayStructure::RpuCopies | ArrayStructure::SharedLogic) => Self::Rcm,
         }
     }
 
@@ -69,7 +69,7 @@ impl Top {
 
     /// Returns the interface of the module.
     #[must_use]
-    pub fn interface(self, design: &Design) -> Interface {
+    pub fn interface(self, design: &Design) -> CoreInterface {
         match self {
             Self::Rpu => design.rpu_interface(),
             Self::Rcm => design.rcm_interface(),
@@ -84,27 +84,27 @@ impl Top {
 }
 
 /// Returns the module that a user integrates into a chip: the array, or the core on AXI.
-pub(crate) fn whole(design: &Design) -> &'static str {
-    match design.bus() {
-        Bus::Ports => Top::Rcm.module(),
-        Bus::Axi => AXI_TOP,
+pub(crate) fn core_top(design: &Design) -> &'static str {
+    match design.interface_kind() {
+        InterfaceKind::Ports => Top::Rcm.module(),
+        InterfaceKind::Axi => AXI_TOP,
     }
 }
 
 /// Returns the clock port of the module that a user integrates into a chip.
-pub(crate) fn clock(design: &Design) -> &'static str {
-    match design.bus() {
-        Bus::Ports => CLOCK,
-        Bus::Axi => AXI_CLOCK,
+pub(crate) fn core_clock(design: &Design) -> &'static str {
+    match design.interface_kind() {
+        InterfaceKind::Ports => CLOCK,
+        InterfaceKind::Axi => AXI_CLOCK,
     }
 }
 
 /// Returns the module that is placed if the user names none. This is the whole core, except for
 /// arrays of RPUs: hundreds of RPUs fit into none of the devices.
-pub(crate) fn placed(design: &Design) -> &'static str {
+pub(crate) fn placed_top(design: &Design) -> &'static str {
     match design.unit().array {
         _ if design.is_on_axi() => AXI_TOP,
-        Array::Copies => Top::Rpu.module(),
-        Array::Whole => Top::Rcm.module(),
+        ArrayStructure::RpuCopies => Top::Rpu.module(),
+        ArrayStructure::SharedLogic => Top::Rcm.module(),
     }
 }

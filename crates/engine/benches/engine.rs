@@ -5,14 +5,14 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use foveate_camera::{CameraConfig, FeatureKind, Neighborhood, SpatialConfig};
-use foveate_engine::{Engine, Level, Options, Screens};
+use foveate_engine::{Engine, InstructionSet, EngineOptions, BatchScreens};
 
 fn main() {
     divan::main();
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Case {
+struct BenchmarkCase {
     width: u32,
     height: u32,
     side: u32,
@@ -22,26 +22,26 @@ struct Case {
 
 const EDGE: &[FeatureKind] = &[FeatureKind::Edge];
 const ALL: &[FeatureKind] = FeatureKind::ALL;
-const HD: Case = Case {
+const HD: BenchmarkCase = BenchmarkCase {
     width: 1920,
     height: 1080,
     side: 32,
     neighborhood: Neighborhood::Shared,
     features: EDGE,
 };
-const SMALL: Case = Case { width: 224, height: 224, side: 8, ..HD };
+const SMALL: BenchmarkCase = BenchmarkCase { width: 224, height: 224, side: 8, ..HD };
 
-const CASES: [(&str, Case); 6] = [
+const CASES: [(&str, BenchmarkCase); 6] = [
     ("1080p edge shared", HD),
-    ("1080p edge isolated", Case { neighborhood: Neighborhood::Isolated, ..HD }),
-    ("1080p all shared", Case { features: ALL, ..HD }),
+    ("1080p edge isolated", BenchmarkCase { neighborhood: Neighborhood::Isolated, ..HD }),
+    ("1080p all shared", BenchmarkCase { features: ALL, ..HD }),
     ("224 edge shared", SMALL),
-    ("224 edge isolated", Case { neighborhood: Neighborhood::Isolated, ..SMALL }),
-    ("224 all shared", Case { features: ALL, ..SMALL }),
+    ("224 edge isolated", BenchmarkCase { neighborhood: Neighborhood::Isolated, ..SMALL }),
+    ("224 all shared", BenchmarkCase { features: ALL, ..SMALL }),
 ];
 
 /// Makes an engine for a case, and frames of a moving pattern with noise.
-fn setup(case: Case, options: Options) -> (Engine, Vec<Vec<u8>>) {
+fn setup(case: BenchmarkCase, options: EngineOptions) -> (Engine, Vec<Vec<u8>>) {
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(case.width), Some(case.height));
     config.region.size = case.side;
@@ -65,7 +65,7 @@ fn setup(case: Case, options: Options) -> (Engine, Vec<Vec<u8>>) {
 }
 
 /// Times frames one by one. With `still`, the same frame is given again and again.
-fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
+fn run_single(bencher: Bencher, case: BenchmarkCase, options: EngineOptions, still: bool) {
     let (mut engine, frames) = setup(case, options);
     let width = usize::try_from(case.width).expect("a width");
     let mut number = 0;
@@ -75,32 +75,32 @@ fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
     });
 }
 
-fn case(name: &str) -> Case {
+fn case(name: &str) -> BenchmarkCase {
     CASES.iter().find(|(own, _)| *own == name).expect("a case").1
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
 fn moving(bencher: Bencher, name: &str) {
-    run(bencher, case(name), Options { skip: false, ..Options::default() }, false);
+    run_single(bencher, case(name), EngineOptions { skips_identical_regions: false, ..EngineOptions::default() }, false);
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
 fn moving_with_skip(bencher: Bencher, name: &str) {
-    run(bencher, case(name), Options::default(), false);
+    run_single(bencher, case(name), EngineOptions::default(), false);
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
 fn still_with_skip(bencher: Bencher, name: &str) {
-    run(bencher, case(name), Options::default(), true);
+    run_single(bencher, case(name), EngineOptions::default(), true);
 }
 
 #[divan::bench(args = [1, 2])]
 fn threads(bencher: Bencher, threads: usize) {
-    run(bencher, HD, Options { threads, skip: false, ..Options::default() }, false);
+    run_single(bencher, HD, EngineOptions { threads, skips_identical_regions: false, ..EngineOptions::default() }, false);
 }
 
 /// The numbers of threads and of frames per call, and whether the screens are kept.
-const WAYS: [(usize, usize, bool); 8] = [
+const BATCH_OPTIONS: [(usize, usize, bool); 8] = [
     (1, 4, false),
     (1, 4, true),
     (1, 32, false),
@@ -112,31 +112,31 @@ const WAYS: [(usize, usize, bool); 8] = [
 ];
 
 /// Times several frames per call.
-fn run_batch(bencher: Bencher, case: Case, (threads, batch, keep): (usize, usize, bool)) {
-    let options = Options { threads, skip: false, ..Options::default() };
+fn run_batch(bencher: Bencher, case: BenchmarkCase, (threads, batch, keep): (usize, usize, bool)) {
+    let options = EngineOptions { threads, skips_identical_regions: false, ..EngineOptions::default() };
     let (mut engine, frames) = setup(case, options);
     let frames: Vec<&[u8]> = frames.iter().map(Vec::as_slice).cycle().take(batch).collect();
     let width = usize::try_from(case.width).expect("a width");
-    let mut screens = Screens::new();
+    let mut screens = BatchScreens::new();
     bencher.counter(ItemsCount::new(batch * frames[0].len())).bench_local(|| {
         let screens = keep.then_some(&mut screens);
         engine.step_batch_u8(&frames, width, screens).map(<[_]>::len)
     });
 }
 
-#[divan::bench(args = WAYS)]
+#[divan::bench(args = BATCH_OPTIONS)]
 fn batches_1080p(bencher: Bencher, way: (usize, usize, bool)) {
     run_batch(bencher, HD, way);
 }
 
-#[divan::bench(args = WAYS)]
+#[divan::bench(args = BATCH_OPTIONS)]
 fn batches_224(bencher: Bencher, way: (usize, usize, bool)) {
     run_batch(bencher, SMALL, way);
 }
 
-#[divan::bench(args = Level::available().into_iter().map(Level::name))]
+#[divan::bench(args = InstructionSet::available().into_iter().map(InstructionSet::name))]
 fn instructions(bencher: Bencher, name: &str) {
-    let level = Level::available().into_iter().find(|level| level.name() == name);
+    let level = InstructionSet::available().into_iter().find(|level| level.name() == name);
     let level = level.expect("an available level");
-    run(bencher, HD, Options { level, skip: false, ..Options::default() }, false);
+    run_single(bencher, HD, EngineOptions { level, skips_identical_regions: false, ..EngineOptions::default() }, false);
 }

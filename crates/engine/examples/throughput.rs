@@ -17,13 +17,13 @@ use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
 use foveate_camera::{
-    CameraConfig, Decimal, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
+    CameraConfig, Decimal, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy, SpatialConfig,
 };
-use foveate_engine::{Engine, FrameOutcome, Level, Options, Screens};
+use foveate_engine::{Engine, FrameOutcome, InstructionSet, EngineOptions, BatchScreens};
 
-type Failure = Box<dyn std::error::Error>;
+type BoxError = Box<dyn std::error::Error>;
 
-fn main() -> Result<(), Failure> {
+fn main() -> Result<(), BoxError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments.iter().any(|argument| argument == "--copy") {
         print(&copy_bandwidth());
@@ -34,7 +34,7 @@ fn main() -> Result<(), Failure> {
         arguments.get(at + 1).map(String::as_str)
     };
     let path = arguments.first().ok_or("name a clip: an .npy of bytes, frames x height x width")?;
-    let clip = Clip::read(path)?;
+    let clip = ByteClip::read(path)?;
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(clip.width), Some(clip.height));
     config.region.size = value("--side").unwrap_or("8").parse()?;
@@ -43,26 +43,26 @@ fn main() -> Result<(), Failure> {
         _ => Neighborhood::Shared,
     };
     if value("--reference") == Some("last-sent") {
-        config.temporal.reference = Reference::LastSent;
+        config.temporal.reference = ReferencePolicy::LastSent;
     }
     if let Some(blocks) = value("--blocks") {
-        config.render.irrelevant = Irrelevant::Mean;
+        config.render.irrelevant = IrrelevantRendering::Mean;
         config.periphery.blocks = Some(blocks.parse()?);
     }
     let features = value("--features").unwrap_or("edge");
     config.spatial = features.split(',').map(feature).collect::<Result<_, _>>()?;
-    let wanted = value("--level").unwrap_or_else(|| Level::detect().name());
-    let options = Options {
+    let wanted = value("--level").unwrap_or_else(|| InstructionSet::detect().name());
+    let options = EngineOptions {
         threads: value("--threads").unwrap_or("1").parse()?,
-        skip: !arguments.iter().any(|argument| argument == "--no-skip"),
-        level: *Level::available()
+        skips_identical_regions: !arguments.iter().any(|argument| argument == "--no-skip"),
+        level: *InstructionSet::available()
             .iter()
             .find(|level| level.name() == wanted)
             .ok_or("this processor has no such instructions")?,
     };
     let seconds: f64 = value("--seconds").unwrap_or("1").parse()?;
     let mut engine = Engine::with_options(&config.validate()?, options)?;
-    let way = Way {
+    let way = FrameDelivery {
         batch: value("--batch").unwrap_or("1").parse::<usize>()?.max(1),
         screens: arguments.iter().any(|argument| argument == "--screens"),
     };
@@ -72,7 +72,7 @@ fn main() -> Result<(), Failure> {
         "clip": path, "width": width, "height": height, "side": config.region.size,
         "neighborhood": config.region.neighborhood.name(), "features": features,
         "reference": config.temporal.reference.name(), "threads": options.threads,
-        "batch": way.batch, "screens": way.screens, "level": options.level.name(), "skip": options.skip,
+        "batch": way.batch, "screens": way.screens, "level": options.level.name(), "skip": options.skips_identical_regions,
         "mpixel_s": measured.mpixel_s, "mpixel_s_mean": measured.mpixel_s_mean,
         "skipped": measured.skipped, "active": measured.active,
     }));
@@ -85,19 +85,19 @@ fn print(line: &serde_json::Value) {
 }
 
 /// Returns a feature with the thresholds of the OpenCV pipeline.
-fn feature(name: &str) -> Result<SpatialConfig, Failure> {
+fn feature(name: &str) -> Result<SpatialConfig, BoxError> {
     let kind = *FeatureKind::ALL.iter().find(|kind| kind.name() == name).ok_or("no feature")?;
     let mut feature = SpatialConfig::new(kind);
     if kind == FeatureKind::Corner {
-        feature.min_score = Some(Decimal::whole(1));
+        feature.min_score = Some(Decimal::from_whole(1));
     }
     if kind == FeatureKind::Mad {
-        feature.min_score = Some(Decimal::whole(1));
+        feature.min_score = Some(Decimal::from_whole(1));
     }
     Ok(feature)
 }
 
-struct Measured {
+struct ThroughputResult {
     /// Megapixels per second over the faster half of the frames.
     mpixel_s: f64,
     /// Megapixels per second over all frames of the clip, each with its fastest time.
@@ -107,7 +107,7 @@ struct Measured {
 }
 
 /// The way in which frames are given to the engine.
-struct Way {
+struct FrameDelivery {
     /// The number of frames per call.
     batch: usize,
     /// Keeps the rendered frame of every frame.
@@ -117,17 +117,17 @@ struct Way {
 /// Times every batch of frames in rounds over the clip. The engine is reset before each round, so
 /// that frames follow each other only as they do in the clip.
 fn measure(
-    clip: &Clip,
+    clip: &ByteClip,
     engine: &mut Engine,
-    way: &Way,
+    way: &FrameDelivery,
     time: Duration,
-) -> Result<Measured, Failure> {
+) -> Result<ThroughputResult, BoxError> {
     let width = usize::try_from(clip.width)?;
     let size = width * usize::try_from(clip.height)?;
     let (mut times, mut skipped, mut active, mut seen) = (Vec::new(), 0, 0, 0);
     let start = Instant::now();
     let frames: Vec<&[u8]> = clip.pixels.chunks_exact(size).collect();
-    let mut screens = Screens::new();
+    let mut screens = BatchScreens::new();
     let batches: Vec<&[&[u8]]> = frames.chunks(way.batch).collect();
     for (number, batch) in batches.iter().enumerate().cycle() {
         if number == 0 {
@@ -135,8 +135,8 @@ fn measure(
         }
         let screens = way.screens.then_some(&mut screens);
         let began = Instant::now();
-        let outcomes = take(engine, batch, width, screens)?;
-        times.push(began.elapsed().as_secs_f64() / count(batch.len()));
+        let outcomes = step_frames(engine, batch, width, screens)?;
+        times.push(began.elapsed().as_secs_f64() / count_as_f64(batch.len()));
         skipped += outcomes.iter().map(|outcome| outcome.skipped).sum::<usize>();
         active += outcomes.iter().flat_map(|outcome| &outcome.active).filter(|on| **on).count();
         seen += batch.len();
@@ -144,35 +144,35 @@ fn measure(
             break;
         }
     }
-    let regions = count(seen * engine.outcome().srs.len());
+    let regions = count_as_f64(seen * engine.outcome().srs.len());
     // The fastest time of each batch leaves out the time that other programs take, and keeps the
     // differences between frames.
     let at = |number: usize| times.iter().skip(number).step_by(batches.len()).copied();
     let measured = batches.iter().take(times.len()).enumerate();
     let frame_times =
-        measured.map(|(number, batch)| count(batch.len()) * at(number).fold(f64::MAX, f64::min));
+        measured.map(|(number, batch)| count_as_f64(batch.len()) * at(number).fold(f64::MAX, f64::min));
     let measured = batches.iter().take(times.len()).map(|batch| batch.len()).sum();
-    let mean_of_all = frame_times.sum::<f64>() / count(measured);
+    let mean_of_all = frame_times.sum::<f64>() / count_as_f64(measured);
     times.sort_by(f64::total_cmp);
     times.truncate(times.len().div_ceil(2));
-    let mean = times.iter().sum::<f64>() / count(times.len());
-    let pixels = count(size);
-    Ok(Measured {
+    let mean = times.iter().sum::<f64>() / count_as_f64(times.len());
+    let pixels = count_as_f64(size);
+    Ok(ThroughputResult {
         mpixel_s: (pixels / mean / 1e6).round(),
         mpixel_s_mean: (pixels / mean_of_all / 1e6).round(),
-        skipped: count(skipped) / regions,
-        active: count(active) / regions,
+        skipped: count_as_f64(skipped) / regions,
+        active: count_as_f64(active) / regions,
     })
 }
 
 /// Takes some frames. A single frame takes the path for single frames, without a buffer for its
 /// screen.
-fn take<'e>(
+fn step_frames<'e>(
     engine: &'e mut Engine,
     batch: &[&[u8]],
     width: usize,
-    screens: Option<&mut Screens<u8>>,
-) -> Result<&'e [FrameOutcome], Failure> {
+    screens: Option<&mut BatchScreens<u8>>,
+) -> Result<&'e [FrameOutcome], BoxError> {
     Ok(match batch {
         [frame] => std::slice::from_ref(engine.step_u8(frame, width)?),
         _ => engine.step_batch_u8(batch, width, screens)?,
@@ -180,7 +180,7 @@ fn take<'e>(
 }
 
 #[allow(clippy::cast_precision_loss, reason = "a count of frames or regions")]
-fn count(count: usize) -> f64 {
+fn count_as_f64(count: usize) -> f64 {
     count as f64
 }
 
@@ -218,19 +218,19 @@ fn copy_rate(bytes: usize, rounds: usize, begin: &Barrier) -> f64 {
         .collect();
     times.sort_by(f64::total_cmp);
     let half = &times[..rounds.div_ceil(2)];
-    2.0 * count(bytes) * count(half.len()) / half.iter().sum::<f64>() / 1e9
+    2.0 * count_as_f64(bytes) * count_as_f64(half.len()) / half.iter().sum::<f64>() / 1e9
 }
 
 /// A clip of frames of bytes, one after the other.
-struct Clip {
+struct ByteClip {
     width: u32,
     height: u32,
     pixels: Vec<u8>,
 }
 
-impl Clip {
+impl ByteClip {
     /// Reads an `.npy` file of shape (frames, height, width) and type u8.
-    fn read(path: &str) -> Result<Self, Failure> {
+    fn read(path: &str) -> Result<Self, BoxError> {
         let bytes = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
         let header = bytes.get(8..10).ok_or("no .npy file")?;
         let header = usize::from(u16::from_le_bytes([header[0], header[1]]));

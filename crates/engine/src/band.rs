@@ -3,55 +3,55 @@
 
 use std::ops::Range;
 
-use foveate_camera::Reference;
+use foveate_camera::ReferencePolicy;
 
 use crate::denoised::Denoiser;
-use crate::kernel::{Open, Sides, Windows, corner, edge, mad, sums, temporal};
+use crate::kernel::{SharedSides, WindowSides, WindowRows, corner, edge, mad, sums, temporal};
 use crate::periphery::PeripheryPlan;
-use crate::pixels::Pixels;
-use crate::plan::{CameraPlan, Passes};
-use crate::scratch::{Columns, Scratch, Sums};
-use foveate_lanes::{BLOCK, Block, Lane, threshold};
+use crate::pixels::BorrowedFrame;
+use crate::plan::{CameraPlan, FeaturePasses};
+use crate::working_memory::{ColumnSums, WorkingMemory, RegionSums};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 
 /// Returns the blocks of a run in row `y` of a padded plane.
 #[inline(always)]
-fn blocks<'a, T>(plane: &'a [T], stride: usize, y: usize, run: &Range<usize>) -> &'a [Block<T>] {
-    plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks().0
+fn row_blocks<'a, T>(plane: &'a [T], stride: usize, y: usize, run: &Range<usize>) -> &'a [Block<T>] {
+    plane[y * stride + run.start * BLOCK_LANES..][..run.len() * BLOCK_LANES].as_chunks().0
 }
 
 /// Returns the blocks of a run in row `y` of a padded plane, to be written.
 #[inline(always)]
-fn blocks_mut<'a, T>(
+fn row_blocks_mut<'a, T>(
     plane: &'a mut [T],
     stride: usize,
     y: usize,
     run: &Range<usize>,
 ) -> &'a mut [Block<T>] {
-    plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks_mut().0
+    plane[y * stride + run.start * BLOCK_LANES..][..run.len() * BLOCK_LANES].as_chunks_mut().0
 }
 
 /// Counts the hits of the features that use windows in one row.
 #[inline(always)]
-fn features<T: Lane>(
+fn count_window_features<T: PixelLane>(
     plan: &CameraPlan<T>,
-    windows: Windows<'_, T>,
-    sides: impl Sides<T>,
-    columns: &mut Columns<T>,
+    windows: WindowRows<'_, T>,
+    sides: impl WindowSides<T>,
+    columns: &mut ColumnSums<T>,
     run: &Range<usize>,
 ) {
     if let Some(half) = plan.passes.edge {
-        edge::count(windows, sides, half, &mut columns.edge.blocks_mut()[run.clone()]);
+        edge::count_edges(windows, sides, half, &mut columns.edge.blocks_mut()[run.clone()]);
     }
     if let Some(level) = plan.passes.corner {
-        corner::count(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
+        corner::count_corners(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
     }
 }
 
 /// A band of regions with its part of the planes.
 #[derive(Debug)]
-pub(crate) struct Band<'a, T: Lane> {
+pub(crate) struct BandPass<'a, T: PixelLane> {
     pub(crate) plan: &'a CameraPlan<T>,
-    pub(crate) raw: Pixels<'a, T>,
+    pub(crate) raw: BorrowedFrame<'a, T>,
     /// The number of the band, counted from the top.
     pub(crate) number: usize,
     /// The denoised pixels of the last frame, which the pass replaces by those of this frame. They
@@ -61,24 +61,24 @@ pub(crate) struct Band<'a, T: Lane> {
     pub(crate) reference: &'a [T],
 }
 
-impl<T: Lane> Band<'_, T> {
+impl<T: PixelLane> BandPass<'_, T> {
     /// Fills `scratch.sums` for every region that the runs cover.
     #[inline(always)]
-    pub(crate) fn measure<const PERIPHERY: bool>(&mut self, scratch: &mut Scratch<T>) {
+    pub(crate) fn compute_sums<const PERIPHERY: bool>(&mut self, scratch: &mut WorkingMemory<T>) {
         let runs = std::mem::take(&mut scratch.runs);
         for run in &runs {
             self.first_pass(scratch, run);
         }
-        self.columns_to_regions(&scratch.columns, &mut scratch.sums);
+        self.columns_to_regions(&scratch.columns, &mut scratch.region_sums);
         if let Some(fraction_bits) = self.plan.passes.mad {
             self.spread_means(scratch, fraction_bits);
             for run in &runs {
                 self.second_pass(&mut scratch.columns, run, fraction_bits);
             }
             let side = self.plan.side;
-            sums::by_region(&scratch.columns.above, side, &mut scratch.sums.above);
+            sums::sum_by_region(&scratch.columns.above, side, &mut scratch.region_sums.above);
             if fraction_bits > 0 {
-                sums::by_region(&scratch.columns.over, side, &mut scratch.sums.over);
+                sums::sum_by_region(&scratch.columns.count_above, side, &mut scratch.region_sums.count_above);
             }
         }
         if PERIPHERY && let Some(periphery) = self.plan.periphery {
@@ -95,35 +95,35 @@ impl<T: Lane> Band<'_, T> {
     fn means_of_blocks(
         &self,
         periphery: PeripheryPlan<T>,
-        scratch: &mut Scratch<T>,
+        scratch: &mut WorkingMemory<T>,
         run: &Range<usize>,
     ) {
         let (plan, stride) = (self.plan, self.plan.stride());
-        let Scratch { columns, means, raw, .. } = scratch;
+        let WorkingMemory { columns, means, raw, .. } = scratch;
         let covered = plan.blocks_under(periphery.side, run);
         for (row, means) in means.chunks_exact_mut(plan.means_in_row()).enumerate() {
             let own = &mut columns.sum.blocks_mut()[run.clone()];
             let rows = row * periphery.side..(row + 1) * periphery.side;
             if plan.keeps_raw {
-                own.fill([T::Sum::default(); BLOCK]);
+                own.fill([T::ColumnSum::default(); BLOCK_LANES]);
                 for y in rows {
                     let pixels = self.raw.row(self.number * plan.side + y);
                     raw.values_mut()[..plan.width].copy_from_slice(pixels);
                     raw.repeat_border(plan.width, plan.padded_width());
-                    sums::add(raw.blocks(run), own);
+                    sums::add_to_columns(raw.blocks(run), own);
                 }
             } else {
-                sums::add_rows(&self.denoised[run.start * BLOCK..], stride, rows, own);
+                sums::add_rows(&self.denoised[run.start * BLOCK_LANES..], stride, rows, own);
             }
             let columns = &columns.sum[covered.start * periphery.side..];
-            periphery.means(columns, &mut means[covered.clone()]);
+            periphery.compute_means(columns, &mut means[covered.clone()]);
         }
     }
 
     #[inline(always)]
-    fn first_pass(&mut self, scratch: &mut Scratch<T>, run: &Range<usize>) {
+    fn first_pass(&mut self, scratch: &mut WorkingMemory<T>, run: &Range<usize>) {
         let plan = self.plan;
-        let Scratch { sorted, tail, denoised, columns, .. } = scratch;
+        let WorkingMemory { sorted, narrow_window: tail, denoised, columns, .. } = scratch;
         let top = self.number * plan.side;
         let mut denoiser = Denoiser {
             plan,
@@ -131,105 +131,105 @@ impl<T: Lane> Band<'_, T> {
             sorted,
             tail,
             rows: denoised,
-            slots: plan.slots(run.len()),
-            reach: plan.reach(self.number),
+            slots: plan.row_slots(run.len()),
+            reachable_rows: plan.reachable_rows(self.number),
             run: run.clone(),
         };
         columns.clear(plan, run);
-        let batch = plan.batch(run.len());
+        let batch = plan.batch_rows(run.len());
         for first in (0..plan.side).step_by(batch) {
             let rows = first..(first + batch).min(plan.side);
-            let [above, ..] = denoiser.around(top + rows.start);
-            let [.., below] = denoiser.around(top + rows.end - 1);
+            let [above, ..] = denoiser.window_rows(top + rows.start);
+            let [.., below] = denoiser.window_rows(top + rows.end - 1);
             if plan.passes.has_windows {
-                denoiser.ensure(above..below + 1);
+                denoiser.ensure_rows(above..below + 1);
                 for y in top + rows.start..top + rows.end {
                     let windows = denoiser.windows(y);
                     match &plan.seams {
-                        None => features(plan, windows, Open, columns, run),
-                        Some(seams) => features(plan, windows, seams.over(run), columns, run),
+                        None => count_window_features(plan, windows, SharedSides, columns, run),
+                        Some(seams) => count_window_features(plan, windows, seams.masks_of(run), columns, run),
                     }
                 }
             } else {
-                denoiser.ensure(top + rows.start..top + rows.end);
+                denoiser.ensure_rows(top + rows.start..top + rows.end);
             }
             for row in rows {
-                self.compare(denoiser.row(top + row), row, columns, run);
+                self.compare_row(denoiser.row(top + row), row, columns, run);
             }
         }
     }
 
     /// Compares a row with its reference, stores it, and adds it to the column sums.
     #[inline(always)]
-    fn compare(
+    fn compare_row(
         &mut self,
         now: &[Block<T>],
         row: usize,
-        columns: &mut Columns<T>,
+        columns: &mut ColumnSums<T>,
         run: &Range<usize>,
     ) {
         let (plan, stride) = (self.plan, self.plan.stride());
         let changed = &mut columns.changed.blocks_mut()[run.clone()];
-        let store = blocks_mut(self.denoised, stride, row, run);
+        let store = row_blocks_mut(self.denoised, stride, row, run);
         match plan.reference {
-            Reference::Previous => temporal::count_and_replace(now, store, plan.level, changed),
-            Reference::LastSent => {
-                let reference = blocks(self.reference, stride, row, run);
+            ReferencePolicy::Previous => temporal::count_and_replace(now, store, plan.level, changed),
+            ReferencePolicy::LastSent => {
+                let reference = row_blocks(self.reference, stride, row, run);
                 temporal::count_and_store(now, reference, plan.level, changed, store);
             }
         }
-        if plan.passes.sums {
-            sums::add(now, &mut columns.sum.blocks_mut()[run.clone()]);
+        if plan.passes.needs_sums {
+            sums::add_to_columns(now, &mut columns.sum.blocks_mut()[run.clone()]);
         }
-        if plan.passes.squares {
+        if plan.passes.needs_squares {
             sums::add_squares(now, &mut columns.square.blocks_mut()[run.clone()]);
         }
     }
 
     #[inline(always)]
-    fn columns_to_regions(&self, columns: &Columns<T>, regions: &mut Sums) {
+    fn columns_to_regions(&self, columns: &ColumnSums<T>, regions: &mut RegionSums) {
         let side = self.plan.side;
         // The pattern names every field, so that a new one is not forgotten. The sums of `mad`
         // follow in a second pass.
-        let Passes { edge, corner, has_windows: _, sums, squares, mad: _ } = self.plan.passes;
-        sums::by_region(&columns.changed, side, &mut regions.changed);
+        let FeaturePasses { edge, corner, has_windows: _, needs_sums: sums, needs_squares: squares, mad: _ } = self.plan.passes;
+        sums::sum_by_region(&columns.changed, side, &mut regions.changed);
         if edge.is_some() {
-            sums::by_region(&columns.edge, side, &mut regions.edge);
+            sums::sum_by_region(&columns.edge, side, &mut regions.edge);
         }
         if corner.is_some() {
-            sums::by_region(&columns.corner, side, &mut regions.corner);
+            sums::sum_by_region(&columns.corner, side, &mut regions.corner);
         }
         if sums {
-            sums::by_region(&columns.sum, side, &mut regions.sum);
+            sums::sum_by_region(&columns.sum, side, &mut regions.sum);
         }
         if squares {
-            sums::by_region(&columns.square, side, &mut regions.square);
+            sums::sum_by_region(&columns.square, side, &mut regions.square);
         }
     }
 
     /// Writes the whole part of each region's mean into its columns.
     #[inline(always)]
-    fn spread_means(&self, scratch: &mut Scratch<T>, fraction_bits: u32) {
+    fn spread_means(&self, scratch: &mut WorkingMemory<T>, fraction_bits: u32) {
         let n = u64::from(self.plan.region_pixels());
         let mean = |sum| {
-            let mean = mad::mean(sum, n, fraction_bits) >> fraction_bits;
-            threshold(u32::try_from(mean).expect("a mean is within the range of pixels"))
+            let mean = mad::region_mean(sum, n, fraction_bits) >> fraction_bits;
+            saturated_threshold(u32::try_from(mean).expect("a mean is within the range of pixels"))
         };
-        sums::spread(&scratch.sums.sum, self.plan.side, mean, &mut scratch.columns.mean);
+        sums::spread_over_columns(&scratch.region_sums.sum, self.plan.side, mean, &mut scratch.columns.mean);
     }
 
     #[inline(always)]
-    fn second_pass(&self, columns: &mut Columns<T>, run: &Range<usize>, fraction_bits: u32) {
+    fn second_pass(&self, columns: &mut ColumnSums<T>, run: &Range<usize>, fraction_bits: u32) {
         let stride = self.plan.stride();
         let above = &mut columns.above.blocks_mut()[run.clone()];
-        let over = &mut columns.over.blocks_mut()[run.clone()];
+        let over = &mut columns.count_above.blocks_mut()[run.clone()];
         let mean = &columns.mean.blocks()[run.clone()];
-        above.fill([T::Sum::default(); BLOCK]);
+        above.fill([T::ColumnSum::default(); BLOCK_LANES]);
         if fraction_bits > 0 {
-            over.fill([T::default(); BLOCK]);
+            over.fill([T::default(); BLOCK_LANES]);
         }
         for row in 0..self.plan.side {
-            let now = blocks(self.denoised, stride, row, run);
+            let now = row_blocks(self.denoised, stride, row, run);
             mad::add_above(now, mean, above);
             if fraction_bits > 0 {
                 mad::count_above(now, mean, over);
@@ -238,23 +238,23 @@ impl<T: Lane> Band<'_, T> {
     }
 }
 
-impl<T: Lane> Columns<T> {
+impl<T: PixelLane> ColumnSums<T> {
     /// Sets every sum that the first pass of a run uses to zero.
     #[inline(always)]
     fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
-        let Passes { edge, corner, has_windows: _, sums, squares, mad: _ } = plan.passes;
-        self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
+        let FeaturePasses { edge, corner, has_windows: _, needs_sums: sums, needs_squares: squares, mad: _ } = plan.passes;
+        self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
         if edge.is_some() {
-            self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
+            self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
         }
         if corner.is_some() {
-            self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK]);
+            self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
         }
         if sums {
-            self.sum.blocks_mut()[run.clone()].fill([T::Sum::default(); BLOCK]);
+            self.sum.blocks_mut()[run.clone()].fill([T::ColumnSum::default(); BLOCK_LANES]);
         }
         if squares {
-            self.square.blocks_mut()[run.clone()].fill([T::Square::default(); BLOCK]);
+            self.square.blocks_mut()[run.clone()].fill([T::SquareSum::default(); BLOCK_LANES]);
         }
     }
 }

@@ -4,17 +4,17 @@
 
 use foveate_camera::Camera;
 
-use crate::core::{Core, Keep};
-use crate::engine::{Engine, Lanes};
-use crate::pixels::Pixels;
+use crate::lane_engine::{LaneEngine, KeptBuffers};
+use crate::engine::{Engine, LaneCore};
+use crate::pixels::BorrowedFrame;
 use crate::plan::index;
 use crate::workers::Workers;
-use crate::{EngineError, FrameOutcome, Screens, screens};
-use foveate_lanes::Lane;
+use crate::{EngineError, FrameOutcome, BatchScreens, screens};
+use foveate_lanes::PixelLane;
 
 /// The number of bytes of frames that go through the engine together. It is small enough that
 /// pixels which were compared are still in the last-level cache when they are computed.
-const TOGETHER: usize = 16 << 20;
+const GROUP_BYTES: usize = 16 << 20;
 
 impl Engine {
     /// Takes the next frames of a camera with up to 8 bits per pixel, in order and without copying
@@ -36,18 +36,18 @@ impl Engine {
         &mut self,
         frames: &[&[u8]],
         stride: usize,
-        screens: Option<&mut Screens<u8>>,
+        screens: Option<&mut BatchScreens<u8>>,
     ) -> Result<&[FrameOutcome], EngineError> {
-        let frames = checked(&self.camera, frames, stride)?;
-        let Self { camera, workers, lanes, outcome, outcomes, .. } = self;
+        let frames = check_frames(&self.camera, frames, stride)?;
+        let Self { camera, workers, lanes, outcome, batch_outcomes: outcomes, .. } = self;
         match lanes {
-            Lanes::Bytes(core) => {
-                prepare(outcomes, camera, frames.len());
-                run(core, workers, &frames, outcome, (outcomes, screens));
+            LaneCore::Bytes(core) => {
+                resize_outcomes(outcomes, camera, frames.len());
+                step_groups(core, workers, &frames, outcome, (outcomes, screens));
             }
-            Lanes::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
+            LaneCore::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
         }
-        Ok(&self.outcomes[..frames.len()])
+        Ok(&self.batch_outcomes[..frames.len()])
     }
 
     /// Takes the next frames of a camera with 9 to 16 bits per pixel, as [`Engine::step_batch_u8`]
@@ -59,57 +59,57 @@ impl Engine {
         &mut self,
         frames: &[&[u16]],
         stride: usize,
-        screens: Option<&mut Screens<u16>>,
+        screens: Option<&mut BatchScreens<u16>>,
     ) -> Result<&[FrameOutcome], EngineError> {
-        let frames = checked(&self.camera, frames, stride)?;
-        let Self { camera, workers, lanes, outcome, outcomes, .. } = self;
+        let frames = check_frames(&self.camera, frames, stride)?;
+        let Self { camera, workers, lanes, outcome, batch_outcomes: outcomes, .. } = self;
         match lanes {
-            Lanes::Words(core) => {
-                prepare(outcomes, camera, frames.len());
-                run(core, workers, &frames, outcome, (outcomes, screens));
+            LaneCore::Words(core) => {
+                resize_outcomes(outcomes, camera, frames.len());
+                step_groups(core, workers, &frames, outcome, (outcomes, screens));
             }
-            Lanes::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
+            LaneCore::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
         }
-        Ok(&self.outcomes[..frames.len()])
+        Ok(&self.batch_outcomes[..frames.len()])
     }
 }
 
 /// Checks that the pixels are frames of the camera.
-fn checked<'a, T: Lane>(
+fn check_frames<'a, T: PixelLane>(
     camera: &Camera,
     frames: &[&'a [T]],
     stride: usize,
-) -> Result<Vec<Pixels<'a, T>>, EngineError> {
+) -> Result<Vec<BorrowedFrame<'a, T>>, EngineError> {
     let frame = |(number, &values): (usize, &&'a [T])| {
-        Pixels::checked(camera, values, stride)
-            .map_err(|error| EngineError::InBatch { number, error: Box::new(error) })
+        BorrowedFrame::new_checked(camera, values, stride)
+            .map_err(|error| EngineError::BatchFrame { number, error: Box::new(error) })
     };
     frames.iter().enumerate().map(frame).collect()
 }
 
 /// Makes room for one outcome per frame. The outcomes of longer batches stay for the next one.
-fn prepare(outcomes: &mut Vec<FrameOutcome>, camera: &Camera, frames: usize) {
+fn resize_outcomes(outcomes: &mut Vec<FrameOutcome>, camera: &Camera, frames: usize) {
     let new = || FrameOutcome::new(camera.features().len(), index(camera.regions()));
     outcomes.resize_with(frames.max(outcomes.len()), new);
 }
 
 /// Takes the frames through the engine, as many at a time as fit into the cache.
-fn run<T: Lane>(
-    core: &mut Core<T>,
+fn step_groups<T: PixelLane>(
+    core: &mut LaneEngine<T>,
     workers: &Workers,
-    frames: &[Pixels<'_, T>],
+    frames: &[BorrowedFrame<'_, T>],
     outcome: &mut FrameOutcome,
-    (outcomes, screens): (&mut [FrameOutcome], Option<&mut Screens<T>>),
+    (outcomes, screens): (&mut [FrameOutcome], Option<&mut BatchScreens<T>>),
 ) {
-    let room = |screens| screens::prepare(screens, &core.plan, frames.len());
+    let room = |screens| screens::resize_screens(screens, &core.plan, frames.len());
     let screens = screens.map_or(&mut [][..], room);
     let Some(first) = frames.first() else { return };
     let bytes = first.width * first.height * size_of::<T>();
-    let together = (TOGETHER / bytes).max(1);
+    let together = (GROUP_BYTES / bytes).max(1);
     let mut screens = screens.chunks_mut(together);
     for (frames, outcomes) in frames.chunks(together).zip(outcomes.chunks_mut(together)) {
         let screens = screens.next().unwrap_or_default();
         let outcomes = &mut outcomes[..frames.len()];
-        core.step(frames, workers, outcome, Keep { outcomes, screens });
+        core.step(frames, workers, outcome, KeptBuffers { outcomes, screens });
     }
 }

@@ -4,19 +4,19 @@
 
 use std::ops::Range;
 
-use crate::pixels::Pixels;
+use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
-use foveate_lanes::{BLOCK, Lane};
+use foveate_lanes::{BLOCK_LANES, PixelLane};
 
 /// The share of a band's blocks, as a fraction, above which the whole band is computed.
-const NEARLY: (usize, usize) = (4, 5);
+const WHOLE_BAND_SHARE: (usize, usize) = (4, 5);
 
 /// Compares band `number` with its copy of the last frame, updates the copy, and sets `changed` for
 /// every region in which a pixel differs.
 #[inline(always)]
-pub(crate) fn compare<T: Lane>(
+pub(crate) fn compare_and_update_copy<T: PixelLane>(
     plan: &CameraPlan<T>,
-    raw: Pixels<'_, T>,
+    raw: BorrowedFrame<'_, T>,
     number: usize,
     copy: &mut [T],
     changed: &mut [bool],
@@ -39,9 +39,9 @@ pub(crate) fn compare<T: Lane>(
 /// Compares band `number` of two frames, and sets `changed` for every region in which a pixel
 /// differs.
 #[inline(always)]
-pub(crate) fn compare_frames<T: Lane>(
+pub(crate) fn compare_frames<T: PixelLane>(
     plan: &CameraPlan<T>,
-    [last, now]: [Pixels<'_, T>; 2],
+    [last, now]: [BorrowedFrame<'_, T>; 2],
     number: usize,
     changed: &mut [bool],
 ) {
@@ -60,9 +60,9 @@ pub(crate) fn compare_frames<T: Lane>(
 
 /// Copies band `number`.
 #[inline(always)]
-pub(crate) fn keep<T: Lane>(
+pub(crate) fn copy_band<T: PixelLane>(
     plan: &CameraPlan<T>,
-    raw: Pixels<'_, T>,
+    raw: BorrowedFrame<'_, T>,
     number: usize,
     copy: &mut [T],
 ) {
@@ -72,7 +72,7 @@ pub(crate) fn keep<T: Lane>(
 }
 
 #[inline(always)]
-fn compare_row<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+fn compare_row<T: PixelLane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
     match side {
         8 => compare_constant::<8, T>(now, last, changed),
         16 => compare_constant::<16, T>(now, last, changed),
@@ -83,7 +83,7 @@ fn compare_row<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]
 }
 
 #[inline(always)]
-fn compare_constant<const SIDE: usize, T: Lane>(now: &[T], last: &[T], changed: &mut [bool]) {
+fn compare_constant<const SIDE: usize, T: PixelLane>(now: &[T], last: &[T], changed: &mut [bool]) {
     let ((now, now_rest), (last, last_rest)) = (now.as_chunks::<SIDE>(), last.as_chunks::<SIDE>());
     let (whole, ragged) = changed.split_at_mut(now.len());
     for ((now, last), changed) in now.iter().zip(last).zip(whole) {
@@ -93,7 +93,7 @@ fn compare_constant<const SIDE: usize, T: Lane>(now: &[T], last: &[T], changed: 
 }
 
 #[inline(always)]
-fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+fn compare_any<T: PixelLane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
     for ((now, last), changed) in now.chunks(side).zip(last.chunks(side)).zip(changed) {
         *changed |= now != last;
     }
@@ -104,7 +104,7 @@ fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]
 /// around them. One region on each side is enough, because the halo of two pixels is at most one
 /// region wide.
 #[inline(always)]
-pub(crate) fn affected<T: Lane>(
+pub(crate) fn mark_affected<T: PixelLane>(
     plan: &CameraPlan<T>,
     [above, here, below]: [&[bool]; 3],
     affected: &mut [bool],
@@ -126,18 +126,18 @@ pub(crate) fn affected<T: Lane>(
 /// each side, so runs that lie closer together than that are merged. If nearly all blocks are
 /// needed, one run covers the band.
 #[inline(always)]
-pub(crate) fn runs<T: Lane>(plan: &CameraPlan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
+pub(crate) fn collect_runs<T: PixelLane>(plan: &CameraPlan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
     runs.clear();
-    let (side, margin) = (plan.side, plan.margin());
+    let (side, margin) = (plan.side, plan.margin_blocks());
     for (column, _) in affected.iter().enumerate().filter(|(_, affected)| **affected) {
-        let (start, end) = (column * side / BLOCK, ((column + 1) * side).div_ceil(BLOCK));
+        let (start, end) = (column * side / BLOCK_LANES, ((column + 1) * side).div_ceil(BLOCK_LANES));
         match runs.last_mut() {
             Some(last) if start <= last.end + 2 * margin => last.end = end,
             _ => runs.push(start..end),
         }
     }
     let cost: usize = runs.iter().map(|run| run.len() + 2 * margin).sum();
-    if cost * NEARLY.1 > plan.blocks * NEARLY.0 {
+    if cost * WHOLE_BAND_SHARE.1 > plan.blocks * WHOLE_BAND_SHARE.0 {
         runs.clear();
         runs.push(0..plan.blocks);
     }
@@ -158,7 +158,7 @@ mod tests {
             let plan = CameraPlan::<u8>::new(&config.validate().unwrap());
             let affected: Vec<bool> = (0..plan.columns).map(|x| columns.contains(&x)).collect();
             let mut found = Vec::new();
-            runs(&plan, &affected, &mut found);
+            collect_runs(&plan, &affected, &mut found);
             found
         };
         use Neighborhood::{Isolated, Shared};

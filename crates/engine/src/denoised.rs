@@ -4,46 +4,46 @@
 
 use std::ops::Range;
 
-use crate::kernel::{Open, Seams, Windows, median};
-use crate::pixels::Pixels;
+use crate::kernel::{SharedSides, IsolatedSides, WindowRows, median};
+use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, SeamMasks};
-use crate::scratch::{BlockRow, DenoisedRow};
-use foveate_lanes::{BLOCK, Block, Lane};
+use crate::working_memory::{BlockRow, DenoisedRow};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
-impl<T: Lane> SeamMasks<T> {
+impl<T: PixelLane> SeamMasks<T> {
     /// Returns the masks of some blocks.
     #[inline(always)]
-    pub(crate) fn over(&self, span: &Range<usize>) -> Seams<'_, T> {
-        Seams { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
+    pub(crate) fn masks_of(&self, span: &Range<usize>) -> IsolatedSides<'_, T> {
+        IsolatedSides { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
     }
 }
 
 /// The number of rows between the row that is sorted and the row that is prefetched.
-const AHEAD: usize = 6;
+const PREFETCH_ROWS: usize = 6;
 
 /// The denoised rows of one run of blocks, with the padding and the borders that the contract
 /// defines.
 #[derive(Debug)]
-pub(crate) struct Denoiser<'a, T: Lane> {
+pub(crate) struct Denoiser<'a, T: PixelLane> {
     pub(crate) plan: &'a CameraPlan<T>,
-    pub(crate) raw: Pixels<'a, T>,
+    pub(crate) raw: BorrowedFrame<'a, T>,
     pub(crate) sorted: &'a mut [[BlockRow<T>; 3]],
     pub(crate) tail: &'a mut [Block<T>; 3],
     pub(crate) rows: &'a mut [DenoisedRow<T>],
     /// The number of entries of `rows` in use, a power of two.
     pub(crate) slots: usize,
     /// The first and the last row that windows may reach.
-    pub(crate) reach: (usize, usize),
+    pub(crate) reachable_rows: (usize, usize),
     /// The blocks that are asked for.
     pub(crate) run: Range<usize>,
 }
 
-impl<T: Lane> Denoiser<'_, T> {
+impl<T: PixelLane> Denoiser<'_, T> {
     /// Makes rows available: at most a batch and one row on each side of it.
     #[inline(always)]
-    pub(crate) fn ensure(&mut self, rows: Range<usize>) {
+    pub(crate) fn ensure_rows(&mut self, rows: Range<usize>) {
         let held = |y: usize| {
-            let held = &self.slot(y).holds;
+            let held = &self.slot(y).row_and_run;
             held.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run)
         };
         let mut missing = rows;
@@ -52,15 +52,15 @@ impl<T: Lane> Denoiser<'_, T> {
         }
         let plan = self.plan;
         // The windows of the features reach beyond the blocks that are asked for.
-        let margin = plan.margin();
+        let margin = plan.margin_blocks();
         let span = self.run.start.saturating_sub(margin)..(self.run.end + margin).min(plan.blocks);
         if plan.median {
             for y in missing.clone() {
-                self.sort(y, &span, y - missing.start);
+                self.sort_row_columns(y, &span, y - missing.start);
             }
         }
         for y in missing.clone() {
-            self.fill(y, &span, y - missing.start);
+            self.fill_row(y, &span, y - missing.start);
         }
     }
 
@@ -72,16 +72,16 @@ impl<T: Lane> Denoiser<'_, T> {
 
     /// Returns the windows of row `y`. The row and its neighbors must be available.
     #[inline(always)]
-    pub(crate) fn windows(&self, y: usize) -> Windows<'_, T> {
-        let [above, here, below] = self.around(y);
-        let near = |y: usize| self.slot(y).pixels.near(&self.run);
-        Windows { above: near(above), here: near(here), below: near(below) }
+    pub(crate) fn windows(&self, y: usize) -> WindowRows<'_, T> {
+        let [above, here, below] = self.window_rows(y);
+        let near = |y: usize| self.slot(y).pixels.blocks_with_neighbors(&self.run);
+        WindowRows { above: near(above), here: near(here), below: near(below) }
     }
 
     /// Returns the numbers of the three rows that a window in row `y` covers.
     #[inline(always)]
-    pub(crate) fn around(&self, y: usize) -> [usize; 3] {
-        [y.saturating_sub(1).max(self.reach.0), y, (y + 1).min(self.reach.1)]
+    pub(crate) fn window_rows(&self, y: usize) -> [usize; 3] {
+        [y.saturating_sub(1).max(self.reachable_rows.0), y, (y + 1).min(self.reachable_rows.1)]
     }
 
     #[inline(always)]
@@ -92,47 +92,47 @@ impl<T: Lane> Denoiser<'_, T> {
     /// Fills row `y` from the sorted columns with index `at`, or from raw pixels if there is no
     /// median.
     #[inline(always)]
-    fn fill(&mut self, y: usize, span: &Range<usize>, at: usize) {
+    fn fill_row(&mut self, y: usize, span: &Range<usize>, at: usize) {
         let plan = self.plan;
         let row = &mut self.rows[y & (self.slots - 1)];
         if plan.median {
             let [low, mid, high] = &self.sorted[at];
-            let sorted = [low.near(span), mid.near(span), high.near(span)];
+            let sorted = [low.blocks_with_neighbors(span), mid.blocks_with_neighbors(span), high.blocks_with_neighbors(span)];
             let pixels = row.pixels.blocks_mut(span);
-            let ahead = self.raw.row(y + AHEAD);
-            let ahead = blocks_of(ahead, (span.start * BLOCK).min(plan.width));
+            let ahead = self.raw.row(y + PREFETCH_ROWS);
+            let ahead = blocks_of(ahead, (span.start * BLOCK_LANES).min(plan.width));
             match &plan.seams {
-                None => median::combine(sorted, Open, ahead, pixels),
-                Some(seams) => median::combine(sorted, seams.over(span), ahead, pixels),
+                None => median::combine_columns(sorted, SharedSides, ahead, pixels),
+                Some(seams) => median::combine_columns(sorted, seams.masks_of(span), ahead, pixels),
             }
             row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
         } else {
-            let columns = span.start * BLOCK..(span.end * BLOCK).min(plan.width);
+            let columns = span.start * BLOCK_LANES..(span.end * BLOCK_LANES).min(plan.width);
             let raw = self.raw.row(y);
             row.pixels.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
             row.pixels.repeat_border(plan.width, plan.padded_width());
         }
-        row.holds = Some((y, self.run.clone()));
+        row.row_and_run = Some((y, self.run.clone()));
     }
 
     /// Sorts the columns of the three raw rows around `y`.
     #[inline(always)]
-    fn sort(&mut self, y: usize, span: &Range<usize>, at: usize) {
+    fn sort_row_columns(&mut self, y: usize, span: &Range<usize>, at: usize) {
         let width = self.plan.width;
-        let [a, b, c] = self.around(y);
+        let [a, b, c] = self.window_rows(y);
         let rows = [self.raw.row(a), self.raw.row(b), self.raw.row(c)];
-        let whole = span.start..span.end.min(width / BLOCK);
+        let whole = span.start..span.end.min(width / BLOCK_LANES);
         let [low, mid, high] = &mut self.sorted[at];
         let sorted = [low.blocks_mut(&whole), mid.blocks_mut(&whole), high.blocks_mut(&whole)];
-        let start = whole.start * BLOCK;
-        median::sort_columns(each(rows, start), sorted);
+        let start = whole.start * BLOCK_LANES;
+        median::sort_columns(blocks_of_rows(rows, start), sorted);
         if whole.end < span.end {
             // The last block is ragged: it is sorted together with pixels before it, or alone if
             // there are none.
-            let start = width.saturating_sub(BLOCK);
+            let start = width.saturating_sub(BLOCK_LANES);
             let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
             if start > 0 {
-                median::sort_columns(each(rows, start), sorted);
+                median::sort_columns(blocks_of_rows(rows, start), sorted);
             } else {
                 for (tail, row) in self.tail.iter_mut().zip(rows) {
                     tail[..width].copy_from_slice(row);
@@ -155,6 +155,6 @@ fn blocks_of<T>(row: &[T], start: usize) -> &[Block<T>] {
 
 /// Returns the whole blocks of three rows from a column on.
 #[inline(always)]
-fn each<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
+fn blocks_of_rows<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
     [blocks_of(a, start), blocks_of(b, start), blocks_of(c, start)]
 }

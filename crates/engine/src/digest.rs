@@ -2,20 +2,20 @@
 //! A hash of 64 bits over the results of a frame. With it, two engines on two machines can be
 //! compared frame by frame.
 
-use foveate_camera::Action;
-use foveate_frame::Plane;
+use foveate_camera::RegionAction;
+use foveate_frame::FramePixels;
 
 use crate::{Engine, FrameOutcome};
 
 /// The state of a 64-bit FNV-1a hash.
-struct Fnv(u64);
+struct FnvHasher(u64);
 
-impl Fnv {
+impl FnvHasher {
     fn new() -> Self {
         Self(0xCBF2_9CE4_8422_2325)
     }
 
-    fn take(&mut self, bytes: impl IntoIterator<Item = u8>) {
+    fn update(&mut self, bytes: impl IntoIterator<Item = u8>) {
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
         }
@@ -29,15 +29,15 @@ impl Engine {
     /// eight bytes each; the temporal counts as four bytes each.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        let mut hash = Fnv::new();
+        let mut hash = FnvHasher::new();
         match self.rendered() {
-            Plane::Bytes(pixels) => hash.take(pixels.iter().flat_map(|&pixel| [pixel, 0])),
-            Plane::Words(pixels) => hash.take(pixels.iter().flat_map(|pixel| pixel.to_le_bytes())),
+            FramePixels::Bytes(pixels) => hash.update(pixels.iter().flat_map(|&pixel| [pixel, 0])),
+            FramePixels::Words(pixels) => hash.update(pixels.iter().flat_map(|pixel| pixel.to_le_bytes())),
         }
         let outcome = self.outcome();
-        hash.take(outcome.region_bytes());
-        hash.take(outcome.scores.iter().flatten().flat_map(|score| score.to_le_bytes()));
-        hash.take(outcome.temporal_count.iter().flat_map(|count| count.to_le_bytes()));
+        hash.update(outcome.region_bytes());
+        hash.update(outcome.scores.iter().flatten().flat_map(|score| score.to_le_bytes()));
+        hash.update(outcome.temporal_count.iter().flat_map(|count| count.to_le_bytes()));
         hash.0
     }
 }
@@ -48,10 +48,10 @@ impl FrameOutcome {
     pub fn region_bytes(&self) -> impl Iterator<Item = u8> {
         self.srs.iter().zip(&self.trs).zip(&self.actions).map(|((&srs, &trs), action)| {
             let action = match action {
-                Action::Forward => 0,
-                Action::Hold => 1,
-                Action::Blank => 2,
-                Action::Summarize => 3,
+                RegionAction::Forward => 0,
+                RegionAction::Hold => 1,
+                RegionAction::Blank => 2,
+                RegionAction::Summarize => 3,
             };
             u8::from(srs) | u8::from(trs) << 1 | action << 2
         })
@@ -66,8 +66,8 @@ mod tests {
     #[test]
     fn it_is_fnv_1a() {
         let hash = |bytes: &[u8]| {
-            let mut hash = Fnv::new();
-            hash.take(bytes.iter().copied());
+            let mut hash = FnvHasher::new();
+            hash.update(bytes.iter().copied());
             hash.0
         };
         assert_eq!(hash(b""), 0xCBF2_9CE4_8422_2325);

@@ -4,37 +4,37 @@
 use foveate_camera::Camera;
 use foveate_frame::Frame;
 
-use crate::core::{Core, Keep};
-use crate::pixels::Pixels;
+use crate::lane_engine::{LaneEngine, KeptBuffers};
+use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, index};
 use crate::workers::{MAX_THREADS, Workers};
-use crate::{EngineError, FrameOutcome, Level};
-use foveate_frame::{Plane, Raster};
+use crate::{EngineError, FrameOutcome, InstructionSet};
+use foveate_frame::{FramePixels, ByteFrame};
 
 /// The options of an engine. They do not change what it computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
+pub struct EngineOptions {
     /// The number of threads, the calling thread included, at most [`MAX_THREADS`]; 0 takes one per
     /// processor. A single frame of less than some ten thousand pixels is not worth dividing and
     /// stays on the calling thread. Several small frames in one call are divided.
     pub threads: usize,
     /// Permits the engine to skip regions that are bit-identical to the last frame.
-    pub skip: bool,
+    pub skips_identical_regions: bool,
     /// The vector instructions.
-    pub level: Level,
+    pub level: InstructionSet,
 }
 
-impl Default for Options {
+impl Default for EngineOptions {
     /// Returns options for one thread, with skipping and the best instructions of this processor.
     fn default() -> Self {
-        Self { threads: 1, skip: true, level: Level::detect() }
+        Self { threads: 1, skips_identical_regions: true, level: InstructionSet::detect() }
     }
 }
 
 #[derive(Debug)]
-pub(crate) enum Lanes {
-    Bytes(Core<u8>),
-    Words(Core<u16>),
+pub(crate) enum LaneCore {
+    Bytes(LaneEngine<u8>),
+    Words(LaneEngine<u16>),
 }
 
 /// An RCM with its renderer. It computes what the model's `FunctionalCamera` computes.
@@ -42,20 +42,20 @@ pub(crate) enum Lanes {
 pub struct Engine {
     pub(crate) camera: Camera,
     pub(crate) workers: Workers,
-    pub(crate) lanes: Lanes,
+    pub(crate) lanes: LaneCore,
     pub(crate) outcome: FrameOutcome,
     /// The outcomes of the last batch, followed by unused ones if an earlier batch was longer.
-    pub(crate) outcomes: Vec<FrameOutcome>,
+    pub(crate) batch_outcomes: Vec<FrameOutcome>,
     /// The bytes of a frame that was given as words.
-    narrow: Vec<u8>,
+    narrowed_pixels: Vec<u8>,
 }
 
 impl Engine {
     /// Makes an engine in its reset state that runs on the calling thread.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
-        let options = Options::default();
-        Self::on(camera, options, Workers::alone(options.level))
+        let options = EngineOptions::default();
+        Self::build(camera, options, Workers::calling_thread(options.level))
     }
 
     /// Makes an engine in its reset state that runs with these options.
@@ -63,7 +63,7 @@ impl Engine {
     /// # Errors
     /// Fails if more than [`MAX_THREADS`] threads are asked for, or if the system cannot start
     /// them.
-    pub fn with_options(camera: &Camera, options: Options) -> Result<Self, EngineError> {
+    pub fn with_options(camera: &Camera, options: EngineOptions) -> Result<Self, EngineError> {
         if options.threads > MAX_THREADS {
             return Err(EngineError::TooManyThreads {
                 threads: options.threads,
@@ -79,14 +79,14 @@ impl Engine {
             reason: error.to_string(),
         };
         let workers = Workers::new(options.level, threads).map_err(refused)?;
-        Ok(Self::on(camera, options, workers))
+        Ok(Self::build(camera, options, workers))
     }
 
-    fn on(camera: &Camera, options: Options, workers: Workers) -> Self {
+    fn build(camera: &Camera, options: EngineOptions, workers: Workers) -> Self {
         let lanes = if camera.pixel_bits() <= 8 {
-            Lanes::Bytes(Core::new(CameraPlan::new(camera), options.skip))
+            LaneCore::Bytes(LaneEngine::new(CameraPlan::new(camera), options.skips_identical_regions))
         } else {
-            Lanes::Words(Core::new(CameraPlan::new(camera), options.skip))
+            LaneCore::Words(LaneEngine::new(CameraPlan::new(camera), options.skips_identical_regions))
         };
         let outcome = FrameOutcome::new(camera.features().len(), index(camera.regions()));
         Self {
@@ -94,8 +94,8 @@ impl Engine {
             workers,
             lanes,
             outcome,
-            outcomes: Vec::new(),
-            narrow: Vec::new(),
+            batch_outcomes: Vec::new(),
+            narrowed_pixels: Vec::new(),
         }
     }
 
@@ -107,15 +107,15 @@ impl Engine {
 
     /// Returns the vector instructions in use.
     #[must_use]
-    pub fn level(&self) -> Level {
+    pub fn level(&self) -> InstructionSet {
         self.workers.level
     }
 
     /// Returns the engine to its reset state, with a black screen and without references.
     pub fn reset(&mut self) {
         match &mut self.lanes {
-            Lanes::Bytes(core) => core.reset(),
-            Lanes::Words(core) => core.reset(),
+            LaneCore::Bytes(core) => core.reset(),
+            LaneCore::Words(core) => core.reset(),
         }
     }
 
@@ -125,22 +125,22 @@ impl Engine {
     /// # Errors
     /// Fails if the frame does not have the camera's size and depth. The state is unchanged then.
     pub fn step(&mut self, frame: &Frame) -> Result<&FrameOutcome, EngineError> {
-        self.check_kind((frame.width(), frame.height(), frame.bits()))?;
+        self.check_size_and_depth((frame.width(), frame.height(), frame.bits()))?;
         let (width, height) = (index(frame.width()), index(frame.height()));
-        let Self { workers, lanes, outcome, narrow, .. } = self;
+        let Self { workers, lanes, outcome, narrowed_pixels: narrow, .. } = self;
         match lanes {
-            Lanes::Bytes(core) => {
+            LaneCore::Bytes(core) => {
                 // Every pixel fits into a byte; a conversion without a way to fail lets the loop
                 // vectorise.
                 let byte = |&pixel: &u16| u8::try_from(pixel).unwrap_or(u8::MAX);
                 narrow.clear();
                 narrow.extend(frame.pixels().iter().map(byte));
-                let raw = Pixels { values: &narrow[..], stride: width, width, height };
-                core.step(&[raw], workers, outcome, Keep::nothing());
+                let raw = BorrowedFrame { values: &narrow[..], stride: width, width, height };
+                core.step(&[raw], workers, outcome, KeptBuffers::none());
             }
-            Lanes::Words(core) => {
-                let raw = Pixels { values: frame.pixels(), stride: width, width, height };
-                core.step(&[raw], workers, outcome, Keep::nothing());
+            LaneCore::Words(core) => {
+                let raw = BorrowedFrame { values: frame.pixels(), stride: width, width, height };
+                core.step(&[raw], workers, outcome, KeptBuffers::none());
             }
         }
         Ok(&self.outcome)
@@ -150,21 +150,21 @@ impl Engine {
     ///
     /// # Errors
     /// Fails if the frame does not have the camera's size and depth. The state is unchanged then.
-    pub fn step_raster(&mut self, frame: &Raster) -> Result<&FrameOutcome, EngineError> {
-        self.check_kind((frame.width(), frame.height(), frame.bits()))?;
-        match frame.plane() {
-            Plane::Bytes(pixels) => self.step_u8(pixels, index(frame.width())),
-            Plane::Words(pixels) => self.step_u16(pixels, index(frame.width())),
+    pub fn step_byte_frame(&mut self, frame: &ByteFrame) -> Result<&FrameOutcome, EngineError> {
+        self.check_size_and_depth((frame.width(), frame.height(), frame.bits()))?;
+        match frame.borrowed_pixels() {
+            FramePixels::Bytes(pixels) => self.step_u8(pixels, index(frame.width())),
+            FramePixels::Words(pixels) => self.step_u16(pixels, index(frame.width())),
         }
     }
 
-    fn check_kind(&self, given: (u32, u32, u32)) -> Result<(), EngineError> {
+    fn check_size_and_depth(&self, given: (u32, u32, u32)) -> Result<(), EngineError> {
         let expected = (self.camera.width(), self.camera.height(), self.camera.pixel_bits());
         if given == expected {
             return Ok(());
         }
         let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
-        Err(EngineError::FrameKind { given: kind(given), expected: kind(expected) })
+        Err(EngineError::FrameSizeOrDepth { given: kind(given), expected: kind(expected) })
     }
 
     /// Takes the next frame of a camera with up to 8 bits per pixel without copying it. Its rows
@@ -173,11 +173,11 @@ impl Engine {
     /// # Errors
     /// Fails if the pixels are not a frame of the camera. The state is unchanged then.
     pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&FrameOutcome, EngineError> {
-        let raw = Pixels::checked(&self.camera, pixels, stride)?;
+        let raw = BorrowedFrame::new_checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
         match lanes {
-            Lanes::Bytes(core) => core.step(&[raw], workers, outcome, Keep::nothing()),
-            Lanes::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
+            LaneCore::Bytes(core) => core.step(&[raw], workers, outcome, KeptBuffers::none()),
+            LaneCore::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
         }
         Ok(&self.outcome)
     }
@@ -192,11 +192,11 @@ impl Engine {
         pixels: &[u16],
         stride: usize,
     ) -> Result<&FrameOutcome, EngineError> {
-        let raw = Pixels::checked(&self.camera, pixels, stride)?;
+        let raw = BorrowedFrame::new_checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
         match lanes {
-            Lanes::Words(core) => core.step(&[raw], workers, outcome, Keep::nothing()),
-            Lanes::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
+            LaneCore::Words(core) => core.step(&[raw], workers, outcome, KeptBuffers::none()),
+            LaneCore::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
         }
         Ok(&self.outcome)
     }
@@ -213,10 +213,10 @@ impl Engine {
 
     /// Returns the screen after the last frame.
     #[must_use]
-    pub fn rendered(&self) -> Plane<'_> {
+    pub fn rendered(&self) -> FramePixels<'_> {
         match &self.lanes {
-            Lanes::Bytes(core) => Plane::Bytes(&core.screen),
-            Lanes::Words(core) => Plane::Words(&core.screen),
+            LaneCore::Bytes(core) => FramePixels::Bytes(&core.screen),
+            LaneCore::Words(core) => FramePixels::Words(&core.screen),
         }
     }
 
@@ -227,8 +227,8 @@ impl Engine {
     /// Panics if the camera has no such region.
     pub fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
         match &self.lanes {
-            Lanes::Bytes(core) => core.denoised_region(region, pixels),
-            Lanes::Words(core) => core.denoised_region(region, pixels),
+            LaneCore::Bytes(core) => core.denoised_region(region, pixels),
+            LaneCore::Words(core) => core.denoised_region(region, pixels),
         }
     }
 
@@ -239,8 +239,8 @@ impl Engine {
     /// Panics if the camera has no such region.
     pub fn summary(&self, region: u32, means: &mut Vec<u16>) {
         match &self.lanes {
-            Lanes::Bytes(core) => core.summary(region, means),
-            Lanes::Words(core) => core.summary(region, means),
+            LaneCore::Bytes(core) => core.summary(region, means),
+            LaneCore::Words(core) => core.summary(region, means),
         }
     }
 }

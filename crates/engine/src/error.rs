@@ -10,7 +10,7 @@ use thiserror::Error;
 pub enum EngineError {
     /// The frame has another size or depth than the camera.
     #[error("the frame has {given}, but the camera takes {expected}; give it frames of that kind")]
-    FrameKind {
+    FrameSizeOrDepth {
         /// The size and the depth of the frame.
         given: String,
         /// The size and the depth of the camera.
@@ -60,7 +60,7 @@ pub enum EngineError {
     },
     /// One frame of a batch is refused.
     #[error("frame {number} of the batch: {error}")]
-    InBatch {
+    BatchFrame {
         /// The number of the frame in the batch, counted from 0.
         number: usize,
         /// The error of that frame.

@@ -6,7 +6,7 @@
 use std::fmt;
 use std::io::Write as _;
 
-use foveate_camera::{Action, Camera};
+use foveate_camera::{RegionAction, Camera};
 
 use crate::FrameOutcome;
 
@@ -16,12 +16,12 @@ pub struct EventColumn {
     /// The name of the column.
     pub name: String,
     /// The type of the column's values.
-    pub kind: EventKind,
+    pub value_type: EventColumnType,
 }
 
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EventKind {
+pub enum EventColumnType {
     /// A signed integer of 64 bits.
     Long,
     /// A signed integer of 32 bits.
@@ -59,7 +59,7 @@ impl fmt::Display for EventValue {
 
 /// The property of a region that a column shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Field {
+enum EventField {
     Frame,
     Time,
     Column,
@@ -70,74 +70,74 @@ enum Field {
     Trs,
     /// The score of the feature with this number.
     Score(usize),
-    Count,
+    TemporalCount,
     Action,
 }
 
-impl Field {
-    fn kind(self) -> EventKind {
+impl EventField {
+    fn kind(self) -> EventColumnType {
         match self {
-            Self::Frame | Self::Time | Self::Score(_) => EventKind::Long,
-            Self::Column | Self::Row | Self::Left | Self::Top | Self::Count => EventKind::Int,
-            Self::Srs | Self::Trs => EventKind::Flag,
-            Self::Action => EventKind::Text,
+            Self::Frame | Self::Time | Self::Score(_) => EventColumnType::Long,
+            Self::Column | Self::Row | Self::Left | Self::Top | Self::TemporalCount => EventColumnType::Int,
+            Self::Srs | Self::Trs => EventColumnType::Flag,
+            Self::Action => EventColumnType::Text,
         }
     }
 
-    fn of(self, moment: &Moment<'_>, region: usize) -> EventValue {
-        let Moment { camera, number, time_us, outcome } = *moment;
+    fn value_of(self, moment: &EventFrame<'_>, region: usize) -> EventValue {
+        let EventFrame { camera, number, time_us, outcome } = *moment;
         let (columns, side) = (camera.columns() as usize, camera.region_size() as usize);
         let (column, row) = (region % columns, region / columns);
         match self {
-            Self::Frame => long(number),
+            Self::Frame => long_value(number),
             // A damaged clip may claim any time. All times beyond 292,000 years become the same
             // value.
             Self::Time => EventValue::Long(time_us.try_into().unwrap_or(i64::MAX)),
-            Self::Column => int(column),
-            Self::Row => int(row),
-            Self::Left => int(column * side),
-            Self::Top => int(row * side),
+            Self::Column => int_value(column),
+            Self::Row => int_value(row),
+            Self::Left => int_value(column * side),
+            Self::Top => int_value(row * side),
             Self::Srs => EventValue::Flag(outcome.srs[region]),
             Self::Trs => EventValue::Flag(outcome.trs[region]),
-            Self::Score(feature) => long(outcome.scores[feature][region]),
-            Self::Count => int(outcome.temporal_count[region] as usize),
+            Self::Score(feature) => long_value(outcome.scores[feature][region]),
+            Self::TemporalCount => int_value(outcome.temporal_count[region] as usize),
             Self::Action => EventValue::Text(outcome.actions[region].name()),
         }
     }
 }
 
-fn long(value: u64) -> EventValue {
+fn long_value(value: u64) -> EventValue {
     EventValue::Long(value.try_into().expect("scores are below 2^54, and frames are counted"))
 }
 
-fn int(value: usize) -> EventValue {
+fn int_value(value: usize) -> EventValue {
     EventValue::Int(value.try_into().expect("coordinates are below 2^15 and counts below 2^13"))
 }
 
 /// Returns the columns of a camera's table, in order.
-fn columns(camera: &Camera) -> Vec<(EventColumn, Field)> {
+fn columns(camera: &Camera) -> Vec<(EventColumn, EventField)> {
     let scores = camera.features().iter().enumerate();
     let scores =
-        scores.map(|(at, feature)| (format!("score_{}", feature.kind()), Field::Score(at)));
-    let named = |(name, field): (&str, Field)| (name.to_owned(), field);
+        scores.map(|(at, feature)| (format!("score_{}", feature.kind()), EventField::Score(at)));
+    let named = |(name, field): (&str, EventField)| (name.to_owned(), field);
     let before = [
-        ("frame", Field::Frame),
-        ("t_us", Field::Time),
-        ("x", Field::Column),
-        ("y", Field::Row),
-        ("x0", Field::Left),
-        ("y0", Field::Top),
-        ("srs", Field::Srs),
-        ("trs", Field::Trs),
+        ("frame", EventField::Frame),
+        ("t_us", EventField::Time),
+        ("x", EventField::Column),
+        ("y", EventField::Row),
+        ("x0", EventField::Left),
+        ("y0", EventField::Top),
+        ("srs", EventField::Srs),
+        ("trs", EventField::Trs),
     ];
-    let after = [("t_count", Field::Count), ("action", Field::Action)];
+    let after = [("t_count", EventField::TemporalCount), ("action", EventField::Action)];
     let all = before.map(named).into_iter().chain(scores).chain(after.map(named));
-    all.map(|(name, field)| (EventColumn { name, kind: field.kind() }, field)).collect()
+    all.map(|(name, field)| (EventColumn { name, value_type: field.kind() }, field)).collect()
 }
 
 /// One frame of a run and its outcome.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment<'a> {
+pub struct EventFrame<'a> {
     /// The camera.
     pub camera: &'a Camera,
     /// The number of the frame in the run.
@@ -152,7 +152,7 @@ pub struct Moment<'a> {
 #[derive(Clone, Debug)]
 pub struct EventTable {
     columns: Vec<EventColumn>,
-    fields: Vec<Field>,
+    fields: Vec<EventField>,
     only_active: bool,
 }
 
@@ -169,7 +169,7 @@ impl EventTable {
     #[must_use]
     pub fn without_scores(self) -> Self {
         let pairs = self.columns.into_iter().zip(self.fields);
-        let known = pairs.filter(|(_, field)| !matches!(field, Field::Score(_) | Field::Count));
+        let known = pairs.filter(|(_, field)| !matches!(field, EventField::Score(_) | EventField::TemporalCount));
         let (columns, fields) = known.unzip();
         Self { columns, fields, ..self }
     }
@@ -188,7 +188,7 @@ impl EventTable {
     }
 
     /// Appends the rows of a frame of this camera as lines of CSV.
-    pub fn csv(&self, moment: &Moment<'_>, text: &mut Vec<u8>) {
+    pub fn csv(&self, moment: &EventFrame<'_>, text: &mut Vec<u8>) {
         self.rows(moment, |values| {
             for (index, value) in values.enumerate() {
                 let comma = if index == 0 { "" } else { "," };
@@ -203,16 +203,16 @@ impl EventTable {
     /// value per column.
     pub fn rows(
         &self,
-        moment: &Moment<'_>,
+        moment: &EventFrame<'_>,
         mut row: impl FnMut(&mut dyn Iterator<Item = EventValue>),
     ) {
         for (region, &action) in moment.outcome.actions.iter().enumerate() {
             let is_event = match action {
-                Action::Forward | Action::Summarize => true,
-                Action::Hold | Action::Blank => false,
+                RegionAction::Forward | RegionAction::Summarize => true,
+                RegionAction::Hold | RegionAction::Blank => false,
             };
             if is_event || !self.only_active {
-                row(&mut self.fields.iter().map(|field| field.of(moment, region)));
+                row(&mut self.fields.iter().map(|field| field.value_of(moment, region)));
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_camera::{Action, FeatureKind};
+use foveate_camera::{RegionAction, FeatureKind};
 
 /// The scores and decisions of every region, numbered row by row. The fields are those of the
 /// functional model's outcome. [`Engine::rendered`](crate::Engine::rendered) has the rendered
@@ -17,7 +17,7 @@ pub struct FrameOutcome {
     /// The active regions: SRS and TRS are both set, and the new pixels are forwarded.
     pub active: Vec<bool>,
     /// The action on every region of the screen.
-    pub actions: Vec<Action>,
+    pub actions: Vec<RegionAction>,
     /// The number of changed pixels of every region, N x N if there was no valid reference.
     pub temporal_count: Vec<u32>,
     /// The scores, by feature in the order of the camera and then by region.
@@ -34,7 +34,7 @@ impl FrameOutcome {
             srs: vec![false; regions],
             trs: vec![false; regions],
             active: vec![false; regions],
-            actions: vec![Action::Hold; regions],
+            actions: vec![RegionAction::Hold; regions],
             temporal_count: vec![0; regions],
             scores: vec![vec![0; regions]; features],
             skipped: 0,
@@ -42,9 +42,9 @@ impl FrameOutcome {
     }
 
     /// Borrows the results of all regions, to be written.
-    pub(crate) fn results(&mut self) -> Results<'_> {
+    pub(crate) fn results(&mut self) -> RegionResults<'_> {
         let mut scores = self.scores.iter_mut();
-        Results {
+        RegionResults {
             srs: &mut self.srs,
             trs: &mut self.trs,
             active: &mut self.active,
@@ -57,21 +57,21 @@ impl FrameOutcome {
 
 /// The results of consecutive regions.
 #[derive(Debug)]
-pub(crate) struct Results<'a> {
+pub(crate) struct RegionResults<'a> {
     pub(crate) srs: &'a mut [bool],
     pub(crate) trs: &'a mut [bool],
     pub(crate) active: &'a mut [bool],
-    pub(crate) actions: &'a mut [Action],
+    pub(crate) actions: &'a mut [RegionAction],
     pub(crate) temporal_count: &'a mut [u32],
     /// One slice per feature. Slices beyond the camera's features are empty.
     pub(crate) scores: [&'a mut [u64]; FeatureKind::COUNT],
 }
 
-impl<'a> Results<'a> {
+impl<'a> RegionResults<'a> {
     /// Splits off the results of the first `regions` regions.
-    pub(crate) fn split_off(&mut self, regions: usize) -> Results<'a> {
+    pub(crate) fn split_off(&mut self, regions: usize) -> RegionResults<'a> {
         let scores = &mut self.scores;
-        Results {
+        RegionResults {
             srs: split_off(&mut self.srs, regions),
             trs: split_off(&mut self.trs, regions),
             active: split_off(&mut self.active, regions),
@@ -82,10 +82,10 @@ impl<'a> Results<'a> {
     }
 }
 
-impl Results<'_> {
+impl RegionResults<'_> {
     /// Copies the results of the same number of other regions.
     #[inline(always)]
-    pub(crate) fn copy_from(&mut self, other: &Results<'_>) {
+    pub(crate) fn copy_from(&mut self, other: &RegionResults<'_>) {
         self.srs.copy_from_slice(other.srs);
         self.trs.copy_from_slice(other.trs);
         self.active.copy_from_slice(other.active);
@@ -98,21 +98,21 @@ impl Results<'_> {
 
     /// Borrows the results of a range of the regions.
     #[inline(always)]
-    pub(crate) fn rows(&mut self, regions: Range<usize>) -> Results<'_> {
-        Results {
+    pub(crate) fn range(&mut self, regions: Range<usize>) -> RegionResults<'_> {
+        RegionResults {
             srs: &mut self.srs[regions.clone()],
             trs: &mut self.trs[regions.clone()],
             active: &mut self.active[regions.clone()],
             actions: &mut self.actions[regions.clone()],
             temporal_count: &mut self.temporal_count[regions.clone()],
-            scores: self.scores.each_mut().map(|scores| within(scores, &regions)),
+            scores: self.scores.each_mut().map(|scores| cut_to_range(scores, &regions)),
         }
     }
 }
 
 /// Returns a range of the values, cut to the values that exist.
 #[inline(always)]
-pub(crate) fn within<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
+pub(crate) fn cut_to_range<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
     let len = values.len();
     &mut values[range.start.min(len)..range.end.min(len)]
 }

@@ -2,10 +2,10 @@
 //! The summaries of irrelevant regions: means of blocks, the decision which of them are sent, and
 //! their place on the screen.
 
-use foveate_camera::Action;
+use foveate_camera::RegionAction;
 
-use crate::outcome::Results;
-use foveate_lanes::Lane;
+use crate::outcome::RegionResults;
+use foveate_lanes::PixelLane;
 
 /// The geometry of summaries. A region has q x q blocks of b x b pixels; `blocks` is q and `side`
 /// is b.
@@ -24,36 +24,36 @@ pub(crate) struct PeripheryPlan<T> {
 
 /// The means of a band in the current frame.
 #[derive(Debug)]
-pub(crate) struct Means<'a, T> {
+pub(crate) struct CurrentMeans<'a, T> {
     /// The means, row by row of blocks.
     pub(crate) means: &'a [T],
     /// One value per column of blocks, an output: not 0 if a mean differs too much from the one
     /// that was sent last.
-    pub(crate) differs: &'a mut [T],
+    pub(crate) exceeds_level: &'a mut [T],
     /// The regions whose pixels may have changed. The means of the other regions are not valid.
     pub(crate) affected: &'a [bool],
 }
 
 /// The summaries that the regions of a band sent last.
 #[derive(Debug)]
-pub(crate) struct Summaries<'a, T> {
+pub(crate) struct SentSummaries<'a, T> {
     /// The regions whose summary the screen shows.
-    pub(crate) shown: &'a mut [bool],
+    pub(crate) is_shown: &'a mut [bool],
     /// The means that were sent last, row by row of blocks.
     pub(crate) means: &'a mut [T],
 }
 
-impl<T: Lane> PeripheryPlan<T> {
+impl<T: PixelLane> PeripheryPlan<T> {
     /// Computes the means of a row of blocks from the sums of their columns.
     #[inline(always)]
-    pub(crate) fn means(&self, columns: &[T::Sum], means: &mut [T]) {
+    pub(crate) fn compute_means(&self, columns: &[T::ColumnSum], means: &mut [T]) {
         // The usual sizes are constants, so that the loop vectorises.
         match self.side {
-            1 => self.means_of::<1>(columns, means),
-            2 => self.means_of::<2>(columns, means),
-            4 => self.means_of::<4>(columns, means),
-            8 => self.means_of::<8>(columns, means),
-            16 => self.means_of::<16>(columns, means),
+            1 => self.compute_means_of_side::<1>(columns, means),
+            2 => self.compute_means_of_side::<2>(columns, means),
+            4 => self.compute_means_of_side::<4>(columns, means),
+            8 => self.compute_means_of_side::<8>(columns, means),
+            16 => self.compute_means_of_side::<16>(columns, means),
             side => {
                 for (columns, mean) in columns.chunks_exact(side).zip(means) {
                     *mean = self.mean(columns);
@@ -63,12 +63,12 @@ impl<T: Lane> PeripheryPlan<T> {
     }
 
     #[inline(always)]
-    fn means_of<const SIDE: usize>(&self, columns: &[T::Sum], means: &mut [T]) {
+    fn compute_means_of_side<const SIDE: usize>(&self, columns: &[T::ColumnSum], means: &mut [T]) {
         let columns = columns.as_chunks::<SIDE>().0;
         match self.shift {
             Some(shift) => {
                 for (columns, mean) in columns.iter().zip(means) {
-                    *mean = T::low((self.pixels / 2 + sum::<T>(columns)) >> shift);
+                    *mean = T::from_low_bits((self.pixels / 2 + sum::<T>(columns)) >> shift);
                 }
             }
             None => {
@@ -80,29 +80,29 @@ impl<T: Lane> PeripheryPlan<T> {
     }
 
     #[inline(always)]
-    fn mean(&self, columns: &[T::Sum]) -> T {
+    fn mean(&self, columns: &[T::ColumnSum]) -> T {
         let sum = self.pixels / 2 + sum::<T>(columns);
-        T::low(self.shift.map_or_else(|| sum / self.pixels, |shift| sum >> shift))
+        T::from_low_bits(self.shift.map_or_else(|| sum / self.pixels, |shift| sum >> shift))
     }
 
     /// Decides which irrelevant regions of a band send their means. A region that is not affected
     /// has the same means as before, so the screen still shows it within the level.
     #[inline(always)]
-    pub(crate) fn summarize(
+    pub(crate) fn send_summaries(
         &self,
-        now: Means<'_, T>,
-        summaries: &mut Summaries<'_, T>,
-        results: &mut Results<'_>,
+        now: CurrentMeans<'_, T>,
+        summaries: &mut SentSummaries<'_, T>,
+        results: &mut RegionResults<'_>,
     ) {
-        let Means { means, differs, affected } = now;
+        let CurrentMeans { means, exceeds_level: differs, affected } = now;
         differs.fill(T::default());
         let rows = means.chunks_exact(differs.len());
         for (now, sent) in rows.zip(summaries.means.chunks_exact(differs.len())) {
             for ((now, sent), differs) in now.iter().zip(sent).zip(differs.iter_mut()) {
-                *differs = (*differs).max(now.distance(*sent).minus(self.level));
+                *differs = (*differs).max(now.absolute_difference(*sent).saturating_minus(self.level));
             }
         }
-        let regions = differs.chunks_exact(self.blocks).zip(affected).zip(&mut *summaries.shown);
+        let regions = differs.chunks_exact(self.blocks).zip(affected).zip(&mut *summaries.is_shown);
         for (column, ((differs, &affected), shown)) in regions.enumerate() {
             *shown &= !results.active[column];
             let is_near = *shown && differs.iter().all(|&differs| differs == T::default());
@@ -115,13 +115,13 @@ impl<T: Lane> PeripheryPlan<T> {
                 sent[own.clone()].copy_from_slice(&now[own.clone()]);
             }
             *shown = true;
-            results.actions[column] = Action::Summarize;
+            results.actions[column] = RegionAction::Summarize;
         }
     }
 
     /// Shows the means of one region of a band. `screen` begins with the region's first pixel.
     #[inline(always)]
-    pub(crate) fn show(
+    pub(crate) fn show_region(
         &self,
         means: &[T],
         (columns, column): (usize, usize),
@@ -165,6 +165,6 @@ fn show_constant<const SIDE: usize, T: Copy>(means: &[T], row: &mut [T]) {
 
 /// Returns the sum of a block, at most 4096 pixels, from the sums of its columns.
 #[inline(always)]
-fn sum<T: Lane>(columns: &[T::Sum]) -> u32 {
+fn sum<T: PixelLane>(columns: &[T::ColumnSum]) -> u32 {
     columns.iter().map(|&column| -> u32 { column.into() }).sum()
 }

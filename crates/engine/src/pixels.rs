@@ -6,18 +6,18 @@ use foveate_camera::Camera;
 
 use crate::EngineError;
 use crate::plan::index;
-use foveate_lanes::Lane;
+use foveate_lanes::PixelLane;
 
 /// A borrowed frame of `width` x `height` pixels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pixels<'a, T> {
+pub(crate) struct BorrowedFrame<'a, T> {
     pub(crate) values: &'a [T],
     pub(crate) stride: usize,
     pub(crate) width: usize,
     pub(crate) height: usize,
 }
 
-impl<'a, T> Pixels<'a, T> {
+impl<'a, T> BorrowedFrame<'a, T> {
     /// Returns row `y` of the padded frame, without the padding at its right side.
     #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &'a [T] {
@@ -25,9 +25,9 @@ impl<'a, T> Pixels<'a, T> {
     }
 }
 
-impl<'a, T: Lane> Pixels<'a, T> {
+impl<'a, T: PixelLane> BorrowedFrame<'a, T> {
     /// Checks that the pixels are a frame of the camera.
-    pub(crate) fn checked(
+    pub(crate) fn new_checked(
         camera: &Camera,
         values: &'a [T],
         stride: usize,

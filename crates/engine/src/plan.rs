@@ -4,19 +4,19 @@
 use std::ops::Range;
 
 use foveate_camera::{
-    Camera, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery, Reference,
+    Camera, VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, ReferencePolicy,
 };
 
 use crate::periphery::PeripheryPlan;
-use foveate_lanes::Aligned;
-use foveate_lanes::{BLOCK, Lane, threshold};
+use foveate_lanes::AlignedBuffer;
+use foveate_lanes::{BLOCK_LANES, PixelLane, saturated_threshold};
 
 /// The number of blocks in a batch of rows.
-const BATCH: usize = 32;
+const BATCH_BLOCKS: usize = 32;
 
 /// The parameters of a camera for the kernels.
 #[derive(Clone, Debug)]
-pub(crate) struct CameraPlan<T: Lane> {
+pub(crate) struct CameraPlan<T: PixelLane> {
     /// The frame width without padding.
     pub(crate) width: usize,
     /// The frame height without padding.
@@ -32,13 +32,13 @@ pub(crate) struct CameraPlan<T: Lane> {
     pub(crate) median: bool,
     /// The masks of the first and last columns of regions, if neighborhoods are isolated.
     pub(crate) seams: Option<SeamMasks<T>>,
-    pub(crate) passes: Passes<T>,
-    pub(crate) features: Vec<Feature>,
-    pub(crate) combine: Combine,
+    pub(crate) passes: FeaturePasses<T>,
+    pub(crate) features: Vec<FeaturePlan>,
+    pub(crate) combine: VoteCombination,
     pub(crate) level: T,
     pub(crate) min_count: u32,
-    pub(crate) reference: Reference,
-    pub(crate) irrelevant: Irrelevant,
+    pub(crate) reference: ReferencePolicy,
+    pub(crate) irrelevant: IrrelevantRendering,
     pub(crate) payload: Payload,
     /// The payload is raw pixels although denoised pixels are scored.
     pub(crate) keeps_raw: bool,
@@ -47,7 +47,7 @@ pub(crate) struct CameraPlan<T: Lane> {
 
 /// The passes over the pixels of a band that the features need.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Passes<T: Lane> {
+pub(crate) struct FeaturePasses<T: PixelLane> {
     /// Half of the level of `edge`.
     pub(crate) edge: Option<T::Signed>,
     /// The level of `corner`.
@@ -55,32 +55,32 @@ pub(crate) struct Passes<T: Lane> {
     /// A feature uses windows.
     pub(crate) has_windows: bool,
     /// A feature needs the sum of the pixels.
-    pub(crate) sums: bool,
+    pub(crate) needs_sums: bool,
     /// A feature needs the sum of the squares of the pixels.
-    pub(crate) squares: bool,
+    pub(crate) needs_squares: bool,
     /// The fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,
 }
 
 /// A feature of the camera and its threshold.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Feature {
+pub(crate) struct FeaturePlan {
     pub(crate) kind: FeatureKind,
     pub(crate) min_score: u64,
 }
 
 /// Two masks in which every bit is set in the first and in the last column of each region.
 #[derive(Clone, Debug)]
-pub(crate) struct SeamMasks<T: Lane> {
-    pub(crate) first: Aligned<T>,
-    pub(crate) last: Aligned<T>,
+pub(crate) struct SeamMasks<T: PixelLane> {
+    pub(crate) first: AlignedBuffer<T>,
+    pub(crate) last: AlignedBuffer<T>,
 }
 
-impl<T: Lane> CameraPlan<T> {
+impl<T: PixelLane> CameraPlan<T> {
     pub(crate) fn new(camera: &Camera) -> Self {
         let side = index(camera.region_size());
         let columns = index(camera.columns());
-        let blocks = (columns * side).div_ceil(BLOCK);
+        let blocks = (columns * side).div_ceil(BLOCK_LANES);
         Self {
             width: index(camera.width()),
             height: index(camera.height()),
@@ -88,23 +88,23 @@ impl<T: Lane> CameraPlan<T> {
             columns,
             rows: index(camera.rows()),
             blocks,
-            median: camera.filter() == Filter::Median3x3,
+            median: camera.filter() == DenoiseFilter::Median3x3,
             seams: (camera.neighborhood() == Neighborhood::Isolated)
                 .then(|| SeamMasks::new(side, blocks)),
-            passes: Passes::of(camera),
+            passes: FeaturePasses::from_camera(camera),
             features: camera
                 .features()
                 .iter()
-                .map(|feature| Feature { kind: feature.kind(), min_score: feature.min_score() })
+                .map(|feature| FeaturePlan { kind: feature.kind(), min_score: feature.min_score() })
                 .collect(),
             combine: camera.combine(),
-            level: threshold(camera.temporal().level),
+            level: saturated_threshold(camera.temporal().level),
             min_count: camera.temporal().min_count,
             reference: camera.temporal().reference,
             irrelevant: camera.irrelevant(),
             payload: camera.payload(),
-            keeps_raw: camera.keeps_raw(),
-            periphery: camera.periphery().map(periphery),
+            keeps_raw: camera.has_separate_raw_pixels(),
+            periphery: camera.periphery().map(periphery_plan),
         }
     }
 
@@ -125,7 +125,7 @@ impl<T: Lane> CameraPlan<T> {
 
     /// Returns the number of values from one padded row to the next.
     pub(crate) fn stride(&self) -> usize {
-        self.blocks * BLOCK
+        self.blocks * BLOCK_LANES
     }
 
     /// Returns the index of the first pixel of a region in a padded frame.
@@ -167,27 +167,27 @@ impl<T: Lane> CameraPlan<T> {
     /// Returns the number of rows of a run of blocks that go through each step together. Short runs
     /// take several rows, because a step waits for data that the step before it has only just
     /// written.
-    pub(crate) fn batch(&self, run: usize) -> usize {
-        (BATCH / run).clamp(1, self.side)
+    pub(crate) fn batch_rows(&self, run: usize) -> usize {
+        (BATCH_BLOCKS / run).clamp(1, self.side)
     }
 
     /// Returns the number of rows to keep for a batch and the rows around it. It is a power of two,
     /// so that the place of a row is found without a division.
-    pub(crate) fn slots(&self, run: usize) -> usize {
-        (self.batch(run) + 2).next_power_of_two()
+    pub(crate) fn row_slots(&self, run: usize) -> usize {
+        (self.batch_rows(run) + 2).next_power_of_two()
     }
 
     /// Returns the number of blocks to denoise on each side of a run for the windows at its ends.
-    pub(crate) fn margin(&self) -> usize {
+    pub(crate) fn margin_blocks(&self) -> usize {
         // With isolated neighborhoods and regions that do not cross the ends of blocks, no window
         // reaches beyond the run.
-        usize::from(self.seams.is_none() || !BLOCK.is_multiple_of(self.side))
+        usize::from(self.seams.is_none() || !BLOCK_LANES.is_multiple_of(self.side))
     }
 
     /// Returns the range of columns of summary blocks, `side` pixels wide, that lie completely
     /// within a run.
     pub(crate) fn blocks_under(&self, side: usize, run: &Range<usize>) -> Range<usize> {
-        let (start, end) = (run.start * BLOCK, (run.end * BLOCK).min(self.padded_width()));
+        let (start, end) = (run.start * BLOCK_LANES, (run.end * BLOCK_LANES).min(self.padded_width()));
         start.div_ceil(side)..(end / side).max(start.div_ceil(side))
     }
 
@@ -197,7 +197,7 @@ impl<T: Lane> CameraPlan<T> {
     }
 
     /// Returns the first and the last row that windows of a row in band `band` may reach.
-    pub(crate) fn reach(&self, band: usize) -> (usize, usize) {
+    pub(crate) fn reachable_rows(&self, band: usize) -> (usize, usize) {
         match self.seams {
             Some(_) => (band * self.side, (band + 1) * self.side - 1),
             None => (0, self.rows * self.side - 1),
@@ -205,46 +205,46 @@ impl<T: Lane> CameraPlan<T> {
     }
 }
 
-fn periphery<T: Lane>(own: &Periphery) -> PeripheryPlan<T> {
+fn periphery_plan<T: PixelLane>(own: &Periphery) -> PeripheryPlan<T> {
     PeripheryPlan {
         blocks: index(own.blocks),
         side: index(own.block_side),
-        level: threshold(own.level),
+        level: saturated_threshold(own.level),
         pixels: own.block_pixels(),
         shift: own.block_pixels().is_power_of_two().then(|| own.block_pixels().ilog2()),
     }
 }
 
-impl<T: Lane> Passes<T> {
-    fn of(camera: &Camera) -> Self {
+impl<T: PixelLane> FeaturePasses<T> {
+    fn from_camera(camera: &Camera) -> Self {
         let mut passes = Self {
             edge: None,
             corner: None,
             has_windows: camera.has_feature_window(),
-            sums: false,
-            squares: false,
+            needs_sums: false,
+            needs_squares: false,
             mad: None,
         };
         for feature in camera.features() {
             let level = || feature.level().expect("a feature that counts hits has a level");
             match feature.kind() {
-                FeatureKind::Edge => passes.edge = Some(half(level())),
-                FeatureKind::Corner => passes.corner = Some(threshold(level())),
+                FeatureKind::Edge => passes.edge = Some(half_level(level())),
+                FeatureKind::Corner => passes.corner = Some(saturated_threshold(level())),
                 FeatureKind::Mad => {
-                    passes.sums = true;
+                    passes.needs_sums = true;
                     passes.mad = Some(feature.mean().expect("mad has a mean").fraction_bits);
                 }
-                FeatureKind::Variance => (passes.sums, passes.squares) = (true, true),
+                FeatureKind::Variance => (passes.needs_sums, passes.needs_squares) = (true, true),
             }
         }
         passes
     }
 }
 
-impl<T: Lane> SeamMasks<T> {
+impl<T: PixelLane> SeamMasks<T> {
     fn new(side: usize, blocks: usize) -> Self {
         let mask = |column: usize| {
-            let mut mask = Aligned::<T>::new(blocks * BLOCK);
+            let mut mask = AlignedBuffer::<T>::new(blocks * BLOCK_LANES);
             for (x, lane) in mask.iter_mut().enumerate() {
                 *lane = if x % side == column { T::MAX } else { T::default() };
             }
@@ -255,7 +255,7 @@ impl<T: Lane> SeamMasks<T> {
 }
 
 /// Converts an edge level to half of it, rounded down, at most 3 * 65535.
-fn half<S: TryFrom<u32> + From<T>, T: Lane<Signed = S>>(level: u32) -> S {
+fn half_level<S: TryFrom<u32> + From<T>, T: PixelLane<Signed = S>>(level: u32) -> S {
     let half = S::try_from(level / 2);
     half.unwrap_or_else(|_| {
         unreachable!("a level is at most that of the largest gradient, not {level}")
@@ -269,6 +269,6 @@ pub(crate) const fn index(value: u32) -> usize {
 }
 
 /// Converts a pixel to a word. Every pixel fits.
-fn word<T: Lane>(pixel: T) -> u16 {
+fn word<T: PixelLane>(pixel: T) -> u16 {
     u16::try_from(pixel.into()).unwrap_or(u16::MAX)
 }

@@ -8,111 +8,111 @@
 
 /// The search in one batch of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum SearchStep {
     /// Do nothing.
     Rest,
     /// Keep a copy of a sample of the last frame's bands.
-    Sample,
+    CopySample,
     /// Compare the sample: in frame 0 with its copy, in a later frame with the frame before it.
-    Judge(usize),
+    CompareSample(usize),
     /// Compare all frames but the first, and keep a copy of the last.
-    Keep,
+    CompareWithinBatch,
     /// Compare all frames, the first with the copy, and keep a copy of the last.
-    Compare,
+    CompareAll,
 }
 
-impl Step {
+impl SearchStep {
     /// Returns true if the step compares or copies this band.
     #[inline(always)]
-    pub(crate) fn concerns(self, band: usize) -> bool {
+    pub(crate) fn includes_band(self, band: usize) -> bool {
         match self {
             Self::Rest => false,
-            Self::Sample | Self::Judge(_) => band.is_multiple_of(SAMPLE),
-            Self::Keep | Self::Compare => true,
+            Self::CopySample | Self::CompareSample(_) => band.is_multiple_of(SAMPLE_DISTANCE),
+            Self::CompareWithinBatch | Self::CompareAll => true,
         }
     }
 }
 
 /// The distance of the bands of the sample: one in this many bands is in it.
-pub(crate) const SAMPLE: usize = 8;
+pub(crate) const SAMPLE_DISTANCE: usize = 8;
 /// The number of frames to rest after the first sample that promised little, and the limit up to
 /// which it is doubled.
-const RESTS: (u32, u32) = (4, 32);
+const REST_FRAMES: (u32, u32) = (4, 32);
 /// A comparison pays if it saves more than this share of the blocks. It costs about half as much as
 /// computing a frame of small regions.
-const PAYS: (usize, usize) = (11, 20);
+const PAYING_SHARE: (usize, usize) = (11, 20);
 /// A sample is promising if more than this share of its blocks could be saved. A comparison that
 /// saves as much makes the next rest short again.
-const PROMISES: (usize, usize) = (13, 20);
+const PROMISING_SHARE: (usize, usize) = (13, 20);
 
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum SearchPhase {
     Off,
     Resting(u32),
     Sampled,
-    Kept,
+    Copied,
 }
 
 /// The policy and its state.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Policy {
-    phase: Phase,
-    rest: u32,
+pub(crate) struct SearchPolicy {
+    phase: SearchPhase,
+    rest_frames: u32,
 }
 
-impl Policy {
+impl SearchPolicy {
     pub(crate) fn new(on: bool) -> Self {
-        Self { phase: if on { Phase::Resting(0) } else { Phase::Off }, rest: RESTS.0 }
+        Self { phase: if on { SearchPhase::Resting(0) } else { SearchPhase::Off }, rest_frames: REST_FRAMES.0 }
     }
 
     /// Returns the step for the next frames.
-    pub(crate) fn next(&mut self, frames: usize) -> Step {
+    pub(crate) fn next_step(&mut self, frames: usize) -> SearchStep {
         match self.phase {
-            Phase::Off => Step::Rest,
-            Phase::Resting(0) if frames > 1 => Step::Judge(1),
-            Phase::Resting(0) => {
-                self.phase = Phase::Sampled;
-                Step::Sample
+            SearchPhase::Off => SearchStep::Rest,
+            SearchPhase::Resting(0) if frames > 1 => SearchStep::CompareSample(1),
+            SearchPhase::Resting(0) => {
+                self.phase = SearchPhase::Sampled;
+                SearchStep::CopySample
             }
-            Phase::Resting(left) => {
+            SearchPhase::Resting(left) => {
                 let frames = u32::try_from(frames).unwrap_or(u32::MAX);
-                self.phase = Phase::Resting(left.saturating_sub(frames));
-                Step::Rest
+                self.phase = SearchPhase::Resting(left.saturating_sub(frames));
+                SearchStep::Rest
             }
-            Phase::Sampled => Step::Judge(0),
-            Phase::Kept => Step::Compare,
+            SearchPhase::Sampled => SearchStep::CompareSample(0),
+            SearchPhase::Copied => SearchStep::CompareAll,
         }
     }
 
     /// Records how many blocks of the sample could be saved. Returns true if these frames are to be
     /// kept.
-    pub(crate) fn judge(&mut self, saved: usize, blocks: usize) -> bool {
-        let promising = exceeds(saved, blocks, PROMISES);
+    pub(crate) fn record_sample(&mut self, saved: usize, blocks: usize) -> bool {
+        let promising = exceeds_share(saved, blocks, PROMISING_SHARE);
         if promising {
-            self.phase = Phase::Kept;
+            self.phase = SearchPhase::Copied;
         } else {
-            self.give_up();
+            self.start_rest();
         }
         promising
     }
 
     /// Records how many blocks a comparison has saved.
-    pub(crate) fn saved(&mut self, saved: usize, blocks: usize) {
-        if exceeds(saved, blocks, PROMISES) {
-            self.rest = RESTS.0;
-        } else if !exceeds(saved, blocks, PAYS) {
-            self.give_up();
+    pub(crate) fn record_comparison(&mut self, saved: usize, blocks: usize) {
+        if exceeds_share(saved, blocks, PROMISING_SHARE) {
+            self.rest_frames = REST_FRAMES.0;
+        } else if !exceeds_share(saved, blocks, PAYING_SHARE) {
+            self.start_rest();
         }
     }
 
-    fn give_up(&mut self) {
-        self.phase = Phase::Resting(self.rest);
-        self.rest = (2 * self.rest).min(RESTS.1);
+    fn start_rest(&mut self) {
+        self.phase = SearchPhase::Resting(self.rest_frames);
+        self.rest_frames = (2 * self.rest_frames).min(REST_FRAMES.1);
     }
 }
 
 /// Returns true if `saved` is more than this share of `blocks`.
-fn exceeds(saved: usize, blocks: usize, (part, whole): (usize, usize)) -> bool {
+fn exceeds_share(saved: usize, blocks: usize, (part, whole): (usize, usize)) -> bool {
     saved * whole > blocks * part
 }
 
@@ -122,18 +122,18 @@ mod tests {
 
     #[test]
     fn rests_grow_while_nothing_is_found_and_end_when_it_pays() {
-        let mut policy = Policy::new(true);
+        let mut policy = SearchPolicy::new(true);
         let mut film = |sample: usize, saved: usize, frames: usize| -> String {
-            let step = |_| match policy.next(1) {
-                Step::Rest => '.',
-                Step::Sample => 's',
-                Step::Judge(_) => match policy.judge(sample, 100) {
+            let step = |_| match policy.next_step(1) {
+                SearchStep::Rest => '.',
+                SearchStep::CopySample => 's',
+                SearchStep::CompareSample(_) => match policy.record_sample(sample, 100) {
                     true => 'K',
                     false => 'j',
                 },
-                Step::Keep => '?',
-                Step::Compare => {
-                    policy.saved(saved, 100);
+                SearchStep::CompareWithinBatch => '?',
+                SearchStep::CompareAll => {
+                    policy.record_comparison(saved, 100);
                     'c'
                 }
             };
@@ -143,20 +143,20 @@ mod tests {
         assert_eq!(film(0, 0, 16), "................");
         assert_eq!(film(70, 70, 5), "sKccc");
         assert_eq!(film(70, 10, 9), "c....sKc.");
-        assert_eq!(Policy::new(false).next(1), Step::Rest);
+        assert_eq!(SearchPolicy::new(false).next_step(1), SearchStep::Rest);
     }
 
     #[test]
     fn batches_are_judged_by_themselves_and_shorten_rests() {
-        let mut policy = Policy::new(true);
-        assert_eq!(policy.next(8), Step::Judge(1));
-        assert!(!policy.judge(0, 100));
+        let mut policy = SearchPolicy::new(true);
+        assert_eq!(policy.next_step(8), SearchStep::CompareSample(1));
+        assert!(!policy.record_sample(0, 100));
         assert_eq!(
-            [policy.next(3), policy.next(3), policy.next(1)],
-            [Step::Rest, Step::Rest, Step::Sample]
+            [policy.next_step(3), policy.next_step(3), policy.next_step(1)],
+            [SearchStep::Rest, SearchStep::Rest, SearchStep::CopySample]
         );
-        assert_eq!(policy.next(3), Step::Judge(0));
-        assert!(policy.judge(70, 100));
-        assert_eq!(policy.next(3), Step::Compare);
+        assert_eq!(policy.next_step(3), SearchStep::CompareSample(0));
+        assert!(policy.record_sample(70, 100));
+        assert_eq!(policy.next_step(3), SearchStep::CompareAll);
     }
 }

@@ -6,32 +6,32 @@
 //! slices of the caller.
 
 use crate::plan::CameraPlan;
-use foveate_lanes::Lane;
+use foveate_lanes::PixelLane;
 
 /// The rendered frames of the last batch, one per frame. The same value can be given to batch after
 /// batch of any engine. Pixels are `u8` up to 8 bits and `u16` beyond.
 #[derive(Clone, Debug, Default)]
-pub struct Screens<T> {
+pub struct BatchScreens<T> {
     /// The width and height of the frames and the side of a region.
-    shape: (usize, usize, usize),
+    size_and_region: (usize, usize, usize),
     /// The screens, followed by unused ones if an earlier batch was longer.
-    screens: Vec<Screen<T>>,
+    screens: Vec<KeptScreen<T>>,
     used: usize,
 }
 
 /// A rendered frame.
 #[derive(Clone, Debug)]
-pub(crate) struct Screen<T> {
+pub(crate) struct KeptScreen<T> {
     pub(crate) pixels: Vec<T>,
     /// The regions that are black.
-    pub(crate) black: Vec<bool>,
+    pub(crate) black_regions: Vec<bool>,
 }
 
-impl<T> Screens<T> {
+impl<T> BatchScreens<T> {
     /// Makes a buffer without frames.
     #[must_use]
     pub fn new() -> Self {
-        Self { shape: (0, 0, 0), screens: Vec::new(), used: 0 }
+        Self { size_and_region: (0, 0, 0), screens: Vec::new(), used: 0 }
     }
 
     /// Returns the rendered frame after frame `number` of the last batch, in row-major order
@@ -48,18 +48,18 @@ impl<T> Screens<T> {
 }
 
 /// Returns one screen per frame, to be written.
-pub(crate) fn prepare<'a, T: Lane>(
-    screens: &'a mut Screens<T>,
+pub(crate) fn resize_screens<'a, T: PixelLane>(
+    screens: &'a mut BatchScreens<T>,
     plan: &CameraPlan<T>,
     frames: usize,
-) -> &'a mut [Screen<T>] {
+) -> &'a mut [KeptScreen<T>] {
     let shape = (plan.width, plan.height, plan.side);
-    if screens.shape != shape {
-        *screens = Screens { shape, ..Screens::new() };
+    if screens.size_and_region != shape {
+        *screens = BatchScreens { size_and_region: shape, ..BatchScreens::new() };
     }
-    let new = || Screen {
+    let new = || KeptScreen {
         pixels: vec![T::default(); plan.width * plan.height],
-        black: vec![true; plan.regions()],
+        black_regions: vec![true; plan.regions()],
     };
     screens.screens.resize_with(frames.max(screens.screens.len()), new);
     screens.used = frames;

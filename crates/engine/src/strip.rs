@@ -7,28 +7,28 @@
 
 use std::ops::{AddAssign, Range};
 
-use crate::band::Band;
+use crate::band::BandPass;
 use crate::change;
-use crate::look::Changes;
-use crate::outcome::{Results, within};
-use crate::periphery::{Means, Summaries};
-use crate::pixels::Pixels;
+use crate::change_search::KnownChanges;
+use crate::outcome::{RegionResults, cut_to_range};
+use crate::periphery::{CurrentMeans, SentSummaries};
+use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
-use crate::render::{Canvas, show};
-use crate::scratch::Scratch;
-use foveate_lanes::Lane;
-use foveate_lanes::Task;
+use crate::renderer::{BandRenderer, keep_screen_band};
+use crate::working_memory::WorkingMemory;
+use foveate_lanes::PixelLane;
+use foveate_lanes::VectorTask;
 
 /// The work that was skipped.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Skipped {
+pub(crate) struct SkippedWork {
     /// The number of regions whose results cannot have changed.
     pub(crate) regions: usize,
     /// The number of blocks that were left out. A block is computed if one of its regions needs it.
     pub(crate) blocks: usize,
 }
 
-impl AddAssign for Skipped {
+impl AddAssign for SkippedWork {
     fn add_assign(&mut self, other: Self) {
         self.regions += other.regions;
         self.blocks += other.blocks;
@@ -37,8 +37,8 @@ impl AddAssign for Skipped {
 
 /// A strip's part of the results that are kept of one frame.
 #[derive(Debug)]
-pub(crate) struct Kept<'a, T> {
-    pub(crate) results: Results<'a>,
+pub(crate) struct KeptPart<'a, T> {
+    pub(crate) results: RegionResults<'a>,
     /// The screen, or empty if screens are not kept.
     pub(crate) screen: &'a mut [T],
     /// The regions of the screen that are black.
@@ -47,55 +47,55 @@ pub(crate) struct Kept<'a, T> {
 
 /// A task that takes a batch of frames through some bands.
 #[derive(Debug)]
-pub(crate) struct Strip<'a, T: Lane> {
+pub(crate) struct BandStrip<'a, T: PixelLane> {
     pub(crate) plan: &'a CameraPlan<T>,
-    pub(crate) frames: &'a [Pixels<'a, T>],
+    pub(crate) frames: &'a [BorrowedFrame<'a, T>],
     pub(crate) bands: Range<usize>,
     pub(crate) denoised: &'a mut [T],
     pub(crate) reference: &'a mut [T],
     pub(crate) screen: &'a mut [T],
-    pub(crate) valid: &'a mut [bool],
-    pub(crate) black: &'a mut [bool],
+    pub(crate) reference_valid: &'a mut [bool],
+    pub(crate) black_regions: &'a mut [bool],
     /// The regions whose summary the screen shows; empty if irrelevant regions send no summaries.
-    pub(crate) shown: &'a mut [bool],
+    pub(crate) summary_shown: &'a mut [bool],
     pub(crate) means: &'a mut [T],
     /// One flag per band: the same raw pixels once more would change no result, reference or pixel
     /// of the screen.
-    pub(crate) settled: &'a mut [bool],
+    pub(crate) is_settled: &'a mut [bool],
     /// The results of the last frame.
-    pub(crate) results: Results<'a>,
+    pub(crate) results: RegionResults<'a>,
     /// The kept results of each frame, or empty.
-    pub(crate) kept: Vec<Kept<'a, T>>,
-    pub(crate) scratch: &'a mut Scratch<T>,
-    pub(crate) changes: Changes<'a>,
+    pub(crate) kept: Vec<KeptPart<'a, T>>,
+    pub(crate) scratch: &'a mut WorkingMemory<T>,
+    pub(crate) changes: KnownChanges<'a>,
     /// The skipped work of each frame.
-    pub(crate) skipped: &'a mut Vec<Skipped>,
+    pub(crate) skipped: &'a mut Vec<SkippedWork>,
 }
 
-impl<T: Lane> Task for Strip<'_, T> {
+impl<T: PixelLane> VectorTask for BandStrip<'_, T> {
     #[inline(always)]
     fn run(self) {
         // The function is compiled twice, so that cameras without a periphery do not pay for it.
         match self.plan.periphery {
-            Some(_) => self.run_as::<true>(),
-            None => self.run_as::<false>(),
+            Some(_) => self.run_with::<true>(),
+            None => self.run_with::<false>(),
         }
     }
 }
 
-impl<T: Lane> Strip<'_, T> {
+impl<T: PixelLane> BandStrip<'_, T> {
     /// Takes all frames through the strip. `PERIPHERY` is true if irrelevant regions send their
     /// means.
     #[inline(always)]
-    fn run_as<const PERIPHERY: bool>(mut self) {
+    fn run_with<const PERIPHERY: bool>(mut self) {
         self.skipped.clear();
         for frame in 0..self.frames.len() {
             for row in &mut self.scratch.denoised {
-                row.holds = None;
+                row.row_and_run = None;
             }
-            self.skipped.push(Skipped::default());
+            self.skipped.push(SkippedWork::default());
             for row in 0..self.bands.len() {
-                self.band::<PERIPHERY>(frame, row);
+                self.step_band::<PERIPHERY>(frame, row);
                 // The band that has just been written is not copied yet, because its stores are
                 // still under way.
                 if let Some(last) = row.checked_sub(1) {
@@ -111,62 +111,62 @@ impl<T: Lane> Strip<'_, T> {
 
     /// Takes a frame through the strip's band number `row`.
     #[inline(always)]
-    fn band<const PERIPHERY: bool>(&mut self, frame: usize, row: usize) {
+    fn step_band<const PERIPHERY: bool>(&mut self, frame: usize, row: usize) {
         let (plan, raw, number) = (self.plan, self.frames[frame], self.bands.start + row);
         let rows = row * plan.side * plan.stride()..(row + 1) * plan.side * plan.stride();
         let regions = row * plan.columns..(row + 1) * plan.columns;
         let lines = row * plan.side * plan.width;
-        self.select(frame, number);
+        self.select_runs(frame, number);
         let still = self.scratch.runs.is_empty();
-        if still && self.settled[row] {
+        if still && self.is_settled[row] {
             return;
         }
         // From the second still frame on, counts and actions repeat.
-        self.settled[row] = still && plan.reference.settles();
+        self.is_settled[row] = still && plan.reference.is_stable_on_equal_frames();
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
         if !still {
-            let mut band = Band {
+            let mut band = BandPass {
                 plan,
                 raw,
                 number,
                 denoised: &mut self.denoised[rows.clone()],
                 reference: &self.reference[reference.clone()],
             };
-            band.measure::<PERIPHERY>(self.scratch);
+            band.compute_sums::<PERIPHERY>(self.scratch);
         }
-        let mut results = self.results.rows(regions.clone());
-        let valid = &mut self.valid[regions.clone()];
-        plan.decide(&self.scratch.sums, &self.scratch.affected, valid, &mut results);
+        let mut results = self.results.range(regions.clone());
+        let valid = &mut self.reference_valid[regions.clone()];
+        plan.decide_band(&self.scratch.region_sums, &self.scratch.affected, valid, &mut results);
         let means = row * plan.band_means()..(row + 1) * plan.band_means();
         let means = &mut self.means[means];
         if PERIPHERY && let Some(periphery) = &plan.periphery {
-            let shown = &mut self.shown[regions.clone()];
-            let Scratch { means: now, differs, affected, .. } = &mut *self.scratch;
-            let now = Means { means: now, differs, affected };
-            periphery.summarize(now, &mut Summaries { shown, means }, &mut results);
+            let shown = &mut self.summary_shown[regions.clone()];
+            let WorkingMemory { means: now, exceeds_level: differs, affected, .. } = &mut *self.scratch;
+            let now = CurrentMeans { means: now, exceeds_level: differs, affected };
+            periphery.send_summaries(now, &mut SentSummaries { is_shown: shown, means }, &mut results);
         }
-        let mut canvas = Canvas {
+        let mut canvas = BandRenderer {
             screen: &mut self.screen[lines..],
             denoised: &self.denoised[rows],
             reference: &mut self.reference[reference],
-            valid,
-            black: &mut self.black[regions],
+            reference_valid: valid,
+            black_regions: &mut self.black_regions[regions],
             means,
         };
-        canvas.act::<PERIPHERY>(plan, raw, number, results.actions);
+        canvas.apply_actions::<PERIPHERY>(plan, raw, number, results.actions);
     }
 
     /// Chooses the runs of band `number` that have to be computed.
     #[inline(always)]
-    fn select(&mut self, frame: usize, number: usize) {
+    fn select_runs(&mut self, frame: usize, number: usize) {
         let (plan, scratch) = (self.plan, &mut *self.scratch);
-        match self.changes.around(plan, frame, number) {
+        match self.changes.changed_around(plan, frame, number) {
             Some(changed) => {
-                change::affected(plan, changed, &mut scratch.affected);
-                change::runs(plan, &scratch.affected, &mut scratch.runs);
+                change::mark_affected(plan, changed, &mut scratch.affected);
+                change::collect_runs(plan, &scratch.affected, &mut scratch.runs);
                 let computed: usize = scratch.runs.iter().map(Range::len).sum();
                 let skipped = scratch.affected.iter().filter(|affected| !**affected).count();
-                self.skipped[frame] += Skipped { regions: skipped, blocks: plan.blocks - computed };
+                self.skipped[frame] += SkippedWork { regions: skipped, blocks: plan.blocks - computed };
             }
             None => {
                 scratch.affected.fill(true);
@@ -182,11 +182,11 @@ impl<T: Lane> Strip<'_, T> {
         let plan = self.plan;
         if let Some(kept) = self.kept.get_mut(frame) {
             let regions = row * plan.columns..(row + 1) * plan.columns;
-            let black = within(kept.black, &regions);
+            let black = cut_to_range(kept.black, &regions);
             if !black.is_empty() {
                 let top = row * plan.side * plan.width;
-                let screen = (&self.screen[top..], &self.black[regions]);
-                show(plan, self.bands.start + row, screen, (&mut kept.screen[top..], black));
+                let screen = (&self.screen[top..], &self.black_regions[regions]);
+                keep_screen_band(plan, self.bands.start + row, screen, (&mut kept.screen[top..], black));
             }
         }
     }

@@ -7,7 +7,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use foveate_lanes::{Level, Task};
+use foveate_lanes::{InstructionSet, VectorTask};
 
 /// The largest number of threads that an engine takes. More threads than processors gain nothing,
 /// and thousands of threads would keep the system busy.
@@ -21,34 +21,34 @@ const SMALLEST_STRIP: usize = 1 << 15;
 /// The threads and the instruction set of an engine.
 #[derive(Debug)]
 pub(crate) struct Workers {
-    pub(crate) level: Level,
+    pub(crate) level: InstructionSet,
     /// The threads other than the calling one.
-    pub(crate) others: Option<rayon::ThreadPool>,
+    pub(crate) other_threads: Option<rayon::ThreadPool>,
 }
 
 impl Workers {
     /// Makes the workers of an engine that uses only the calling thread.
-    pub(crate) fn alone(level: Level) -> Self {
-        Self { level, others: None }
+    pub(crate) fn calling_thread(level: InstructionSet) -> Self {
+        Self { level, other_threads: None }
     }
 
     /// Makes `threads` workers, the calling thread included.
-    pub(crate) fn new(level: Level, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+    pub(crate) fn new(level: InstructionSet, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
         if threads <= 1 {
-            return Ok(Self::alone(level));
+            return Ok(Self::calling_thread(level));
         }
         let others = rayon::ThreadPoolBuilder::new().num_threads(threads - 1).build()?;
-        Ok(Self { level, others: Some(others) })
+        Ok(Self { level, other_threads: Some(others) })
     }
 
-    fn others(&self) -> usize {
-        self.others.as_ref().map_or(0, rayon::ThreadPool::current_num_threads)
+    fn other_thread_count(&self) -> usize {
+        self.other_threads.as_ref().map_or(0, rayon::ThreadPool::current_num_threads)
     }
 
     /// Returns the number of strips, at most `most`, into which this number of pixels is divided.
     /// The pixels may be those of several frames.
     pub(crate) fn strips(&self, most: usize, pixels: usize) -> usize {
-        match self.others() {
+        match self.other_thread_count() {
             0 => 1,
             others => {
                 let most = ((others + 1) * STRIPS_PER_THREAD).min(most);
@@ -58,16 +58,16 @@ impl Workers {
     }
 
     /// Runs tasks that share nothing, in any order.
-    pub(crate) fn run<W: Task + Send>(&self, tasks: impl ExactSizeIterator<Item = W>) {
-        match &self.others {
+    pub(crate) fn run<W: VectorTask + Send>(&self, tasks: impl ExactSizeIterator<Item = W>) {
+        match &self.other_threads {
             Some(pool) if tasks.len() > 1 => {
-                let helpers = self.others().min(tasks.len() - 1);
+                let helpers = self.other_thread_count().min(tasks.len() - 1);
                 let tasks: Vec<W> = tasks.collect();
                 let queue = Mutex::new(tasks.into_iter());
                 let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
                 let work = || {
                     while let Some(task) = next() {
-                        self.work(task);
+                        self.run_task(task);
                     }
                 };
                 pool.in_place_scope(|scope| {
@@ -77,14 +77,14 @@ impl Workers {
                     work();
                 });
             }
-            _ => tasks.for_each(|task| self.work(task)),
+            _ => tasks.for_each(|task| self.run_task(task)),
         }
     }
 
     /// Runs a task. It is not inlined: a task is large, and is compiled once instead of once per
     /// call.
     #[inline(never)]
-    fn work<W: Task>(&self, task: W) {
+    fn run_task<W: VectorTask>(&self, task: W) {
         self.level.run(task);
     }
 }
@@ -95,9 +95,9 @@ mod tests {
 
     use super::*;
 
-    struct Count<'a>(&'a AtomicUsize, usize);
+    struct CountTask<'a>(&'a AtomicUsize, usize);
 
-    impl Task for Count<'_> {
+    impl VectorTask for CountTask<'_> {
         #[inline(always)]
         fn run(self) {
             self.0.fetch_add(self.1, Ordering::Relaxed);
@@ -107,10 +107,10 @@ mod tests {
     #[test]
     fn every_task_runs_once_whoever_works() {
         for threads in 1..=3 {
-            let workers = Workers::new(Level::PORTABLE, threads).unwrap();
+            let workers = Workers::new(InstructionSet::PORTABLE, threads).unwrap();
             for tasks in [0, 1, 2, 50] {
                 let sum = AtomicUsize::new(0);
-                let tasks: Vec<_> = (0..tasks).map(|number| Count(&sum, number + 1)).collect();
+                let tasks: Vec<_> = (0..tasks).map(|number| CountTask(&sum, number + 1)).collect();
                 let expected = tasks.len() * (tasks.len() + 1) / 2;
                 workers.run(tasks.into_iter());
                 assert_eq!(sum.into_inner(), expected);
@@ -120,10 +120,10 @@ mod tests {
 
     #[test]
     fn small_frames_are_not_divided() {
-        let workers = Workers::new(Level::PORTABLE, 2).unwrap();
+        let workers = Workers::new(InstructionSet::PORTABLE, 2).unwrap();
         assert_eq!(workers.strips(28, 224 * 224), 1);
         assert_eq!(workers.strips(34, 1920 * 1088), 4);
         assert_eq!(workers.strips(3, 1920 * 1088), 3);
-        assert_eq!(Workers::alone(Level::PORTABLE).strips(34, 1920 * 1088), 1);
+        assert_eq!(Workers::calling_thread(InstructionSet::PORTABLE).strips(34, 1920 * 1088), 1);
     }
 }

@@ -51,10 +51,10 @@ impl Area {
                 module: module.to_owned(),
                 count,
             };
-            match CellKind::of(cell).ok_or_else(unknown)? {
+            match CellKind::from_type(cell).ok_or_else(unknown)? {
                 CellKind::Lut(inputs) => luts[inputs] += count,
                 CellKind::Inverter => inverters += count,
-                CellKind::Srl16 => shift_registers += count,
+                CellKind::ShiftRegister16 => shift_registers += count,
                 CellKind::Memory(each) => area.lut_memory += each * count,
                 CellKind::FlipFlop => area.ff += count,
                 CellKind::Carry(each) => area.carry += each * count,
@@ -75,7 +75,7 @@ impl Area {
 
     /// Returns the area of `count` such modules.
     #[must_use]
-    pub fn times(self, count: u64) -> Self {
+    pub fn multiplied(self, count: u64) -> Self {
         self.zip(self, |value, _| value * count)
     }
 
@@ -122,7 +122,7 @@ fn shared_luts(luts: [u64; 7]) -> u64 {
 }
 
 /// Returns a quotient rounded to thousandths.
-pub(crate) fn quotient(value: u64, unit: u64) -> f64 {
+pub(crate) fn rounded_quotient(value: u64, unit: u64) -> f64 {
     let thousandths = (value * 1000 + unit / 2) / unit;
     f64::from(u32::try_from(thousandths).unwrap_or(u32::MAX)) / 1000.0
 }
@@ -197,8 +197,8 @@ mod tests {
     #[test]
     fn areas_multiply_and_add() {
         let one = area(&[("LUT6", 3), ("SRL16E", 3), ("FDRE", 2)]);
-        let sum = one.times(3).plus(one);
-        assert_eq!(sum, one.times(4));
+        let sum = one.multiplied(3).plus(one);
+        assert_eq!(sum, one.multiplied(4));
         assert_eq!((sum.lut_total, sum.lut_total_packed, sum.ff), (24, 20, 8));
     }
 }

@@ -6,13 +6,13 @@
 //! little from the whole.
 
 use foveate_emit::AXI_PARTS;
-use foveate_toolchain::{Synthesis, SynthesisJob, sources_sha256};
+use foveate_toolchain::{SynthesisResult, SynthesisJob, sources_sha256};
 use serde::{Deserialize, Serialize};
 
 use crate::area::Area;
 use crate::error::EstimateError;
-use crate::levels::{LogicPath, longest_paths};
-use crate::netlist::{NETLIST, Netlist};
+use crate::logic_levels::{LogicPath, longest_paths};
+use crate::netlist::{NETLIST, AreaNetlist};
 
 /// The area of a core on AXI, with the array inside.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,23 +51,23 @@ impl BusArea {
     /// is a combinational loop.
     pub(crate) fn of(
         job: &SynthesisJob,
-        whole: &Synthesis,
-        apart: Option<&Netlist>,
+        whole: &SynthesisResult,
+        apart: Option<&AreaNetlist>,
     ) -> Result<Self, EstimateError> {
         let top = job.array.as_str();
         let paths = longest_paths(NETLIST, &whole.json, &[top])?;
         Ok(Self {
             module: top.to_owned(),
             rtl_sha256: sources_sha256(&job.sources),
-            whole: Netlist::parse(NETLIST, &whole.json)?.whole_area(top, &[])?,
-            parts: apart.map(|apart| parts(top, apart)).transpose()?.unwrap_or_default(),
+            whole: AreaNetlist::parse(NETLIST, &whole.json)?.whole_area(top, &[])?,
+            parts: apart.map(|apart| part_areas(top, apart)).transpose()?.unwrap_or_default(),
             path: paths.into_iter().next().expect("a path for the one module"),
         })
     }
 }
 
 /// Returns the area of every part around the array, and of the cells of the top itself.
-fn parts(top: &str, apart: &Netlist) -> Result<Vec<PartArea>, EstimateError> {
+fn part_areas(top: &str, apart: &AreaNetlist) -> Result<Vec<PartArea>, EstimateError> {
     let part = |(name, modules): &(&str, &[&str])| {
         let add = |sum: Area, module: &&str| apart.area_in(top, module).map(|area| sum.plus(area));
         Ok(PartArea {

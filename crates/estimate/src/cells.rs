@@ -10,7 +10,7 @@ pub enum CellKind {
     /// An inverter that was not merged into a look-up table.
     Inverter,
     /// A shift register of up to 16 bits; two fit in one memory LUT.
-    Srl16,
+    ShiftRegister16,
     /// Distributed RAM or a long shift register in this number of memory LUTs.
     Memory(u64),
     /// A flip-flop.
@@ -31,7 +31,7 @@ pub enum CellKind {
 impl CellKind {
     /// Returns the kind of a cell by the name of its type; `None` if it is not known.
     #[must_use]
-    pub fn of(cell: &str) -> Option<Self> {
+    pub fn from_type(cell: &str) -> Option<Self> {
         Some(match cell {
             "LUT1" => Self::Lut(1),
             "LUT2" => Self::Lut(2),
@@ -40,7 +40,7 @@ impl CellKind {
             "LUT5" => Self::Lut(5),
             "LUT6" | "LUT6_2" => Self::Lut(6),
             "INV" => Self::Inverter,
-            "SRL16" | "SRL16E" => Self::Srl16,
+            "SRL16" | "SRL16E" => Self::ShiftRegister16,
             "SRLC16" | "SRLC16E" | "SRLC32E" | "RAM32X1S" | "RAM64X1S" => Self::Memory(1),
             "RAM32X1D" | "RAM64X1D" | "RAM128X1S" => Self::Memory(2),
             "RAM32M" | "RAM64M" | "RAM128X1D" | "RAM256X1S" => Self::Memory(4),
@@ -65,14 +65,14 @@ mod tests {
     #[test]
     fn unknown_cells_have_no_kind() {
         for cell in ["LDCE", "$add", "LUT7", "rpu", "", "lut6"] {
-            assert_eq!(CellKind::of(cell), None, "{cell}");
+            assert_eq!(CellKind::from_type(cell), None, "{cell}");
         }
     }
 
     #[test]
     fn memories_weigh_what_the_family_spends() {
         for (cell, luts) in [("RAM64X1S", 1), ("RAM128X1S", 2), ("RAM64M", 4), ("RAM64M8", 8)] {
-            assert_eq!(CellKind::of(cell), Some(CellKind::Memory(luts)), "{cell}");
+            assert_eq!(CellKind::from_type(cell), Some(CellKind::Memory(luts)), "{cell}");
         }
     }
 }

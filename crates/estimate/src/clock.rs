@@ -7,12 +7,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::EstimateError;
-use crate::levels::{Library, LogicPath, WIRING_SHARE, slowest_path};
+use crate::logic_levels::{CellLibrary, LogicPath, WIRING_SHARE, slowest_path};
 
 /// The largest expected error of an estimate, as a part of the real frequency. In the calibration
 /// the error was less than half of this. The designs of the calibration are small, and wires are
 /// longer in a full device.
-const ERROR: f64 = 0.25;
+const LARGEST_ERROR: f64 = 0.25;
 
 /// An estimated clock frequency with its range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,14 +36,14 @@ impl ClockEstimate {
         file: &'static str,
         json: &[u8],
         top: &str,
-        library: Library,
+        library: CellLibrary,
     ) -> Result<Option<Self>, EstimateError> {
         let (path, ps) = slowest_path(file, json, top, library)?;
         let mhz = 1e6 / f64::from(ps);
         Ok((ps > 0).then(|| Self {
             mhz,
-            low_mhz: mhz / (1.0 + ERROR),
-            high_mhz: mhz / (1.0 - ERROR),
+            low_mhz: mhz / (1.0 + LARGEST_ERROR),
+            high_mhz: mhz / (1.0 - LARGEST_ERROR),
             wiring_share: WIRING_SHARE,
             path,
         }))

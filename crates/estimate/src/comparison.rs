@@ -3,34 +3,34 @@
 
 use serde::Serialize;
 
-use crate::device::{Device, Share};
+use crate::device::{FpgaDevice, DeviceShare};
 use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
 use crate::report::AreaReport;
-use crate::speed::Speed;
-use crate::table::{Table, wrap};
-use foveate_pictures::page::number::grouped;
+use crate::speed::FrameRate;
+use crate::table::{ReportTable, wrap};
+use foveate_pictures::page::number_text::grouped;
 
 /// The clocks per frame of the paper's array.
-const PAPER_CYCLES: u64 = 64;
+const PAPER_CLOCKS_PER_FRAME: u64 = 64;
 
 /// A comparison of designs.
 #[derive(Clone, Debug, Serialize)]
-pub struct Comparison {
+pub struct DesignComparison {
     /// The version of the JSON format; it changes when a field changes its meaning or is removed.
     pub format_version: u32,
     /// The clock of the frame rates in MHz, if one was given; otherwise each design has its
     /// estimated one.
     pub clock_mhz: Option<f64>,
     /// The compared designs.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<ComparedDesign>,
     /// The designs that were left out, with the reasons.
-    pub skipped: Vec<Skipped>,
+    pub skipped: Vec<SkippedDesign>,
 }
 
 /// A design in a comparison.
 #[derive(Clone, Debug, Serialize)]
-pub struct Candidate {
+pub struct ComparedDesign {
     /// The name of the design in the comparison.
     pub name: String,
     /// The area, paths, clock and frames per second of the design.
@@ -39,14 +39,14 @@ pub struct Candidate {
 
 /// A design that was left out of the comparison.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Skipped {
+pub struct SkippedDesign {
     /// The name of the design in the comparison.
     pub name: String,
     /// The reason why it was left out.
     pub reason: String,
 }
 
-impl Comparison {
+impl DesignComparison {
     /// Makes an empty comparison at a clock in MHz, or at the designs' own clocks.
     #[must_use]
     pub fn new(clock_mhz: Option<f64>) -> Self {
@@ -55,7 +55,7 @@ impl Comparison {
 
     /// Adds a design.
     pub fn push(&mut self, name: String, report: AreaReport) {
-        self.candidates.push(Candidate { name, report: report.at(self.clock_mhz) });
+        self.candidates.push(ComparedDesign { name, report: report.with_clock(self.clock_mhz) });
     }
 
     /// Returns the comparison for a terminal of `width` columns. Columns that do not fit are placed
@@ -80,14 +80,14 @@ impl Comparison {
     }
 
     fn skipped(&self) -> impl Iterator<Item = String> {
-        self.skipped.iter().map(|Skipped { name, reason }| format!("Without {name}: {reason}."))
+        self.skipped.iter().map(|SkippedDesign { name, reason }| format!("Without {name}: {reason}."))
     }
 
-    fn table(&self) -> Table {
+    fn table(&self) -> ReportTable {
         let has =
             |count: fn(&AreaReport) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
-        let dsp = has(|report| report.whole().dsp);
-        let bram = has(|report| report.whole().bram18);
+        let dsp = has(|report| report.whole_area().dsp);
+        let bram = has(|report| report.whole_area().bram18);
         let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
         header.extend(dsp.then(|| "DSP".to_owned()));
         header.extend(bram.then(|| "RAMB36".to_owned()));
@@ -97,18 +97,18 @@ impl Comparison {
         };
         let mut rows = Vec::new();
         for candidate in &self.candidates {
-            let whole = candidate.report.whole();
-            let mut row = figures(candidate);
+            let whole = candidate.report.whole_area();
+            let mut row = candidate_row(candidate);
             row.extend(extras(grouped(whole.dsp), ramb36(whole.bram18)));
-            row.push(largest(&candidate.report.share));
+            row.push(largest_share(&candidate.report.share));
             rows.push(row);
         }
         let mut paper = self.paper();
         paper.extend(extras(String::new(), String::new()));
-        let lut = PAPER_RCM.lut * 10_000 / Device::xcvu9p().lut;
+        let lut = PAPER_RCM.lut * 10_000 / FpgaDevice::xcvu9p().lut;
         paper.push(format!("LUT {}.{:02}%", lut / 100, lut % 100));
         rows.push(paper);
-        Table {
+        ReportTable {
             title: "Area, speed and logic levels".to_owned(),
             header,
             rows,
@@ -127,7 +127,7 @@ impl Comparison {
                 } else {
                     ""
                 },
-                Device::xcvu9p().name,
+                FpgaDevice::xcvu9p().name,
             )),
         }
     }
@@ -137,14 +137,14 @@ impl Comparison {
         let unit =
             [PAPER_RPU.lut - PAPER_RPU.lutram, PAPER_RPU.lutram, PAPER_RPU.lut, PAPER_RPU.ff];
         // The paper does not state its clock.
-        let speed = self.clock_mhz.map(|mhz| Speed::given(mhz, PAPER_CYCLES));
+        let speed = self.clock_mhz.map(|mhz| FrameRate::at_given_clock(mhz, PAPER_CLOCKS_PER_FRAME));
         let array = [PAPER_RCM.lut, PAPER_RCM.lutram, PAPER_RCM.ff];
         texts
             .into_iter()
             .chain(unit.map(grouped))
             .chain([String::new()])
-            .chain([grouped(PAPER_CYCLES)])
-            .chain(at_clock(speed.as_ref()))
+            .chain([grouped(PAPER_CLOCKS_PER_FRAME)])
+            .chain(clock_and_rate(speed.as_ref()))
             .chain(array.map(grouped))
             .collect()
     }
@@ -156,13 +156,13 @@ const HEADER: [&str; 13] = [
 ];
 
 /// Returns the clock and the frames per second at it; both empty without a known clock.
-fn at_clock(speed: Option<&Speed>) -> [String; 2] {
+fn clock_and_rate(speed: Option<&FrameRate>) -> [String; 2] {
     speed.map_or_else(Default::default, |speed| [speed.clock_text(), speed.rate_text()])
 }
 
-fn figures(candidate: &Candidate) -> Vec<String> {
+fn candidate_row(candidate: &ComparedDesign) -> Vec<String> {
     let AreaReport { rpu, clocks_per_frame, speed, .. } = &candidate.report;
-    let whole = candidate.report.whole();
+    let whole = candidate.report.whole_area();
     let unit = [
         rpu.lut_logic_low,
         rpu.lut_logic_high,
@@ -175,13 +175,13 @@ fn figures(candidate: &Candidate) -> Vec<String> {
     let array = [whole.lut_total_packed, whole.lut_memory_packed, whole.ff];
     std::iter::once(candidate.name.clone())
         .chain(unit.map(grouped))
-        .chain(at_clock(speed.as_ref()))
+        .chain(clock_and_rate(speed.as_ref()))
         .chain(array.map(grouped))
         .collect()
 }
 
 /// Returns the name and the value of the largest share.
-fn largest(share: &Share) -> String {
+fn largest_share(share: &DeviceShare) -> String {
     let shares = [
         ("LUT", share.lut),
         ("mem", share.lut_memory),
@@ -199,16 +199,16 @@ mod tests {
     use super::*;
     use crate::report::tests::example;
 
-    fn comparison() -> Comparison {
+    fn comparison() -> DesignComparison {
         comparison_at(None)
     }
 
-    fn comparison_at(clock_mhz: Option<f64>) -> Comparison {
-        let mut comparison = Comparison::new(clock_mhz);
+    fn comparison_at(clock_mhz: Option<f64>) -> DesignComparison {
+        let mut comparison = DesignComparison::new(clock_mhz);
         comparison.push("pipelined edge".to_owned(), example(784));
         comparison
             .skipped
-            .push(Skipped { name: "serial".into(), reason: "it is not there".into() });
+            .push(SkippedDesign { name: "serial".into(), reason: "it is not there".into() });
         comparison
     }
 

@@ -3,12 +3,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::area::{Area, quotient};
-use crate::speed::number;
+use crate::area::{Area, rounded_quotient};
+use crate::speed::clocks_as_float;
 
 /// The resources of a device.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Device {
+pub struct FpgaDevice {
     /// The name of the part.
     pub name: String,
     /// The number of LUTs.
@@ -27,7 +27,7 @@ pub struct Device {
 /// blocks and RAMB18.
 pub const XCVU9P: (&str, [u64; 5]) = ("XCVU9P", [1_182_240, 591_840, 2_364_480, 6_840, 2 * 2_160]);
 
-impl Device {
+impl FpgaDevice {
     /// Returns the paper's device.
     #[must_use]
     pub fn xcvu9p() -> Self {
@@ -39,7 +39,7 @@ impl Device {
     /// blocks, and a hundredth of its share of flip-flops, of which there are two for every LUT.
     #[must_use]
     pub fn cost(&self, area: &Area) -> f64 {
-        let share = |used: u64, of: u64| number(used) / number(of);
+        let share = |used: u64, of: u64| clocks_as_float(used) / clocks_as_float(of);
         share(area.lut_total_packed, self.lut)
             + share(area.bram18, self.bram18)
             + share(area.dsp, self.dsp)
@@ -49,7 +49,7 @@ impl Device {
 
 /// The share of the device that the RCM takes, in percent of each resource.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Share {
+pub struct DeviceShare {
     /// The share of the LUTs, by `lut_total`.
     pub lut: f64,
     /// The share of the LUTs that can be memory, by `lut_memory`.
@@ -62,14 +62,14 @@ pub struct Share {
     pub bram: f64,
 }
 
-impl Share {
-    pub(crate) fn new(area: &Area, device: &Device) -> Self {
+impl DeviceShare {
+    pub(crate) fn new(area: &Area, device: &FpgaDevice) -> Self {
         Self {
-            lut: quotient(area.lut_total * 100, device.lut),
-            lut_memory: quotient(area.lut_memory * 100, device.lut_memory),
-            ff: quotient(area.ff * 100, device.ff),
-            dsp: quotient(area.dsp * 100, device.dsp),
-            bram: quotient(area.bram18 * 100, device.bram18),
+            lut: rounded_quotient(area.lut_total * 100, device.lut),
+            lut_memory: rounded_quotient(area.lut_memory * 100, device.lut_memory),
+            ff: rounded_quotient(area.ff * 100, device.ff),
+            dsp: rounded_quotient(area.dsp * 100, device.dsp),
+            bram: rounded_quotient(area.bram18 * 100, device.bram18),
         }
     }
 }

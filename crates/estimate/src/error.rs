@@ -77,14 +77,14 @@ pub enum EstimateError {
     #[error(
         "the netlist has a combinational loop, so it has no logic levels: {nets}; break the loop with a register"
     )]
-    Loop {
+    CombinationalLoop {
         /// The nets of the loop, in the direction of the signals.
         nets: String,
     },
 
     /// A file that Yosys wrote cannot be read.
     #[error("cannot read `{file}`, which Yosys wrote: {source}; its format may have changed")]
-    Format {
+    UnreadableFile {
         /// The file.
         file: &'static str,
         /// The error of the reader.
@@ -100,12 +100,12 @@ pub enum EstimateError {
 
     /// The report of nextpnr cannot be read.
     #[error("cannot read the report of nextpnr: {reason}; its format may have changed")]
-    Placed {
+    UnreadableReport {
         /// The error of the reader, or the missing value.
         reason: String,
     },
 
     /// The report could not be turned into JSON.
     #[error("cannot write the report as JSON: {0}")]
-    Json(serde_json::Error),
+    UnwritableReport(serde_json::Error),
 }

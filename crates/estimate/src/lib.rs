@@ -16,15 +16,15 @@ mod clock;
 mod comparison;
 mod device;
 mod error;
-mod folds;
-mod job;
-mod leaves;
-mod levels;
+mod fold_search;
+mod estimate_job;
+mod leaf_areas;
+mod logic_levels;
 mod netlist;
 mod paper;
 mod render;
 mod report;
-mod route;
+mod routing;
 mod speed;
 mod synthesis;
 mod table;
@@ -33,18 +33,18 @@ pub use area::Area;
 pub use bus::{BusArea, PartArea};
 pub use cells::CellKind;
 pub use clock::ClockEstimate;
-pub use comparison::{Candidate, Comparison, Skipped};
-pub use device::{Device, Share, XCVU9P};
+pub use comparison::{ComparedDesign, DesignComparison, SkippedDesign};
+pub use device::{FpgaDevice, DeviceShare, XCVU9P};
 pub use error::EstimateError;
-pub use folds::{FoldCost, cheapest_fold};
-pub use job::{EstimateJob, estimate};
-pub use levels::LogicPath;
-pub use paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper, PaperRow, Ratios};
+pub use fold_search::{FoldCost, cheapest_fold};
+pub use estimate_job::{EstimateJob, estimate};
+pub use logic_levels::LogicPath;
+pub use paper::{PaperComparison, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperReport, PaperRow, PaperRatios};
 pub use render::{ramb36, render_markdown, render_text};
-pub use report::{AreaReport, FORMAT_VERSION, LeafArea, Paths};
-pub use route::{
-    CriticalPath, Fmax, Over, PathEnd, Placed, ROUTE_DEVICES, ROUTE_FORMAT_VERSION, RouteDevice,
-    RouteJob, RouteReport, Routed, Used, place_and_route, render_routes_markdown,
+pub use report::{AreaReport, FORMAT_VERSION, LeafArea, LongestPaths};
+pub use routing::{
+    CriticalPath, ClockStatistics, ResourceShortage, PathEnd, PlacementResult, ROUTE_DEVICES, ROUTE_FORMAT_VERSION, RouteDevice,
+    RouteJob, RouteReport, DeviceResult, ResourceUse, place_and_route, render_routes_markdown,
     render_routes_text,
 };
-pub use speed::{Speed, most_clocks};
+pub use speed::{FrameRate, most_clocks_per_frame};

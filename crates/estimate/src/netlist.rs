@@ -17,11 +17,11 @@ pub(crate) const NETLIST: &str = "netlist.json";
 
 /// The modules of a netlist by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Netlist(BTreeMap<String, Module>);
+pub(crate) struct AreaNetlist(BTreeMap<String, AreaModule>);
 
 /// A module: its primitive cells and submodules by type, and its name in the source.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Module {
+pub(crate) struct AreaModule {
     pub(crate) cells: BTreeMap<String, u64>,
     pub(crate) submodules: BTreeMap<String, u64>,
     pub(crate) source_name: String,
@@ -30,13 +30,13 @@ pub(crate) struct Module {
 
 /// The part of the netlist that is needed; other fields differ between versions.
 #[derive(Deserialize)]
-struct RawNetlist {
-    modules: BTreeMap<String, RawModule>,
+struct RawAreaNetlist {
+    modules: BTreeMap<String, RawAreaModule>,
 }
 
 #[derive(Deserialize)]
-struct RawModule {
-    cells: BTreeMap<String, RawCell>,
+struct RawAreaModule {
+    cells: BTreeMap<String, RawAreaCell>,
     #[serde(default)]
     attributes: BTreeMap<String, serde_json::Value>,
     #[serde(default)]
@@ -44,22 +44,22 @@ struct RawModule {
 }
 
 #[derive(Deserialize)]
-struct RawCell {
+struct RawAreaCell {
     #[serde(rename = "type")]
     kind: String,
 }
 
-impl Netlist {
+impl AreaNetlist {
     pub(crate) fn parse(file: &'static str, json: &[u8]) -> Result<Self, EstimateError> {
-        let raw: RawNetlist = serde_json::from_slice(json)
-            .map_err(|source| EstimateError::Format { file, source })?;
-        let module = |(name, module): (&String, &RawModule)| {
-            (name.clone(), Module::new(name, module, &raw.modules))
+        let raw: RawAreaNetlist = serde_json::from_slice(json)
+            .map_err(|source| EstimateError::UnreadableFile { file, source })?;
+        let module = |(name, module): (&String, &RawAreaModule)| {
+            (name.clone(), AreaModule::new(name, module, &raw.modules))
         };
         Ok(Self(raw.modules.iter().map(module).collect()))
     }
 
-    pub(crate) fn module(&self, name: &str) -> Result<&Module, EstimateError> {
+    pub(crate) fn module(&self, name: &str) -> Result<&AreaModule, EstimateError> {
         self.0.get(name).ok_or_else(|| self.missing(name))
     }
 
@@ -81,7 +81,7 @@ impl Netlist {
         let counts = self.instances(top, without)?;
         let mut inside = counts.iter().filter(|(name, _)| !without.contains(&name.as_str()));
         inside.try_fold(self.own_area(top)?, |sum, (name, &count)| {
-            Ok(sum.plus(self.own_area(name)?.times(count)))
+            Ok(sum.plus(self.own_area(name)?.multiplied(count)))
         })
     }
 
@@ -91,7 +91,7 @@ impl Netlist {
         let mut found = None;
         for (name, &count) in &self.module(top)?.submodules {
             if self.module(name)?.source_name == source_name {
-                let area = self.whole_area(name, &[])?.times(count);
+                let area = self.whole_area(name, &[])?.multiplied(count);
                 found = Some(found.unwrap_or_else(Area::default).plus(area));
             }
         }
@@ -133,9 +133,9 @@ impl Netlist {
     }
 }
 
-impl Module {
+impl AreaModule {
     /// Counts the cells of a module. A cell whose type is a module of the design is a submodule.
-    fn new(name: &str, raw: &RawModule, modules: &BTreeMap<String, RawModule>) -> Self {
+    fn new(name: &str, raw: &RawAreaModule, modules: &BTreeMap<String, RawAreaModule>) -> Self {
         let mut module = Self::default();
         for cell in raw.cells.values() {
             let is_module = modules.contains_key(&cell.kind);
@@ -148,13 +148,13 @@ impl Module {
         module.source_name = source_name.strip_prefix('\\').unwrap_or(source_name).to_owned();
         let parameters = raw.parameter_default_values.iter();
         module.parameters =
-            parameters.map(|(name, value)| format!("{name}={}", number(value))).collect();
+            parameters.map(|(name, value)| format!("{name}={}", parameter_text(value))).collect();
         module
     }
 }
 
 /// Returns a parameter as text. Yosys writes numbers as strings of binary digits, and text as text.
-fn number(value: &serde_json::Value) -> String {
+fn parameter_text(value: &serde_json::Value) -> String {
     let Some(text) = value.as_str() else { return value.to_string() };
     u64::from_str_radix(text, 2).map_or_else(|_| text.trim_end().to_owned(), |n| n.to_string())
 }
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn old_and_new_yosys_are_understood() {
         for json in [OLD, NEW] {
-            let netlist = Netlist::parse("netlist", json).unwrap();
+            let netlist = AreaNetlist::parse("netlist", json).unwrap();
             let rcm = netlist.module("rcm").unwrap();
             assert_eq!(rcm.submodules, BTreeMap::from([("rpu".to_owned(), 4)]));
             assert_eq!(rcm.cells, BTreeMap::from([("LUT4".to_owned(), 1)]));
@@ -181,10 +181,10 @@ mod tests {
 
     #[test]
     fn what_is_not_understood_is_an_error() {
-        let error = Netlist::parse("netlist.json", br#"{"modules": {"a": {}}}"#).unwrap_err();
+        let error = AreaNetlist::parse("netlist.json", br#"{"modules": {"a": {}}}"#).unwrap_err();
         let text = error.to_string();
         assert!(text.contains("netlist.json") && text.contains("`cells`"), "{text}");
-        let netlist = Netlist::parse("netlist", OLD).unwrap();
+        let netlist = AreaNetlist::parse("netlist", OLD).unwrap();
         let error = netlist.module("lane").unwrap_err().to_string();
         assert!(
             error.contains("no module `lane`; it has only ") && error.contains("`rcm`, `rpu`"),
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn whole_area_has_what_is_inside() {
         let json = include_bytes!("../tests/fixtures/leaves_yosys_0.23.json");
-        let netlist = Netlist::parse("netlist", json).unwrap();
+        let netlist = AreaNetlist::parse("netlist", json).unwrap();
         let whole = netlist.whole_area("rpu", &[]).unwrap();
         assert_eq!((whole.lut_logic_high, whole.lut_memory, whole.carry), (40, 8, 12));
         let without = netlist.whole_area("rpu", &["pair"]).unwrap();
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn modules_in_another_are_found_by_the_name_in_their_source() {
         let json = include_bytes!("../tests/fixtures/leaves_yosys_0.23.json");
-        let netlist = Netlist::parse("netlist", json).unwrap();
+        let netlist = AreaNetlist::parse("netlist", json).unwrap();
         let (pair, adders) = (netlist.area_in("rpu", "pair"), netlist.area_in("pair", "adder"));
         let beside = netlist.whole_area("rpu", &["pair"]).unwrap();
         assert_eq!(pair.unwrap().plus(beside), netlist.whole_area("rpu", &[]).unwrap());
@@ -218,14 +218,14 @@ mod tests {
     #[test]
     fn a_module_in_itself_is_an_error() {
         let json = br#"{"modules": {"a": {"cells": {"u": {"type": "a"}}}}}"#;
-        let error = Netlist::parse("netlist", json).unwrap().instances("a", &[]).unwrap_err();
+        let error = AreaNetlist::parse("netlist", json).unwrap().instances("a", &[]).unwrap_err();
         assert!(matches!(error, EstimateError::Recursive { .. }));
     }
 
     #[test]
     fn parameters_are_numbers_or_text() {
         for (value, text) in [("00001000", "8"), ("distributed ", "distributed"), ("x1", "x1")] {
-            assert_eq!(number(&value.into()), text);
+            assert_eq!(parameter_text(&value.into()), text);
         }
     }
 }

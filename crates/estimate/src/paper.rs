@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::area::{Area, quotient};
+use crate::area::{Area, rounded_quotient};
 
 /// A row of the paper's table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -26,7 +26,7 @@ pub const PAPER_REGIONS: u64 = 784;
 /// The figures of a design divided by the paper's; a ratio below 1 means that the design is
 /// smaller.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Ratios {
+pub struct PaperRatios {
     /// The ratio of `lut_total` to the paper's LUTs.
     pub lut_total: f64,
     /// The ratio of `lut_total_packed` to the paper's LUTs.
@@ -41,21 +41,21 @@ pub struct Ratios {
 
 /// A row of the paper's table, and the ratios of the design to it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BesidePaper {
+pub struct PaperComparison {
     /// The paper's figures.
     pub paper: PaperRow,
     /// The design's figures divided by the paper's.
-    pub ratio: Ratios,
+    pub ratio: PaperRatios,
 }
 
-impl BesidePaper {
+impl PaperComparison {
     pub(crate) fn new(area: &Area, paper: PaperRow) -> Self {
-        let ratio = Ratios {
-            lut_total: quotient(area.lut_total, paper.lut),
-            lut_total_packed: quotient(area.lut_total_packed, paper.lut),
-            ff: quotient(area.ff, paper.ff),
-            lut_memory: quotient(area.lut_memory, paper.lutram),
-            lut_memory_packed: quotient(area.lut_memory_packed, paper.lutram),
+        let ratio = PaperRatios {
+            lut_total: rounded_quotient(area.lut_total, paper.lut),
+            lut_total_packed: rounded_quotient(area.lut_total_packed, paper.lut),
+            ff: rounded_quotient(area.ff, paper.ff),
+            lut_memory: rounded_quotient(area.lut_memory, paper.lutram),
+            lut_memory_packed: rounded_quotient(area.lut_memory_packed, paper.lutram),
         };
         Self { paper, ratio }
     }
@@ -63,9 +63,9 @@ impl BesidePaper {
 
 /// The comparison of a design with the paper's table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Paper {
+pub struct PaperReport {
     /// The comparison of the RPU.
-    pub rpu: BesidePaper,
+    pub rpu: PaperComparison,
     /// The comparison of the RCM; absent unless the design has as many regions as the paper's.
-    pub rcm: Option<BesidePaper>,
+    pub rcm: Option<PaperComparison>,
 }

@@ -4,15 +4,15 @@
 mod paper;
 
 use crate::area::Area;
-use crate::levels::LogicPath;
-use crate::report::{AreaReport, LeafArea, Paths};
-use crate::table::{Table, header, wrap};
-use foveate_pictures::page::number::grouped;
+use crate::logic_levels::LogicPath;
+use crate::report::{AreaReport, LeafArea, LongestPaths};
+use crate::table::{ReportTable, header, wrap};
+use foveate_pictures::page::number_text::grouped;
 use foveate_toolchain::ToolRecord;
 use paper::paper_table;
 
 /// The name of a core on AXI in tables.
-const ON_BUS: &str = "RCM on AXI";
+const AXI_CORE_NAME: &str = "RCM on AXI";
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
 
@@ -44,7 +44,7 @@ pub(crate) fn heading(report: &AreaReport) -> String {
     format!("Yosys estimate ({version}): {flags}")
 }
 
-fn tables(report: &AreaReport) -> Vec<Table> {
+fn tables(report: &AreaReport) -> Vec<ReportTable> {
     let mut tables = vec![area_table(report), path_table(report)];
     tables.extend(paper_table(report));
     if !report.leaves.is_empty() {
@@ -53,7 +53,7 @@ fn tables(report: &AreaReport) -> Vec<Table> {
     tables
 }
 
-fn area_table(report: &AreaReport) -> Table {
+fn area_table(report: &AreaReport) -> ReportTable {
     let mut rows = area_rows(&report.unit, &report.rpu);
     rows.extend(area_rows("RCM", &report.rcm));
     rows.push(area_row("  glue only", &report.rcm_glue));
@@ -63,17 +63,17 @@ fn area_table(report: &AreaReport) -> Table {
             .to_owned();
     if let Some(bus) = &report.bus {
         rows.extend(bus.parts.iter().map(|part| area_row(&part.name, &part.area)));
-        rows.extend(area_rows(ON_BUS, &bus.whole));
+        rows.extend(area_rows(AXI_CORE_NAME, &bus.whole));
         if !bus.parts.is_empty() {
             note += &format!(
-                " {ON_BUS}: all of it, module {}. The parts between it and the RCM are synthesized apart, \
+                " {AXI_CORE_NAME}: all of it, module {}. The parts between it and the RCM are synthesized apart, \
                  and do not add up to it: logic is optimized across modules.",
                 bus.module
             );
         }
     }
     rows.push(share_row(report));
-    Table { title: area_title(report), header: header("module", &COLUMNS), rows, note: Some(note) }
+    ReportTable { title: area_title(report), header: header("module", &COLUMNS), rows, note: Some(note) }
 }
 
 fn area_title(report: &AreaReport) -> String {
@@ -87,25 +87,25 @@ fn area_title(report: &AreaReport) -> String {
     }
 }
 
-fn path_table(report: &AreaReport) -> Table {
-    let Paths { rpu, rcm } = &report.paths;
+fn path_table(report: &AreaReport) -> ReportTable {
+    let LongestPaths { rpu, rcm } = &report.paths;
     let row = |name: &str, path: &LogicPath| {
         vec![name.to_owned(), path.levels.to_string(), path.carry4.to_string()]
     };
-    let way = |path: &LogicPath| format!("from {} by {} to {}", path.from, cells(path), path.to);
+    let way = |path: &LogicPath| format!("from {} by {} to {}", path.from, path_cells(path), path.to);
     let mut note = format!("{}: {}. ", report.unit, way(rpu));
     if rcm != rpu {
         note += &format!("RCM: {}. ", way(rcm));
     }
     let mut rows = vec![row(&report.unit, rpu), row("RCM", rcm)];
     if let Some(bus) = &report.bus {
-        note += &format!("{ON_BUS}: {}. ", way(&bus.path));
-        rows.push(row(ON_BUS, &bus.path));
+        note += &format!("{AXI_CORE_NAME}: {}. ", way(&bus.path));
+        rows.push(row(AXI_CORE_NAME, &bus.path));
     }
     if let Some(clock) = &report.clock {
         note += &format!(
             "Estimated clock of the {}: {}, by Yosys' cell models, which are of the 7 series. ",
-            whole_name(report),
+            design_name(report),
             clock.text()
         );
     }
@@ -119,7 +119,7 @@ fn path_table(report: &AreaReport) -> Table {
     }
     note += "A LUT, a read of distributed RAM and a whole carry chain are a level each; CARRY4: blocks \
              of four bits in chains.";
-    Table {
+    ReportTable {
         title: "Longest path in logic levels, from and to registers, memories and ports".to_owned(),
         header: header("module", &["levels", "CARRY4"]),
         rows,
@@ -128,12 +128,12 @@ fn path_table(report: &AreaReport) -> Table {
 }
 
 /// Returns the name of the whole design.
-fn whole_name(report: &AreaReport) -> &'static str {
-    if report.bus.is_some() { ON_BUS } else { "RCM" }
+fn design_name(report: &AreaReport) -> &'static str {
+    if report.bus.is_some() { AXI_CORE_NAME } else { "RCM" }
 }
 
 /// Returns the cells of a path as text; consecutive carry blocks form one word.
-fn cells(path: &LogicPath) -> String {
+fn path_cells(path: &LogicPath) -> String {
     let runs = path.through.chunk_by(|a, b| a == b && a.starts_with("CARRY"));
     let names = runs.map(|run| match run {
         [one] => one.clone(),
@@ -186,13 +186,13 @@ fn share_row(report: &AreaReport) -> Vec<String> {
     ]
 }
 
-fn leaf_table(report: &AreaReport) -> Table {
+fn leaf_table(report: &AreaReport) -> ReportTable {
     // The first row is the module whose leaves are listed.
     let of_array =
         report.bus.is_some() || report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
-    let whole = if of_array { whole_name(report) } else { report.unit.as_str() };
+    let whole = if of_array { design_name(report) } else { report.unit.as_str() };
     let title = if of_array { format!("the {whole}") } else { format!("one {whole}") };
-    Table {
+    ReportTable {
         title: format!("Modules of {title}, each synthesized apart"),
         header: header(
             "module",
@@ -251,7 +251,7 @@ mod tests {
 
     #[test]
     fn frames_per_second_stand_beside_their_clock() {
-        let text = |mhz| render_text(&example(784).at(mhz), 1000);
+        let text = |mhz| render_text(&example(784).with_clock(mhz), 1000);
         let own = "60 MHz (48 to 80), by Yosys' cell models, which are of the 7 series. A frame takes \
                    64 clocks: 937,500 (750,000 to 1,250,000) frames/s at that clock. ";
         assert!(text(None).contains(own), "{}", text(None));

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use crate::area::Area;
 use crate::bus::BusArea;
 use crate::clock::ClockEstimate;
-use crate::device::{Device, Share};
+use crate::device::{FpgaDevice, DeviceShare};
 use crate::error::EstimateError;
-use crate::levels::LogicPath;
-use crate::paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper};
-use crate::speed::Speed;
+use crate::logic_levels::LogicPath;
+use crate::paper::{PaperComparison, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperReport};
+use crate::speed::FrameRate;
 use foveate_toolchain::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
@@ -31,7 +31,7 @@ pub struct LeafArea {
 
 /// The longest paths, in logic levels.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Paths {
+pub struct LongestPaths {
     /// The longest path of one RPU or lane alone, from and to its ports, too.
     pub rpu: LogicPath,
     /// The longest path of the RCM, through RPUs and lanes.
@@ -40,15 +40,15 @@ pub struct Paths {
 
 /// The longest paths, and the clock estimated from the slowest path.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Timing {
-    pub(crate) paths: Paths,
+pub(crate) struct MeasuredTiming {
+    pub(crate) paths: LongestPaths,
     pub(crate) clock: Option<ClockEstimate>,
     pub(crate) clocks_per_frame: u64,
 }
 
 /// The areas as they are measured.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Areas {
+pub(crate) struct MeasuredAreas {
     pub(crate) unit: Area,
     pub(crate) glue: Area,
     pub(crate) array: Area,
@@ -57,14 +57,14 @@ pub(crate) struct Areas {
 
 /// The name and number of the units of an array.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Units {
+pub(crate) struct UnitCount {
     pub(crate) name: String,
     pub(crate) count: u64,
 }
 
 /// The hashes of the synthesized RTL.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Rtl {
+pub(crate) struct RtlHashes {
     pub(crate) sha256: String,
     pub(crate) rpu_sha256: String,
 }
@@ -82,7 +82,7 @@ pub struct AreaReport {
     /// The hash of the RTL of one RPU. A co-simulation of one RPU reports the same hash.
     pub rpu_sha256: String,
     /// The device that the shares refer to.
-    pub device: Device,
+    pub device: FpgaDevice,
     /// The number of regions.
     pub regions: u64,
     /// The name of the unit: `RPU`, one per region, or `lane`.
@@ -99,7 +99,7 @@ pub struct AreaReport {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bus: Option<BusArea>,
     /// The longest paths.
-    pub paths: Paths,
+    pub paths: LongestPaths,
     /// The clock that the RCM, or the core on AXI, is expected to reach; `None` if it has no logic
     /// between registers.
     #[serde(default)]
@@ -107,11 +107,11 @@ pub struct AreaReport {
     /// The clocks from one frame to the next.
     pub clocks_per_frame: u64,
     /// The frames per second at the estimated clock or at a given one; `None` without a clock.
-    pub speed: Option<Speed>,
+    pub speed: Option<FrameRate>,
     /// The share of the device that the RCM, or the core on AXI, takes.
-    pub share: Share,
+    pub share: DeviceShare,
     /// The comparison with the paper's table.
-    pub paper: Paper,
+    pub paper: PaperReport,
     /// The leaves of an RPU, of the array or of the core on AXI, and the module's own glue; empty
     /// unless requested. Their sum differs from the whole, because logic is optimized across
     /// leaves.
@@ -123,20 +123,20 @@ impl AreaReport {
     /// with the paper.
     pub(crate) fn new(
         tool: ToolRecord,
-        rtl: Rtl,
+        rtl: RtlHashes,
         regions: u64,
-        units: Units,
-        areas: Areas,
-        timing: Timing,
+        units: UnitCount,
+        areas: MeasuredAreas,
+        timing: MeasuredTiming,
         leaves: Vec<LeafArea>,
     ) -> Self {
-        let device = Device::xcvu9p();
-        let Areas { unit, glue, array, bus } = areas;
-        let Timing { paths, clock, clocks_per_frame } = timing;
-        let share = Share::new(bus.as_ref().map_or(&array, |bus| &bus.whole), &device);
-        let paper = Paper {
-            rpu: BesidePaper::new(&unit, PAPER_RPU),
-            rcm: (regions == PAPER_REGIONS).then(|| BesidePaper::new(&array, PAPER_RCM)),
+        let device = FpgaDevice::xcvu9p();
+        let MeasuredAreas { unit, glue, array, bus } = areas;
+        let MeasuredTiming { paths, clock, clocks_per_frame } = timing;
+        let share = DeviceShare::new(bus.as_ref().map_or(&array, |bus| &bus.whole), &device);
+        let paper = PaperReport {
+            rpu: PaperComparison::new(&unit, PAPER_RPU),
+            rcm: (regions == PAPER_REGIONS).then(|| PaperComparison::new(&array, PAPER_RCM)),
         };
         Self {
             format_version: FORMAT_VERSION,
@@ -152,7 +152,7 @@ impl AreaReport {
             rcm: array,
             bus,
             paths,
-            speed: clock.as_ref().map(|clock| Speed::estimated(clock, clocks_per_frame)),
+            speed: clock.as_ref().map(|clock| FrameRate::at_estimated_clock(clock, clocks_per_frame)),
             clock,
             clocks_per_frame,
             share,
@@ -163,7 +163,7 @@ impl AreaReport {
 
     /// Returns the area of the whole design: the core on AXI, else the RCM.
     #[must_use]
-    pub fn whole(&self) -> &Area {
+    pub fn whole_area(&self) -> &Area {
         self.bus.as_ref().map_or(&self.rcm, |bus| &bus.whole)
     }
 
@@ -176,8 +176,8 @@ impl AreaReport {
 
     /// Returns the report with the frames per second at a clock in MHz, if one is given.
     #[must_use]
-    pub fn at(mut self, mhz: Option<f64>) -> Self {
-        let given = mhz.map(|mhz| Speed::given(mhz, self.clocks_per_frame));
+    pub fn with_clock(mut self, mhz: Option<f64>) -> Self {
+        let given = mhz.map(|mhz| FrameRate::at_given_clock(mhz, self.clocks_per_frame));
         self.speed = given.or(self.speed);
         self
     }
@@ -187,7 +187,7 @@ impl AreaReport {
     /// # Errors
     /// Fails if the report cannot be serialized, which no report of this crate causes.
     pub fn to_json(&self) -> Result<String, EstimateError> {
-        serde_json::to_string_pretty(self).map(|text| text + "\n").map_err(EstimateError::Json)
+        serde_json::to_string_pretty(self).map(|text| text + "\n").map_err(EstimateError::UnwritableReport)
     }
 }
 
@@ -198,12 +198,12 @@ pub(crate) mod tests {
 
     /// Returns a report with round figures, for the tests of its renderings.
     pub(crate) fn example(regions: u64) -> AreaReport {
-        of_units(regions, Units { name: "RPU".into(), count: regions }, None)
+        example_of_units(regions, UnitCount { name: "RPU".into(), count: regions }, None)
     }
 
     /// Returns a report of a serial array of `lanes` lanes.
     pub(crate) fn serial_example(regions: u64, lanes: u64) -> AreaReport {
-        of_units(regions, Units { name: "lane".into(), count: lanes }, None)
+        example_of_units(regions, UnitCount { name: "lane".into(), count: lanes }, None)
     }
 
     /// Returns a report of a core on AXI.
@@ -221,12 +221,12 @@ pub(crate) mod tests {
             parts: vec![part("registers", &["axi_registers"], 205), part("rest", &["rcm_axi"], 9)],
             path: LogicPath { levels: 7, ..LogicPath::default() },
         };
-        let mut report = of_units(32_400, Units { name: "core".into(), count: 1 }, Some(bus));
+        let mut report = example_of_units(32_400, UnitCount { name: "core".into(), count: 1 }, Some(bus));
         report.leaves[0].module = "rcm_axi".into();
         report
     }
 
-    fn of_units(regions: u64, units: Units, bus: Option<BusArea>) -> AreaReport {
+    fn example_of_units(regions: u64, units: UnitCount, bus: Option<BusArea>) -> AreaReport {
         let rpu = Area {
             lut_logic_low: 90,
             lut_logic_high: 120,
@@ -259,7 +259,7 @@ pub(crate) mod tests {
             area: rpu,
         };
         let leaves = vec![leaf("rpu", &[], 1), leaf("median", &["WIDTH=8", "SIDE=8"], 2)];
-        let areas = Areas { unit: rpu, glue, array: rpu.times(units.count).plus(glue), bus };
+        let areas = MeasuredAreas { unit: rpu, glue, array: rpu.multiplied(units.count).plus(glue), bus };
         let path = LogicPath {
             levels: 3,
             carry4: 2,
@@ -267,11 +267,11 @@ pub(crate) mod tests {
             to: "count_q[0] (FDRE.D)".into(),
             through: ["LUT6", "CARRY4", "CARRY4", "LUT2"].map(str::to_owned).to_vec(),
         };
-        let paths = Paths { rpu: path.clone(), rcm: path.clone() };
+        let paths = LongestPaths { rpu: path.clone(), rcm: path.clone() };
         let clock =
             ClockEstimate { mhz: 60.0, low_mhz: 48.0, high_mhz: 80.0, wiring_share: 0.65, path };
-        let timing = Timing { paths, clock: Some(clock), clocks_per_frame: 64 };
-        let rtl = Rtl { sha256: "00".into(), rpu_sha256: "01".into() };
+        let timing = MeasuredTiming { paths, clock: Some(clock), clocks_per_frame: 64 };
+        let rtl = RtlHashes { sha256: "00".into(), rpu_sha256: "01".into() };
         AreaReport::new(tool, rtl, regions, units, areas, timing, leaves)
     }
 
@@ -298,7 +298,7 @@ pub(crate) mod tests {
     #[test]
     fn what_a_design_takes_is_all_of_it() {
         let (array, on_bus) = (example(4), bus_example());
-        assert_eq!((array.whole(), array.levels()), (&array.rcm, 3));
-        assert_eq!((on_bus.whole().lut_total, on_bus.levels()), (1_404, 7));
+        assert_eq!((array.whole_area(), array.levels()), (&array.rcm, 3));
+        assert_eq!((on_bus.whole_area().lut_total, on_bus.levels()), (1_404, 7));
     }
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The frames per second at a clock: a given one, or the estimated one with its range.
 
-use foveate_pictures::page::number::real;
+use foveate_pictures::page::number_text::real_number;
 use serde::{Deserialize, Serialize};
 
 use crate::clock::ClockEstimate;
 
 /// A clock and the frames per second at it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Speed {
+pub struct FrameRate {
     /// The clock in MHz.
     pub clock_mhz: f64,
     /// The low end of the range of the clock in MHz; the clock itself if it was given.
@@ -25,22 +25,22 @@ pub struct Speed {
     pub high_frames_per_second: f64,
 }
 
-impl Speed {
+impl FrameRate {
     /// Computes the frames per second at a given clock.
     #[must_use]
-    pub fn given(mhz: f64, clocks_per_frame: u64) -> Self {
-        Self::over([mhz; 3], false, clocks_per_frame)
+    pub fn at_given_clock(mhz: f64, clocks_per_frame: u64) -> Self {
+        Self::from_clocks([mhz; 3], false, clocks_per_frame)
     }
 
     /// Computes the frames per second at the estimated clock.
     #[must_use]
-    pub fn estimated(clock: &ClockEstimate, clocks_per_frame: u64) -> Self {
-        Self::over([clock.low_mhz, clock.mhz, clock.high_mhz], true, clocks_per_frame)
+    pub fn at_estimated_clock(clock: &ClockEstimate, clocks_per_frame: u64) -> Self {
+        Self::from_clocks([clock.low_mhz, clock.mhz, clock.high_mhz], true, clocks_per_frame)
     }
 
-    fn over([low, clock, high]: [f64; 3], estimated: bool, clocks_per_frame: u64) -> Self {
+    fn from_clocks([low, clock, high]: [f64; 3], estimated: bool, clocks_per_frame: u64) -> Self {
         let [low_rate, rate, high_rate] =
-            [low, clock, high].map(|mhz| mhz * 1e6 / number(clocks_per_frame.max(1)));
+            [low, clock, high].map(|mhz| mhz * 1e6 / clocks_as_float(clocks_per_frame.max(1)));
         Self {
             clock_mhz: clock,
             low_clock_mhz: low,
@@ -67,7 +67,7 @@ impl Speed {
     /// the point.
     #[must_use]
     pub fn rate_text(&self) -> String {
-        real(self.frames_per_second, 1)
+        real_number(self.frames_per_second, 1)
     }
 
     /// Returns the frames per second with their range as text: `5.6 (4.5 to 7.4)` if the clock is
@@ -79,7 +79,7 @@ impl Speed {
             return rate;
         }
         let ends = [self.low_frames_per_second, self.high_frames_per_second];
-        let [low, high] = ends.map(|rate| real(rate, 1));
+        let [low, high] = ends.map(|rate| real_number(rate, 1));
         format!("{rate} ({low} to {high})")
     }
 
@@ -99,24 +99,24 @@ impl Speed {
     clippy::cast_sign_loss,
     reason = "positive and below 2^53"
 )]
-pub fn most_clocks(hertz: f64, fps: f64) -> u64 {
+pub fn most_clocks_per_frame(hertz: f64, fps: f64) -> u64 {
     (hertz / fps.max(1e-9)).floor() as u64
 }
 
 #[allow(clippy::cast_precision_loss, reason = "clocks of a frame are far below 2^53")]
-pub(crate) fn number(clocks: u64) -> f64 {
+pub(crate) fn clocks_as_float(clocks: u64) -> f64 {
     clocks as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::levels::LogicPath;
+    use crate::logic_levels::LogicPath;
 
     #[test]
     fn a_rate_stands_beside_the_clock_that_it_holds_at() {
-        assert_eq!(Speed::given(250.0, 64).text(), "3,906,250 frames/s at 250 MHz");
-        assert_eq!(Speed::given(33.5, 2_000_000).text(), "16.8 frames/s at 33.5 MHz");
+        assert_eq!(FrameRate::at_given_clock(250.0, 64).text(), "3,906,250 frames/s at 250 MHz");
+        assert_eq!(FrameRate::at_given_clock(33.5, 2_000_000).text(), "16.8 frames/s at 33.5 MHz");
         let clock = ClockEstimate {
             mhz: 60.0,
             low_mhz: 48.0,
@@ -124,7 +124,7 @@ mod tests {
             wiring_share: 0.65,
             path: LogicPath::default(),
         };
-        let speed = Speed::estimated(&clock, 600_000);
+        let speed = FrameRate::at_estimated_clock(&clock, 600_000);
         assert_eq!(
             speed.text(),
             "100.0 (80.0 to 133.3) frames/s at an estimated clock of 60 (48 to 80) MHz"

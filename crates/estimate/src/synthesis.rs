@@ -2,7 +2,7 @@
 //! The synthesis of a design: its unit, the array around it, the core on AXI, and their Verilog.
 
 use foveate_design::Design;
-use foveate_emit::{AXI_TOP, SourceFile, Top, on_bus};
+use foveate_emit::{AXI_TOP, SourceFile, Top, axi_modules};
 use foveate_toolchain::{Source, SynthesisJob, sources_sha256};
 
 use crate::EstimateJob;
@@ -10,7 +10,7 @@ use crate::EstimateJob;
 impl EstimateJob {
     /// Makes the job for a design's freshly generated Verilog.
     #[must_use]
-    pub fn of(design: &Design, top: Top) -> Self {
+    pub fn for_design(design: &Design, top: Top) -> Self {
         Self::with_sources(design, top, sources(design, top))
     }
 
@@ -19,7 +19,7 @@ impl EstimateJob {
     #[must_use]
     pub fn with_sources(design: &Design, top: Top, verilog: Vec<Source>) -> Self {
         let unit = design.unit();
-        let array = top.array(design);
+        let array = top.array_top(design);
         let units = match array {
             Top::Rpu => 1,
             Top::Rcm => unit.count,
@@ -37,8 +37,8 @@ impl EstimateJob {
             clocks_per_frame: design.timing().clocks_per_frame(),
             bus: match top {
                 Top::Rpu => None,
-                Top::Rcm => on_bus(design).map(|verilog| SynthesisJob {
-                    sources: as_sources(verilog),
+                Top::Rcm => axi_modules(design).map(|verilog| SynthesisJob {
+                    sources: sources_of_files(verilog),
                     unit: unit.module.to_owned(),
                     array: AXI_TOP.to_owned(),
                     parameters: Vec::new(),
@@ -53,16 +53,16 @@ impl EstimateJob {
     /// of a core on AXI.
     #[must_use]
     pub fn with_leaves(self, design: &Design) -> Self {
-        let of_array = design.unit().split.to_owned();
+        let of_array = design.unit().area_module.to_owned();
         let leaves_of = self.bus.as_ref().map_or(of_array, |bus| bus.array.clone());
         Self { leaves_of: Some(leaves_of), ..self }
     }
 }
 
 pub(crate) fn sources(design: &Design, top: Top) -> Vec<Source> {
-    as_sources(foveate_emit::verilog(design, top))
+    sources_of_files(foveate_emit::verilog(design, top))
 }
 
-pub(crate) fn as_sources(files: Vec<SourceFile>) -> Vec<Source> {
+pub(crate) fn sources_of_files(files: Vec<SourceFile>) -> Vec<Source> {
     files.into_iter().map(Source::from).collect()
 }

@@ -3,30 +3,30 @@
 
 /// A table whose first column is text and whose other columns are figures.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Table {
+pub(crate) struct ReportTable {
     pub(crate) title: String,
     pub(crate) header: Vec<String>,
     pub(crate) rows: Vec<Vec<String>>,
     pub(crate) note: Option<String>,
 }
 
-const GAP: usize = 2;
-const NARROWEST: usize = 20;
+const COLUMN_GAP: usize = 2;
+const NARROWEST_FIRST_COLUMN: usize = 20;
 
-impl Table {
+impl ReportTable {
     /// Returns the table as aligned columns. The first column is truncated where the table would be
     /// wider than `width`, unless too little of it would remain: a terminal that narrow has to
     /// break the lines.
     pub(crate) fn text(&self, width: usize) -> String {
         let mut columns = self.widths();
-        let figures: usize = columns.iter().skip(1).map(|column| column + GAP).sum();
+        let figures: usize = columns.iter().skip(1).map(|column| column + COLUMN_GAP).sum();
         let left = width.saturating_sub(figures);
-        if let Some(first) = columns.first_mut().filter(|_| left >= NARROWEST) {
+        if let Some(first) = columns.first_mut().filter(|_| left >= NARROWEST_FIRST_COLUMN) {
             *first = (*first).min(left);
         }
         let mut text = wrap(&self.title, width);
         for row in std::iter::once(&self.header).chain(&self.rows) {
-            text.push_str(line(row, &columns).trim_end());
+            text.push_str(table_line(row, &columns).trim_end());
             text.push('\n');
         }
         if let Some(note) = &self.note {
@@ -42,7 +42,7 @@ impl Table {
         let first = widths.first().copied().unwrap_or_default();
         let (mut parts, mut used) = (vec![Vec::new()], first);
         for (column, column_width) in widths.iter().enumerate().skip(1) {
-            let needed = column_width + GAP;
+            let needed = column_width + COLUMN_GAP;
             if used + needed > width && used > first {
                 parts.push(Vec::new());
                 used = first;
@@ -99,19 +99,19 @@ pub(crate) fn header(first: &str, columns: &[&str]) -> Vec<String> {
     std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
 }
 
-fn line(row: &[String], columns: &[usize]) -> String {
+fn table_line(row: &[String], columns: &[usize]) -> String {
     let mut text = String::new();
     for (index, (cell, &width)) in row.iter().zip(columns).enumerate() {
         if index == 0 {
-            text.push_str(&format!("{:<width$}", cut(cell, width)));
+            text.push_str(&format!("{:<width$}", truncated(cell, width)));
         } else {
-            text.push_str(&format!("{:>1$}", cell, width + GAP));
+            text.push_str(&format!("{:>1$}", cell, width + COLUMN_GAP));
         }
     }
     text
 }
 
-fn cut(cell: &str, width: usize) -> String {
+fn truncated(cell: &str, width: usize) -> String {
     if cell.chars().count() <= width {
         return cell.to_owned();
     }
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn columns_are_aligned_and_names_cut() {
         let row = |cells: [&str; 2]| cells.map(str::to_owned).to_vec();
-        let table = Table {
+        let table = ReportTable {
             title: "T".into(),
             header: row(["module", "LUT"]),
             rows: vec![row(["a_module_with_a_long_name", "1,000"]), row(["b", "1"])],

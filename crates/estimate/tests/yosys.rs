@@ -5,7 +5,7 @@ use foveate_estimate::{EstimateError, EstimateJob, estimate, render_text};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, SynthesisJob, Tool, ToolError, Toolchain};
 
-fn toy(regions: u64) -> EstimateJob {
+fn toy_job(regions: u64) -> EstimateJob {
     let rcm = include_str!("fixtures/rcm.v").replace("REGIONS", &regions.to_string());
     let sources = [
         ("adder.v", include_str!("fixtures/adder.v").to_owned()),
@@ -37,13 +37,13 @@ fn a_toy_array_is_estimated() {
         return;
     }
     let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
-    let job = EstimateJob { leaves_of: Some("rpu".to_owned()), ..toy(784) };
+    let job = EstimateJob { leaves_of: Some("rpu".to_owned()), ..toy_job(784) };
     let report = estimate(&tools, &cache, &job).unwrap();
     assert_eq!(report.rpu.lut_memory, 8, "a single-port RAM of 64 x 8");
     assert_eq!(report.rpu.ff, 7, "the address register is not doubled");
     assert!(report.rpu.lut_logic_high > 10, "{report:?}");
     assert!(report.rcm_glue.lut_logic_high > 0, "the OR over all regions");
-    assert_eq!(report.rcm, report.rpu.times(784).plus(report.rcm_glue));
+    assert_eq!(report.rcm, report.rpu.multiplied(784).plus(report.rcm_glue));
     assert!(report.paths.rpu.levels >= 3, "{:?}", report.paths);
     assert!(report.paths.rpu.to.contains("(FDRE."), "{:?}", report.paths);
     assert_eq!((report.unit.as_str(), report.units), ("RPU", 784));
@@ -72,7 +72,7 @@ fn a_design_without_memory_is_estimated() {
         return;
     }
     let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
-    let mut job = toy(4);
+    let mut job = toy_job(4);
     job.synthesis.sources[2].1 =
         job.synthesis.sources[2].1.replace("= mem[addr_i]", "= d_i").replace("reg [W", "//");
     job.synthesis.sources[2].1 = job.synthesis.sources[2].1.replace("always", "//");
@@ -86,14 +86,14 @@ fn mistakes_are_named() {
         return;
     }
     let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
-    let mut job = toy(4);
+    let mut job = toy_job(4);
     job.synthesis.sources[3].1 =
         job.synthesis.sources[3].1.replace("always @(posedge clk_i)", "always @*");
     let error = estimate(&tools, &cache, &job).unwrap_err();
     let EstimateError::UnknownCell { cell, module, .. } = &error else { panic!("{error}") };
     assert_eq!((cell.as_str(), module.as_str()), ("LDCE", "rpu"));
 
-    let mut other = toy(4);
+    let mut other = toy_job(4);
     other.synthesis.array = "array".into();
     let error = estimate(&tools, &cache, &other);
     let Err(EstimateError::Tool(ToolError::Failed { tail, .. })) = error else {

@@ -5,17 +5,17 @@
 use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
-use foveate_fidelity::Figures;
-use foveate_footage::{InputOptions, Subject, open};
+use foveate_fidelity::FidelityFigures;
+use foveate_footage::{InputOptions, ComparedInput, open};
 
 use crate::ExploreError;
-use crate::measure::{Clip, Measured};
+use crate::measure::{MeasuredClip, CameraMeasurement};
 
 /// The errors of a camera over a clip.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Compared {
+pub struct CameraComparison {
     /// The errors against the ideal camera.
-    pub figures: Figures,
+    pub figures: FidelityFigures,
     /// The reason why the clip ended early, if it did.
     pub problem: Option<String>,
 }
@@ -32,12 +32,12 @@ pub fn compare(
     config: &CameraConfig,
     ideal: &CameraConfig,
     go_on: &(dyn Fn() -> bool + Sync),
-) -> Result<Compared, ExploreError> {
+) -> Result<CameraComparison, ExploreError> {
     let (width, height) = open(inputs, config, input)?.size();
-    let camera = config.for_frames(width, height)?;
-    let subject = Subject { name: String::new(), inputs: inputs.to_vec() };
+    let camera = config.validate_for_frames(width, height)?;
+    let subject = ComparedInput { name: String::new(), inputs: inputs.to_vec() };
     let whole = 0..u64::MAX;
-    let clip = Clip {
+    let clip = MeasuredClip {
         subject: &subject,
         input,
         ideal,
@@ -46,6 +46,6 @@ pub fn compare(
         go_on,
     };
     let measured = clip.measure(&[camera])?.pop().and_then(|mut parts| parts.pop());
-    let Measured { tally, problem, .. } = measured.expect("one camera and one part are measured");
-    Ok(Compared { figures: tally.figures(), problem })
+    let CameraMeasurement { tally, problem, .. } = measured.expect("one camera and one part are measured");
+    Ok(CameraComparison { figures: tally.figures(), problem })
 }

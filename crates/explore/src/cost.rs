@@ -7,16 +7,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{Area, EstimateJob, Speed, estimate};
+use foveate_estimate::{Area, EstimateJob, FrameRate, estimate};
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::{ExploreError, Hooks, Progress};
+use crate::{ExploreError, ExploreHooks, ExploreProgress};
 
 /// The area of a design, as Yosys estimates it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Silicon {
+pub struct DesignArea {
     /// The area of one RPU, of one lane of a serial design, or of a raster core.
     pub unit: Area,
     /// The number of RPUs, lanes or raster cores for a frame.
@@ -25,16 +25,16 @@ pub struct Silicon {
     /// around the core.
     pub array: Area,
     /// The number of logic levels of the longest path.
-    pub levels: u32,
+    pub logic_levels: u32,
 }
 
 /// The result of synthesizing a design.
 #[derive(Clone, Debug)]
-pub(crate) struct Synthesized {
-    pub(crate) silicon: Silicon,
+pub(crate) struct SynthesisResult {
+    pub(crate) silicon: DesignArea,
     /// The estimated clock, and the frames per second at it; `None` for a design without logic
     /// between registers.
-    pub(crate) speed: Option<Speed>,
+    pub(crate) speed: Option<FrameRate>,
 }
 
 /// The tools of the synthesis.
@@ -47,15 +47,15 @@ pub struct Synthesizer {
 }
 
 /// The results of synthesizing some designs: an area, or the error of Yosys.
-pub(crate) struct Areas {
+pub(crate) struct SynthesisResults {
     /// The key of every design, which is unique for its RTL.
     keys: Vec<String>,
-    by_rtl: BTreeMap<String, Result<Synthesized, ExploreError>>,
+    by_rtl: BTreeMap<String, Result<SynthesisResult, ExploreError>>,
 }
 
-impl Areas {
+impl SynthesisResults {
     /// Returns the result or the error of every design.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&Synthesized, &ExploreError>> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&SynthesisResult, &ExploreError>> {
         self.keys.iter().filter_map(|key| self.by_rtl.get(key)).map(Result::as_ref)
     }
 
@@ -63,7 +63,7 @@ impl Areas {
     ///
     /// # Errors
     /// Fails with the first error of the synthesis.
-    pub(crate) fn all(self) -> Result<Vec<Synthesized>, ExploreError> {
+    pub(crate) fn into_results(self) -> Result<Vec<SynthesisResult>, ExploreError> {
         let found = self.by_rtl.into_iter().map(|(key, area)| Ok((key, area?)));
         let found = found.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
         Ok(self.keys.iter().filter_map(|key| found.get(key).cloned()).collect())
@@ -75,15 +75,15 @@ impl Synthesizer {
     ///
     /// # Errors
     /// Fails if `hooks` cancels.
-    pub(crate) fn areas<'a>(
+    pub(crate) fn synthesize_designs<'a>(
         &self,
         designs: impl Iterator<Item = &'a Design>,
-        hooks: &dyn Hooks,
-    ) -> Result<Areas, ExploreError> {
+        hooks: &dyn ExploreHooks,
+    ) -> Result<SynthesisResults, ExploreError> {
         let mut jobs = BTreeMap::new();
         let keys = designs.map(|design| {
-            let job = EstimateJob::of(design, Top::Rcm);
-            let all = job.on_top();
+            let job = EstimateJob::for_design(design, Top::Rcm);
+            let all = job.top_synthesis();
             let key = format!("{} {:?}", sources_sha256(&all.sources), all.parameters);
             jobs.entry(key.clone()).or_insert(job);
             key
@@ -92,23 +92,23 @@ impl Synthesizer {
         let (done, all) = (AtomicUsize::new(0), jobs.len());
         let jobs = jobs.into_par_iter().filter(|_| !hooks.cancelled());
         let areas = jobs.map(|(key, job)| {
-            let area = self.area(&job);
+            let area = self.synthesize_job(&job);
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            hooks.progress(Progress::Synthesizing { done, all });
+            hooks.progress(ExploreProgress::Synthesizing { done, all });
             (key, area)
         });
         let by_rtl = areas.collect();
-        if hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(Areas { keys, by_rtl }) }
+        if hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(SynthesisResults { keys, by_rtl }) }
     }
 
-    fn area(&self, job: &EstimateJob) -> Result<Synthesized, ExploreError> {
+    fn synthesize_job(&self, job: &EstimateJob) -> Result<SynthesisResult, ExploreError> {
         let report = estimate(&self.toolchain, &self.cache, job)?;
-        let silicon = Silicon {
+        let silicon = DesignArea {
             unit: report.rpu,
             units: job.units,
-            array: *report.whole(),
-            levels: report.levels(),
+            array: *report.whole_area(),
+            logic_levels: report.levels(),
         };
-        Ok(Synthesized { silicon, speed: report.speed })
+        Ok(SynthesisResult { silicon, speed: report.speed })
     }
 }

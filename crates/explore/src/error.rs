@@ -27,7 +27,7 @@ pub enum ExploreError {
     },
     /// A table of the file is not a valid design.
     #[error("the space, [{section}]: {error}")]
-    Section {
+    InvalidSection {
         /// The name of the table.
         section: &'static str,
         /// The problem.
@@ -45,7 +45,7 @@ pub enum ExploreError {
     #[error(
         "`{first}` has {first_size} pixels, but `{other}` has {other_size}; give all clips one size with --resize"
     )]
-    Sizes {
+    DifferentSizes {
         /// The name of a clip.
         first: String,
         /// The size of this clip.
@@ -80,7 +80,7 @@ pub enum ExploreError {
     },
     /// A clip has too few frames.
     #[error("`{clip}` has {frames} frames; at least {least} are needed")]
-    Short {
+    TooFewFrames {
         /// The name of the clip.
         clip: String,
         /// The number of frames of the clip.
@@ -90,7 +90,7 @@ pub enum ExploreError {
     },
     /// The folder exists and is not an exploration.
     #[error("`{}` exists but is not the folder of an exploration (it has no exploration.json); name another folder", path.display())]
-    Occupied {
+    OtherFolder {
         /// The path of the folder.
         path: PathBuf,
     },
@@ -104,7 +104,7 @@ pub enum ExploreError {
     },
     /// A clip of a unit ended early.
     #[error("`{clip}` is not complete: {problem}")]
-    Broken {
+    IncompleteClip {
         /// The name of the clip.
         clip: String,
         /// The reason why the clip ended.

@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use crate::point::described;
-use crate::{DesignRow, Refused};
+use crate::point::settings_text;
+use crate::{DesignRow, RefusedCombination};
 
 /// The results of an exploration.
 #[derive(Clone, Debug, Serialize)]
@@ -27,7 +27,7 @@ pub struct Exploration {
     /// The points, each with its figures.
     pub rows: Vec<DesignRow>,
     /// The combinations that are not valid designs.
-    pub refused: Vec<Refused>,
+    pub refused: Vec<RefusedCombination>,
     /// The problems: clips that ended early, and designs that Yosys could not synthesize, with the
     /// reasons.
     pub problems: Vec<String>,
@@ -36,8 +36,8 @@ pub struct Exploration {
 impl Exploration {
     /// Returns the settings of a point as `key = value`.
     #[must_use]
-    pub fn described(&self, row: &DesignRow) -> String {
-        described(self.axes.iter().map(String::as_str), &row.settings)
+    pub fn settings_text(&self, row: &DesignRow) -> String {
+        settings_text(self.axes.iter().map(String::as_str), &row.settings)
     }
 }
 

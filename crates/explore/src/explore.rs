@@ -7,15 +7,15 @@ use std::path::Path;
 use foveate_design::Design;
 use foveate_files::tables::Table;
 
-use crate::cost::Synthesized;
-use crate::folder::{MARK, UNFINISHED, claim, continued, mark};
-use crate::measure::Measured;
+use crate::cost::SynthesisResult;
+use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, write_mark};
+use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
 use crate::row::DesignRow;
-use crate::store::Store;
-use crate::table::{errors, point};
-use crate::work::Work;
-use crate::{ClipRow, Exploration, ExploreError, Hooks, Request, Synthesizer};
+use crate::store::MeasurementStore;
+use crate::table::{error_cells, point_cells};
+use crate::exploration_work::ExplorationWork;
+use crate::{ClipRow, Exploration, ExploreError, ExploreHooks, ExploreRequest, Synthesizer};
 
 /// The names of the tables and of the page.
 const POINTS: &str = "points.csv";
@@ -32,41 +32,41 @@ const TABLES: [&str; 5] = [POINTS, POINTS_PARQUET, PARETO, CLIPS, REPORT];
 /// Fails if an input cannot be read, no point is a valid design, the folder holds something else or
 /// cannot be written, or `hooks` cancels.
 pub fn explore(
-    request: &Request<'_>,
+    request: &ExploreRequest<'_>,
     output: &Path,
-    hooks: &dyn Hooks,
+    hooks: &dyn ExploreHooks,
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
     // The files of designs are not known before the clips have been opened.
-    continued(output)?.check(TABLES.into_iter().chain([MARK]))?;
-    let Work { footage, points, refused, looks, look_of } = Work::new(request, None, hooks)?;
+    open_continued(output)?.check_files(TABLES.into_iter().chain([MARK_FILE]))?;
+    let ExplorationWork { footage, points, refused, cameras: looks, camera_of_point: look_of } = ExplorationWork::new(request, None, hooks)?;
     // The names are checked now, because writing the files may come hours later.
     let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));
-    let names: Vec<String> = names.chain([MARK.to_owned()]).collect();
-    continued(output)?.check(names.iter().map(String::as_str))?;
-    claim(output)?;
-    mark(output, UNFINISHED)?;
-    let store = Store::open(output)?;
+    let names: Vec<String> = names.chain([MARK_FILE.to_owned()]).collect();
+    open_continued(output)?.check_files(names.iter().map(String::as_str))?;
+    claim_folder(output)?;
+    write_mark(output, UNFINISHED_MARK)?;
+    let store = MeasurementStore::open(output)?;
     let designs =
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
-    let measured = footage.measure(&looks, &store)?;
-    let (synthesized, failed) = synthesized(request.synthesizer, &designs, hooks)?;
+    let measured = footage.measure_clips(&looks, &store)?;
+    let (synthesized, failed) = synthesize_all(request.synthesizer, &designs, hooks)?;
     let mut rows = Vec::new();
     for (index, (point, (design, synthesized))) in
         points.iter().zip(designs.iter().zip(synthesized)).enumerate()
     {
-        let of_point: Vec<&Measured> = measured.iter().map(|clip| &clip[look_of[index]]).collect();
+        let of_point: Vec<&CameraMeasurement> = measured.iter().map(|clip| &clip[look_of[index]]).collect();
         let settings = point.settings.clone();
         let clock = space.clock_mhz;
         rows.extend(DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock));
     }
     mark_fronts(&mut rows);
-    let of_clip = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| ClipRow {
+    let of_clip = |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| ClipRow {
         name: subject.name.clone(),
         // Every space has at least one design.
         frames: measured[0].tally.figures().frames,
     };
-    let problem = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| {
+    let problem = |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| {
         let problem = measured.iter().find_map(|one| one.problem.clone());
         problem.map(|problem| format!("{}: {problem}", subject.name))
     };
@@ -94,13 +94,13 @@ pub fn explore(
 
 /// Returns the area and speed of every design, and the errors of Yosys. A design that fails does
 /// not lose the others.
-fn synthesized(
+fn synthesize_all(
     synthesizer: Option<&Synthesizer>,
     designs: &[Design],
-    hooks: &dyn Hooks,
-) -> Result<(Vec<Option<Synthesized>>, Vec<String>), ExploreError> {
+    hooks: &dyn ExploreHooks,
+) -> Result<(Vec<Option<SynthesisResult>>, Vec<String>), ExploreError> {
     let Some(synthesizer) = synthesizer else { return Ok((vec![None; designs.len()], Vec::new())) };
-    let areas = synthesizer.areas(designs.iter(), hooks)?;
+    let areas = synthesizer.synthesize_designs(designs.iter(), hooks)?;
     let failed =
         areas.iter().enumerate().filter_map(|(index, area)| Some((index + 1, area.err()?)));
     let problems = failed.map(|(point, error)| format!("point {point}: {error}")).collect();
@@ -109,44 +109,44 @@ fn synthesized(
 
 fn write(
     exploration: &Exploration,
-    measured: &[Vec<Measured>],
+    measured: &[Vec<CameraMeasurement>],
     look_of: &[usize],
     output: &Path,
 ) -> Result<(), ExploreError> {
     let rows = &exploration.rows;
     let table = |rows: &mut dyn Iterator<Item = &DesignRow>| {
-        Table::of(rows.map(|row| point(row, &exploration.axes)))
+        Table::from_rows(rows.map(|row| point_cells(row, &exploration.axes)))
     };
     let points = table(&mut rows.iter());
-    let parquet = points.parquet("points");
+    let parquet = points.to_parquet("points");
     let parquet = parquet.map_err(ExploreError::io("write", &output.join(POINTS_PARQUET)))?;
     let pareto = table(&mut rows.iter().filter(|row| row.front.all));
     let clips = exploration.clips.iter().zip(measured).flat_map(|(clip, measured)| {
         rows.iter().map(move |row| {
             let figures = measured[look_of[row.number - 1]].tally.figures();
-            let mut cells = crate::table::names(row.number, &clip.name);
-            cells.extend(errors(&figures));
+            let mut cells = crate::table::name_cells(row.number, &clip.name);
+            cells.extend(error_cells(&figures));
             cells
         })
     });
     let mut files = vec![
-        (POINTS.to_owned(), points.csv().into_bytes()),
+        (POINTS.to_owned(), points.to_csv().into_bytes()),
         (POINTS_PARQUET.to_owned(), parquet),
-        (PARETO.to_owned(), pareto.csv().into_bytes()),
-        (CLIPS.to_owned(), Table::of(clips).csv().into_bytes()),
+        (PARETO.to_owned(), pareto.to_csv().into_bytes()),
+        (CLIPS.to_owned(), Table::from_rows(clips).to_csv().into_bytes()),
     ];
     let design = |row: &DesignRow| (design_file(row.number), row.config.to_toml().into_bytes());
     files.extend(rows.iter().map(design));
-    files.push((REPORT.to_owned(), crate::report::page(exploration)?.into_bytes()));
+    files.push((REPORT.to_owned(), crate::report::render_page(exploration)?.into_bytes()));
     // This file is written last, because it marks the exploration as complete. It is plain data
     // with text keys, so it cannot fail.
     let json = serde_json::to_string_pretty(exploration)
         .expect("it has no map with other keys than text")
         + "\n";
-    files.push((MARK.to_owned(), json.into_bytes()));
+    files.push((MARK_FILE.to_owned(), json.into_bytes()));
     // Designs of an earlier, larger space are removed, because their numbers would belong to other
     // points.
-    Ok(continued(output)?.write(&files)?)
+    Ok(open_continued(output)?.write(&files)?)
 }
 
 /// Returns the name of the configuration file of a point.

@@ -7,20 +7,20 @@ use std::collections::BTreeMap;
 /// Returns whether each point is on the front of its costs: no other point has costs that are all
 /// at most as high and one of them lower. A point without a cost, or with NaN as a cost, is on no
 /// front and beats no point.
-pub(crate) fn front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
+pub(crate) fn pareto_front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
     const { assert!(1 <= N && N <= 3, "the sweep is for one to three costs") };
     let known = |(index, point): (usize, &[Option<f64>; N])| {
-        let mut costs = [Cost(0.0); 3];
+        let mut costs = [FrontCost(0.0); 3];
         for (cost, value) in costs.iter_mut().zip(point) {
             // Adding zero turns -0 into 0.
-            *cost = Cost(value.filter(|value| !value.is_nan())? + 0.0);
+            *cost = FrontCost(value.filter(|value| !value.is_nan())? + 0.0);
         }
         Some((costs, index))
     };
-    let mut known: Vec<([Cost; 3], usize)> = points.iter().enumerate().filter_map(known).collect();
+    let mut known: Vec<([FrontCost; 3], usize)> = points.iter().enumerate().filter_map(known).collect();
     known.sort_unstable();
     let mut on_front = vec![false; points.len()];
-    let mut stairs = Stairs::default();
+    let mut stairs = UnbeatenPairs::default();
     // A point that beats another one comes before it; equal points do not beat each other.
     for equal in known.chunk_by(|one, other| one.0 == other.0) {
         let [_, second, third] = equal[0].0;
@@ -34,12 +34,12 @@ pub(crate) fn front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
 /// The unbeaten pairs of costs so far, sorted by the first cost: the second cost falls as the first
 /// one rises.
 #[derive(Default)]
-struct Stairs(BTreeMap<Cost, Cost>);
+struct UnbeatenPairs(BTreeMap<FrontCost, FrontCost>);
 
-impl Stairs {
+impl UnbeatenPairs {
     /// Adds a pair, unless a known pair is at most as high in both costs. Returns whether it was
     /// added.
-    fn add(&mut self, first: Cost, second: Cost) -> bool {
+    fn add(&mut self, first: FrontCost, second: FrontCost) -> bool {
         if self.0.range(..=first).next_back().is_some_and(|(_, below)| *below <= second) {
             return false;
         }
@@ -55,23 +55,23 @@ impl Stairs {
 
 /// A cost with a total order: never NaN, and with only one zero.
 #[derive(Clone, Copy, Debug)]
-struct Cost(f64);
+struct FrontCost(f64);
 
-impl PartialEq for Cost {
+impl PartialEq for FrontCost {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Cost {}
+impl Eq for FrontCost {}
 
-impl PartialOrd for Cost {
+impl PartialOrd for FrontCost {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Cost {
+impl Ord for FrontCost {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.total_cmp(&other.0)
     }
@@ -93,9 +93,9 @@ mod tests {
             [Some(f64::NAN), Some(0.0)],
             [Some(f64::NEG_INFINITY), Some(f64::INFINITY)],
         ];
-        assert_eq!(front(&points), [true, true, false, true, true, false, false, true]);
-        assert_eq!(front::<2>(&[]), [false; 0]);
-        assert_eq!(front(&[[Some(0.0)], [Some(-0.0)], [Some(1.0)]]), [true, true, false]);
+        assert_eq!(pareto_front(&points), [true, true, false, true, true, false, false, true]);
+        assert_eq!(pareto_front::<2>(&[]), [false; 0]);
+        assert_eq!(pareto_front(&[[Some(0.0)], [Some(-0.0)], [Some(1.0)]]), [true, true, false]);
     }
 
     /// Computes the front by its definition, pair by pair.
@@ -125,7 +125,7 @@ mod tests {
         };
         let points: Vec<[Option<f64>; N]> =
             (0..count).map(|_| std::array::from_fn(|_| cost())).collect();
-        assert_eq!(front(&points), naive(&points), "seed {seed}: {points:?}");
+        assert_eq!(pareto_front(&points), naive(&points), "seed {seed}: {points:?}");
     }
 
     #[test]
@@ -145,6 +145,6 @@ mod tests {
         let points: Vec<[Option<f64>; 3]> = (0..count)
             .map(|x| [Some(f64::from(x)), Some(f64::from(count - x)), Some(0.0)])
             .collect();
-        assert!(front(&points).iter().all(|on| *on));
+        assert!(pareto_front(&points).iter().all(|on| *on));
     }
 }

@@ -30,29 +30,29 @@ mod space;
 mod store;
 mod table;
 mod unit;
-mod work;
+mod exploration_work;
 
-pub use compare::{Compared, compare};
-pub use cost::{Silicon, Synthesizer};
+pub use compare::{CameraComparison, compare};
+pub use cost::{DesignArea, Synthesizer};
 pub use error::ExploreError;
 pub use exploration::{ClipRow, Exploration};
 pub use explore::explore;
 pub use fit::{
-    Agreed, Cheapest, Constraints, Design as FittedDesign, Fit, FitRequest, FittedNetwork, Held,
-    NetworkGoal, Target, fit,
+    AgreementEstimate, CostObjective, Constraints, FittedDesign as FittedDesign, FitResult, FitRequest, FittedNetwork, ConstraintCheck,
+    NetworkGoal, ActivityTarget, fit,
 };
 pub use folder::check_folder;
-pub use foveate_fidelity::{Figures, ScoreError};
-pub use method::{Axis, Method};
-pub use point::{Point, Refused};
-pub use request::Request;
-pub use row::{DesignRow, Fronts};
-pub use space::{BUILT_IN, BuiltIn, Space};
-pub use unit::{Unit, measure_unit, plan};
+pub use foveate_fidelity::{FidelityFigures, ScoreError};
+pub use method::{SpaceAxis, SamplingMethod};
+pub use point::{DesignPoint, RefusedCombination};
+pub use request::ExploreRequest;
+pub use row::{DesignRow, FrontMembership};
+pub use space::{BUILT_IN_SPACES, BuiltInSpace, DesignSpace};
+pub use unit::{WorkUnit, measure_unit, plan_units};
 
 /// Progress of an exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
+pub enum ExploreProgress {
     /// Clips are read to find their lengths.
     Reading {
         /// The number of frames that are read.
@@ -61,12 +61,12 @@ pub enum Progress {
     /// Designs run over clips.
     Measuring {
         /// The number of pairs of a clip and a design that are done.
-        done: usize,
+        done_pairs: usize,
         /// The number of all pairs.
         all: usize,
     },
     /// A network runs behind cameras.
-    Asking {
+    RunningNetwork {
         /// The number of cameras that the network was run behind.
         cameras: usize,
     },
@@ -80,9 +80,9 @@ pub enum Progress {
 }
 
 /// Callbacks of an exploration. Several threads call them.
-pub trait Hooks: Sync {
+pub trait ExploreHooks: Sync {
     /// Reports progress.
-    fn progress(&self, progress: Progress);
+    fn progress(&self, progress: ExploreProgress);
 
     /// Returns whether to stop. Finished results are kept.
     fn cancelled(&self) -> bool;

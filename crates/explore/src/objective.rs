@@ -2,8 +2,8 @@
 //! The objectives that points are compared by, and the direction in which each figure is better.
 //! Tables, plots and the page take both from here.
 
-use crate::front::front;
-use crate::row::{DesignRow, Fronts, real};
+use crate::front::pareto_front;
+use crate::row::{DesignRow, FrontMembership, count_to_f64};
 
 /// A figure by which points are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,93 +21,93 @@ pub(crate) enum Objective {
     /// The bytes per frame that leave the array.
     Bytes,
     /// The SSIM of the screen against the ideal's screen, at most 1.
-    Likeness,
+    Ssim,
 }
 
 /// The direction in which a figure is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Better {
+pub(crate) enum BetterDirection {
     Smaller,
     Larger,
 }
 
 impl Objective {
-    pub(crate) fn better(self) -> Better {
+    pub(crate) fn better_direction(self) -> BetterDirection {
         match self {
-            Self::Error | Self::Luts | Self::Stale | Self::Bytes => Better::Smaller,
-            Self::Speed | Self::PerClock | Self::Likeness => Better::Larger,
+            Self::Error | Self::Luts | Self::Stale | Self::Bytes => BetterDirection::Smaller,
+            Self::Speed | Self::PerClock | Self::Ssim => BetterDirection::Larger,
         }
     }
 
     /// Returns the figure of a point; `None` if it is not known.
-    pub(crate) fn of(self, row: &DesignRow) -> Option<f64> {
+    pub(crate) fn value_of(self, row: &DesignRow) -> Option<f64> {
         match self {
             Self::Error => Some(row.figures.action_flips),
             Self::Speed => row.speed.map(|speed| speed.frames_per_second),
-            Self::PerClock => Some(1.0 / real(row.clocks_per_frame)),
+            Self::PerClock => Some(1.0 / count_to_f64(row.clocks_per_frame)),
             Self::Luts => row.luts(),
             Self::Stale => Some(row.figures.staleness.share),
             Self::Bytes => Some(row.bytes_per_frame),
-            Self::Likeness => Some(row.figures.ssim_ideal),
+            Self::Ssim => Some(row.figures.ssim_ideal),
         }
     }
 
     /// Returns the figure as a cost, which is better the smaller it is.
-    fn cost(self, row: &DesignRow) -> Option<f64> {
-        self.of(row).map(|value| match self.better() {
-            Better::Smaller => value,
-            Better::Larger => -value,
+    fn cost_of(self, row: &DesignRow) -> Option<f64> {
+        self.value_of(row).map(|value| match self.better_direction() {
+            BetterDirection::Smaller => value,
+            BetterDirection::Larger => -value,
         })
     }
 }
 
 /// Returns the objective of speed: frames per second, or frames per clock if no clock is known.
-pub(crate) fn speed<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
+pub(crate) fn speed_objective<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
     let known = rows.into_iter().any(|row| row.speed.is_some());
     if known { Objective::Speed } else { Objective::PerClock }
 }
 
 /// Returns whether each point is unbeaten: no other point is as good in all objectives and better
 /// in one.
-pub(crate) fn unbeaten<const N: usize>(
+pub(crate) fn unbeaten_rows<const N: usize>(
     rows: &[&DesignRow],
     objectives: [Objective; N],
 ) -> Vec<bool> {
-    let costs = |row: &&DesignRow| objectives.map(|objective| objective.cost(row));
-    front(&rows.iter().map(costs).collect::<Vec<_>>())
+    let costs = |row: &&DesignRow| objectives.map(|objective| objective.cost_of(row));
+    pareto_front(&rows.iter().map(costs).collect::<Vec<_>>())
 }
 
 /// Marks the fronts of an exploration.
 pub(crate) fn mark_fronts(rows: &mut [DesignRow]) {
     use Objective::{Error, Luts};
     let all: Vec<&DesignRow> = rows.iter().collect();
-    let fast = speed(all.iter().copied());
-    let speed = unbeaten(&all, [Error, fast]);
-    let area = unbeaten(&all, [Error, Luts]);
+    let fast = speed_objective(all.iter().copied());
+    let speed = unbeaten_rows(&all, [Error, fast]);
+    let area = unbeaten_rows(&all, [Error, Luts]);
     let synthesized = rows.iter().any(|row| row.silicon.is_some());
-    let both = if synthesized { unbeaten(&all, [Error, fast, Luts]) } else { speed.clone() };
+    let both = if synthesized { unbeaten_rows(&all, [Error, fast, Luts]) } else { speed.clone() };
     for (row, ((speed, area), all)) in rows.iter_mut().zip(speed.into_iter().zip(area).zip(both)) {
-        row.front = Fronts { speed, area, all };
+        row.front = FrontMembership { speed, area, all };
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample::exploration;
-    use foveate_estimate::Speed;
+    use crate::report::sample::sample_exploration;
+    use foveate_estimate::FrameRate;
 
     /// Makes points with figures from a few values, so that many are equal. Some points have no
     /// area, and some no clock.
     fn points(seed: u64) -> Vec<DesignRow> {
-        let row = exploration("", true).rows.remove(0);
+        let row = sample_exploration("", true).rows.remove(0);
         let mut chance = fastrand::Rng::with_seed(seed);
         let mut point = || {
             let mut row = row.clone();
             row.figures.action_flips = f64::from(chance.u32(0..6)) / 10.0;
             row.clocks_per_frame = chance.u64(1..12);
             let mhz = f64::from(chance.u32(1..4));
-            row.speed = (chance.u8(0..5) > 0).then(|| Speed::given(mhz, row.clocks_per_frame));
+            row.speed = (chance.u8(0..5) > 0).then(|| FrameRate::at_given_clock(mhz, row.clocks_per_frame));
             match &mut row.silicon {
                 Some(silicon) if chance.u8(0..5) > 0 => {
                     silicon.array.lut_total_packed = chance.u64(1..12);
@@ -148,7 +148,7 @@ mod tests {
                     known && !rows.iter().any(|other| beats(other, row, fast, luts))
                 };
                 let expected =
-                    Fronts { speed: on(true, false), area: on(false, true), all: on(true, true) };
+                    FrontMembership { speed: on(true, false), area: on(false, true), all: on(true, true) };
                 assert_eq!(row.front, expected, "seed {seed}, {row:?}");
                 told_apart += usize::from(row.front.speed != row.front.area);
                 without_area += usize::from(row.silicon.is_none() && row.front.speed);

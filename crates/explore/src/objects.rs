@@ -2,24 +2,24 @@
 //! The number of ground-truth objects of which a camera sends at least half.
 
 use foveate_camera::Camera;
-use foveate_footage::boxes::Grid;
+use foveate_footage::boxes::RegionGrid;
 use foveate_frame::Rect;
 use serde::{Deserialize, Serialize};
 
 /// Counts of objects over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Objects {
+pub(crate) struct ObjectCounts {
     all: u64,
     /// The number of objects of which at least half of the regions are active.
     sent: u64,
 }
 
-impl Objects {
-    pub(crate) fn add(&mut self, camera: &Camera, objects: &[Rect], active: &[bool]) {
+impl ObjectCounts {
+    pub(crate) fn add_frame(&mut self, camera: &Camera, objects: &[Rect], active: &[bool]) {
         let (side, width, height) = (camera.region_size(), camera.width(), camera.height());
-        let grid = Grid { side, width, height };
+        let grid = RegionGrid { side, width, height };
         for object in objects {
-            let (yes, regions) = grid.votes(object, active);
+            let (yes, regions) = grid.count_votes(object, active);
             self.all += 1;
             self.sent += u64::from(2 * yes >= regions);
         }

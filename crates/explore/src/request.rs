@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use foveate_footage::InputOptions;
 
-use crate::{Space, Synthesizer};
+use crate::{DesignSpace, Synthesizer};
 
 /// The request of an exploration.
 #[derive(Clone, Debug)]
-pub struct Request<'a> {
+pub struct ExploreRequest<'a> {
     /// The designs.
-    pub space: &'a Space,
+    pub space: &'a DesignSpace,
     /// The clips and data sets, which have one size. Image files together are one clip; every other
     /// input is its own.
     pub inputs: &'a [PathBuf],

@@ -2,13 +2,13 @@
 //! A point with all its figures.
 
 use foveate_camera::Camera;
-use foveate_design::{Config, Design};
-use foveate_estimate::Speed;
-use foveate_fidelity::{ErrorTally, Figures};
+use foveate_design::{DesignConfig, Design};
+use foveate_estimate::FrameRate;
+use foveate_fidelity::{ErrorTally, FidelityFigures};
 use serde::Serialize;
 
-use crate::cost::{Silicon, Synthesized};
-use crate::measure::Measured;
+use crate::cost::{DesignArea, SynthesisResult};
+use crate::measure::CameraMeasurement;
 
 /// A design with its errors, costs and speed.
 #[derive(Clone, Debug, Serialize)]
@@ -20,11 +20,11 @@ pub struct DesignRow {
     pub settings: Vec<String>,
     /// The configuration, with every default filled in.
     #[serde(skip)]
-    pub config: Config,
+    pub config: DesignConfig,
     /// The fingerprint, which identifies the design.
     pub fingerprint: String,
     /// The errors over all clips.
-    pub figures: Figures,
+    pub figures: FidelityFigures,
     /// The bytes per frame that leave the array: 2 bits per region, the pixels of active regions,
     /// and the means of summaries.
     pub bytes_per_frame: f64,
@@ -32,16 +32,16 @@ pub struct DesignRow {
     pub clocks_per_frame: u64,
     /// The clock and the frames per second: at the clock of the space, or else at the clock that is
     /// estimated from the netlist; `None` without both.
-    pub speed: Option<Speed>,
+    pub speed: Option<FrameRate>,
     /// The area, if it was synthesized.
-    pub silicon: Option<Silicon>,
+    pub silicon: Option<DesignArea>,
     /// The fronts that the point is on.
-    pub front: Fronts,
+    pub front: FrontMembership,
 }
 
 /// The fronts that a point is on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Fronts {
+pub struct FrontMembership {
     /// Whether the point is on the front of error and speed.
     pub speed: bool,
     /// Whether the point is on the front of error and LUTs of the array.
@@ -56,13 +56,13 @@ impl DesignRow {
         number: usize,
         settings: Vec<String>,
         design: &Design,
-        measured: &[&Measured],
-        synthesized: Option<Synthesized>,
+        measured: &[&CameraMeasurement],
+        synthesized: Option<SynthesisResult>,
         clock_mhz: Option<u32>,
     ) -> Option<Self> {
-        let figures = together(measured)?.figures();
+        let figures = sum_tallies(measured)?.figures();
         let clocks_per_frame = design.timing().clocks_per_frame();
-        let given = clock_mhz.map(|mhz| Speed::given(mhz.into(), clocks_per_frame));
+        let given = clock_mhz.map(|mhz| FrameRate::at_given_clock(mhz.into(), clocks_per_frame));
         let estimated = synthesized.as_ref().and_then(|synthesized| synthesized.speed);
         Some(Self {
             number,
@@ -74,18 +74,18 @@ impl DesignRow {
             speed: given.or(estimated),
             silicon: synthesized.map(|synthesized| synthesized.silicon),
             figures,
-            front: Fronts::default(),
+            front: FrontMembership::default(),
         })
     }
 
     /// Returns the LUTs of the array, including those used as memory, with two SRL16 in one LUT.
     pub(crate) fn luts(&self) -> Option<f64> {
-        self.silicon.as_ref().map(|silicon| real(silicon.array.lut_total_packed))
+        self.silicon.as_ref().map(|silicon| count_to_f64(silicon.array.lut_total_packed))
     }
 }
 
 /// Returns the sums over several clips; `None` without clips.
-pub(crate) fn together(measured: &[&Measured]) -> Option<ErrorTally> {
+pub(crate) fn sum_tallies(measured: &[&CameraMeasurement]) -> Option<ErrorTally> {
     let mut tallies = measured.iter().map(|part| &part.tally);
     let mut all = tallies.next()?.clone();
     tallies.for_each(|tally| all.merge(tally));
@@ -94,16 +94,16 @@ pub(crate) fn together(measured: &[&Measured]) -> Option<ErrorTally> {
 
 /// Returns the bytes per frame as `simulate` counts them: the two bits of every region state its
 /// action, so no addresses are sent.
-pub(crate) fn bytes_per_frame(camera: &Camera, figures: &Figures) -> f64 {
+pub(crate) fn bytes_per_frame(camera: &Camera, figures: &FidelityFigures) -> f64 {
     let regions = f64::from(camera.regions());
     let pixels = f64::from(camera.width()) * f64::from(camera.height()) * figures.active;
-    let means = camera.periphery().map_or(0.0, |own| f64::from(own.means()));
+    let means = camera.periphery().map_or(0.0, |own| f64::from(own.mean_count()));
     let values = pixels + regions * figures.summarized * means;
     (2.0 * regions + values * f64::from(camera.pixel_bits())) / 8.0
 }
 
 /// Converts a count to a floating-point number.
 #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
-pub(crate) fn real(count: u64) -> f64 {
+pub(crate) fn count_to_f64(count: u64) -> f64 {
     count as f64
 }

@@ -9,61 +9,61 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{InputOptions, Subject};
+use foveate_footage::{InputOptions, ComparedInput};
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 
 use crate::ExploreError;
-use crate::measure::Measured;
+use crate::measure::CameraMeasurement;
 
 /// The version of the figures. It grows if figures change their meaning, so that older figures are
 /// not used.
-const VERSION: u32 = 4;
+const FIGURES_VERSION: u32 = 4;
 /// The number of hexadecimal digits of a name: 96 bits.
 pub(crate) const KEY_DIGITS: usize = 24;
-const FOLDER: &str = "measured";
+const STORE_FOLDER: &str = "measured";
 /// The largest measurement that is read, in bytes; a usual one has a few KiB.
-const LIMIT: u64 = 1 << 26;
+const MAX_MEASUREMENT_BYTES: u64 = 1 << 26;
 
 /// The store of finished measurements.
-pub(crate) struct Store {
+pub(crate) struct MeasurementStore {
     folder: PathBuf,
 }
 
-impl Store {
+impl MeasurementStore {
     /// Opens the store of an exploration, and creates it if it does not exist.
     pub(crate) fn open(exploration: &Path) -> Result<Self, ExploreError> {
-        let folder = exploration.join(FOLDER);
+        let folder = exploration.join(STORE_FOLDER);
         fs::create_dir_all(&folder).map_err(ExploreError::io("make the folder", &folder))?;
         Ok(Self { folder })
     }
 
     /// Returns a finished measurement; `None` if it does not exist or cannot be read.
-    pub(crate) fn get(&self, key: &str) -> Option<Measured> {
-        serde_json::from_slice(&foveate_reading::bytes(&self.place(key), LIMIT).ok()?).ok()
+    pub(crate) fn get(&self, key: &str) -> Option<CameraMeasurement> {
+        serde_json::from_slice(&foveate_reading::read_bytes(&self.measurement_path(key), MAX_MEASUREMENT_BYTES).ok()?).ok()
     }
 
-    pub(crate) fn put(&self, key: &str, measured: &Measured) -> Result<(), ExploreError> {
-        let path = self.place(key);
+    pub(crate) fn put(&self, key: &str, measured: &CameraMeasurement) -> Result<(), ExploreError> {
+        let path = self.measurement_path(key);
         let text = serde_json::to_string(measured);
         let text = text.map_err(|error| ExploreError::io("write", &path)(error.into()))?;
         Ok(write_file(&path, text.as_bytes())?)
     }
 
-    fn place(&self, key: &str) -> PathBuf {
+    fn measurement_path(&self, key: &str) -> PathBuf {
         self.folder.join(format!("{key}.json"))
     }
 }
 
 /// Returns the name of a measurement; `ideal` is the TOML of the ideal camera.
-pub(crate) fn key(clip: &str, ideal: &str, camera: &CameraConfig) -> String {
-    let text = format!("{VERSION}\n{clip}\n{ideal}\n{}", camera.to_toml());
+pub(crate) fn measurement_key(clip: &str, ideal: &str, camera: &CameraConfig) -> String {
+    let text = format!("{FIGURES_VERSION}\n{clip}\n{ideal}\n{}", camera.to_toml());
     sha256_hex(text)[..KEY_DIGITS].to_owned()
 }
 
 /// Returns a text that identifies a clip as it is read: its options, and the names, sizes and times
 /// of its files.
-pub(crate) fn identity(subject: &Subject, input: &InputOptions) -> String {
+pub(crate) fn clip_identity(subject: &ComparedInput, input: &InputOptions) -> String {
     let mut text = format!("{input:?}");
     for path in &subject.inputs {
         let _ = write!(text, "\n{}", path.display());
@@ -71,22 +71,22 @@ pub(crate) fn identity(subject: &Subject, input: &InputOptions) -> String {
         // files.
         let pattern = path.to_str().filter(|_| !path.exists()).map(glob::glob);
         match pattern {
-            Some(Ok(files)) => files.flatten().for_each(|file| stamp_all(&mut text, &file)),
-            _ => stamp_all(&mut text, path),
+            Some(Ok(files)) => files.flatten().for_each(|file| stamp_files(&mut text, &file)),
+            _ => stamp_files(&mut text, path),
         }
     }
     text
 }
 
 /// Adds the name, size and time of a file, or of all files below a folder.
-fn stamp_all(text: &mut String, path: &Path) {
-    let Ok(entries) = fs::read_dir(path) else { return stamp(text, path) };
+fn stamp_files(text: &mut String, path: &Path) {
+    let Ok(entries) = fs::read_dir(path) else { return stamp_file(text, path) };
     let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     inside.sort();
-    inside.iter().for_each(|path| stamp_all(text, path));
+    inside.iter().for_each(|path| stamp_files(text, path));
 }
 
-fn stamp(text: &mut String, file: &Path) {
+fn stamp_file(text: &mut String, file: &Path) {
     let Ok(about) = fs::metadata(file) else { return };
     let changed = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     let _ = write!(text, "\n{} {} {:?}", file.display(), about.len(), changed);
@@ -103,8 +103,8 @@ mod tests {
         fs::create_dir(&below).unwrap();
         fs::write(below.join("a.png"), "a").unwrap();
         let of = |input: PathBuf| {
-            let subject = Subject { name: String::new(), inputs: vec![input] };
-            identity(&subject, &InputOptions::default())
+            let subject = ComparedInput { name: String::new(), inputs: vec![input] };
+            clip_identity(&subject, &InputOptions::default())
         };
         let both = || (of(folder.path().to_owned()), of(below.join("*.png")));
         let before = both();

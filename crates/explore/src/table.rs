@@ -2,25 +2,25 @@
 //! The points as a table, with one list of columns for CSV and Parquet.
 
 use foveate_design::FeatureKind;
-use foveate_estimate::Speed;
-use foveate_fidelity::Figures;
-use foveate_files::tables::{Cell, Cells};
+use foveate_estimate::FrameRate;
+use foveate_fidelity::FidelityFigures;
+use foveate_files::tables::{TableCell, NamedCells};
 
-use crate::row::{DesignRow, real};
+use crate::row::{DesignRow, count_to_f64};
 
 /// Returns the cells of a point.
-pub(crate) fn point(row: &DesignRow, axes: &[String]) -> Cells {
-    let mut cells: Cells = vec![("point".to_owned(), count(row.number as u64))];
+pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
+    let mut cells: NamedCells = vec![("point".to_owned(), count_cell(row.number as u64))];
     let settings = axes.iter().zip(&row.settings);
-    cells.extend(settings.map(|(axis, value)| (axis.clone(), Cell::Text(value.clone()))));
-    cells.extend(errors(&row.figures));
+    cells.extend(settings.map(|(axis, value)| (axis.clone(), TableCell::Text(value.clone()))));
+    cells.extend(error_cells(&row.figures));
     let area = row.silicon.as_ref();
-    let of = |take: fn(&crate::Silicon) -> u64| Cell::Count(area.map(take));
-    let at = |take: fn(&Speed) -> f64| Cell::Real(row.speed.as_ref().map(take));
+    let of = |take: fn(&crate::DesignArea) -> u64| TableCell::Count(area.map(take));
+    let at = |take: fn(&FrameRate) -> f64| TableCell::Real(row.speed.as_ref().map(take));
     cells.extend(
         [
-            ("bytes_per_frame", Cell::Real(Some(row.bytes_per_frame))),
-            ("clocks_per_frame", count(row.clocks_per_frame)),
+            ("bytes_per_frame", TableCell::Real(Some(row.bytes_per_frame))),
+            ("clocks_per_frame", count_cell(row.clocks_per_frame)),
             ("clock_mhz", at(|speed| speed.clock_mhz)),
             ("low_clock_mhz", at(|speed| speed.low_clock_mhz)),
             ("high_clock_mhz", at(|speed| speed.high_clock_mhz)),
@@ -32,13 +32,13 @@ pub(crate) fn point(row: &DesignRow, axes: &[String]) -> Cells {
             ("lut", of(|area| area.array.lut_total_packed)),
             ("ff", of(|area| area.array.ff)),
             ("lutram", of(|area| area.array.lut_memory_packed)),
-            ("ramb36", Cell::Real(area.map(|area| real(area.array.bram18) / 2.0))),
+            ("ramb36", TableCell::Real(area.map(|area| count_to_f64(area.array.bram18) / 2.0))),
             ("dsp", of(|area| area.array.dsp)),
-            ("logic_levels", of(|area| area.levels.into())),
-            ("front_speed", Cell::Flag(row.front.speed)),
-            ("front_area", Cell::Flag(row.front.area)),
-            ("front", Cell::Flag(row.front.all)),
-            ("fingerprint", Cell::Text(row.fingerprint.clone())),
+            ("logic_levels", of(|area| area.logic_levels.into())),
+            ("front_speed", TableCell::Flag(row.front.speed)),
+            ("front_area", TableCell::Flag(row.front.area)),
+            ("front", TableCell::Flag(row.front.all)),
+            ("fingerprint", TableCell::Text(row.fingerprint.clone())),
         ]
         .map(|(name, cell)| (name.to_owned(), cell)),
     );
@@ -46,18 +46,18 @@ pub(crate) fn point(row: &DesignRow, axes: &[String]) -> Cells {
 }
 
 /// Returns the cells that name the point and the clip of a row.
-pub(crate) fn names(point: usize, clip: &str) -> Cells {
+pub(crate) fn name_cells(point: usize, clip: &str) -> NamedCells {
     vec![
-        ("point".to_owned(), count(point as u64)),
-        ("clip".to_owned(), Cell::Text(clip.to_owned())),
+        ("point".to_owned(), count_cell(point as u64)),
+        ("clip".to_owned(), TableCell::Text(clip.to_owned())),
     ]
 }
 
 /// Returns the cells of the errors.
-pub(crate) fn errors(figures: &Figures) -> Cells {
-    let real = |value: f64| Cell::Real(Some(value));
-    let mut cells: Cells = [
-        ("frames", count(figures.frames)),
+pub(crate) fn error_cells(figures: &FidelityFigures) -> NamedCells {
+    let real = |value: f64| TableCell::Real(Some(value));
+    let mut cells: NamedCells = [
+        ("frames", count_cell(figures.frames)),
         ("active", real(figures.active)),
         ("ideal_active", real(figures.ideal_active)),
         ("srs_flips", real(figures.srs_flips)),
@@ -66,20 +66,20 @@ pub(crate) fn errors(figures: &Figures) -> Cells {
         ("missed", real(figures.missed)),
         ("false_alarms", real(figures.false_alarms)),
         ("active_iou", real(figures.active_iou)),
-        ("psnr_ideal", Cell::Real(figures.psnr_ideal)),
+        ("psnr_ideal", TableCell::Real(figures.psnr_ideal)),
         ("ssim_ideal", real(figures.ssim_ideal)),
-        ("psnr_input", Cell::Real(figures.psnr_input)),
+        ("psnr_input", TableCell::Real(figures.psnr_input)),
         ("ssim_input", real(figures.ssim_input)),
         ("stale_max", real(figures.staleness.max)),
         ("stale_mean", real(figures.staleness.mean)),
         ("stale_share", real(figures.staleness.share)),
-        ("stale_frames", count(figures.staleness.longest)),
+        ("stale_frames", count_cell(figures.staleness.longest)),
     ]
     .map(|(name, cell)| (name.to_owned(), cell))
     .into();
     for feature in score_names() {
         let score = figures.scores.iter().find(|score| score.feature == feature);
-        let of = |take: fn(&foveate_fidelity::ScoreError) -> f64| Cell::Real(score.map(take));
+        let of = |take: fn(&foveate_fidelity::ScoreError) -> f64| TableCell::Real(score.map(take));
         cells.push((format!("{feature}_max"), of(|score| score.max)));
         cells.push((format!("{feature}_mean"), of(|score| score.mean)));
         cells.push((format!("{feature}_rms"), of(|score| score.rms)));
@@ -93,6 +93,6 @@ fn score_names() -> impl Iterator<Item = &'static str> {
     FeatureKind::ALL.iter().map(|kind| kind.name()).chain(["temporal"])
 }
 
-fn count(value: u64) -> Cell {
-    Cell::Count(Some(value))
+fn count_cell(value: u64) -> TableCell {
+    TableCell::Count(Some(value))
 }

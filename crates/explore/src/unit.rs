@@ -10,22 +10,22 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
-use foveate_footage::shown_input;
+use foveate_footage::input_without_secrets;
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 use serde::{Deserialize, Serialize};
 
-use crate::folder::{UNITS, check_folder, claim};
-use crate::footage::{Count, TOGETHER};
-use crate::store::{KEY_DIGITS, Store};
-use crate::work::Work;
-use crate::{ExploreError, Hooks, Request};
+use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
+use crate::footage::{MeasurementCount, CAMERAS_PER_UNIT};
+use crate::store::{KEY_DIGITS, MeasurementStore};
+use crate::exploration_work::ExplorationWork;
+use crate::{ExploreError, ExploreHooks, ExploreRequest};
 
 /// A unit of work.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Unit {
+pub struct WorkUnit {
     /// The name of the unit: a hash of everything that its results depend on.
-    pub unit: String,
+    pub name: String,
     /// The name of the clip.
     pub clip: String,
     /// The inputs of the clip. The unit is the same in an exploration of these inputs alone.
@@ -38,14 +38,14 @@ pub struct Unit {
 
 /// The content of the file of a unit.
 #[derive(Serialize)]
-struct Receipt<'a> {
+struct UnitReceipt<'a> {
     /// The names of the results in the store.
     measured: &'a [String],
 }
 
 /// A unit, and its part of the work.
-struct Part {
-    unit: Unit,
+struct PlannedUnit {
+    unit: WorkUnit,
     /// The number of the clip.
     clip: usize,
     looks: Range<usize>,
@@ -57,14 +57,14 @@ struct Part {
 /// # Errors
 /// Fails if an input cannot be read, no point is a valid design, or the folder holds something
 /// else.
-pub fn plan(
-    request: &Request<'_>,
+pub fn plan_units(
+    request: &ExploreRequest<'_>,
     output: &Path,
-    hooks: &dyn Hooks,
-) -> Result<Vec<Unit>, ExploreError> {
+    hooks: &dyn ExploreHooks,
+) -> Result<Vec<WorkUnit>, ExploreError> {
     check_folder(output)?;
-    let work = Work::new(request, None, hooks)?;
-    Ok(parts(&work, output).map(|part| part.unit).collect())
+    let work = ExplorationWork::new(request, None, hooks)?;
+    Ok(planned_units(&work, output).map(|part| part.unit).collect())
 }
 
 /// Does one unit of an exploration into `output`. `unit` is its name or its whole line of the plan,
@@ -74,29 +74,29 @@ pub fn plan(
 /// Fails if the exploration has no unit of that name, its clip cannot be read or ends early, the
 /// folder holds something else or cannot be written, or `hooks` cancels.
 pub fn measure_unit(
-    request: &Request<'_>,
+    request: &ExploreRequest<'_>,
     unit: &str,
     output: &Path,
-    hooks: &dyn Hooks,
-) -> Result<Unit, ExploreError> {
-    let line: Option<Unit> = serde_json::from_str(unit).ok();
+    hooks: &dyn ExploreHooks,
+) -> Result<WorkUnit, ExploreError> {
+    let line: Option<WorkUnit> = serde_json::from_str(unit).ok();
     let (name, some) = match &line {
-        Some(line) => (line.unit.as_str(), Some(line.combinations.as_slice())),
+        Some(line) => (line.name.as_str(), Some(line.combinations.as_slice())),
         None => (unit, None),
     };
-    let work = Work::new(request, some, hooks)?;
-    let part = parts(&work, output).find(|part| part.unit.unit == name);
+    let work = ExplorationWork::new(request, some, hooks)?;
+    let part = planned_units(&work, output).find(|part| part.unit.name == name);
     let part = part.ok_or_else(|| ExploreError::NoUnit { unit: name.to_owned() })?;
-    claim(output)?;
-    let store = Store::open(output)?;
-    let looks = &work.looks[part.looks.clone()];
-    let measured = work.footage.measure_clip(part.clip, looks, &store, &Count::of(looks.len()))?;
+    claim_folder(output)?;
+    let store = MeasurementStore::open(output)?;
+    let looks = &work.cameras[part.looks.clone()];
+    let measured = work.footage.measure_clip(part.clip, looks, &store, &MeasurementCount::from_total(looks.len()))?;
     if let Some(problem) = measured.into_iter().find_map(|one| one.problem) {
-        return Err(ExploreError::Broken { clip: part.unit.clip, problem });
+        return Err(ExploreError::IncompleteClip { clip: part.unit.clip, problem });
     }
-    let folder = output.join(UNITS);
+    let folder = output.join(UNITS_FOLDER);
     fs::create_dir_all(&folder).map_err(ExploreError::io("make the folder", &folder))?;
-    let receipt = Receipt { measured: &part.keys };
+    let receipt = UnitReceipt { measured: &part.keys };
     // The receipt is plain data with text keys, so this cannot fail.
     let text = serde_json::to_string(&receipt).expect("it has no map") + "\n";
     write_file(Path::new(&part.unit.file), text.as_bytes())?;
@@ -104,26 +104,26 @@ pub fn measure_unit(
 }
 
 /// Returns the units clip by clip, each with as many designs as a run measures together.
-fn parts<'a>(work: &'a Work<'_>, output: &'a Path) -> impl Iterator<Item = Part> + 'a {
+fn planned_units<'a>(work: &'a ExplorationWork<'_>, output: &'a Path) -> impl Iterator<Item = PlannedUnit> + 'a {
     let clips = work.footage.subjects.iter().enumerate();
-    let points = work.first_points();
+    let points = work.first_point_of_cameras();
     clips.flat_map(move |(clip, subject)| {
         let points = points.clone();
-        let keys = work.footage.keys(clip, &work.looks);
-        let starts = (0..keys.len()).step_by(TOGETHER);
+        let keys = work.footage.measurement_keys(clip, &work.cameras);
+        let starts = (0..keys.len()).step_by(CAMERAS_PER_UNIT);
         starts.map(move |start| {
-            let looks = start..(start + TOGETHER).min(keys.len());
+            let looks = start..(start + CAMERAS_PER_UNIT).min(keys.len());
             let keys = keys[looks.clone()].to_vec();
             let unit = sha256_hex(keys.join("\n"))[..KEY_DIGITS].to_owned();
-            let file = output.join(UNITS).join(format!("{unit}.json"));
-            let unit = Unit {
-                unit,
+            let file = output.join(UNITS_FOLDER).join(format!("{unit}.json"));
+            let unit = WorkUnit {
+                name: unit,
                 clip: subject.name.clone(),
-                inputs: subject.inputs.iter().map(|path| shown_input(path)).collect(),
+                inputs: subject.inputs.iter().map(|path| input_without_secrets(path)).collect(),
                 combinations: points[looks.clone()].iter().map(|point| point.combination).collect(),
                 file: file.display().to_string(),
             };
-            Part { unit, clip, looks, keys }
+            PlannedUnit { unit, clip, looks, keys }
         })
     })
 }

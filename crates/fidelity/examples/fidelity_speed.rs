@@ -8,9 +8,9 @@ use std::time::Instant;
 use foveate_camera::CameraConfig;
 use foveate_engine::Engine;
 use foveate_fidelity::Fidelity;
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
-use foveate_scenes::{Scene, SceneSize};
+use foveate_scenes::{Scene, SceneParameters};
 
 fn main() {
     for (width, height) in [(1280, 720), (1920, 1080)] {
@@ -22,15 +22,15 @@ fn main() {
             config.region.size = side;
             config.frame.pixel_bits = bits;
             let camera = config.validate().unwrap();
-            let size = SceneSize { width, height, bits: bits.max(8), region_size: 8, frames: 2 };
+            let size = SceneParameters { width, height, bits: bits.max(8), region_size: 8, frames: 2 };
             let own = Scene::Street.frames(size);
-            let other = Scene::Street.frames(SceneSize { bits, ..size });
+            let other = Scene::Street.frames(SceneParameters { bits, ..size });
             let mut reference = IdealCamera::new(&ideal);
             let mut engine = Engine::new(&camera);
             let mut fidelity = Fidelity::new(&ideal, &camera).unwrap();
             let mut best = f64::INFINITY;
             for (own, other) in own.zip(other) {
-                let input = Raster::from(&own);
+                let input = ByteFrame::from(&own);
                 let seen = reference.step(&input).unwrap();
                 let outcome = engine.step(&other).unwrap().clone();
                 for _ in 0..10 {

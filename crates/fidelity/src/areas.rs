@@ -2,11 +2,11 @@
 //! The areas, in pixels, where the decisions of two cameras differ. With areas, regions of
 //! different sizes can be compared.
 
-use foveate_camera::Action;
+use foveate_camera::RegionAction;
 use serde::{Deserialize, Serialize};
 
 /// The area of every combination of two states; the index is `ideal << STATE_BITS | candidate`.
-pub(crate) type Table = [u64; 1 << (2 * STATE_BITS)];
+pub(crate) type StateAreas = [u64; 1 << (2 * STATE_BITS)];
 
 const STATE_BITS: usize = 4;
 const SRS: u8 = 1;
@@ -15,27 +15,27 @@ const ACTION: u8 = 12;
 const SUMMARIZED: u8 = 12;
 
 /// A table without any area.
-pub(crate) const EMPTY: Table = [0; 1 << (2 * STATE_BITS)];
+pub(crate) const NO_AREAS: StateAreas = [0; 1 << (2 * STATE_BITS)];
 
 /// Returns all decisions about one region in four bits.
-pub(crate) fn state(srs: bool, trs: bool, action: Action) -> u8 {
+pub(crate) fn decision_state(srs: bool, trs: bool, action: RegionAction) -> u8 {
     let action = match action {
-        Action::Forward => 0,
-        Action::Hold => 4,
-        Action::Blank => 8,
-        Action::Summarize => SUMMARIZED,
+        RegionAction::Forward => 0,
+        RegionAction::Hold => 4,
+        RegionAction::Blank => 8,
+        RegionAction::Summarize => SUMMARIZED,
     };
     (u8::from(srs) * SRS) | (u8::from(trs) * TRS) | action
 }
 
 /// Returns the index of a pair of states in a [`Table`].
-pub(crate) fn place(ideal: u8, candidate: u8) -> usize {
+pub(crate) fn state_pair_index(ideal: u8, candidate: u8) -> usize {
     usize::from(ideal) << STATE_BITS | usize::from(candidate)
 }
 
 /// The areas in pixels, summed over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Areas {
+pub(crate) struct DecisionAreas {
     /// The area where SRS differs.
     pub(crate) srs: u64,
     /// The area where TRS differs.
@@ -55,13 +55,13 @@ pub(crate) struct Areas {
 
 /// Returns whether the area is 0. Such tallies omit the key, like older tallies without summaries.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
-fn is_none(area: &u64) -> bool {
+fn is_zero_area(area: &u64) -> bool {
     *area == 0
 }
 
-impl Areas {
+impl DecisionAreas {
     /// Adds the areas of a table.
-    pub(crate) fn count(&mut self, table: &Table) {
+    pub(crate) fn add_table(&mut self, table: &StateAreas) {
         for (at, &area) in table.iter().enumerate().filter(|(_, area)| **area > 0) {
             let bits = |shift: usize| u8::try_from(at >> shift & 15).expect("four bits");
             let (ideal, candidate) = (bits(STATE_BITS), bits(0));

@@ -22,7 +22,7 @@ pub enum FidelityError {
     #[error(
         "the input has {given}, but the ideal camera takes {expected}; give the frames that it saw"
     )]
-    FrameKind {
+    FrameFormat {
         /// The size and depth of the input.
         given: String,
         /// The size and depth of the ideal camera.
@@ -32,7 +32,7 @@ pub enum FidelityError {
     #[error(
         "{what}: {given} values were given, but the camera has {expected}; give the results of that camera"
     )]
-    Length {
+    ResultLength {
         /// The camera and the results that do not fit, in words.
         what: &'static str,
         /// The number of values that were given.
@@ -44,7 +44,7 @@ pub enum FidelityError {
     #[error(
         "pixels of {bits} bits need the type {expected}, but the candidate's screen has {given}"
     )]
-    LaneWidth {
+    PixelType {
         /// The number of bits per pixel of the candidate.
         bits: u32,
         /// The type that the candidate's pixels need.

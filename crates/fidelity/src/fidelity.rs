@@ -3,16 +3,16 @@
 
 use foveate_camera::Camera;
 use foveate_engine::FrameOutcome;
-use foveate_frame::{Plane, Raster};
+use foveate_frame::{FramePixels, ByteFrame};
 use foveate_ideal::IdealOutcome;
 
-use crate::areas::{EMPTY, state};
-use crate::overlap::Cells;
-use crate::picture::Comparison;
-use crate::planes::Planes;
-use crate::sample::Sample;
-use crate::scores::Pair;
-use crate::stale::Watch;
+use crate::areas::{NO_AREAS, decision_state};
+use crate::overlap::GridCells;
+use crate::screens::ScreenComparison;
+use crate::converter::FrameConverter;
+use crate::sample::PixelSample;
+use crate::scores::ScorePair;
+use crate::staleness::StalenessTracker;
 use crate::{ErrorTally, FidelityError};
 
 /// A comparison over the frames of one clip. It allocates memory with the first frame.
@@ -20,26 +20,26 @@ use crate::{ErrorTally, FidelityError};
 pub struct Fidelity {
     ideal: Camera,
     candidate: Camera,
-    cells: Cells,
-    pairs: Vec<Pair>,
+    cells: GridCells,
+    pairs: Vec<ScorePair>,
     /// The decisions of the ideal and of the candidate.
     states: [Vec<u8>; 2],
-    eye: Eye,
+    pixel_comparison: PixelComparison,
     tally: ErrorTally,
 }
 
 /// The comparison of pixels, in the type that the ideal's pixels need.
 #[derive(Clone, Debug)]
-enum Eye {
-    Bytes(Sight<u8>),
-    Words(Sight<u16>),
+enum PixelComparison {
+    Bytes(TypedPixelComparison<u8>),
+    Words(TypedPixelComparison<u16>),
 }
 
 #[derive(Clone, Debug)]
-struct Sight<T: Sample> {
-    planes: Planes<T>,
-    comparison: Comparison<T>,
-    watch: Watch<T>,
+struct TypedPixelComparison<T: PixelSample> {
+    planes: FrameConverter<T>,
+    comparison: ScreenComparison<T>,
+    staleness: StalenessTracker<T>,
 }
 
 impl Fidelity {
@@ -57,19 +57,19 @@ impl Fidelity {
                 candidate: name(candidate),
             });
         }
-        let pairs = Pair::all(ideal, candidate);
+        let pairs = ScorePair::comparable_pairs(ideal, candidate);
         let tally = ErrorTally {
             peak: ideal.pixel_max(),
-            scores: pairs.iter().map(Pair::tally).collect(),
+            scores: pairs.iter().map(ScorePair::empty_tally).collect(),
             ..ErrorTally::default()
         };
         Ok(Self {
-            cells: Cells::new(ideal, candidate),
+            cells: GridCells::new(ideal, candidate),
             pairs,
             states: [Vec::new(), Vec::new()],
-            eye: match ideal.pixel_bits() <= 8 {
-                true => Eye::Bytes(Sight::new(ideal, candidate)),
-                false => Eye::Words(Sight::new(ideal, candidate)),
+            pixel_comparison: match ideal.pixel_bits() <= 8 {
+                true => PixelComparison::Bytes(TypedPixelComparison::new(ideal, candidate)),
+                false => PixelComparison::Words(TypedPixelComparison::new(ideal, candidate)),
             },
             tally,
             ideal: ideal.clone(),
@@ -85,21 +85,21 @@ impl Fidelity {
     /// then.
     pub fn add(
         &mut self,
-        input: &Raster,
+        input: &ByteFrame,
         ideal: &IdealOutcome,
         candidate: &FrameOutcome,
-        screen: Plane<'_>,
+        screen: FramePixels<'_>,
     ) -> Result<(), FidelityError> {
-        self.check(input, ideal, candidate, screen)?;
-        let Self { pairs, eye, tally, .. } = self;
+        self.check_inputs(input, ideal, candidate, screen)?;
+        let Self { pairs, pixel_comparison: eye, tally, .. } = self;
         for (pair, tally) in pairs.iter().zip(&mut tally.scores) {
-            pair.add(ideal, candidate, tally);
+            pair.add_frame(ideal, candidate, tally);
         }
         match eye {
-            Eye::Bytes(sight) => sight.look(input, ideal, screen, tally),
-            Eye::Words(sight) => sight.look(input, ideal, screen, tally),
+            PixelComparison::Bytes(sight) => sight.compare_frame(input, ideal, screen, tally),
+            PixelComparison::Words(sight) => sight.compare_frame(input, ideal, screen, tally),
         }
-        self.decisions(ideal, candidate);
+        self.add_decisions(ideal, candidate);
         self.tally.frames += 1;
         self.tally.pixels += u64::from(self.ideal.width()) * u64::from(self.ideal.height());
         Ok(())
@@ -108,9 +108,9 @@ impl Fidelity {
     /// Declares that the next frame is the first of another clip with frames of this size, so that
     /// no region has been stale before it.
     pub fn next_clip(&mut self) {
-        match &mut self.eye {
-            Eye::Bytes(sight) => sight.watch.end(),
-            Eye::Words(sight) => sight.watch.end(),
+        match &mut self.pixel_comparison {
+            PixelComparison::Bytes(sight) => sight.staleness.end_runs(),
+            PixelComparison::Words(sight) => sight.staleness.end_runs(),
         }
     }
 
@@ -126,104 +126,104 @@ impl Fidelity {
         self.tally
     }
 
-    fn decisions(&mut self, ideal: &IdealOutcome, candidate: &FrameOutcome) {
+    fn add_decisions(&mut self, ideal: &IdealOutcome, candidate: &FrameOutcome) {
         let Self { cells, states: [own, other], tally, .. } = self;
         own.clear();
         own.extend(
-            (0..ideal.srs.len()).map(|at| state(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
+            (0..ideal.srs.len()).map(|at| decision_state(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
         );
         other.clear();
         other.extend(
             (0..candidate.srs.len())
-                .map(|at| state(candidate.srs[at], candidate.trs[at], candidate.actions[at])),
+                .map(|at| decision_state(candidate.srs[at], candidate.trs[at], candidate.actions[at])),
         );
-        let mut table = EMPTY;
-        cells.count(own, other, &mut table);
-        tally.areas.count(&table);
+        let mut table = NO_AREAS;
+        cells.add_areas(own, other, &mut table);
+        tally.areas.add_table(&table);
     }
 
-    fn check(
+    fn check_inputs(
         &self,
-        input: &Raster,
+        input: &ByteFrame,
         ideal: &IdealOutcome,
         candidate: &FrameOutcome,
-        screen: Plane<'_>,
+        screen: FramePixels<'_>,
     ) -> Result<(), FidelityError> {
         let expected = (self.ideal.width(), self.ideal.height(), self.ideal.pixel_bits());
         let given = (input.width(), input.height(), input.bits());
         if given != expected {
             let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
-            return Err(FidelityError::FrameKind { given: kind(given), expected: kind(expected) });
+            return Err(FidelityError::FrameFormat { given: kind(given), expected: kind(expected) });
         }
         let bits = self.candidate.pixel_bits();
         let (len, name) = match screen {
-            Plane::Bytes(pixels) => (pixels.len(), "u8"),
-            Plane::Words(pixels) => (pixels.len(), "u16"),
+            FramePixels::Bytes(pixels) => (pixels.len(), "u8"),
+            FramePixels::Words(pixels) => (pixels.len(), "u16"),
         };
         let needed = if bits <= 8 { "u8" } else { "u16" };
         if name != needed {
-            return Err(FidelityError::LaneWidth { bits, expected: needed, given: name });
+            return Err(FidelityError::PixelType { bits, expected: needed, given: name });
         }
         let pixels = self.ideal.width() as usize * self.ideal.height() as usize;
         let camera = &self.ideal;
         let regions = camera.regions() as usize;
-        same("ideal, srs", ideal.srs.len(), regions)?;
-        same("ideal, trs", ideal.trs.len(), regions)?;
-        same("ideal, actions", ideal.actions.len(), regions)?;
-        same("ideal, changed pixels", ideal.changed.len(), regions)?;
-        same("ideal, features", ideal.scores.len(), camera.features().len())?;
-        each("ideal, scores", ideal.scores.iter().map(Vec::len), regions)?;
-        same("ideal, denoised pixels", ideal.denoised.len(), pixels)?;
-        same("ideal, rendered pixels", ideal.rendered.len(), pixels)?;
+        check_length("ideal, srs", ideal.srs.len(), regions)?;
+        check_length("ideal, trs", ideal.trs.len(), regions)?;
+        check_length("ideal, actions", ideal.actions.len(), regions)?;
+        check_length("ideal, changed pixels", ideal.changed.len(), regions)?;
+        check_length("ideal, features", ideal.scores.len(), camera.features().len())?;
+        check_lengths("ideal, scores", ideal.scores.iter().map(Vec::len), regions)?;
+        check_length("ideal, denoised pixels", ideal.denoised.len(), pixels)?;
+        check_length("ideal, rendered pixels", ideal.rendered.len(), pixels)?;
         let camera = &self.candidate;
         let regions = camera.regions() as usize;
-        same("candidate, srs", candidate.srs.len(), regions)?;
-        same("candidate, trs", candidate.trs.len(), regions)?;
-        same("candidate, actions", candidate.actions.len(), regions)?;
-        same("candidate, changed pixels", candidate.temporal_count.len(), regions)?;
-        same("candidate, features", candidate.scores.len(), camera.features().len())?;
-        each("candidate, scores", candidate.scores.iter().map(Vec::len), regions)?;
-        same("candidate, pixels of the screen", len, pixels)
+        check_length("candidate, srs", candidate.srs.len(), regions)?;
+        check_length("candidate, trs", candidate.trs.len(), regions)?;
+        check_length("candidate, actions", candidate.actions.len(), regions)?;
+        check_length("candidate, changed pixels", candidate.temporal_count.len(), regions)?;
+        check_length("candidate, features", candidate.scores.len(), camera.features().len())?;
+        check_lengths("candidate, scores", candidate.scores.iter().map(Vec::len), regions)?;
+        check_length("candidate, pixels of the screen", len, pixels)
     }
 }
 
-fn same(what: &'static str, given: usize, expected: usize) -> Result<(), FidelityError> {
+fn check_length(what: &'static str, given: usize, expected: usize) -> Result<(), FidelityError> {
     if given == expected {
         return Ok(());
     }
-    Err(FidelityError::Length { what, given, expected })
+    Err(FidelityError::ResultLength { what, given, expected })
 }
 
-fn each(
+fn check_lengths(
     what: &'static str,
     mut given: impl Iterator<Item = usize>,
     expected: usize,
 ) -> Result<(), FidelityError> {
-    given.try_for_each(|given| same(what, given, expected))
+    given.try_for_each(|given| check_length(what, given, expected))
 }
 
-impl<T: Sample> Sight<T> {
+impl<T: PixelSample> TypedPixelComparison<T> {
     fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let (width, height) = (ideal.width() as usize, ideal.height() as usize);
         Self {
-            planes: Planes::new(ideal, candidate),
-            comparison: Comparison::new(width, height, ideal.pixel_max()),
-            watch: Watch::new(ideal),
+            planes: FrameConverter::new(ideal, candidate),
+            comparison: ScreenComparison::new(width, height, ideal.pixel_max()),
+            staleness: StalenessTracker::new(ideal),
         }
     }
 
-    fn look(
+    fn compare_frame(
         &mut self,
-        input: &Raster,
+        input: &ByteFrame,
         ideal: &IdealOutcome,
-        screen: Plane<'_>,
+        screen: FramePixels<'_>,
         tally: &mut ErrorTally,
     ) {
         // The types have been checked, so this always succeeds.
-        let Some(pictures) = self.planes.take(input.plane(), ideal, screen) else { return };
+        let Some(pictures) = self.planes.convert(input.borrowed_pixels(), ideal, screen) else { return };
         let [to_ideal, to_input] = self.comparison.compare(pictures);
         tally.to_ideal.add(&to_ideal);
         tally.to_input.add(&to_input);
-        self.watch.look(&ideal.srs, pictures.denoised, pictures.screen, &mut tally.stale);
+        self.staleness.add_frame(&ideal.srs, pictures.denoised, pictures.screen, &mut tally.stale);
     }
 }

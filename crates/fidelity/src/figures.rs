@@ -4,14 +4,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ErrorTally;
-use crate::exact::{ratio, real};
+use crate::fixed_point::{ratio, count_to_f64};
 use crate::scores::ScoreTally;
 
 /// The distance of a candidate from the ideal. Shares are of the area (pixels times frames), 0..=1.
 /// For two designs with the same regions, and frames of whole regions, these are shares of regions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Figures {
+pub struct FidelityFigures {
     /// The number of frames compared. Without frames every share is 0 and every SSIM is 1.
     pub frames: u64,
     /// The errors of the scores that both designs have, in the order of the ideal's features, with
@@ -57,7 +57,7 @@ pub struct Figures {
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
-fn is_none(share: &f64) -> bool {
+fn is_zero_share(share: &f64) -> bool {
     *share == 0.0
 }
 
@@ -101,13 +101,13 @@ pub struct Staleness {
 impl ErrorTally {
     /// Returns the figures of the tally.
     #[must_use]
-    pub fn figures(&self) -> Figures {
+    pub fn figures(&self) -> FidelityFigures {
         let Self { frames, pixels, areas, stale, .. } = self;
         let share = |area: u64| ratio(area, *pixels, 0.0);
         let union = areas.ideal + areas.candidate - areas.both.min(areas.ideal);
-        Figures {
+        FidelityFigures {
             frames: *frames,
-            scores: self.scores.iter().map(score).collect(),
+            scores: self.scores.iter().map(score_error).collect(),
             srs_flips: share(areas.srs),
             trs_flips: share(areas.trs),
             action_flips: share(areas.action),
@@ -131,13 +131,13 @@ impl ErrorTally {
     }
 }
 
-fn score(tally: &ScoreTally) -> ScoreError {
-    let count = real(tally.count.max(1));
+fn score_error(tally: &ScoreTally) -> ScoreError {
+    let count = count_to_f64(tally.count.max(1));
     ScoreError {
         feature: tally.feature.clone(),
         unit: tally.unit.clone(),
-        max: tally.max.value(),
-        mean: tally.sum.value() / count,
-        rms: (tally.squares.value() / count).sqrt(),
+        max: tally.max.to_f64(),
+        mean: tally.sum.to_f64() / count,
+        rms: (tally.squares.to_f64() / count).sqrt(),
     }
 }

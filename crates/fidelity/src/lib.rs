@@ -10,21 +10,21 @@
 
 mod areas;
 mod error;
-mod exact;
+mod fixed_point;
 mod fidelity;
 mod figures;
-mod likeness;
+mod similarity;
 mod overlap;
-mod picture;
-mod planes;
+mod screens;
+mod converter;
 mod sample;
 mod scores;
 mod ssim;
-mod stale;
+mod staleness;
 mod tally;
 
 pub use error::FidelityError;
 pub use fidelity::Fidelity;
-pub use figures::{Figures, ScoreError, Staleness};
-pub use likeness::Likeness;
+pub use figures::{FidelityFigures, ScoreError, Staleness};
+pub use similarity::FrameSimilarity;
 pub use tally::ErrorTally;

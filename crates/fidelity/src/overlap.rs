@@ -4,11 +4,11 @@
 
 use foveate_camera::Camera;
 
-use crate::areas::{Table, place};
+use crate::areas::{StateAreas, state_pair_index};
 
 /// The pixels along one axis that lie in one region of each grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Strip {
+struct GridStrip {
     pixels: u64,
     ideal: usize,
     candidate: usize,
@@ -16,19 +16,19 @@ struct Strip {
 
 /// The cells of a frame, as strips along both axes. Padding belongs to no cell.
 #[derive(Clone, Debug)]
-pub(crate) struct Cells {
-    across: Vec<Strip>,
-    down: Vec<Strip>,
+pub(crate) struct GridCells {
+    column_strips: Vec<GridStrip>,
+    row_strips: Vec<GridStrip>,
     ideal_columns: usize,
     candidate_columns: usize,
 }
 
-impl Cells {
+impl GridCells {
     pub(crate) fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let sides = (ideal.region_size(), candidate.region_size());
         Self {
-            across: strips(ideal.width(), sides),
-            down: strips(ideal.height(), sides),
+            column_strips: strips(ideal.width(), sides),
+            row_strips: strips(ideal.height(), sides),
             ideal_columns: ideal.columns() as usize,
             candidate_columns: candidate.columns() as usize,
         }
@@ -36,26 +36,26 @@ impl Cells {
 
     /// Adds the area of every combination of states; both lists have one state per region, in
     /// row-major order.
-    pub(crate) fn count(&self, ideal: &[u8], candidate: &[u8], table: &mut Table) {
-        for row in &self.down {
+    pub(crate) fn add_areas(&self, ideal: &[u8], candidate: &[u8], table: &mut StateAreas) {
+        for row in &self.row_strips {
             let ideal = &ideal[row.ideal * self.ideal_columns..][..self.ideal_columns];
             let candidate =
                 &candidate[row.candidate * self.candidate_columns..][..self.candidate_columns];
-            for column in &self.across {
-                let at = place(ideal[column.ideal], candidate[column.candidate]);
+            for column in &self.column_strips {
+                let at = state_pair_index(ideal[column.ideal], candidate[column.candidate]);
                 table[at] += row.pixels * column.pixels;
             }
         }
     }
 }
 
-fn strips(size: u32, (ideal, candidate): (u32, u32)) -> Vec<Strip> {
+fn strips(size: u32, (ideal, candidate): (u32, u32)) -> Vec<GridStrip> {
     let mut strips = Vec::new();
     let mut at = 0;
     while at < size {
         let line = |side: u32| (at / side + 1) * side;
         let end = line(ideal).min(line(candidate)).min(size);
-        strips.push(Strip {
+        strips.push(GridStrip {
             pixels: u64::from(end - at),
             ideal: (at / ideal) as usize,
             candidate: (at / candidate) as usize,
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn lines_of_both_grids_cut() {
-        let strip = |pixels, ideal, candidate| Strip { pixels, ideal, candidate };
+        let strip = |pixels, ideal, candidate| GridStrip { pixels, ideal, candidate };
         assert_eq!(strips(5, (2, 2)), [strip(2, 0, 0), strip(2, 1, 1), strip(1, 2, 2)]);
         let expected =
             [strip(2, 0, 0), strip(1, 1, 0), strip(1, 1, 1), strip(2, 2, 1), strip(1, 3, 2)];

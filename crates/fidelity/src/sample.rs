@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pixels in the narrowest type that holds them.
 
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 
 /// A pixel: a byte up to 8 bits, and a word above.
-pub(crate) trait Sample: Copy + Default + Ord + Into<u32> {
+pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
     /// The type that holds the sum of four products of two pixels.
     type Product: Copy + Default + std::fmt::Debug + Into<u64> + std::ops::AddAssign;
 
@@ -12,99 +12,99 @@ pub(crate) trait Sample: Copy + Default + Ord + Into<u32> {
     type Sum: Copy + Default + std::fmt::Debug + From<Self> + Into<u32> + std::ops::AddAssign;
 
     /// Converts a sum of products, below 2^52, to a floating-point number.
-    fn real(sum: Self::Product) -> f64;
+    fn sum_to_f64(sum: Self::Product) -> f64;
 
     /// Returns the product of two pixels.
-    fn times(self, other: Self) -> Self::Product;
+    fn product(self, other: Self) -> Self::Product;
 
     /// Returns the absolute difference of two pixels.
-    fn distance(self, other: Self) -> Self;
+    fn difference(self, other: Self) -> Self;
 
     /// Converts a value that is known to fit.
-    fn of(value: u16) -> Self;
+    fn from_word(value: u16) -> Self;
 
     /// Converts a whole grey level that is known to fit.
-    fn grey(value: f64) -> Self;
+    fn from_grey_level(value: f64) -> Self;
 
     /// Returns the pixels of a plane, if they have this type.
-    fn pixels<'p>(plane: Plane<'p>) -> Option<&'p [Self]>;
+    fn plane_pixels<'p>(plane: FramePixels<'p>) -> Option<&'p [Self]>;
 }
 
 /// A whole number below 2^52 plus this number has its digits in the lowest bits. This conversion
 /// takes one addition in every vector instruction set.
 const SHIFT: f64 = 4_503_599_627_370_496.0; // 2^52
 
-impl Sample for u8 {
+impl PixelSample for u8 {
     type Product = u32;
     type Sum = u16;
 
     #[inline(always)]
-    fn real(sum: u32) -> f64 {
+    fn sum_to_f64(sum: u32) -> f64 {
         f64::from_bits(SHIFT.to_bits() | u64::from(sum)) - SHIFT
     }
 
     #[inline(always)]
-    fn times(self, other: Self) -> u32 {
+    fn product(self, other: Self) -> u32 {
         // The product 255 * 255 fits into 16 bits, and products of 16 bits are the cheapest.
         u32::from(u16::from(self).wrapping_mul(u16::from(other)))
     }
 
     #[inline(always)]
-    fn distance(self, other: Self) -> Self {
+    fn difference(self, other: Self) -> Self {
         self.abs_diff(other)
     }
 
-    fn of(value: u16) -> Self {
+    fn from_word(value: u16) -> Self {
         Self::try_from(value).unwrap_or(Self::MAX)
     }
 
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, reason = "the digits are in the lowest bits")]
-    fn grey(value: f64) -> Self {
+    fn from_grey_level(value: f64) -> Self {
         (value + SHIFT).to_bits() as Self
     }
 
-    fn pixels<'p>(plane: Plane<'p>) -> Option<&'p [Self]> {
+    fn plane_pixels<'p>(plane: FramePixels<'p>) -> Option<&'p [Self]> {
         match plane {
-            Plane::Bytes(pixels) => Some(pixels),
-            Plane::Words(_) => None,
+            FramePixels::Bytes(pixels) => Some(pixels),
+            FramePixels::Words(_) => None,
         }
     }
 }
 
-impl Sample for u16 {
+impl PixelSample for u16 {
     type Product = u64;
     type Sum = u32;
 
     #[inline(always)]
-    fn real(sum: u64) -> f64 {
+    fn sum_to_f64(sum: u64) -> f64 {
         f64::from_bits(SHIFT.to_bits() | sum) - SHIFT
     }
 
     #[inline(always)]
-    fn times(self, other: Self) -> u64 {
+    fn product(self, other: Self) -> u64 {
         u64::from(u32::from(self) * u32::from(other))
     }
 
     #[inline(always)]
-    fn distance(self, other: Self) -> Self {
+    fn difference(self, other: Self) -> Self {
         self.abs_diff(other)
     }
 
-    fn of(value: u16) -> Self {
+    fn from_word(value: u16) -> Self {
         value
     }
 
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, reason = "the digits are in the lowest bits")]
-    fn grey(value: f64) -> Self {
+    fn from_grey_level(value: f64) -> Self {
         (value + SHIFT).to_bits() as Self
     }
 
-    fn pixels<'p>(plane: Plane<'p>) -> Option<&'p [Self]> {
+    fn plane_pixels<'p>(plane: FramePixels<'p>) -> Option<&'p [Self]> {
         match plane {
-            Plane::Words(pixels) => Some(pixels),
-            Plane::Bytes(_) => None,
+            FramePixels::Words(pixels) => Some(pixels),
+            FramePixels::Bytes(_) => None,
         }
     }
 }
@@ -116,13 +116,13 @@ mod tests {
     #[test]
     fn every_grey_level_comes_back() {
         for value in 0..=u16::MAX {
-            assert_eq!(u16::grey(f64::from(value)), value);
+            assert_eq!(u16::from_grey_level(f64::from(value)), value);
         }
         for value in 0..=u8::MAX {
-            assert_eq!(u8::grey(f64::from(value)), value);
+            assert_eq!(u8::from_grey_level(f64::from(value)), value);
         }
-        assert_eq!((u8::real(0), u8::real(u32::MAX)), (0.0, 4_294_967_295.0));
-        assert_eq!(u16::real(1 << 51), 2_f64.powi(51));
-        assert_eq!((255_u8.times(255), u16::MAX.times(u16::MAX)), (65_025, 65_535 * 65_535));
+        assert_eq!((u8::sum_to_f64(0), u8::sum_to_f64(u32::MAX)), (0.0, 4_294_967_295.0));
+        assert_eq!(u16::sum_to_f64(1 << 51), 2_f64.powi(51));
+        assert_eq!((255_u8.product(255), u16::MAX.product(u16::MAX)), (65_025, 65_535 * 65_535));
     }
 }

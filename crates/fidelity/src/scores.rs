@@ -2,12 +2,12 @@
 //! The errors of the scores that both cameras have, region by region. They need regions of the same
 //! size.
 
-use foveate_camera::{Camera, Measure};
+use foveate_camera::{Camera, ScoreUnit};
 use foveate_engine::FrameOutcome;
 use foveate_ideal::IdealOutcome;
 use serde::{Deserialize, Serialize};
 
-use crate::exact::{Exact, real};
+use crate::fixed_point::{FixedPoint, count_to_f64};
 
 /// The error of one score, summed over regions and frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,9 +16,9 @@ pub(crate) struct ScoreTally {
     pub(crate) unit: String,
     /// The number of regions times frames.
     pub(crate) count: u64,
-    pub(crate) max: Exact,
-    pub(crate) sum: Exact,
-    pub(crate) squares: Exact,
+    pub(crate) max: FixedPoint,
+    pub(crate) sum: FixedPoint,
+    pub(crate) squares: FixedPoint,
 }
 
 impl ScoreTally {
@@ -32,34 +32,34 @@ impl ScoreTally {
 
 /// A score that both cameras have.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pair {
+pub(crate) struct ScorePair {
     /// The indices of the feature in the ideal and in the candidate; `None` for the temporal score.
-    places: Option<(usize, usize)>,
+    feature_indices: Option<(usize, usize)>,
     name: &'static str,
     unit: &'static str,
     /// The divisor that converts a score of the candidate to the unit of the ideal, which divides
     /// by the same number. `depth` is then a power of two for another pixel depth, which is exact.
     divisor: f64,
-    depth: f64,
+    depth_factor: f64,
     /// The divisor of both scores, which makes shares of a region.
-    share: f64,
+    share_divisor: f64,
 }
 
-impl Pair {
+impl ScorePair {
     /// Returns every score that can be compared, with the temporal score last; empty for regions of
     /// different sizes.
-    pub(crate) fn all(ideal: &Camera, candidate: &Camera) -> Vec<Self> {
+    pub(crate) fn comparable_pairs(ideal: &Camera, candidate: &Camera) -> Vec<Self> {
         if ideal.region_size() != candidate.region_size() {
             return Vec::new();
         }
         let n = f64::from(ideal.region_pixels());
         let hits = Self {
-            places: None,
+            feature_indices: None,
             name: "temporal",
             unit: "share of the region's pixels",
             divisor: 1.0,
-            depth: 1.0,
-            share: n,
+            depth_factor: 1.0,
+            share_divisor: n,
         };
         let levels =
             2.0_f64.powf(f64::from(ideal.pixel_bits()) - f64::from(candidate.pixel_bits()));
@@ -69,15 +69,15 @@ impl Pair {
         for (at, feature) in ideal.features().iter().enumerate() {
             let kind = feature.kind();
             let Some((other, feature)) = find(kind) else { continue };
-            let base = Self { places: Some((at, other)), name: kind.name(), ..hits };
-            let measure = kind.measure();
+            let base = Self { feature_indices: Some((at, other)), name: kind.name(), ..hits };
+            let measure = kind.score_unit();
             pairs.push(match measure {
-                Measure::Pixels => base,
-                Measure::Levels | Measure::SquaredLevels => Self {
+                ScoreUnit::Pixels => base,
+                ScoreUnit::Levels | ScoreUnit::SquaredLevels => Self {
                     unit: measure.name(),
-                    divisor: real(feature.unit()),
-                    depth: (0..measure.power()).map(|_| levels).product(),
-                    share: 1.0,
+                    divisor: count_to_f64(feature.unit()),
+                    depth_factor: (0..measure.scaling_exponent()).map(|_| levels).product(),
+                    share_divisor: 1.0,
                     ..base
                 },
             });
@@ -87,23 +87,23 @@ impl Pair {
     }
 
     /// Creates the tally of this score.
-    pub(crate) fn tally(&self) -> ScoreTally {
-        let [max, sum, squares] = [Exact::default(); 3];
+    pub(crate) fn empty_tally(&self) -> ScoreTally {
+        let [max, sum, squares] = [FixedPoint::default(); 3];
         let (feature, unit) = (self.name.to_owned(), self.unit.to_owned());
         ScoreTally { feature, unit, count: 0, max, sum, squares }
     }
 
     /// Adds one frame.
-    pub(crate) fn add(
+    pub(crate) fn add_frame(
         &self,
         ideal: &IdealOutcome,
         candidate: &FrameOutcome,
         tally: &mut ScoreTally,
     ) {
-        match self.places {
+        match self.feature_indices {
             Some((own, other)) => self.compare(
                 &ideal.scores[own],
-                candidate.scores[other].iter().map(|&score| real(score)),
+                candidate.scores[other].iter().map(|&score| count_to_f64(score)),
                 tally,
             ),
             None => self.compare(
@@ -119,14 +119,14 @@ impl Pair {
     fn compare(&self, ideal: &[f64], candidate: impl Iterator<Item = f64>, tally: &mut ScoreTally) {
         let (mut max, mut sum, mut squares) = (0.0_f64, 0.0, 0.0);
         for (ideal, candidate) in ideal.iter().zip(candidate) {
-            let error = (ideal - candidate / self.divisor * self.depth).abs() / self.share;
+            let error = (ideal - candidate / self.divisor * self.depth_factor).abs() / self.share_divisor;
             max = max.max(error);
             sum += error;
             squares += error * error;
         }
         tally.count += ideal.len() as u64;
-        tally.max = tally.max.max(Exact::nearest(max));
-        tally.sum.add(Exact::nearest(sum));
-        tally.squares.add(Exact::nearest(squares));
+        tally.max = tally.max.max(FixedPoint::nearest(max));
+        tally.sum.add(FixedPoint::nearest(sum));
+        tally.squares.add(FixedPoint::nearest(squares));
     }
 }

@@ -8,7 +8,7 @@
 
 /// The sums over the pixels of a window, in two frames `a` and `b`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Window {
+pub(crate) struct WindowSums {
     pub(crate) a: f64,
     pub(crate) b: f64,
     /// The sum of the squares in both frames.
@@ -18,13 +18,13 @@ pub(crate) struct Window {
 
 /// The constants of the SSIM for windows with some number of pixels of some depth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ssim {
+pub(crate) struct SsimConstants {
     pixels: f64,
     c1: f64,
     c2: f64,
 }
 
-impl Ssim {
+impl SsimConstants {
     /// Creates the constants for windows of `pixels` pixels with values up to `peak`. For the 64
     /// pixels of an 8x8 window these are ffmpeg's constants, including their rounding. A window of
     /// a single pixel has no variance, but its `c2` must not be 0.
@@ -39,8 +39,8 @@ impl Ssim {
 
     /// Returns the SSIM of two windows, at most 1.
     #[inline(always)]
-    pub(crate) fn of(self, window: Window) -> f64 {
-        let Window { a, b, squares, product } = window;
+    pub(crate) fn window_ssim(self, window: WindowSums) -> f64 {
+        let WindowSums { a, b, squares, product } = window;
         let both = a * a + b * b;
         let variances = squares * self.pixels - both;
         let covariance = product * self.pixels - a * b;
@@ -58,17 +58,17 @@ mod tests {
 
     #[test]
     fn constants_are_those_of_ffmpeg() {
-        let ssim = Ssim::new(64.0, 255.0);
+        let ssim = SsimConstants::new(64.0, 255.0);
         assert_eq!((ssim.c1, ssim.c2), (416.0, 235_963.0));
     }
 
     #[test]
     fn equal_windows_are_alike_and_inverse_ones_are_not() {
-        let ssim = Ssim::new(64.0, 255.0);
+        let ssim = SsimConstants::new(64.0, 255.0);
         let half = 32.0 * 255.0;
-        let window = |product| Window { a: half, b: half, squares: 2.0 * half * 255.0, product };
-        assert_eq!(ssim.of(window(half * 255.0)), 1.0);
-        assert!(ssim.of(window(0.0)) < -0.99);
-        assert_eq!(Ssim::new(1.0, 1.0).of(Window::default()), 1.0);
+        let window = |product| WindowSums { a: half, b: half, squares: 2.0 * half * 255.0, product };
+        assert_eq!(ssim.window_ssim(window(half * 255.0)), 1.0);
+        assert!(ssim.window_ssim(window(0.0)) < -0.99);
+        assert_eq!(SsimConstants::new(1.0, 1.0).window_ssim(WindowSums::default()), 1.0);
     }
 }

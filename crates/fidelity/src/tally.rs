@@ -3,10 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::areas::Areas;
-use crate::picture::PictureTally;
+use crate::areas::DecisionAreas;
+use crate::screens::ScreenTally;
 use crate::scores::ScoreTally;
-use crate::stale::StaleTally;
+use crate::staleness::StalenessTally;
 
 /// The sums over frames, which can be added and stored. They are whole numbers, so the same frames
 /// give the same tally, in any order of the clips and on any number of threads.
@@ -19,10 +19,10 @@ pub struct ErrorTally {
     /// The largest possible pixel of the ideal camera.
     pub(crate) peak: u32,
     pub(crate) scores: Vec<ScoreTally>,
-    pub(crate) areas: Areas,
-    pub(crate) to_ideal: PictureTally,
-    pub(crate) to_input: PictureTally,
-    pub(crate) stale: StaleTally,
+    pub(crate) areas: DecisionAreas,
+    pub(crate) to_ideal: ScreenTally,
+    pub(crate) to_input: ScreenTally,
+    pub(crate) stale: StalenessTally,
 }
 
 impl ErrorTally {

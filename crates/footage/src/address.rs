@@ -17,18 +17,18 @@ const HIDDEN: &str = "***";
 const HIDDEN_ADDRESS: &str = "://***";
 /// Secrets of at least this length are replaced everywhere, shorter ones only if they are a whole
 /// word.
-const LONG: usize = 4;
+const LONG_SECRET: usize = 4;
 
 /// The address of a network camera, with its secrets.
 #[derive(Clone, PartialEq, Eq)]
-pub(crate) struct Address {
+pub(crate) struct CameraAddress {
     url: String,
 }
 
-impl Address {
+impl CameraAddress {
     /// Returns the address if the input is one of a network camera. The scheme may have capital
     /// letters, which ffmpeg does not accept, so it is converted to small letters.
-    pub(crate) fn of_camera(input: &Path) -> Option<Self> {
+    pub(crate) fn from_input(input: &Path) -> Option<Self> {
         let (scheme, rest) = input.to_str()?.split_once("://")?;
         let scheme = scheme.to_ascii_lowercase();
         let is_camera = scheme == "rtsp" || scheme == "rtsps";
@@ -40,18 +40,18 @@ impl Address {
         &self.url
     }
 
-    pub(crate) fn shown(&self) -> String {
-        shown_url(&self.url)
+    pub(crate) fn without_secrets(&self) -> String {
+        url_without_secrets(&self.url)
     }
 
     /// Removes the secrets of this address from a message of ffmpeg, as they were given and
     /// percent-decoded.
     pub(crate) fn redact(&self, said: &str) -> String {
-        let mut text = said.replace(&self.url, &self.shown());
+        let mut text = said.replace(&self.url, &self.without_secrets());
         for secret in self.secrets() {
-            text = without(&text, &secret);
+            text = replace_secret(&text, &secret);
         }
-        redacted(&text)
+        text_without_secrets(&text)
     }
 
     /// Returns everything that [`shown_url`] hides, the longest secret first.
@@ -62,10 +62,10 @@ impl Address {
             found.push(user.to_owned());
             found.extend(user.split(':').map(str::to_owned));
             found.extend(user.split_once(':').map(|(_, password)| password.to_owned()));
-            found.extend(values(host));
+            found.extend(secret_values(host));
         }
-        found.extend(values(rest));
-        if self.shown().ends_with(HIDDEN_ADDRESS) {
+        found.extend(secret_values(rest));
+        if self.without_secrets().ends_with(HIDDEN_ADDRESS) {
             // Any part may belong to a password, and ffmpeg may repeat it alone.
             found.extend(rest.split([':', '/', '?', '#', '@', '&', '=', ';']).map(str::to_owned));
         }
@@ -79,19 +79,19 @@ impl Address {
 }
 
 /// The debug format hides the secrets, too.
-impl fmt::Debug for Address {
+impl fmt::Debug for CameraAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.shown())
+        f.write_str(&self.without_secrets())
     }
 }
 
 /// Returns an input as results and messages may name it: an address without its secrets, any other
 /// input unchanged.
 #[must_use]
-pub fn shown_input(input: &Path) -> String {
+pub fn input_without_secrets(input: &Path) -> String {
     let text = input.display().to_string();
-    if let Some(address) = Address::of_camera(input) {
-        return address.shown();
+    if let Some(address) = CameraAddress::from_input(input) {
+        return address.without_secrets();
     }
     if input.exists() {
         return text;
@@ -101,14 +101,14 @@ pub fn shown_input(input: &Path) -> String {
     let is_known = |scheme: &str| ["rtsp", "rtsps", "rtmp", "http", "https"].contains(&scheme);
     match scheme {
         Some(scheme) if is_known(&scheme) && !text.contains("://") => format!("{scheme}:{HIDDEN}"),
-        _ if text.contains("://") => shown_url(&text),
+        _ if text.contains("://") => url_without_secrets(&text),
         _ => text,
     }
 }
 
 /// Returns a text with the secrets of every address in it removed.
 #[must_use]
-pub fn redacted(text: &str) -> String {
+pub fn text_without_secrets(text: &str) -> String {
     let is_scheme = |c: char| c.is_ascii_alphanumeric() || "+.-".contains(c);
     let ends = |c: char| c.is_whitespace() || "'`\"<>".contains(c);
     let mut shown = String::with_capacity(text.len());
@@ -117,14 +117,14 @@ pub fn redacted(text: &str) -> String {
         let scheme = rest[..at].trim_end_matches(is_scheme).len();
         let end = rest[at..].find(ends).map_or(rest.len(), |length| at + length);
         shown.push_str(&rest[..scheme]);
-        shown.push_str(&shown_url(&rest[scheme..end]));
+        shown.push_str(&url_without_secrets(&rest[scheme..end]));
         rest = &rest[end..];
     }
     shown + rest
 }
 
 /// Returns one address without its secrets.
-fn shown_url(url: &str) -> String {
+fn url_without_secrets(url: &str) -> String {
     let Some((scheme, rest)) = url.split_once("://") else { return url.to_owned() };
     let (authority, after) = rest.split_at(rest.find(['/', '?', '#']).unwrap_or(rest.len()));
     let host = authority.rsplit_once('@').map_or(authority, |(_, host)| host);
@@ -132,7 +132,7 @@ fn shown_url(url: &str) -> String {
         return format!("{scheme}{HIDDEN_ADDRESS}");
     }
     let (path, more) = after.split_at(after.find(['?', '#']).unwrap_or(after.len()));
-    let segments: Vec<String> = path.split('/').map(hidden_value).collect();
+    let segments: Vec<String> = path.split('/').map(segment_without_value).collect();
     let mut shown = format!("{scheme}://{host}{}", segments.join("/"));
     let (query, fragment) = more.split_once('#').map_or((more, None), |(q, f)| (q, Some(f)));
     if let Some(query) = query.strip_prefix('?') {
@@ -158,7 +158,7 @@ fn has_plain_port(host: &str) -> bool {
 }
 
 /// Hides the value in a segment of a path: `user=me&password=secret` becomes `user=***`.
-fn hidden_value(segment: &str) -> String {
+fn segment_without_value(segment: &str) -> String {
     match segment.split_once('=') {
         Some((key, _)) => format!("{key}={HIDDEN}"),
         None => segment.to_owned(),
@@ -166,7 +166,7 @@ fn hidden_value(segment: &str) -> String {
 }
 
 /// Returns the values that follow an equals sign, a question mark or a hash.
-fn values(rest: &str) -> impl Iterator<Item = String> + '_ {
+fn secret_values(rest: &str) -> impl Iterator<Item = String> + '_ {
     let parts = rest.split(['/', '?', '&', '#', ';']).filter_map(|part| part.split_once('='));
     let bare = rest.split_once(['?', '#']).map(|(_, query)| query.split(['&', '#']));
     let bare = bare.into_iter().flatten().filter(|part| !part.contains('='));
@@ -174,7 +174,7 @@ fn values(rest: &str) -> impl Iterator<Item = String> + '_ {
 }
 
 /// Replaces a secret in a text: everywhere if it is long, otherwise only as a whole word.
-fn without(text: &str, secret: &str) -> String {
+fn replace_secret(text: &str, secret: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(at) = rest.find(secret) {
@@ -183,7 +183,7 @@ fn without(text: &str, secret: &str) -> String {
         let before_joins = joins(before.chars().next_back().or_else(|| shown.chars().next_back()));
         let is_word = !before_joins && !joins(after.chars().next());
         shown.push_str(before);
-        shown.push_str(if is_word || secret.len() >= LONG { HIDDEN } else { secret });
+        shown.push_str(if is_word || secret.len() >= LONG_SECRET { HIDDEN } else { secret });
         rest = after;
     }
     shown + rest
@@ -237,22 +237,22 @@ mod tests {
             ("rtsp://me:secret/10.0.0.7/live", "rtsp://***"),
             ("rtsp://me:secret@10.0.0.7/live?x=a@b", "rtsp://***"),
         ] {
-            assert_eq!(shown_url(url), shown);
+            assert_eq!(url_without_secrets(url), shown);
             let text = format!("before `{url}' and {url}: after");
-            assert!(!redacted(&text).contains("secret"), "{}", redacted(&text));
-            assert!(!shown_input(Path::new(url)).contains("secret"));
+            assert!(!text_without_secrets(&text).contains("secret"), "{}", text_without_secrets(&text));
+            assert!(!input_without_secrets(Path::new(url)).contains("secret"));
         }
         for text in ["no address", "a:b", "://", "a ://b", "scene:street"] {
-            assert_eq!(redacted(text), text);
-            assert_eq!(shown_input(Path::new(text)), text);
+            assert_eq!(text_without_secrets(text), text);
+            assert_eq!(input_without_secrets(Path::new(text)), text);
         }
-        assert_eq!(shown_input(Path::new("rtsp:/me:secret@camera")), "rtsp:***");
+        assert_eq!(input_without_secrets(Path::new("rtsp:/me:secret@camera")), "rtsp:***");
     }
 
     #[test]
     fn what_ffmpeg_repeats_has_no_secrets() {
         let url = "RTSP://m%65:s%65cret@camera/live?token=ab&key=longer";
-        let address = Address::of_camera(Path::new(url)).unwrap();
+        let address = CameraAddress::from_input(Path::new(url)).unwrap();
         assert!(address.url().starts_with("rtsp://m%65"));
         for (said, shown) in [
             ("s%65cret or secret is wrong", "*** or *** is wrong"),
@@ -264,6 +264,6 @@ mod tests {
             assert!(address.redact(said).starts_with(shown), "{}", address.redact(said));
         }
         assert!(!format!("{address:?}").contains("ecret"));
-        assert!(Address::of_camera(Path::new("http://camera")).is_none());
+        assert!(CameraAddress::from_input(Path::new("http://camera")).is_none());
     }
 }

@@ -8,31 +8,31 @@ use foveate_frame::Frame;
 
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SkippedInput, entries, entry_kind, expand, in_clip, in_set, is_pattern, is_special,
-    same_number, sentences, skipped_by_pattern,
+    EntryKind, SkippedInput, entries, entry_kind, expand, collect_skipped_of_clip, collect_skipped_of_set, is_pattern, is_non_file_source,
+    find_same_number, skip_sentences, skipped_by_pattern,
 };
 use crate::plan::tree;
 use crate::sets::{cifar, idx};
-use crate::source::files::ImageFile;
-use crate::{ImagesAs, InputOptions, picture};
+use crate::source::file_feeds::ImageFile;
+use crate::{ImageRelation, InputOptions, picture};
 
 /// Returns warnings about the inputs, one sentence each. Inputs that [`open`](crate::open) refuses
 /// give no warning.
 #[must_use]
-pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
+pub fn input_warnings<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let mut said = Vec::new();
-    for input in inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input)) {
-        said.extend(sentences(input, &skipped_of(input, options.images)));
+    for input in inputs.iter().map(AsRef::as_ref).filter(|input| !is_non_file_source(input)) {
+        said.extend(skip_sentences(input, &skipped_of(input, options.images)));
         let files = expand(input, options.images).unwrap_or_default();
-        said.extend(twice(&files, options.images));
+        said.extend(duplicate_number_warning(&files, options.images));
         if options.labels.is_none() {
             let others = files.iter().filter(|file| !is_image_name(&file.path));
             let bare = others.filter(|file| idx::lacks_labels(&file.path));
-            said.extend(bare.map(|file| no_labels(&file.path)));
+            said.extend(bare.map(|file| missing_labels_warning(&file.path)));
         }
         // The first file stands for the others.
         if let Some(file) = files.first() {
-            said.extend(other_shape(&file.path, options.images));
+            said.extend(sheet_warning(&file.path, options.images));
         }
     }
     said
@@ -41,20 +41,20 @@ pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<Strin
 /// Returns the entries of folders and patterns among the inputs that are not read although the user
 /// may have meant them.
 #[must_use]
-pub fn skipped<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<SkippedInput> {
-    let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
+pub fn skipped_inputs<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<SkippedInput> {
+    let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_non_file_source(input));
     inputs.flat_map(|input| skipped_of(input, options.images)).collect()
 }
 
 /// Returns the entries of an input that are not read. An input that cannot be read at all has none.
-fn skipped_of(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
+fn skipped_of(input: &Path, images: ImageRelation) -> Vec<SkippedInput> {
     let mut found = Vec::new();
     if input.is_dir() {
         let listed = entries(input).unwrap_or_default();
         let has_images = listed.iter().any(|path| entry_kind(path) == EntryKind::Image);
         match images {
-            ImagesAs::Set => in_set(&listed, 0, &mut found),
-            _ if has_images => in_clip(&listed, &mut found),
+            ImageRelation::Set => collect_skipped_of_set(&listed, 0, &mut found),
+            _ if has_images => collect_skipped_of_clip(&listed, &mut found),
             _ => found = tree(input).map(|tree| tree.skipped).unwrap_or_default(),
         }
     } else if !input.exists()
@@ -69,14 +69,14 @@ fn skipped_of(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
 /// one example.
 #[must_use]
 pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
-    let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
-    inputs.flat_map(|input| sentences(input, &skipped_of(input, options.images))).collect()
+    let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_non_file_source(input));
+    inputs.flat_map(|input| skip_sentences(input, &skipped_of(input, options.images))).collect()
 }
 
 /// Warns of two frames of a clip that have the same number.
-fn twice(files: &[ImageFile], images: ImagesAs) -> Option<String> {
+fn duplicate_number_warning(files: &[ImageFile], images: ImageRelation) -> Option<String> {
     let paths: Vec<&Path> = files.iter().map(|file| file.path.as_path()).collect();
-    let (one, other) = same_number(&paths).filter(|_| images == ImagesAs::Clip)?;
+    let (one, other) = find_same_number(&paths).filter(|_| images == ImageRelation::Clip)?;
     Some(format!(
         "`{}` and `{}` have the same number, and both are read, one after the other; remove one if they are the \
          same frame",
@@ -85,7 +85,7 @@ fn twice(files: &[ImageFile], images: ImagesAs) -> Option<String> {
     ))
 }
 
-fn no_labels(path: &Path) -> String {
+fn missing_labels_warning(path: &Path) -> String {
     let expected = idx::labels_name(path).map_or_else(String::new, |name| format!(" ({name})"));
     format!(
         "`{}` has no file of labels beside it{expected}, so its images have no labels; name one with --labels",
@@ -95,16 +95,16 @@ fn no_labels(path: &Path) -> String {
 
 /// Warns of a CIFAR sheet that is read as a photograph, and of a photograph that is read as a
 /// sheet.
-fn other_shape(path: &Path, images: ImagesAs) -> Option<String> {
+fn sheet_warning(path: &Path, images: ImageRelation) -> Option<String> {
     let wide = is_image_name(path) && picture::width(path) == Some(cifar::WIDTH);
     let sheet = wide && looks_like_sheet(&picture::read(path, 8).ok()?);
     let shown = path.display();
     match images {
-        ImagesAs::Clip | ImagesAs::Set if sheet => Some(format!(
+        ImageRelation::Clip | ImageRelation::Set if sheet => Some(format!(
             "`{shown}` looks like a CIFAR sheet, one image of 32x32 pixels per row, but is read as one \
              picture; --images cifar-sheet reads its rows"
         )),
-        ImagesAs::CifarSheet if wide && !sheet => Some(format!(
+        ImageRelation::CifarSheet if wide && !sheet => Some(format!(
             "`{shown}` looks like a photograph, but every row of it is read as an image of 32x32 pixels; \
              leave --images cifar-sheet out if it is one picture"
         )),

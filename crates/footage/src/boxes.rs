@@ -6,21 +6,21 @@
 //! transforms boxes into a frame that is cropped and scaled, and a [`Grid`] finds the regions that
 //! belong to a box. This module reads no pixels.
 
-mod assign;
+mod assignment;
 mod error;
 mod file;
 mod format;
 mod grid;
-mod labelled;
+mod labelled_box;
 mod limits;
-mod name;
+mod image_name;
 mod view;
 
-pub use assign::{Clip, assign};
+pub use assignment::{ClipToLabel, assign_boxes};
 pub use error::BoxError;
-pub use file::{Boxes, Found, Place};
-pub use format::Format;
-pub use grid::Grid;
-pub use labelled::Labelled;
+pub use file::{BoxFile, FrameBoxes, FrameKey};
+pub use format::BoxFormat;
+pub use grid::RegionGrid;
+pub use labelled_box::LabelledBox;
 pub use limits::MAX_BOXES;
-pub use view::View;
+pub use view::BoxView;

@@ -10,7 +10,7 @@ use foveate_toolchain::ToolError;
 use thiserror::Error;
 
 use crate::extension::is_video_name;
-use crate::limits::{Crop, MAX_FILE_GIB, MAX_SIDE};
+use crate::limits::{CropRect, MAX_FILE_GIB, MAX_SIDE};
 
 /// The image types that can be read, for messages.
 const TYPES: &str = "PNG, JPEG, BMP and PNM (PGM, PPM, PBM, PAM)";
@@ -161,11 +161,11 @@ pub enum FootageError {
     /// The part to crop does not lie inside the frame.
     #[error(
         "--crop {}x{}+{}+{} does not lie inside the frame of {}x{} pixels",
-        crop.size.0, crop.size.1, crop.at.0, crop.at.1, size.0, size.1
+        crop.size.0, crop.size.1, crop.origin.0, crop.origin.1, size.0, size.1
     )]
     Crop {
         /// The part as given.
-        crop: Crop,
+        crop: CropRect,
         /// The width and height of the frame.
         size: (u32, u32),
     },

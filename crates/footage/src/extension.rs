@@ -12,7 +12,7 @@ const VIDEO_EXTENSIONS: [&str; 17] = [
     "ogv", "3gp", "gif", "y4m",
 ];
 /// The types of images that are not read, with their extensions.
-const OTHER_IMAGES: [(&str, &[&str]); 14] = [
+const UNREAD_IMAGE_TYPES: [(&str, &[&str]); 14] = [
     ("WebP", &["webp"]),
     ("TIFF", &["tif", "tiff"]),
     ("HEIF", &["heic", "heif", "hif"]),
@@ -29,13 +29,13 @@ const OTHER_IMAGES: [(&str, &[&str]); 14] = [
     ("animated PNG", &["apng"]),
 ];
 /// Videos with these extensions are read if they are named, but not searched in folders.
-const OTHER_VIDEOS: [&str; 27] = [
+const OTHER_VIDEO_EXTENSIONS: [&str; 27] = [
     "264", "265", "h264", "h265", "hevc", "avc", "ivf", "nut", "mxf", "vob", "asf", "rm", "rmvb",
     "dv", "divx", "f4v", "qt", "m1v", "m2v", "mpv", "3g2", "ogm", "mjpg", "mjpeg", "mj2", "yuv",
     "av1",
 ];
 /// The extensions of text and tables, which are often beside images.
-const NOTES: [&str; 12] =
+const NOTE_EXTENSIONS: [&str; 12] =
     ["txt", "csv", "tsv", "json", "xml", "yaml", "yml", "toml", "md", "log", "ini", "html"];
 
 fn extension_in(path: &Path, known: &[&str]) -> bool {
@@ -52,15 +52,15 @@ pub(crate) fn is_video_name(path: &Path) -> bool {
 }
 
 /// Returns the name of an image type that is not read.
-pub(crate) fn other_image(path: &Path) -> Option<&'static str> {
-    let found = OTHER_IMAGES.iter().find(|(_, extensions)| extension_in(path, extensions));
+pub(crate) fn unread_image_type_by_name(path: &Path) -> Option<&'static str> {
+    let found = UNREAD_IMAGE_TYPES.iter().find(|(_, extensions)| extension_in(path, extensions));
     found.map(|(name, _)| *name)
 }
 
 pub(crate) fn is_other_video(path: &Path) -> bool {
-    extension_in(path, &OTHER_VIDEOS)
+    extension_in(path, &OTHER_VIDEO_EXTENSIONS)
 }
 
 pub(crate) fn is_note(path: &Path) -> bool {
-    extension_in(path, &NOTES)
+    extension_in(path, &NOTE_EXTENSIONS)
 }

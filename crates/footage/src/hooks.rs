@@ -5,7 +5,7 @@ use foveate_toolchain::Interrupt;
 
 /// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
+pub struct RunProgress {
     /// The number of frames that are done.
     pub done: u64,
     /// The number of all frames, if it is known.
@@ -13,12 +13,12 @@ pub struct Progress {
 }
 
 /// The callbacks of a run, called once per frame.
-pub trait Hooks {
+pub trait RunHooks {
     /// Reports that another frame is done.
-    fn progress(&mut self, progress: Progress);
+    fn progress(&mut self, progress: RunProgress);
 
     /// Returns true if the run is to stop. The result is then incomplete, and is marked so.
-    fn cancelled(&self) -> bool;
+    fn is_cancelled(&self) -> bool;
 
     /// Returns the request to stop in a form that also ends waits. Hooks without one cannot end a
     /// wait.
@@ -29,12 +29,12 @@ pub trait Hooks {
 
 /// Hooks that report nothing and never stop.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub struct SilentHooks;
 
-impl Hooks for Silent {
-    fn progress(&mut self, _progress: Progress) {}
+impl RunHooks for SilentHooks {
+    fn progress(&mut self, _progress: RunProgress) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         false
     }
 }

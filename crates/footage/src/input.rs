@@ -4,39 +4,39 @@
 //! Inputs keep the order in which they are given; the files of one folder or pattern are in natural
 //! order. The content of a file decides its kind. Its extension decides if the content does not.
 
-mod content;
+mod content_kind;
 mod entry;
-mod find;
+mod expansion;
 mod pattern;
-mod reason;
-mod skipped;
-mod sniff;
+mod skip_reason;
+mod skipped_entries;
+mod file_kind;
 
-pub(crate) use content::other_image;
+pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
-pub(crate) use find::expand;
+pub(crate) use expansion::expand;
 pub(crate) use pattern::{is_pattern, skipped_by_pattern};
-pub use reason::{SkipReason, SkippedInput};
-pub(crate) use reason::{same_number, sentences};
-pub(crate) use skipped::{below, in_clip, in_set, unreadable};
+pub use skip_reason::{SkipReason, SkippedInput};
+pub(crate) use skip_reason::{find_same_number, skip_sentences};
+pub(crate) use skipped_entries::{skipped_folder, collect_skipped_of_clip, collect_skipped_of_set, unreadable_entry};
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use foveate_camera::CameraConfig;
-use foveate_scenes::{Scene, SceneSize};
+use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::{InterruptibleReader, standard_input};
 
-use crate::address::{Address, shown_input};
-use crate::options::{ImagesAs, InputOptions};
-use crate::sets::cifar::{Batch, Sheet};
-use crate::sets::idx::Idx;
+use crate::address::{CameraAddress, input_without_secrets};
+use crate::options::{ImageRelation, InputOptions};
+use crate::sets::cifar::{CifarBatch, CifarSheet};
+use crate::sets::idx::IdxImages;
 use crate::sets::{open_pipe, open_unpacked};
-use crate::source::feed::{Adjustment, Feed, Input};
-use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
-use crate::video::{Medium, Video};
-use crate::y4m::Y4m;
-use crate::{FootageError, Kind, Source, picture};
+use crate::source::feed::{FrameAdjustment, FrameFeed, AdjustedSource};
+use crate::source::file_feeds::{ImageFile, ImageFiles, SceneFeed};
+use crate::video::{VideoMedium, VideoFeed};
+use crate::y4m::Y4mFeed;
+use crate::{FootageError, SourceKind, FrameSource, picture};
 
 /// The side of a scene in pixels if the configuration gives no size.
 const SCENE_SIDE: u32 = 224;
@@ -51,15 +51,15 @@ pub fn open<P: AsRef<Path>>(
     inputs: &[P],
     config: &CameraConfig,
     options: &InputOptions,
-) -> Result<Box<dyn Source>, FootageError> {
+) -> Result<Box<dyn FrameSource>, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
-    let feed = feed(&inputs, config, options)?;
-    let names = inputs.iter().map(|input| shown_input(input)).collect();
-    Ok(Box::new(Input::new(names, feed, Adjustment::of(options))?))
+    let feed = open_feed(&inputs, config, options)?;
+    let names = inputs.iter().map(|input| input_without_secrets(input)).collect();
+    Ok(Box::new(AdjustedSource::new(names, feed, FrameAdjustment::from_options(options))?))
 }
 
 /// Returns the part of an input that follows a prefix, such as the name of a scene.
-fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
+fn strip_prefix_of<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
     input.to_str()?.strip_prefix(prefix)
 }
 
@@ -75,8 +75,8 @@ fn is_camera_device(input: &Path) -> bool {
 }
 
 /// Returns true if an input is a source of its own and not a regular file.
-pub(crate) fn is_special(input: &Path) -> bool {
-    is_read_once(input) || after("scene:", input).is_some()
+pub(crate) fn is_non_file_source(input: &Path) -> bool {
+    is_read_once(input) || strip_prefix_of("scene:", input).is_some()
 }
 
 /// Returns true if an input cannot be read a second time: standard input, a pipe, a camera.
@@ -89,76 +89,76 @@ pub fn is_read_once(input: &Path) -> bool {
 /// frames at its own rate.
 #[must_use]
 pub fn is_camera(input: &Path) -> bool {
-    after("v4l2:", input).is_some() || Address::of_camera(input).is_some()
+    strip_prefix_of("v4l2:", input).is_some() || CameraAddress::from_input(input).is_some()
 }
 
-fn feed(
+fn open_feed(
     inputs: &[&Path],
     config: &CameraConfig,
     options: &InputOptions,
-) -> Result<Box<dyn Feed>, FootageError> {
-    if let (Some(special), 2..) = (inputs.iter().find(|input| is_special(input)), inputs.len()) {
-        return Err(FootageError::NotAlone { input: shown_input(special) });
+) -> Result<Box<dyn FrameFeed>, FootageError> {
+    if let (Some(special), 2..) = (inputs.iter().find(|input| is_non_file_source(input)), inputs.len()) {
+        return Err(FootageError::NotAlone { input: input_without_secrets(special) });
     }
     // A depth out of range is refused here, so that the message names its key.
     let bits = config.validate()?.pixel_bits();
     let (rate, interrupt) = (options.frame_rate, &options.interrupt);
     if let [input] = inputs {
-        if let (Some(labels), true) = (&options.labels, is_special(input)) {
-            return Err(no_images_for(labels));
+        if let (Some(labels), true) = (&options.labels, is_non_file_source(input)) {
+            return Err(labels_without_images(labels));
         }
-        if let Some(name) = after("scene:", input) {
-            return scene(name, config, options);
+        if let Some(name) = strip_prefix_of("scene:", input) {
+            return open_scene(name, config, options);
         }
-        if let Some(device) = after("v4l2:", input) {
-            let camera = Medium::Camera(device.into());
-            return Ok(Box::new(Video::open(camera, bits, rate, 0, interrupt)?));
+        if let Some(device) = strip_prefix_of("v4l2:", input) {
+            let camera = VideoMedium::Camera(device.into());
+            return Ok(Box::new(VideoFeed::open(camera, bits, rate, 0, interrupt)?));
         }
-        if let Some(address) = Address::of_camera(input) {
-            let camera = Medium::Network(address);
-            return Ok(Box::new(Video::open(camera, bits, rate, 0, interrupt)?));
+        if let Some(address) = CameraAddress::from_input(input) {
+            let camera = VideoMedium::Network(address);
+            return Ok(Box::new(VideoFeed::open(camera, bits, rate, 0, interrupt)?));
         }
         if *input == Path::new("-") || is_pipe(input) {
-            return Ok(Box::new(stream(input, bits, options)?));
+            return Ok(Box::new(open_stream(input, bits, options)?));
         }
     }
     let mut images = Vec::new();
     let mut clips = Vec::new();
     for input in inputs {
         let mut paths = expand(input, options.images)?;
-        let (mut pictures, mut others) = find::split(&mut paths)?;
+        let (mut pictures, mut others) = expansion::split_images(&mut paths)?;
         images.append(&mut pictures);
         clips.append(&mut others);
     }
     // An animated PNG on its own is a clip. Among other images only one of its frames would be
     // read.
-    if let ([image], ImagesAs::Clip) = (images.as_slice(), options.images)
+    if let ([image], ImageRelation::Clip) = (images.as_slice(), options.images)
         && clips.is_empty()
         && picture::is_animated(&image.path)
     {
-        clips.push((images.remove(0).path, sniff::FileKind::Video));
+        clips.push((images.remove(0).path, file_kind::FileKind::Video));
     }
-    let idx = |(_, kind): &(PathBuf, sniff::FileKind)| *kind == sniff::FileKind::Idx;
+    let idx = |(_, kind): &(PathBuf, file_kind::FileKind)| *kind == file_kind::FileKind::Idx;
     if let (Some(labels), false) = (&options.labels, clips.iter().any(idx)) {
-        return Err(no_images_for(labels));
+        return Err(labels_without_images(labels));
     }
     match (images.is_empty(), clips.as_slice()) {
         (true, []) => Err(FootageError::NoInput),
-        (true, [(path, kind)]) => file(path, *kind, bits, options),
-        (false, []) => pictures(images, bits, options),
+        (true, [(path, kind)]) => open_file_feed(path, *kind, bits, options),
+        (false, []) => open_images(images, bits, options),
         (_, [(path, _), ..]) => Err(FootageError::NotAlone { input: path.display().to_string() }),
     }
 }
 
 /// Opens a stream of raw frames that can be read once, from standard input or a pipe.
-fn stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4m, FootageError> {
+fn open_stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4mFeed, FootageError> {
     let (rate, interrupt) = (options.frame_rate, &options.interrupt);
     if is_camera_device(input) {
         return Err(FootageError::Device { path: input.to_owned() });
     }
     if input != Path::new("-") {
         let pipe = open_pipe(input, interrupt)?;
-        return Y4m::new(input.display().to_string(), pipe, bits, rate, interrupt);
+        return Y4mFeed::new(input.display().to_string(), pipe, bits, rate, interrupt);
     }
     let name = "standard input".to_owned();
     let stdin = standard_input().map_err(|error| FootageError::Unreadable {
@@ -166,25 +166,25 @@ fn stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4m, Footag
         problem: error.to_string(),
     })?;
     let stdin = Box::new(BufReader::new(InterruptibleReader::new(stdin, interrupt)));
-    Y4m::new(name, stdin, bits, rate, interrupt)
+    Y4mFeed::new(name, stdin, bits, rate, interrupt)
 }
 
-fn no_images_for(labels: &Path) -> FootageError {
+fn labels_without_images(labels: &Path) -> FootageError {
     let shown = labels.display();
     let problem = format!("`{shown}` belongs to an IDX file of images, but no input is one");
     FootageError::Option { option: "--labels", problem }
 }
 
-fn pictures(
+fn open_images(
     files: Vec<ImageFile>,
     bits: u32,
     options: &InputOptions,
-) -> Result<Box<dyn Feed>, FootageError> {
+) -> Result<Box<dyn FrameFeed>, FootageError> {
     let kind = match (options.images, files.as_slice()) {
-        (ImagesAs::Clip, _) => Kind::Clip,
-        (ImagesAs::Set, _) => Kind::Set,
-        (ImagesAs::CifarSheet, [sheet]) => return Ok(Box::new(Sheet::open(&sheet.path, bits)?)),
-        (ImagesAs::CifarSheet, _) => {
+        (ImageRelation::Clip, _) => SourceKind::Clip,
+        (ImageRelation::Set, _) => SourceKind::Set,
+        (ImageRelation::CifarSheet, [sheet]) => return Ok(Box::new(CifarSheet::open(&sheet.path, bits)?)),
+        (ImageRelation::CifarSheet, _) => {
             let sheets =
                 format!("{} files are given; simulate one CIFAR sheet at a time", files.len());
             return Err(FootageError::Option { option: "--images", problem: sheets });
@@ -193,37 +193,37 @@ fn pictures(
     Ok(Box::new(ImageFiles::new(files, bits, options.frame_rate, kind)))
 }
 
-fn file(
+fn open_file_feed(
     path: &Path,
-    kind: sniff::FileKind,
+    kind: file_kind::FileKind,
     bits: u32,
     options: &InputOptions,
-) -> Result<Box<dyn Feed>, FootageError> {
+) -> Result<Box<dyn FrameFeed>, FootageError> {
     Ok(match kind {
-        sniff::FileKind::Idx => Box::new(Idx::open(path, options.labels.as_deref(), bits)?),
-        sniff::FileKind::CifarBatch => Box::new(Batch::open(path, bits)?),
-        sniff::FileKind::Y4m => {
+        file_kind::FileKind::Idx => Box::new(IdxImages::open(path, options.labels.as_deref(), bits)?),
+        file_kind::FileKind::CifarBatch => Box::new(CifarBatch::open(path, bits)?),
+        file_kind::FileKind::Y4m => {
             let name = path.display().to_string();
             let (file, rate) = (open_unpacked(path)?, options.frame_rate);
-            Box::new(Y4m::new(name, file, bits, rate, &options.interrupt)?)
+            Box::new(Y4mFeed::new(name, file, bits, rate, &options.interrupt)?)
         }
-        sniff::FileKind::Video => {
+        file_kind::FileKind::Video => {
             let sought = options.selection.start_us.filter(|_| !options.numbered);
             let start = sought.unwrap_or(0);
-            let medium = Medium::File(path.to_owned());
+            let medium = VideoMedium::File(path.to_owned());
             let (rate, interrupt) = (options.frame_rate, &options.interrupt);
-            Box::new(Video::open(medium, bits, rate, start, interrupt)?)
+            Box::new(VideoFeed::open(medium, bits, rate, start, interrupt)?)
         }
     })
 }
 
-fn scene(
+fn open_scene(
     name: &str,
     config: &CameraConfig,
     options: &InputOptions,
-) -> Result<Box<dyn Feed>, FootageError> {
+) -> Result<Box<dyn FrameFeed>, FootageError> {
     let scene = Scene::find(name)?;
-    let size = SceneSize {
+    let size = SceneParameters {
         width: config.frame.width.unwrap_or(SCENE_SIDE),
         height: config.frame.height.unwrap_or(SCENE_SIDE),
         bits: config.frame.pixel_bits,

@@ -9,9 +9,9 @@ pub(crate) const MAX_FILE_GIB: u64 = 1;
 
 /// A part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crop {
+pub struct CropRect {
     /// The width and height of the part.
     pub size: (u32, u32),
     /// The column and row of the part's upper left pixel.
-    pub at: (u32, u32),
+    pub origin: (u32, u32),
 }

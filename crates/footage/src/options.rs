@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use foveate_toolchain::Interrupt;
 
 use crate::FrameRate;
-use crate::limits::Crop;
-use crate::source::select::Selection;
+use crate::limits::CropRect;
+use crate::source::selection::FrameSelection;
 
 /// The relation between image files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImagesAs {
+pub enum ImageRelation {
     /// The files are frames of one clip, in order.
     #[default]
     Clip,
@@ -30,13 +30,13 @@ pub struct InputOptions {
     /// The frames per second of inputs without times: images, scenes, streams without a rate.
     pub frame_rate: FrameRate,
     /// The selection of frames of a clip.
-    pub selection: Selection,
+    pub selection: FrameSelection,
     /// The part of every frame to take.
-    pub crop: Option<Crop>,
+    pub crop: Option<CropRect>,
     /// The width and height to scale to, after cropping.
     pub resize: Option<(u32, u32)>,
     /// The relation between image files.
-    pub images: ImagesAs,
+    pub images: ImageRelation,
     /// The labels of an IDX file, if they are not beside it under their usual name.
     pub labels: Option<PathBuf>,
     /// The number of every frame must be known, so a late start is reached by decoding and not by

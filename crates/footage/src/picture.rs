@@ -10,7 +10,7 @@
 //!   with grey. Each format has its own check for errors that its decoder ignores.
 
 mod bmp;
-mod fault;
+mod damage;
 mod jpeg;
 mod png;
 mod pnm;
@@ -23,9 +23,9 @@ use foveate_frame::Frame;
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
-use self::fault::PictureFault;
+use self::damage::PictureFault;
 use crate::FootageError;
-use crate::input::other_image;
+use crate::input::unread_image_type_by_content;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 use foveate_frame::{convert_depth, luma};
 
@@ -43,7 +43,7 @@ pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
 /// # Errors
 /// Fails if the image is too large, truncated or damaged, or is not a supported image.
 pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
-    let format = supported(bytes).ok_or_else(|| match other_image(bytes) {
+    let format = supported_format(bytes).ok_or_else(|| match unread_image_type_by_content(bytes) {
         Some(name) => FootageError::ImageType { path: path.to_owned(), name },
         None => FootageError::UnsupportedType { path: path.to_owned() },
     })?;
@@ -67,7 +67,7 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
     limits.max_alloc = Some(MAX_FILE_GIB << 30);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
-    let image = reader.decode().map_err(|error| refusal(path, &error))?;
+    let image = reader.decode().map_err(|error| decoder_error(path, &error))?;
     // The decoder has read these headers within the limits.
     match format {
         ImageFormat::Pnm => pnm::check(bytes).map_err(refused)?,
@@ -108,7 +108,7 @@ fn open_file(path: &Path) -> std::io::Result<File> {
 pub(crate) fn is_image(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = open_file(path).map(|file| file.take(16).read_to_end(&mut start));
-    matches!(read, Ok(Ok(_))) && supported(&start).is_some()
+    matches!(read, Ok(Ok(_))) && supported_format(&start).is_some()
 }
 
 /// Returns the width in the header of an image.
@@ -147,13 +147,13 @@ fn has_animation(bytes: &[u8]) -> bool {
     false
 }
 
-fn supported(bytes: &[u8]) -> Option<ImageFormat> {
+fn supported_format(bytes: &[u8]) -> Option<ImageFormat> {
     let format = image::guess_format(bytes).ok()?;
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Bmp, ImageFormat::Pnm];
     known.contains(&format).then_some(format)
 }
 
-fn refusal(path: &Path, error: &ImageError) -> FootageError {
+fn decoder_error(path: &Path, error: &ImageError) -> FootageError {
     let path = path.to_owned();
     let problem = one_line(&error.to_string());
     match error {

@@ -10,24 +10,24 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use crate::address::shown_input;
+use crate::address::input_without_secrets;
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SkipReason, SkippedInput, below, entries, entry_kind, in_clip, is_special,
-    unreadable,
+    EntryKind, SkipReason, SkippedInput, skipped_folder, entries, entry_kind, collect_skipped_of_clip, is_non_file_source,
+    unreadable_entry,
 };
-use crate::{FootageError, ImagesAs, InputOptions, picture};
+use crate::{FootageError, ImageRelation, InputOptions, picture};
 
 /// The depth to which folders are searched.
 const DEPTH: usize = 8;
 
 /// A clip of a batch.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Clip {
+pub struct BatchClip {
     /// The inputs to open.
     pub inputs: Vec<PathBuf>,
     /// The folder of the clip's output, relative to the output of the batch.
-    pub place: PathBuf,
+    pub output_folder: PathBuf,
     /// The class of the clip in a labelled tree.
     pub label: Option<String>,
 }
@@ -38,7 +38,7 @@ pub enum ClipPlan {
     /// The inputs are one clip or set.
     One,
     /// The inputs are several clips.
-    Batch(Vec<Clip>),
+    Batch(Vec<BatchClip>),
 }
 
 /// Decides between one clip and a batch.
@@ -52,7 +52,7 @@ pub fn plan<P: AsRef<Path>>(
 ) -> Result<ClipPlan, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     let is_tree = |path: &Path| -> Result<bool, FootageError> {
-        let whole = options.images == ImagesAs::Set || !path.is_dir();
+        let whole = options.images == ImageRelation::Set || !path.is_dir();
         Ok(!whole && !holds_images(&entries(path)?))
     };
     match inputs.as_slice() {
@@ -60,37 +60,37 @@ pub fn plan<P: AsRef<Path>>(
         several if several.iter().all(|path| belongs_to_a_clip(path)) => return Ok(ClipPlan::One),
         _ => {}
     }
-    let mut files = inputs.iter().filter(|path| !is_special(path));
-    if let Some((path, name)) = files.find_map(|path| Some((path, other_type(path)?))) {
+    let mut files = inputs.iter().filter(|path| !is_non_file_source(path));
+    if let Some((path, name)) = files.find_map(|path| Some((path, unread_image_type_of_entry(path)?))) {
         return Err(FootageError::ImageType { path: path.to_path_buf(), name });
     }
     let mut clips = Vec::new();
     let mut skipped = Vec::new();
     for path in &inputs {
-        if inputs.len() > 1 && (is_special(path) || belongs_to_a_clip(path)) {
-            return Err(FootageError::NotAlone { input: shown_input(path) });
+        if inputs.len() > 1 && (is_non_file_source(path) || belongs_to_a_clip(path)) {
+            return Err(FootageError::NotAlone { input: input_without_secrets(path) });
         }
         let place = if inputs.len() > 1 { name_of(path) } else { PathBuf::new() };
         if is_tree(path)? {
             let tree = tree(path)?;
             clips.extend(
-                tree.clips.into_iter().map(|clip| Clip { place: place.join(clip.place), ..clip }),
+                tree.clips.into_iter().map(|clip| BatchClip { output_folder: place.join(clip.output_folder), ..clip }),
             );
             skipped.extend(tree.skipped);
         } else {
-            clips.push(Clip { inputs: vec![path.to_path_buf()], place, label: None });
+            clips.push(BatchClip { inputs: vec![path.to_path_buf()], output_folder: place, label: None });
         }
     }
     if clips.is_empty() {
         let path = inputs.first().expect("without inputs there is one clip").to_path_buf();
-        return Err(no_clip(path, skipped));
+        return Err(no_clip_error(path, skipped));
     }
-    set_apart(&mut clips);
+    number_duplicates(&mut clips);
     Ok(ClipPlan::Batch(clips))
 }
 
 /// Returns the error for folders without a clip.
-fn no_clip(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
+fn no_clip_error(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
     let other = skipped.into_iter().find_map(|one| match one.reason {
         SkipReason::ImageType { name } => Some(FootageError::ImageType { path: one.path, name }),
         _ => None,
@@ -99,7 +99,7 @@ fn no_clip(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
 }
 
 /// Returns the name of an image type that is not read.
-fn other_type(path: &Path) -> Option<&'static str> {
+fn unread_image_type_of_entry(path: &Path) -> Option<&'static str> {
     match entry_kind(path) {
         EntryKind::Skipped(Some(SkipReason::ImageType { name })) => Some(name),
         _ => None,
@@ -113,7 +113,7 @@ fn holds_images(entries: &[PathBuf]) -> bool {
 /// Returns true for an image file, a pattern, and a path that does not exist. Opening reports the
 /// latter.
 fn belongs_to_a_clip(path: &Path) -> bool {
-    !is_special(path)
+    !is_non_file_source(path)
         && !path.is_dir()
         && (!path.exists() || is_image_name(path) || picture::is_image(path))
 }
@@ -121,8 +121,8 @@ fn belongs_to_a_clip(path: &Path) -> bool {
 /// The clips of a folder without images, and its entries that are not read although the user may
 /// have meant them.
 #[derive(Default)]
-pub(crate) struct Tree {
-    clips: Vec<Clip>,
+pub(crate) struct ClipTree {
+    clips: Vec<BatchClip>,
     pub(crate) skipped: Vec<SkippedInput>,
 }
 
@@ -136,20 +136,20 @@ struct TreeFolder<'a> {
 }
 
 /// Searches a folder without images for clips.
-pub(crate) fn tree(folder: &Path) -> Result<Tree, FootageError> {
-    let mut tree = Tree::default();
-    let above = [real(folder)];
+pub(crate) fn tree(folder: &Path) -> Result<ClipTree, FootageError> {
+    let mut tree = ClipTree::default();
+    let above = [resolved(folder)];
     let root = TreeFolder { place: Path::new(""), label: None, above: &above };
     tree.search(&root, &entries(folder)?);
     Ok(tree)
 }
 
 /// Resolves the links in a path, so that a loop of links can be found.
-fn real(folder: &Path) -> PathBuf {
+fn resolved(folder: &Path) -> PathBuf {
     folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
-impl Tree {
+impl ClipTree {
     fn search(&mut self, branch: &TreeFolder<'_>, listed: &[PathBuf]) {
         for entry in listed {
             match entry_kind(entry) {
@@ -169,26 +169,26 @@ impl Tree {
     /// Searches a folder in a folder. It is a clip if it has images, otherwise a branch of the
     /// tree.
     fn enter(&mut self, branch: &TreeFolder<'_>, folder: &Path) {
-        let real = real(folder);
+        let real = resolved(folder);
         if branch.above.contains(&real) {
-            self.skipped.push(SkippedInput::new(folder, SkipReason::Loop));
+            self.skipped.push(SkippedInput::new(folder, SkipReason::LinkLoop));
             return;
         }
         if branch.above.len() > DEPTH {
-            self.skipped.extend(below(folder, SkipReason::TooDeep));
+            self.skipped.extend(skipped_folder(folder, SkipReason::TooDeep));
             return;
         }
         let listed = match entries(folder) {
             Ok(listed) => listed,
             Err(error) => {
-                self.skipped.push(unreadable(folder, &error));
+                self.skipped.push(unreadable_entry(folder, &error));
                 return;
             }
         };
         let place = branch.place.join(name_of(folder));
         if holds_images(&listed) {
             self.clips.push(branch.clip(folder, place));
-            in_clip(&listed, &mut self.skipped);
+            collect_skipped_of_clip(&listed, &mut self.skipped);
             return;
         }
         // The name of a folder of images is the name of a clip; a class is the name of a folder
@@ -201,8 +201,8 @@ impl Tree {
 }
 
 impl TreeFolder<'_> {
-    fn clip(&self, input: &Path, place: PathBuf) -> Clip {
-        Clip { inputs: vec![input.to_owned()], place, label: self.label.map(str::to_owned) }
+    fn clip(&self, input: &Path, place: PathBuf) -> BatchClip {
+        BatchClip { inputs: vec![input.to_owned()], output_folder: place, label: self.label.map(str::to_owned) }
     }
 }
 
@@ -214,17 +214,17 @@ fn name_of(path: &Path) -> PathBuf {
 }
 
 /// Adds a number to clips whose place is already used, by another clip or as the folder of others.
-fn set_apart(clips: &mut [Clip]) {
+fn number_duplicates(clips: &mut [BatchClip]) {
     let above =
-        |clip: &Clip| clip.place.ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>();
+        |clip: &BatchClip| clip.output_folder.ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>();
     let mut taken: HashSet<PathBuf> = clips.iter().flat_map(above).collect();
     for clip in clips {
-        let first = clip.place.clone();
+        let first = clip.output_folder.clone();
         let mut number = 2;
-        while !taken.insert(clip.place.clone()) {
+        while !taken.insert(clip.output_folder.clone()) {
             let mut name = first.clone().into_os_string();
             name.push(format!("-{number}"));
-            clip.place = name.into();
+            clip.output_folder = name.into();
             number += 1;
         }
     }

@@ -57,7 +57,7 @@ impl FrameRate {
     }
 
     /// Returns the number of whole frame times that have passed at a time.
-    pub(crate) fn passed(self, time_us: u64) -> u128 {
+    pub(crate) fn frames_passed(self, time_us: u64) -> u128 {
         u128::from(time_us) * u128::from(self.frames) / (u128::from(self.seconds) * 1_000_000)
     }
 

@@ -2,39 +2,39 @@
 //! The conversion of samples, as a pipe or a file has them, to a frame. 8-bit luma for a design of
 //! 8 bits is not copied; all other samples are converted in one pass.
 
-use foveate_frame::{FrameError, Raster, convert_depth, luma};
+use foveate_frame::{FrameError, ByteFrame, convert_depth, luma};
 
 /// The layout of the samples of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Layout {
+pub(crate) struct SampleLayout {
     pub(crate) width: u32,
     pub(crate) height: u32,
     /// The number of bits per sample. Above 8 bits, samples are words.
     pub(crate) depth: u32,
     /// A pixel has red, green and blue samples instead of one.
-    pub(crate) colour: bool,
+    pub(crate) is_colour: bool,
     /// Words have their high byte first.
-    pub(crate) big_endian: bool,
+    pub(crate) is_big_endian: bool,
 }
 
-impl Layout {
+impl SampleLayout {
     /// Makes the layout of one sample per pixel with the low byte first.
-    pub(crate) fn flat(width: u32, height: u32, depth: u32) -> Self {
-        Self { width, height, depth, colour: false, big_endian: false }
+    pub(crate) fn luma(width: u32, height: u32, depth: u32) -> Self {
+        Self { width, height, depth, is_colour: false, is_big_endian: false }
     }
 
     /// Returns the number of bytes of a frame.
     pub(crate) fn bytes(self) -> usize {
-        let channels = if self.colour { 3 } else { 1 };
+        let channels = if self.is_colour { 3 } else { 1 };
         self.width as usize * self.height as usize * channels * if self.depth > 8 { 2 } else { 1 }
     }
 
     /// Makes the frame with `bits` bits per pixel. Samples above the largest value of their depth
     /// are limited to it.
-    pub(crate) fn raster(self, bytes: Vec<u8>, bits: u32) -> Result<Raster, FrameError> {
-        let Self { width, height, depth, colour, big_endian } = self;
+    pub(crate) fn byte_frame(self, bytes: Vec<u8>, bits: u32) -> Result<ByteFrame, FrameError> {
+        let Self { width, height, depth, is_colour: colour, is_big_endian: big_endian } = self;
         if depth == bits && depth == 8 && !colour {
-            return Raster::from_bytes(width, height, bits, bytes);
+            return ByteFrame::from_bytes(width, height, bits, bytes);
         }
         let max = u16::MAX >> (16 - depth);
         let word = |b: &[u8]| match big_endian {
@@ -46,14 +46,14 @@ impl Layout {
         let pixels = match (colour, depth > 8) {
             (false, false) => flat.map(|value| convert_depth(value, depth, bits)).collect(),
             (false, true) => words.map(|value| convert_depth(value, depth, bits)).collect(),
-            (true, false) => mixed(flat, depth, bits),
-            (true, true) => mixed(words, depth, bits),
+            (true, false) => luma_of_colours(flat, depth, bits),
+            (true, true) => luma_of_colours(words, depth, bits),
         };
-        Raster::from_words(width, height, bits, pixels)
+        ByteFrame::from_words(width, height, bits, pixels)
     }
 }
 
-fn mixed(mut samples: impl Iterator<Item = u16>, depth: u32, bits: u32) -> Vec<u16> {
+fn luma_of_colours(mut samples: impl Iterator<Item = u16>, depth: u32, bits: u32) -> Vec<u16> {
     let mut pixels = Vec::with_capacity(samples.size_hint().0 / 3);
     while let (Some(red), Some(green), Some(blue)) =
         (samples.next(), samples.next(), samples.next())

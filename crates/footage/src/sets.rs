@@ -58,7 +58,7 @@ fn damaged(path: &Path, problem: impl Into<String>) -> FootageError {
     FootageError::DataSet { path: path.to_owned(), problem: problem.into() }
 }
 
-fn cut(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
+fn compressed_data_error(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
     |error| match error.kind() {
         io::ErrorKind::UnexpectedEof => damaged(path, "its compressed data have no end"),
         _ => damaged(path, format!("its compressed data are damaged ({error})")),
@@ -67,8 +67,8 @@ fn cut(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
 
 /// Reads to the end of a file, after which nothing may be left. A gzipped file has its checksum
 /// there.
-fn end(input: &mut dyn BufRead, path: &Path, after: &str) -> Result<(), FootageError> {
-    let left = io::copy(&mut input.take(u64::MAX), &mut io::sink()).map_err(cut(path))?;
+fn expect_end(input: &mut dyn BufRead, path: &Path, after: &str) -> Result<(), FootageError> {
+    let left = io::copy(&mut input.take(u64::MAX), &mut io::sink()).map_err(compressed_data_error(path))?;
     if left > 0 {
         return Err(damaged(
             path,

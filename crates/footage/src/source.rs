@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sources of frames, and frames with their names and times.
 
-pub(crate) mod ahead;
+pub(crate) mod read_ahead;
 pub(crate) mod feed;
-pub(crate) mod files;
-pub(crate) mod form;
-pub(crate) mod memory;
-pub(crate) mod resize;
-pub(crate) mod select;
+pub(crate) mod file_feeds;
+pub(crate) mod set_form;
+pub(crate) mod memory_source;
+pub(crate) mod scaling;
+pub(crate) mod selection;
 
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 
 use crate::{FootageError, FrameRate};
-use form::SetForm;
+use set_form::SetForm;
 
 /// A frame with its name and time.
 #[derive(Clone, Debug)]
@@ -24,13 +24,13 @@ pub struct SourceFrame {
     /// The class of an image of a labelled set.
     pub label: Option<String>,
     /// The pixels.
-    pub frame: Raster,
+    pub frame: ByteFrame,
 }
 
 /// The origin of a frame: its number and size in the input, before frames are selected, cropped and
 /// scaled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Origin {
+pub struct FrameOrigin {
     /// The number among all frames of the input, counted from 0. After a seek it is right only with
     /// [`InputOptions::numbered`](crate::InputOptions::numbered).
     pub number: u64,
@@ -42,14 +42,14 @@ pub struct Origin {
 
 /// The relation between the frames of a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum SourceKind {
     /// The frames follow each other in time.
     Clip,
     /// The frames are independent: each is a first frame.
     Set,
 }
 
-impl Kind {
+impl SourceKind {
     /// Returns the time in microseconds of a frame that has none of its own: by the rate in a clip,
     /// zero in a set.
     pub(crate) fn time_us(self, rate: FrameRate, frame: u64) -> u64 {
@@ -61,7 +61,7 @@ impl Kind {
 }
 
 /// A source of frames of one size and depth, which come one at a time.
-pub trait Source: Send {
+pub trait FrameSource: Send {
     /// Returns the width and height of every frame.
     fn size(&self) -> (u32, u32);
 
@@ -79,17 +79,17 @@ pub trait Source: Send {
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, FootageError>;
 
     /// Takes back a frame that is no longer needed, to use its memory again.
-    fn give_back(&mut self, _frame: SourceFrame) {}
+    fn recycle(&mut self, _frame: SourceFrame) {}
 
     /// Returns the origin of the frame that was returned last. Returns `None` before the first
     /// frame, and for sources that do not know it.
-    fn origin(&self) -> Option<Origin> {
+    fn origin(&self) -> Option<FrameOrigin> {
         None
     }
 
     /// Returns the relation between the frames. In a set, every frame is a first frame.
-    fn kind(&self) -> Kind {
-        Kind::Clip
+    fn kind(&self) -> SourceKind {
+        SourceKind::Clip
     }
 
     /// Returns the kind of the files and of the labels of a set.

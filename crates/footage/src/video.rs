@@ -15,22 +15,22 @@
 
 mod decoder;
 mod formats;
-mod log;
-mod pixels;
+mod ffmpeg_log;
+mod pixel_formats;
 mod probe;
-mod seek;
-mod truncated;
+mod late_start;
+mod truncated_avi;
 
 use std::path::{Path, PathBuf};
 
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use foveate_toolchain::{Interrupt, Tool, Toolchain};
 
-use self::decoder::{Decoder, Ffmpeg, Start};
-use self::log::Shown;
-use self::probe::Probe;
-use crate::address::Address;
-use crate::source::feed::Feed;
+use self::decoder::{VideoDecoder, DecodingParameters, StartPosition};
+use self::ffmpeg_log::AnnouncedFrame;
+use self::probe::VideoProperties;
+use crate::address::CameraAddress;
+use crate::source::feed::FrameFeed;
 use crate::{FootageError, FrameRate, SourceFrame};
 
 /// The time in microseconds after which ffmpeg gives up on a silent network camera.
@@ -38,15 +38,15 @@ const NETWORK_TIMEOUT_US: &str = "10000000";
 
 /// The medium from which a video is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Medium {
+pub(crate) enum VideoMedium {
     File(PathBuf),
     /// A Video4Linux device.
     Camera(PathBuf),
     /// A network camera with its address.
-    Network(Address),
+    Network(CameraAddress),
 }
 
-impl Medium {
+impl VideoMedium {
     /// Returns the arguments for ffmpeg. They allow only this kind of medium, whatever the name
     /// looks like, and no format that reads other files or addresses.
     fn arguments(&self) -> Vec<std::ffi::OsString> {
@@ -82,12 +82,12 @@ impl Medium {
     fn name(&self) -> String {
         match self {
             Self::File(path) | Self::Camera(path) => path.display().to_string(),
-            Self::Network(address) => address.shown(),
+            Self::Network(address) => address.without_secrets(),
         }
     }
 
     /// Returns the error for a medium without a frame.
-    fn refused(&self, problem: String) -> FootageError {
+    fn no_frame_error(&self, problem: String) -> FootageError {
         match self.clone() {
             Self::File(path) => FootageError::Video { path, problem },
             Self::Camera(path) => FootageError::Camera { path, problem },
@@ -102,9 +102,9 @@ impl Medium {
 }
 
 /// The frames of a video.
-pub(crate) struct Video {
-    medium: Medium,
-    decoder: Decoder,
+pub(crate) struct VideoFeed {
+    medium: VideoMedium,
+    decoder: VideoDecoder,
     total: Option<u64>,
     /// The pixel format as ffprobe names it.
     pixel_format: String,
@@ -118,32 +118,32 @@ pub(crate) struct Video {
     problem: Option<String>,
 }
 
-impl Video {
+impl VideoFeed {
     /// Opens a medium. Frames before `start_us` are not needed, and may be missing.
     pub(crate) fn open(
-        medium: Medium,
+        medium: VideoMedium,
         bits: u32,
         rate: FrameRate,
         start_us: u64,
         interrupt: &Interrupt,
     ) -> Result<Self, FootageError> {
-        let tools = Toolchain::system().cancelled_by(interrupt.flag());
+        let tools = Toolchain::system().with_cancel_flag(interrupt.flag());
         // Starting ffmpeg takes as long as decoding some dozen frames, so it runs in parallel with
         // ffprobe.
         let (found, probe) = std::thread::scope(|scope| {
             let found = scope.spawn(|| tools.find(Tool::Ffmpeg));
-            let probe = Probe::of(&tools, &medium);
+            let probe = VideoProperties::probe(&tools, &medium);
             (found.join(), probe)
         });
         let found = found.unwrap_or_else(|_| tools.find(Tool::Ffmpeg))?;
         let probe = probe?;
-        let conversion = pixels::conversion(&probe.pixel_format);
+        let conversion = pixel_formats::conversion_filter(&probe.pixel_format);
         let interrupt = interrupt.clone();
-        let ffmpeg = Ffmpeg { found, medium: medium.clone(), conversion, interrupt };
-        let sought = seek::start(&tools, &ffmpeg, &probe, start_us)?;
+        let ffmpeg = DecodingParameters { found, medium: medium.clone(), conversion, interrupt };
+        let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
         let (decoder, first_pts) = match sought {
             Some(sought) => (sought.decoder, Some(sought.first_pts)),
-            None => (Decoder::start(&ffmpeg, Start::Plain)?, None),
+            None => (VideoDecoder::start(&ffmpeg, StartPosition::BeginningWithOwnTimes)?, None),
         };
         Ok(Self {
             medium,
@@ -160,28 +160,28 @@ impl Video {
         })
     }
 
-    fn raster(&mut self, shown: &Shown) -> Result<Raster, String> {
+    fn read_frame(&mut self, shown: &AnnouncedFrame) -> Result<ByteFrame, String> {
         let mut bytes = std::mem::take(&mut self.bytes);
         self.decoder.pixels(shown.layout, &mut bytes).map_err(|error| error.to_string())?;
-        shown.layout.raster(bytes, self.bits).map_err(|error| error.to_string())
+        shown.layout.byte_frame(bytes, self.bits).map_err(|error| error.to_string())
     }
 
     /// Returns the time since the first frame in microseconds, by the container, or by the rate if
     /// the container gives the frame no time.
-    fn time_us(&mut self, shown: &Shown) -> u64 {
+    fn time_us(&mut self, shown: &AnnouncedFrame) -> u64 {
         let Some(pts) = shown.pts else { return self.rate.time_us(self.frames) };
         let first = *self.first_pts.get_or_insert(pts);
         self.decoder.time_us(first, pts)
     }
 
     /// Determines the problem of the video, if any, once there are no more frames.
-    fn conclude(&mut self) -> Result<(), FootageError> {
-        let mut problem = self.decoder.conclude()?;
+    fn determine_problem(&mut self) -> Result<(), FootageError> {
+        let mut problem = self.decoder.finish()?;
         match &self.medium {
-            Medium::File(path) => problem = truncated::problem(path).or(problem),
+            VideoMedium::File(path) => problem = truncated_avi::truncation_problem(path).or(problem),
             // Messages of ffmpeg repeat the address and its parts.
-            Medium::Network(address) => problem = problem.map(|text| address.redact(&text)),
-            Medium::Camera(_) => {}
+            VideoMedium::Network(address) => problem = problem.map(|text| address.redact(&text)),
+            VideoMedium::Camera(_) => {}
         }
         if let Some(said) = problem.as_mut().filter(|said| said.contains("Impossible to convert")) {
             *said =
@@ -189,31 +189,31 @@ impl Video {
         }
         if self.frames == 0 && self.first_pts.is_none() {
             let problem = problem.unwrap_or_else(|| "it holds no frame".to_owned());
-            return Err(self.medium.refused(problem));
+            return Err(self.medium.no_frame_error(problem));
         }
         self.problem = problem;
         Ok(())
     }
 }
 
-impl Feed for Video {
+impl FrameFeed for VideoFeed {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         if self.problem.is_some() {
             return Ok(None);
         }
-        let Some(shown) = self.decoder.announced()? else {
-            self.conclude()?;
+        let Some(shown) = self.decoder.next_announced()? else {
+            self.determine_problem()?;
             return Ok(None);
         };
         let name = self.medium.name();
-        match self.raster(&shown) {
+        match self.read_frame(&shown) {
             Ok(frame) => {
                 let time_us = self.time_us(&shown);
                 self.frames += 1;
                 Ok(Some(SourceFrame { name, time_us, label: None, frame }))
             }
             Err(_) if self.interrupt.is_set() => Err(FootageError::Interrupted),
-            Err(problem) if self.frames == 0 => Err(self.medium.refused(problem)),
+            Err(problem) if self.frames == 0 => Err(self.medium.no_frame_error(problem)),
             Err(problem) => {
                 self.problem = Some(problem);
                 Ok(None)
@@ -225,7 +225,7 @@ impl Feed for Video {
         self.total
     }
 
-    fn give_back(&mut self, bytes: Vec<u8>) {
+    fn recycle(&mut self, bytes: Vec<u8>) {
         self.bytes = bytes;
     }
 

@@ -7,22 +7,22 @@ mod header;
 
 use std::io::{self, BufRead, Read};
 
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use foveate_toolchain::Interrupt;
 
-use self::header::{Header, line};
-use crate::samples::Layout;
-use crate::source::feed::Feed;
+use self::header::{Y4mHeader, read_line};
+use crate::samples::SampleLayout;
+use crate::source::feed::FrameFeed;
 use crate::{FootageError, FrameRate, SourceFrame};
 
 /// The first bytes of a stream.
 pub(crate) const MAGIC: &[u8] = b"YUV4MPEG2";
 
 /// The frames of a stream.
-pub(crate) struct Y4m {
+pub(crate) struct Y4mFeed {
     name: String,
     input: Box<dyn BufRead + Send>,
-    header: Header,
+    header: Y4mHeader,
     rate: FrameRate,
     bits: u32,
     /// The memory for the next frame.
@@ -32,7 +32,7 @@ pub(crate) struct Y4m {
     interrupt: Interrupt,
 }
 
-impl Y4m {
+impl Y4mFeed {
     /// Reads the header. `rate` is used for streams that state no rate.
     pub(crate) fn new(
         name: String,
@@ -41,7 +41,7 @@ impl Y4m {
         rate: FrameRate,
         interrupt: &Interrupt,
     ) -> Result<Self, FootageError> {
-        let header = line(&mut *input).and_then(|text| Header::parse(&text));
+        let header = read_line(&mut *input).and_then(|text| Y4mHeader::parse(&text));
         let header = header.map_err(|problem| match interrupt.is_set() {
             true => FootageError::Interrupted,
             false => FootageError::Y4m { name: name.clone(), problem },
@@ -51,30 +51,30 @@ impl Y4m {
         Ok(Self { name, input, header, rate, bits, bytes, frames: 0, problem: None, interrupt })
     }
 
-    fn frame(&mut self) -> Result<Option<Raster>, String> {
+    fn frame(&mut self) -> Result<Option<ByteFrame>, String> {
         if self.input.fill_buf().map_err(|error| error.to_string())?.is_empty() {
             return Ok(None);
         }
-        let start = line(&mut *self.input)?;
+        let start = read_line(&mut *self.input)?;
         if start != "FRAME" && !start.starts_with("FRAME ") {
             return Err("a frame does not start with FRAME".to_owned());
         }
-        let Header { width, height, depth, others, .. } = self.header;
+        let Y4mHeader { width, height, depth, others, .. } = self.header;
         let wide = depth > 8;
-        let layout = Layout::flat(width, height, depth);
+        let layout = SampleLayout::luma(width, height, depth);
         let mut bytes = std::mem::take(&mut self.bytes);
         bytes.resize(layout.bytes(), 0);
-        self.input.read_exact(&mut bytes).map_err(|error| cut(&error))?;
+        self.input.read_exact(&mut bytes).map_err(|error| stream_error(&error))?;
         let rest = others * if wide { 2 } else { 1 };
         let skipped = io::copy(&mut (&mut *self.input).take(rest), &mut io::sink());
-        if skipped.map_err(|error| cut(&error))? < rest {
-            return Err(cut(&io::ErrorKind::UnexpectedEof.into()));
+        if skipped.map_err(|error| stream_error(&error))? < rest {
+            return Err(stream_error(&io::ErrorKind::UnexpectedEof.into()));
         }
-        layout.raster(bytes, self.bits).map(Some).map_err(|error| error.to_string())
+        layout.byte_frame(bytes, self.bits).map(Some).map_err(|error| error.to_string())
     }
 }
 
-impl Feed for Y4m {
+impl FrameFeed for Y4mFeed {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         if self.problem.is_some() {
             return Ok(None);
@@ -100,7 +100,7 @@ impl Feed for Y4m {
         None
     }
 
-    fn give_back(&mut self, bytes: Vec<u8>) {
+    fn recycle(&mut self, bytes: Vec<u8>) {
         self.bytes = bytes;
     }
 
@@ -113,7 +113,7 @@ impl Feed for Y4m {
     }
 }
 
-fn cut(error: &io::Error) -> String {
+fn stream_error(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => "the stream ends inside a frame".to_owned(),
         _ => error.to_string(),
@@ -127,7 +127,7 @@ mod tests {
     fn read(bytes: &[u8], bits: u32) -> Result<(Vec<SourceFrame>, Option<String>), FootageError> {
         let input = Box::new(io::Cursor::new(bytes.to_vec()));
         let mut stream =
-            Y4m::new("-".to_owned(), input, bits, FrameRate::default(), &Interrupt::default())?;
+            Y4mFeed::new("-".to_owned(), input, bits, FrameRate::default(), &Interrupt::default())?;
         let mut frames = Vec::new();
         while let Some(frame) = stream.next()? {
             frames.push(frame);
@@ -156,7 +156,7 @@ mod tests {
             }
             let (frames, problem) = read(&bytes, 8).unwrap();
             assert_eq!((frames.len(), problem), (3, None), "{colour}");
-            assert_eq!(frames[2].frame.plane().to_words(), [20, 21, 22, 23, 24, 25], "{colour}");
+            assert_eq!(frames[2].frame.borrowed_pixels().to_words(), [20, 21, 22, 23, 24, 25], "{colour}");
             assert_eq!(frames[2].time_us, 160_000);
         }
     }
@@ -165,8 +165,8 @@ mod tests {
     fn deep_samples_follow_the_rule_of_depth() {
         let mut bytes = b"YUV4MPEG2 W2 H1 Cmono10\nFRAME\n".to_vec();
         bytes.extend([0x55, 0x02, 0xFF, 0xFF]);
-        assert_eq!(read(&bytes, 10).unwrap().0[0].frame.plane().to_words(), [0x255, 0x3FF]);
-        assert_eq!(read(&bytes, 8).unwrap().0[0].frame.plane().to_words(), [0x95, 0xFF]);
+        assert_eq!(read(&bytes, 10).unwrap().0[0].frame.borrowed_pixels().to_words(), [0x255, 0x3FF]);
+        assert_eq!(read(&bytes, 8).unwrap().0[0].frame.borrowed_pixels().to_words(), [0x95, 0xFF]);
     }
 
     #[test]

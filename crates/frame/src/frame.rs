@@ -31,7 +31,7 @@ impl Frame {
             return Err(FrameError::FrameLength { width, height, needed, given });
         }
         let frame = Self { width, height, bits, pixels };
-        match frame.first_too_large() {
+        match frame.find_pixel_out_of_range() {
             None => Ok(frame),
             Some((x, y, value, max)) => Err(FrameError::PixelRange { x, y, value, bits, max }),
         }
@@ -97,7 +97,7 @@ impl Frame {
 
     /// Returns the pixel of the frame that is nearest to column `x` and row `y`.
     #[must_use]
-    pub fn clamped(&self, x: i64, y: i64) -> u16 {
+    pub fn get_clamped(&self, x: i64, y: i64) -> u16 {
         let nearest = |at: i64, size: u32| {
             u32::try_from(at.clamp(0, i64::from(size) - 1)).expect("clamped to the frame")
         };
@@ -118,7 +118,7 @@ impl Frame {
     /// # Panics
     /// Panics if the pixels reach beyond the row, or if one of them does not fit into the frame's
     /// bits.
-    pub fn write(&mut self, x: u32, y: u32, pixels: &[u16]) {
+    pub fn write_row(&mut self, x: u32, y: u32, pixels: &[u16]) {
         let max = u16::MAX >> (16 - self.bits);
         assert!(pixels.iter().all(|&pixel| pixel <= max), "a pixel above {max} in row {y}");
         let from = index(y) * index(self.width);
@@ -128,13 +128,13 @@ impl Frame {
 
     /// Returns the size and the depth as an error message names them.
     #[must_use]
-    pub fn kind(&self) -> String {
+    pub fn size_and_depth(&self) -> String {
         format!("{}x{} pixels of {} bits", self.width, self.height, self.bits)
     }
 
     /// Returns column, row and value of the first pixel that does not fit into its bits, and the
     /// largest value that fits.
-    fn first_too_large(&self) -> Option<(u32, u32, u16, u16)> {
+    fn find_pixel_out_of_range(&self) -> Option<(u32, u32, u16, u16)> {
         let max = u16::MAX >> (16 - self.bits);
         (0..self.height).find_map(|y| {
             let too_large = |(x, &value): (u32, &u16)| (value > max).then_some((x, y, value, max));
@@ -163,20 +163,20 @@ mod tests {
     #[test]
     fn written_pixels_stay_in_their_row() {
         let mut frame = Frame::filled(3, 2, 4, 0).unwrap();
-        frame.write(1, 1, &[15, 7]);
+        frame.write_row(1, 1, &[15, 7]);
         assert_eq!(frame.pixels(), [0, 0, 0, 0, 15, 7]);
     }
 
     #[test]
     #[should_panic(expected = "a pixel above 15 in row 0")]
     fn a_value_of_too_many_bits_is_not_written() {
-        Frame::filled(3, 2, 4, 0).unwrap().write(0, 0, &[16]);
+        Frame::filled(3, 2, 4, 0).unwrap().write_row(0, 0, &[16]);
     }
 
     #[test]
     #[should_panic(expected = "out of range")]
     fn no_pixel_is_written_beyond_its_row() {
-        Frame::filled(3, 2, 4, 0).unwrap().write(2, 0, &[1, 1]);
+        Frame::filled(3, 2, 4, 0).unwrap().write_row(2, 0, &[1, 1]);
     }
 
     #[test]
@@ -184,7 +184,7 @@ mod tests {
         let frame = Frame::from_fn(3, 2, 8, |x, y| u16::try_from(10 * y + x).unwrap()).unwrap();
         assert_eq!((frame.get(2, 1), frame.row(1)), (12, &[10, 11, 12][..]));
         assert_eq!(
-            [(-1, -9), (7, -1), (1, 9), (9, 9)].map(|(x, y)| frame.clamped(x, y)),
+            [(-1, -9), (7, -1), (1, 9), (9, 9)].map(|(x, y)| frame.get_clamped(x, y)),
             [0, 2, 11, 12]
         );
     }

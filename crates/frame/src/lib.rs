@@ -11,14 +11,14 @@ mod depth;
 mod error;
 mod frame;
 mod luma;
-mod raster;
+mod byte_frame;
 mod rect;
 
 pub use depth::{convert_depth, display_depth};
 pub use error::FrameError;
 pub use frame::Frame;
-pub use luma::{luma, luma_of_rgba};
-pub use raster::{Plane, Raster};
+pub use luma::{luma, append_luma_of_rgba};
+pub use byte_frame::{FramePixels, ByteFrame};
 pub use rect::{MAX_COORDINATE, Rect};
 
 /// Converts a size or a coordinate to an index. The conversion is lossless: `usize` has 32 bits or

@@ -10,7 +10,7 @@ pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
 
 /// Appends the [`luma`] of pixels of four bytes: red, green, blue, and an alpha that is ignored.
 /// Bytes at the end that are not a whole pixel are left out.
-pub fn luma_of_rgba(pixels: &[u8], grey: &mut Vec<u8>) {
+pub fn append_luma_of_rgba(pixels: &[u8], grey: &mut Vec<u8>) {
     // The sum fits into 16 bits, so that the compiler can vectorise the loop.
     let mix = |&[red, green, blue, _]: &[u8; 4]| {
         let sum = 77 * u16::from(red) + 150 * u16::from(green) + 29 * u16::from(blue) + 128;
@@ -46,12 +46,12 @@ mod tests {
             });
             let colours: Vec<[u8; 4]> = colours.collect();
             grey.clear();
-            luma_of_rgba(colours.as_flattened(), &mut grey);
+            append_luma_of_rgba(colours.as_flattened(), &mut grey);
             let expected = colours.iter().map(|&[r, g, b, _]| luma(r.into(), g.into(), b.into()));
             assert!(grey.iter().map(|&value| u16::from(value)).eq(expected), "red {red}");
         }
         grey.clear();
-        luma_of_rgba(&[255, 255, 255, 0, 7, 7, 7], &mut grey);
+        append_luma_of_rgba(&[255, 255, 255, 0, 7, 7, 7], &mut grey);
         assert_eq!(grey, [255]);
     }
 }

@@ -23,7 +23,7 @@ impl Rect {
     /// # Errors
     /// Fails if the corners are in the wrong order, not numbers, or out of range. The text says
     /// what is wrong.
-    pub fn of_corners([x0, y0, x1, y1]: [f64; 4]) -> Result<Self, String> {
+    pub fn from_corners([x0, y0, x1, y1]: [f64; 4]) -> Result<Self, String> {
         for value in [x0, y0, x1, y1] {
             // This test also refuses NaN.
             if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
@@ -45,13 +45,13 @@ impl Rect {
     ///
     /// # Errors
     /// Fails if a side is negative, or a number is out of range. The text says what is wrong.
-    pub fn of_sides([x, y, width, height]: [f64; 4]) -> Result<Self, String> {
+    pub fn from_corner_and_size([x, y, width, height]: [f64; 4]) -> Result<Self, String> {
         if width < 0.0 || height < 0.0 {
             return Err(format!(
                 "the box is {width} x {height} pixels; expected sides of at least 0"
             ));
         }
-        Self::of_corners([x, y, x + width, y + height])
+        Self::from_corners([x, y, x + width, y + height])
     }
 
     /// Returns the width in pixels.
@@ -81,7 +81,7 @@ impl Rect {
     /// Returns the part of the rectangle that lies in a frame of this size. Its area is 0 if no
     /// part does.
     #[must_use]
-    pub fn within(&self, (width, height): (u32, u32)) -> Self {
+    pub fn cropped_to_frame(&self, (width, height): (u32, u32)) -> Self {
         let (width, height) = (f64::from(width), f64::from(height));
         Self {
             x0: self.x0.clamp(0.0, width),

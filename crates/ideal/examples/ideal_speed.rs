@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use foveate_camera::{CameraConfig, FeatureKind, SpatialConfig};
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
 
 fn main() {
@@ -16,7 +16,7 @@ fn main() {
             (config.frame.width, config.frame.height) = (Some(width), Some(height));
             config.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
             let mut camera = IdealCamera::new(&config.validate().unwrap());
-            let frames: Vec<Raster> = (0..4).map(|shift| frame(width, height, shift)).collect();
+            let frames: Vec<ByteFrame> = (0..4).map(|shift| frame(width, height, shift)).collect();
             let mut best = f64::INFINITY;
             for frame in frames.iter().cycle().take(20) {
                 let start = Instant::now();
@@ -29,7 +29,7 @@ fn main() {
     }
 }
 
-fn frame(width: u32, height: u32, shift: u32) -> Raster {
+fn frame(width: u32, height: u32, shift: u32) -> ByteFrame {
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = pixels
         .map(|(x, y)| {
@@ -38,5 +38,5 @@ fn frame(width: u32, height: u32, shift: u32) -> Raster {
             u8::try_from(pattern + noise).unwrap()
         })
         .collect();
-    Raster::from_bytes(width, height, 8, pixels).unwrap()
+    ByteFrame::from_bytes(width, height, 8, pixels).unwrap()
 }

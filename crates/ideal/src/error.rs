@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum IdealError {
     /// The frame has another size or depth than the camera.
     #[error("the frame has {given}, but the camera takes {expected}; give it frames of that kind")]
-    FrameKind {
+    FrameFormat {
         /// The size and depth of the frame.
         given: String,
         /// The size and depth of the camera.

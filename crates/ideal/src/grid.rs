@@ -7,7 +7,7 @@ use foveate_camera::Camera;
 
 /// The size of a frame in pixels and in regions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grid {
+pub(crate) struct RegionGrid {
     /// The width of the frame without padding, in pixels.
     pub(crate) width: usize,
     /// The height of the frame without padding, in pixels.
@@ -20,14 +20,14 @@ pub(crate) struct Grid {
     pub(crate) rows: usize,
 }
 
-impl Grid {
-    pub(crate) fn of(camera: &Camera) -> Self {
+impl RegionGrid {
+    pub(crate) fn from_camera(camera: &Camera) -> Self {
         Self {
-            width: index(camera.width()),
-            height: index(camera.height()),
-            side: index(camera.region_size()),
-            columns: index(camera.columns()),
-            rows: index(camera.rows()),
+            width: to_index(camera.width()),
+            height: to_index(camera.height()),
+            side: to_index(camera.region_size()),
+            columns: to_index(camera.columns()),
+            rows: to_index(camera.rows()),
         }
     }
 
@@ -37,13 +37,13 @@ impl Grid {
     }
 
     /// Returns the width and height of the padded frame in pixels.
-    pub(crate) fn padded(&self) -> (usize, usize) {
+    pub(crate) fn padded_size(&self) -> (usize, usize) {
         (self.columns * self.side, self.rows * self.side)
     }
 
     /// Returns the numbers of the regions that row `y` of the padded frame crosses, from left to
     /// right.
-    pub(crate) fn across(&self, y: usize) -> Range<usize> {
+    pub(crate) fn regions_of_row(&self, y: usize) -> Range<usize> {
         let first = y / self.side * self.columns;
         first..first + self.columns
     }
@@ -55,7 +55,7 @@ impl Grid {
     }
 
     /// Returns the columns and rows of a region without padding.
-    pub(crate) fn seen(&self, region: usize) -> (Range<usize>, Range<usize>) {
+    pub(crate) fn area_without_padding(&self, region: usize) -> (Range<usize>, Range<usize>) {
         let (columns, rows) = self.area(region);
         (columns.start..columns.end.min(self.width), rows.start..rows.end.min(self.height))
     }
@@ -63,6 +63,6 @@ impl Grid {
 
 /// Converts a size to an index. It loses nothing, because `usize` has at least 32 bits on every
 /// platform that can hold a frame.
-pub(crate) const fn index(value: u32) -> usize {
+pub(crate) const fn to_index(value: u32) -> usize {
     value as usize
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `median3x3`: the fifth of the nine sorted values around every pixel.
 
-use crate::plane::Plane;
+use crate::plane::PaddedPlane;
 
 /// The three values of every column of the windows of one row, sorted.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Columns {
+pub(crate) struct SortedColumns {
     low: Vec<f64>,
     middle: Vec<f64>,
     high: Vec<f64>,
@@ -13,15 +13,15 @@ pub(crate) struct Columns {
 
 /// Filters a plane into another plane of the same size. The three windows that contain a column
 /// share its sorted values.
-pub(crate) fn median(from: &Plane, to: &mut Plane, columns: &mut Columns) {
+pub(crate) fn filter_median(from: &PaddedPlane, to: &mut PaddedPlane, columns: &mut SortedColumns) {
     for y in 0..from.height() {
-        columns.sort(from.around(y));
+        columns.sort(from.window_lines(y));
         columns.medians(to.row_mut(y));
     }
     to.repeat_border();
 }
 
-impl Columns {
+impl SortedColumns {
     fn sort(&mut self, [above, own, below]: [&[f64]; 3]) {
         for list in [&mut self.low, &mut self.middle, &mut self.high] {
             list.resize(own.len(), 0.0);
@@ -77,7 +77,7 @@ mod tests {
     fn it_is_the_fifth_of_nine() {
         for bits in 0..512_u16 {
             let nine: Vec<f64> = (0..9).map(|place| f64::from(bits >> place & 1)).collect();
-            let mut columns = Columns::default();
+            let mut columns = SortedColumns::default();
             columns.sort([&nine[..3], &nine[3..6], &nine[6..]]);
             let mut out = [0.0];
             columns.medians(&mut out);

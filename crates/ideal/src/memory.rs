@@ -2,27 +2,27 @@
 //! The references that a frame is compared with: the denoised pixels of every region in an earlier
 //! frame.
 
-use foveate_camera::Action;
-use foveate_camera::{Camera, Reference};
+use foveate_camera::RegionAction;
+use foveate_camera::{Camera, ReferencePolicy};
 
-use crate::grid::Grid;
-use crate::plane::Plane;
-use crate::view::{FrameView, References};
+use crate::grid::RegionGrid;
+use crate::plane::PaddedPlane;
+use crate::view::{FrameView, RegionReferences};
 
 /// The memory of the references of all regions.
 #[derive(Clone, Debug)]
-pub(crate) struct Memory {
-    kind: Reference,
-    references: References,
+pub(crate) struct ReferenceMemory {
+    kind: ReferencePolicy,
+    references: RegionReferences,
 }
 
-impl Memory {
+impl ReferenceMemory {
     /// Creates the memory of a camera before its first frame: no reference is valid.
-    pub(crate) fn new(camera: &Camera, grid: &Grid) -> Self {
+    pub(crate) fn new(camera: &Camera, grid: &RegionGrid) -> Self {
         Self {
             kind: camera.temporal().reference,
-            references: References {
-                plane: Plane::black(grid),
+            references: RegionReferences {
+                plane: PaddedPlane::black(grid),
                 valid: vec![false; grid.regions()],
             },
         }
@@ -33,24 +33,24 @@ impl Memory {
     }
 
     /// Pairs a frame with the references of its regions.
-    pub(crate) fn before<'a>(&'a self, now: &'a Plane, grid: &'a Grid) -> FrameView<'a> {
-        FrameView { grid, now, before: &self.references }
+    pub(crate) fn frame_view<'a>(&'a self, now: &'a PaddedPlane, grid: &'a RegionGrid) -> FrameView<'a> {
+        FrameView { grid, denoised: now, references: &self.references }
     }
 
     /// Updates the reference of a region for the next frame.
-    pub(crate) fn keep(&mut self, now: &Plane, grid: &Grid, region: usize, action: Action) {
-        let References { plane, valid } = &mut self.references;
+    pub(crate) fn update_reference(&mut self, now: &PaddedPlane, grid: &RegionGrid, region: usize, action: RegionAction) {
+        let RegionReferences { plane, valid } = &mut self.references;
         match (self.kind, action) {
-            (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => {
+            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => {
                 let (columns, rows) = grid.area(region);
                 for y in rows {
                     plane.row_mut(y)[columns.clone()].copy_from_slice(&now.row(y)[columns.clone()]);
                 }
                 valid[region] = true;
             }
-            (Reference::LastSent, Action::Hold) => {}
+            (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             // The screen no longer shows the pixels that were sent.
-            (Reference::LastSent, Action::Blank | Action::Summarize) => valid[region] = false,
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => valid[region] = false,
         }
     }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The outcome of one frame.
 
-use foveate_camera::Action;
+use foveate_camera::RegionAction;
 
-use crate::grid::Grid;
+use crate::grid::RegionGrid;
 
 /// The scores and decisions of every region, numbered row by row, and two whole frames. Every value
 /// has its natural unit: no score is scaled to become an integer.
@@ -16,7 +16,7 @@ pub struct IdealOutcome {
     /// The active regions, which have both SRS and TRS; their new pixels are sent.
     pub active: Vec<bool>,
     /// The action that the receiver's screen takes for every region.
-    pub actions: Vec<Action>,
+    pub actions: Vec<RegionAction>,
     /// The scores by feature, in the order of the camera, and then by region: 0..=n hits for `edge`
     /// and `corner`, grey levels for `mad`, squared grey levels for `variance`.
     pub scores: Vec<Vec<f64>>,
@@ -30,13 +30,13 @@ pub struct IdealOutcome {
 }
 
 impl IdealOutcome {
-    pub(crate) fn new(features: usize, grid: &Grid) -> Self {
+    pub(crate) fn new(features: usize, grid: &RegionGrid) -> Self {
         let (regions, pixels) = (grid.regions(), grid.width * grid.height);
         Self {
             srs: vec![false; regions],
             trs: vec![false; regions],
             active: vec![false; regions],
-            actions: vec![Action::Hold; regions],
+            actions: vec![RegionAction::Hold; regions],
             scores: vec![vec![0.0; regions]; features],
             changed: vec![0.0; regions],
             denoised: vec![0.0; pixels],

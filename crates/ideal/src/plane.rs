@@ -2,23 +2,23 @@
 //! A padded frame of real numbers with a border of one pixel that repeats the outermost pixels, so
 //! that every 3x3 window is nine plain reads.
 
-use foveate_frame::Plane as Pixels;
+use foveate_frame::FramePixels as Pixels;
 
-use crate::grid::Grid;
+use crate::grid::RegionGrid;
 
 /// The values of a padded frame, in grey levels.
 #[derive(Clone, Debug)]
-pub(crate) struct Plane {
+pub(crate) struct PaddedPlane {
     width: usize,
     height: usize,
     /// The values with the border: `height + 2` lines of `width + 2` values.
     values: Vec<f64>,
 }
 
-impl Plane {
+impl PaddedPlane {
     /// Creates a plane of zeros.
-    pub(crate) fn black(grid: &Grid) -> Self {
-        let (width, height) = grid.padded();
+    pub(crate) fn black(grid: &RegionGrid) -> Self {
+        let (width, height) = grid.padded_size();
         Self { width, height, values: vec![0.0; (width + 2) * (height + 2)] }
     }
 
@@ -43,22 +43,22 @@ impl Plane {
 
     /// Returns the lines above, at and below row `y`, each with one border value at both ends. The
     /// window around column `x` is at `x..x + 3`.
-    pub(crate) fn around(&self, y: usize) -> [&[f64]; 3] {
+    pub(crate) fn window_lines(&self, y: usize) -> [&[f64]; 3] {
         let stride = self.width + 2;
         [y, y + 1, y + 2].map(|line| &self.values[line * stride..][..stride])
     }
 
     /// Reads a frame, and repeats its last column and row until the frame has a whole number of
     /// regions.
-    pub(crate) fn pad(&mut self, pixels: Pixels<'_>, grid: &Grid) {
+    pub(crate) fn read_padded(&mut self, pixels: Pixels<'_>, grid: &RegionGrid) {
         match pixels {
-            Pixels::Bytes(pixels) => self.pad_from(pixels, grid),
-            Pixels::Words(pixels) => self.pad_from(pixels, grid),
+            Pixels::Bytes(pixels) => self.read_padded_from(pixels, grid),
+            Pixels::Words(pixels) => self.read_padded_from(pixels, grid),
         }
         self.repeat_border();
     }
 
-    fn pad_from<T: Copy + Into<f64>>(&mut self, pixels: &[T], grid: &Grid) {
+    fn read_padded_from<T: Copy + Into<f64>>(&mut self, pixels: &[T], grid: &RegionGrid) {
         for y in 0..self.height {
             let source = &pixels[y.min(grid.height - 1) * grid.width..][..grid.width];
             let (own, padding) = self.row_mut(y).split_at_mut(grid.width);
@@ -82,12 +82,12 @@ impl Plane {
     }
 
     /// Copies the values of a plane of the same size.
-    pub(crate) fn copy(&mut self, from: &Self) {
+    pub(crate) fn copy_from(&mut self, from: &Self) {
         self.values.copy_from_slice(&from.values);
     }
 
     /// Copies the frame without its padding to `out`.
-    pub(crate) fn crop_into(&self, grid: &Grid, out: &mut [f64]) {
+    pub(crate) fn crop_into(&self, grid: &RegionGrid, out: &mut [f64]) {
         for (y, row) in out.chunks_exact_mut(grid.width).enumerate() {
             row.copy_from_slice(&self.row(y)[..grid.width]);
         }

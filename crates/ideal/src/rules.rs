@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The thresholds and decisions, with the decimal numbers of the configuration.
 
-use foveate_camera::Action;
-use foveate_camera::{Camera, Combine, Decimal, FeatureKind, Irrelevant};
+use foveate_camera::RegionAction;
+use foveate_camera::{Camera, VoteCombination, Decimal, FeatureKind, IrrelevantRendering};
 
 /// A spatial feature and its thresholds.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Feature {
+pub(crate) struct FeatureRule {
     pub(crate) kind: FeatureKind,
     /// The level of a pixel in grey levels; 0 for a feature without a level.
     pub(crate) level: f64,
@@ -16,22 +16,22 @@ pub(crate) struct Feature {
 
 /// The rules that decide the relevance of a region and its action on the screen.
 #[derive(Clone, Debug)]
-pub(crate) struct Rules {
-    pub(crate) features: Vec<Feature>,
-    combine: Combine,
+pub(crate) struct DecisionRules {
+    pub(crate) features: Vec<FeatureRule>,
+    combine: VoteCombination,
     /// The temporal level: a pixel has changed if it differs by more grey levels than this.
     pub(crate) level: f64,
     min_count: f64,
-    irrelevant: Irrelevant,
+    irrelevant: IrrelevantRendering,
 }
 
-impl Rules {
-    pub(crate) fn of(camera: &Camera) -> Self {
-        let feature = |entry: &foveate_camera::SpatialConfig| Feature {
+impl DecisionRules {
+    pub(crate) fn from_camera(camera: &Camera) -> Self {
+        let feature = |entry: &foveate_camera::SpatialConfig| FeatureRule {
             kind: entry.feature,
             // A feature that counts no hits does not use its level.
             level: f64::from(entry.level.unwrap_or(0)),
-            min_score: real(entry.min_score.expect("a camera has every key filled in")),
+            min_score: decimal_to_f64(entry.min_score.expect("a camera has every key filled in")),
         };
         Self {
             features: camera.config().spatial.iter().map(feature).collect(),
@@ -43,17 +43,17 @@ impl Rules {
     }
 
     /// Returns the SRS of a region from its scores of all features.
-    pub(crate) fn spatial(&self, scores: &[Vec<f64>], region: usize) -> bool {
+    pub(crate) fn srs(&self, scores: &[Vec<f64>], region: usize) -> bool {
         let mut votes =
             self.features.iter().zip(scores).map(|(rule, all)| all[region] >= rule.min_score);
         match self.combine {
-            Combine::Any => votes.any(|vote| vote),
-            Combine::All => votes.all(|vote| vote),
+            VoteCombination::Any => votes.any(|vote| vote),
+            VoteCombination::All => votes.all(|vote| vote),
         }
     }
 
     /// Returns the TRS of a region from its number of changed pixels.
-    pub(crate) fn temporal(&self, changed: f64) -> bool {
+    pub(crate) fn trs(&self, changed: f64) -> bool {
         changed >= self.min_count
     }
 
@@ -64,18 +64,18 @@ impl Rules {
         srs: bool,
         trs: bool,
         is_summary_due: impl FnOnce() -> bool,
-    ) -> Action {
+    ) -> RegionAction {
         match (srs, trs, self.irrelevant) {
-            (true, true, _) => Action::Forward,
-            (true, false, _) | (false, _, Irrelevant::Hold) => Action::Hold,
-            (false, _, Irrelevant::Zero) => Action::Blank,
-            (false, _, Irrelevant::Mean) if is_summary_due() => Action::Summarize,
-            (false, _, Irrelevant::Mean) => Action::Hold,
+            (true, true, _) => RegionAction::Forward,
+            (true, false, _) | (false, _, IrrelevantRendering::Hold) => RegionAction::Hold,
+            (false, _, IrrelevantRendering::Zero) => RegionAction::Blank,
+            (false, _, IrrelevantRendering::Mean) if is_summary_due() => RegionAction::Summarize,
+            (false, _, IrrelevantRendering::Mean) => RegionAction::Hold,
         }
     }
 }
 
 /// Returns the nearest `f64`. Every decimal is printed with digits that parse as a number.
-fn real(decimal: Decimal) -> f64 {
+fn decimal_to_f64(decimal: Decimal) -> f64 {
     decimal.to_string().parse().expect("a decimal is written as a number")
 }

@@ -2,24 +2,24 @@
 //! The view of a frame that every score gets: the denoised pixels, and the references of the
 //! regions. A new score can use all of it.
 
-use crate::grid::Grid;
-use crate::plane::Plane;
+use crate::grid::RegionGrid;
+use crate::plane::PaddedPlane;
 
 /// A denoised frame and the references that it is compared with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameView<'a> {
-    pub(crate) grid: &'a Grid,
+    pub(crate) grid: &'a RegionGrid,
     /// The denoised frame.
-    pub(crate) now: &'a Plane,
+    pub(crate) denoised: &'a PaddedPlane,
     /// The references of the frame's regions.
-    pub(crate) before: &'a References,
+    pub(crate) references: &'a RegionReferences,
 }
 
 /// The reference of every region.
 #[derive(Clone, Debug)]
-pub(crate) struct References {
+pub(crate) struct RegionReferences {
     /// The pixels of the references at the positions of their regions; the border is not filled.
-    pub(crate) plane: Plane,
+    pub(crate) plane: PaddedPlane,
     /// Whether each region has a valid reference.
     pub(crate) valid: Vec<bool>,
 }

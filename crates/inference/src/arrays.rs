@@ -3,8 +3,8 @@
 //! other programs without a camera.
 
 use crate::InferenceError;
-use crate::inference::INFERENCE;
-use crate::recording::{FOLDER, free_name};
+use crate::inference::INFERENCE_FOLDER;
+use crate::recording::{OUTPUTS_FOLDER, free_name};
 use foveate_files::npy::{self, NpyArray};
 use foveate_network::onnx::{TensorProto, data_type};
 use foveate_network::{NetworkEvaluation, evaluate};
@@ -45,7 +45,7 @@ pub struct ArrayFile {
 
 /// The types that both arrays and ONNX tensors have: NumPy's code in a file, NumPy's name, and
 /// ONNX's number.
-const TYPES: [(&str, &str, i32); 8] = [
+const VALUE_TYPES: [(&str, &str, i32); 8] = [
     ("<f4", "float32", data_type::FLOAT),
     ("<f2", "float16", data_type::FLOAT16),
     ("<f8", "float64", data_type::DOUBLE),
@@ -75,17 +75,17 @@ pub fn infer_arrays(
     output: &Path,
     overwrite: bool,
 ) -> Result<ArraySummary, InferenceError> {
-    let staging = StagedFolder::new(output, INFERENCE, overwrite)?;
+    let staging = StagedFolder::new(output, INFERENCE_FOLDER, overwrite)?;
     let (mut tensors, mut inputs) = (Vec::new(), Vec::new());
     for path in arrays {
-        let array = npy::read(path)?;
+        let array = npy::read_array(path)?;
         let (_, dtype, kind) = type_of(path, &array)?;
         let file = path.display().to_string();
         inputs.push(ArrayFile { name: None, dtype, shape: array.shape.clone(), file });
         tensors.push(tensor(array, kind));
     }
     let NetworkEvaluation { outputs, macs, weight_bytes, time } = evaluate(network, &tensors)?;
-    let outputs = write(&staging, outputs).map_err(|error| staging.named(error))?;
+    let outputs = write(&staging, outputs).map_err(|error| staging.with_shown_path(error))?;
     let seconds = time.as_secs_f64();
     let network = network.to_owned();
     let summary = ArraySummary { network, inputs, outputs, macs, weight_bytes, seconds };
@@ -100,10 +100,10 @@ fn type_of(
     path: &Path,
     array: &NpyArray,
 ) -> Result<(&'static str, &'static str, i32), InferenceError> {
-    let known = TYPES.into_iter().find(|(dtype, ..)| *dtype == array.dtype);
+    let known = VALUE_TYPES.into_iter().find(|(dtype, ..)| *dtype == array.dtype);
     known.ok_or_else(|| {
-        let known: Vec<_> = TYPES.iter().map(|(_, name, _)| *name).collect();
-        InferenceError::Choice {
+        let known: Vec<_> = VALUE_TYPES.iter().map(|(_, name, _)| *name).collect();
+        InferenceError::InvalidOption {
             problem: format!(
                 "the array `{}` holds values of type {}, which no network here takes; the types are {}",
                 path.display(),
@@ -128,17 +128,17 @@ fn write(
     staging: &StagedFolder,
     outputs: Vec<(String, TensorProto)>,
 ) -> Result<Vec<ArrayFile>, StagingError> {
-    let folder = staging.folder().join(FOLDER);
-    std::fs::create_dir(&folder).map_err(|source| StagingError::Write { path: folder, source })?;
+    let folder = staging.folder().join(OUTPUTS_FOLDER);
+    std::fs::create_dir(&folder).map_err(|source| StagingError::Unwritable { path: folder, source })?;
     let mut files: Vec<ArrayFile> = Vec::new();
     for (name, tensor) in outputs {
         let taken: Vec<_> = files.iter().map(|file| file.file.clone()).collect();
-        let file = format!("{FOLDER}/{}.npy", free_name(&name, &taken));
+        let file = format!("{OUTPUTS_FOLDER}/{}.npy", free_name(&name, &taken));
         let kind = tensor.data_type.unwrap_or_default();
         let (descr, dtype, _) =
-            TYPES.into_iter().find(|known| known.2 == kind).expect("outputs are of known types");
+            VALUE_TYPES.into_iter().find(|known| known.2 == kind).expect("outputs are of known types");
         let lengths = tensor.dims.iter().map(|length| format!("{length}, ")).collect::<String>();
-        let mut bytes = npy::header(256, &format!("'{descr}'"), &lengths);
+        let mut bytes = npy::npy_header(256, &format!("'{descr}'"), &lengths);
         bytes.extend(tensor.raw_data.unwrap_or_default());
         staging.write(&file, &bytes)?;
         let length = |&length: &i64| length.try_into().expect("a length of an output");

@@ -5,26 +5,26 @@
 use crate::InferenceError;
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_footage::{Kind, SourceFrame};
+use foveate_footage::{SourceKind, SourceFrame};
 use foveate_frame::Rect;
 use foveate_network::Mask;
-use foveate_network::sight::{Frames, Picture, Witness};
+use foveate_network::vision::{FrameFormat, FrameInput, VisionNetwork};
 
 /// A design's engine and the receiver's screen behind it.
-pub(crate) struct Camera {
+pub(crate) struct ReceiverCamera {
     engine: Engine,
-    picture: Picture,
+    picture: FrameInput,
     /// The black screen from which every frame of a data set starts; `None` for a clip.
-    black: Option<Picture>,
+    black_picture: Option<FrameInput>,
     /// Whether the network also runs on the frames before the camera.
     with_originals: bool,
     /// The last frame before the camera, with its objects.
-    original: Option<KeptOriginal>,
+    original: Option<KeptOriginalFrame>,
     /// The number of frames so far.
     frames: u64,
     /// The outcome since the last frame that the network saw, including the next frame that it
     /// sees.
-    passed: CameraTally,
+    since_last_received: OutcomeTally,
 }
 
 /// A number of camera frames, and of the values of P bits (pixels and means) that the camera sent
@@ -37,23 +37,23 @@ pub(crate) struct SentCount {
 
 /// The outcome of some frames in the camera.
 #[derive(Clone, Copy, Debug, Default)]
-struct CameraTally {
+struct OutcomeTally {
     sent: SentCount,
     active_regions: u64,
 }
 
 /// The camera and the network of a run.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shown<'a> {
+pub(crate) struct CameraSetup<'a> {
     pub(crate) design: &'a Design,
-    pub(crate) witness: &'a Witness,
+    pub(crate) witness: &'a VisionNetwork,
     /// Whether the network also runs on the frames before the camera.
     pub(crate) with_originals: bool,
 }
 
 /// A frame as the network sees it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen<'a> {
+pub(crate) struct ReceivedFrame<'a> {
     /// The frame's number in its clip, from 0.
     pub(crate) number: u64,
     pub(crate) name: &'a str,
@@ -70,19 +70,19 @@ pub(crate) struct Seen<'a> {
     pub(crate) sent: SentCount,
     /// The receiver's screen, one word per pixel.
     pub(crate) screen: &'a [u16],
-    pub(crate) original: Option<Original<'a>>,
+    pub(crate) original: Option<OriginalFrame<'a>>,
 }
 
 /// A frame before the camera, and its ground-truth objects if they are known.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Original<'a> {
+pub(crate) struct OriginalFrame<'a> {
     pub(crate) frame: &'a [u16],
     pub(crate) objects: Option<&'a [Rect]>,
 }
 
-impl Seen<'_> {
+impl ReceivedFrame<'_> {
     /// Returns the size of the frame's pixels and inputs in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn kept_bytes(&self) -> usize {
         let original = self.original.map_or(0, |original| size_of_val(original.frame));
         size_of_val(self.values) + size_of_val(self.screen) + original
     }
@@ -90,68 +90,68 @@ impl Seen<'_> {
 
 /// Returns the size, depth and regions of a camera's frames, as a network needs them.
 #[must_use]
-pub fn frames_of(camera: &foveate_design::Camera) -> Frames {
-    Frames {
+pub fn frame_format_of(camera: &foveate_design::Camera) -> FrameFormat {
+    FrameFormat {
         width: camera.width(),
         height: camera.height(),
         pixel_max: camera.pixel_max(),
-        region: camera.region_size(),
+        region_side: camera.region_size(),
     }
 }
 
-impl Camera {
-    pub(crate) fn new(shown: Shown<'_>, kind: Kind) -> Self {
-        let Shown { design, witness, with_originals } = shown;
-        let picture = witness.picture(frames_of(design));
-        let black = (kind == Kind::Set).then(|| picture.clone());
+impl ReceiverCamera {
+    pub(crate) fn new(shown: CameraSetup<'_>, kind: SourceKind) -> Self {
+        let CameraSetup { design, witness, with_originals } = shown;
+        let picture = witness.black_input(frame_format_of(design));
+        let black = (kind == SourceKind::Set).then(|| picture.clone());
         let engine = Engine::new(design);
         Self {
             engine,
             picture,
-            black,
+            black_picture: black,
             with_originals,
             original: None,
             frames: 0,
-            passed: CameraTally::default(),
+            since_last_received: OutcomeTally::default(),
         }
     }
 
     /// Returns the network's input for a black screen, if the frames are those of a data set.
-    pub(crate) fn black(&self) -> Option<&[f32]> {
-        self.black.as_ref().map(|picture| &picture.values[..])
+    pub(crate) fn black_input(&self) -> Option<&[f32]> {
+        self.black_picture.as_ref().map(|picture| &picture.values[..])
     }
 
     /// Shows the design another frame, which the network does not see.
-    pub(crate) fn pass(&mut self, frame: &SourceFrame) -> Result<(), InferenceError> {
-        if self.black.is_some() {
+    pub(crate) fn skip_frame(&mut self, frame: &SourceFrame) -> Result<(), InferenceError> {
+        if self.black_picture.is_some() {
             self.engine.reset();
         }
-        self.engine.step_raster(&frame.frame)?;
+        self.engine.step_byte_frame(&frame.frame)?;
         let outcome = self.engine.outcome();
         let active = outcome.active.iter().filter(|&&active| active).count();
-        self.passed.active_regions += active as u64;
-        self.passed.sent.frames += 1;
-        self.passed.sent.values += self.engine.camera().values_of(&outcome.actions);
+        self.since_last_received.active_regions += active as u64;
+        self.since_last_received.sent.frames += 1;
+        self.since_last_received.sent.values += self.engine.camera().values_sent_per_frame(&outcome.actions);
         self.frames += 1;
         Ok(())
     }
 
     /// Shows the design another frame, and returns it as the network sees it, with its ground-truth
     /// objects if they are known.
-    pub(crate) fn see<'a>(
+    pub(crate) fn receive_frame<'a>(
         &'a mut self,
         frame: &'a SourceFrame,
         objects: Option<Vec<Rect>>,
-    ) -> Result<Seen<'a>, InferenceError> {
-        if let Some(black) = &self.black {
+    ) -> Result<ReceivedFrame<'a>, InferenceError> {
+        if let Some(black) = &self.black_picture {
             self.picture.clone_from(black);
         }
-        self.pass(frame)?;
-        let CameraTally { sent, active_regions } = std::mem::take(&mut self.passed);
-        self.picture.show(self.engine.rendered());
-        let words = || frame.frame.plane().to_words();
-        self.original = self.with_originals.then(|| KeptOriginal { frame: words(), objects });
-        Ok(Seen {
+        self.skip_frame(frame)?;
+        let OutcomeTally { sent, active_regions } = std::mem::take(&mut self.since_last_received);
+        self.picture.set_frame(self.engine.rendered());
+        let words = || frame.frame.borrowed_pixels().to_words();
+        self.original = self.with_originals.then(|| KeptOriginalFrame { frame: words(), objects });
+        Ok(ReceivedFrame {
             number: self.frames - 1,
             name: &frame.name,
             time_us: frame.time_us,
@@ -161,14 +161,14 @@ impl Camera {
             changed_regions: self.picture.changed_regions as u64,
             sent,
             screen: self.picture.frame(),
-            original: self.original.as_ref().map(KeptOriginal::shown),
+            original: self.original.as_ref().map(KeptOriginalFrame::as_original),
         })
     }
 }
 
 /// A frame as the network saw it, kept in memory.
 #[derive(Clone, Debug)]
-pub(crate) struct Kept {
+pub(crate) struct KeptFrame {
     number: u64,
     name: String,
     time_us: u64,
@@ -178,24 +178,24 @@ pub(crate) struct Kept {
     changed_regions: u64,
     sent: SentCount,
     screen: Vec<u16>,
-    original: Option<KeptOriginal>,
+    original: Option<KeptOriginalFrame>,
 }
 
 /// A frame before the camera, kept in memory.
 #[derive(Clone, Debug)]
-struct KeptOriginal {
+struct KeptOriginalFrame {
     frame: Vec<u16>,
     objects: Option<Vec<Rect>>,
 }
 
-impl KeptOriginal {
-    fn shown(&self) -> Original<'_> {
-        Original { frame: &self.frame, objects: self.objects.as_deref() }
+impl KeptOriginalFrame {
+    fn as_original(&self) -> OriginalFrame<'_> {
+        OriginalFrame { frame: &self.frame, objects: self.objects.as_deref() }
     }
 }
 
-impl Kept {
-    pub(crate) fn of(seen: Seen<'_>) -> Self {
+impl KeptFrame {
+    pub(crate) fn from_received(seen: ReceivedFrame<'_>) -> Self {
         Self {
             number: seen.number,
             name: seen.name.to_owned(),
@@ -206,15 +206,15 @@ impl Kept {
             changed_regions: seen.changed_regions,
             sent: seen.sent,
             screen: seen.screen.to_vec(),
-            original: seen.original.map(|original| KeptOriginal {
+            original: seen.original.map(|original| KeptOriginalFrame {
                 frame: original.frame.to_vec(),
                 objects: original.objects.map(<[Rect]>::to_vec),
             }),
         }
     }
 
-    pub(crate) fn seen(&self) -> Seen<'_> {
-        Seen {
+    pub(crate) fn as_received(&self) -> ReceivedFrame<'_> {
+        ReceivedFrame {
             number: self.number,
             name: &self.name,
             time_us: self.time_us,
@@ -224,7 +224,7 @@ impl Kept {
             changed_regions: self.changed_regions,
             sent: self.sent,
             screen: &self.screen,
-            original: self.original.as_ref().map(KeptOriginal::shown),
+            original: self.original.as_ref().map(KeptOriginalFrame::as_original),
         }
     }
 }

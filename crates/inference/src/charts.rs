@@ -2,27 +2,27 @@
 //! The charts of a run: the needed share over the network's depth and over the frames, the savings
 //! of each frame, and the trials of tuning.
 
-use crate::Layer;
-use crate::facts::Attempt;
-use crate::frame::Frame;
-use crate::summary::{Summary, Tuning};
-use foveate_pictures::chart::{Chart, Line, Look, Shape};
+use crate::LayerSummary;
+use crate::table_columns::NamedTrial;
+use crate::frame::FrameFigures;
+use crate::summary::{InferenceSummary, TuningSummary};
+use foveate_pictures::chart::{Chart, ChartSeries, LineLook, ChartData};
 
 /// A chart, and the id of every point of its lines.
-pub(crate) struct Drawn {
+pub(crate) struct ChartWithIds {
     pub(crate) chart: Chart,
     pub(crate) ids: Vec<Vec<String>>,
 }
 
 /// A line of a chart with an id per point.
-struct Series {
+struct ChartSeries {
     name: String,
-    look: Look,
+    look: LineLook,
     points: Vec<(String, (f64, f64))>,
 }
 
 /// The largest number of clips that a chart tells apart by colour.
-const COLOURS: usize = 7;
+const MAX_COLOURED_CLIPS: usize = 7;
 
 /// Returns the id of the points of a layer.
 pub(crate) fn layer_id(layer: usize) -> String {
@@ -35,12 +35,12 @@ pub(crate) fn frame_id(place: u64) -> String {
 }
 
 /// Returns all trials of tuning in the order of their table, each with the id of its point.
-pub(crate) fn tried(tuning: &Tuning) -> Vec<(String, Attempt)> {
-    tuning.tried().enumerate().map(|(at, attempt)| (format!("t{at}"), attempt)).collect()
+pub(crate) fn trials_with_ids(tuning: &TuningSummary) -> Vec<(String, NamedTrial)> {
+    tuning.named_trials().enumerate().map(|(at, attempt)| (format!("t{at}"), attempt)).collect()
 }
 
 /// Draws all charts of the counted frames, for the files and for the page.
-pub(crate) fn charts(summary: &Summary, frames: &[&Frame]) -> Vec<Drawn> {
+pub(crate) fn charts(summary: &InferenceSummary, frames: &[&FrameFigures]) -> Vec<ChartWithIds> {
     let caption = format!(
         "foveate {}, {}, mode {}, inputs {}",
         summary.foveate_version,
@@ -48,8 +48,8 @@ pub(crate) fn charts(summary: &Summary, frames: &[&Frame]) -> Vec<Drawn> {
         summary.mode,
         summary.inputs.join(" ")
     );
-    let mut charts = vec![depth(summary), over_frames(summary, frames), saved(summary, frames)];
-    charts.extend(summary.tuning.as_ref().map(tuning));
+    let mut charts = vec![depth_chart(summary), frames_chart(summary, frames), savings_chart(summary, frames)];
+    charts.extend(summary.tuning.as_ref().map(tuning_chart));
     for drawn in &mut charts {
         drawn.chart.caption.clone_from(&caption);
     }
@@ -58,9 +58,9 @@ pub(crate) fn charts(summary: &Summary, frames: &[&Frame]) -> Vec<Drawn> {
 
 /// Draws the share of needed positions over the network's depth; it grows with the halo of the
 /// windows.
-fn depth(summary: &Summary) -> Drawn {
+fn depth_chart(summary: &InferenceSummary) -> ChartWithIds {
     let layers = || summary.layers.iter().enumerate().filter(|(_, layer)| layer.macs > 0);
-    let line = |name: &str, look, share: fn(&Layer) -> f64| {
+    let line = |name: &str, look, share: fn(&LayerSummary) -> f64| {
         let points = (1u32..)
             .zip(layers())
             .map(|(number, (at, layer))| (layer_id(at), (f64::from(number), 100.0 * share(layer))));
@@ -72,19 +72,19 @@ fn depth(summary: &Summary) -> Drawn {
         "layer with multiplications, from the input on",
         "share of the layer's positions [%]",
         vec![
-            line("needed", Look::Plain, |layer| layer.needed_share),
+            line("needed", LineLook::Plain, |layer| layer.needed_share),
             // Most layers pass on everything that they compute, so this line often covers the
             // other.
-            line("passed on", Look::Open, |layer| layer.changed_share),
+            line("passed on", LineLook::Open, |layer| layer.changed_share),
         ],
     )
 }
 
-fn over_frames(summary: &Summary, frames: &[&Frame]) -> Drawn {
+fn frames_chart(summary: &InferenceSummary, frames: &[&FrameFigures]) -> ChartWithIds {
     #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
-    let line = |name: &str, look, share: fn(&Frame) -> f64| {
+    let line = |name: &str, look, share: fn(&FrameFigures) -> f64| {
         let point =
-            |frame: &&Frame| (frame_id(frame.place), (frame.place as f64, 100.0 * share(frame)));
+            |frame: &&FrameFigures| (frame_id(frame.index_in_run), (frame.index_in_run as f64, 100.0 * share(frame)));
         series(name, look, frames.iter().map(point))
     };
     chart(
@@ -93,27 +93,27 @@ fn over_frames(summary: &Summary, frames: &[&Frame]) -> Drawn {
         if summary.clips.len() > 1 { "frame, clip after clip" } else { "frame" },
         "share [%]",
         vec![
-            line("MACs needed", Look::Plain, |frame| frame.macs.needed_share()),
-            line("regions changed", Look::Plain, |frame| frame.changed),
+            line("MACs needed", LineLook::Plain, |frame| frame.macs.needed_share()),
+            line("regions changed", LineLook::Plain, |frame| frame.changed_share),
             // The active regions are mostly the changed regions, so this line often covers the
             // other.
-            line("regions active", Look::Open, |frame| frame.active),
+            line("regions active", LineLook::Open, |frame| frame.active_share),
         ],
     )
 }
 
 /// Draws the MACs that each frame saves against its share of active regions.
-fn saved(summary: &Summary, frames: &[&Frame]) -> Drawn {
-    let of = |name: &str, is_shown: &dyn Fn(&Frame) -> bool| {
-        let shown = frames.iter().filter(|frame| is_shown(frame) && frame.macs.dense > 0.0);
+fn savings_chart(summary: &InferenceSummary, frames: &[&FrameFigures]) -> ChartWithIds {
+    let of = |name: &str, is_shown: &dyn Fn(&FrameFigures) -> bool| {
+        let shown = frames.iter().filter(|frame| is_shown(frame) && frame.macs.whole_frame > 0.0);
         let points = shown.map(|frame| {
             let saved = 1.0 - frame.macs.needed_share();
-            (frame_id(frame.place), (100.0 * frame.active, 100.0 * saved))
+            (frame_id(frame.index_in_run), (100.0 * frame.active_share, 100.0 * saved))
         });
-        series(name, Look::Plain, points)
+        series(name, LineLook::Plain, points)
     };
     // There are enough colours to tell this many clips apart.
-    let series = if (2..=COLOURS).contains(&summary.clips.len()) {
+    let series = if (2..=MAX_COLOURED_CLIPS).contains(&summary.clips.len()) {
         let clips = summary.clips.iter().map(|clip| &clip.name);
         clips.map(|clip| of(clip, &|frame| frame.clip == *clip)).collect()
     } else {
@@ -126,16 +126,16 @@ fn saved(summary: &Summary, frames: &[&Frame]) -> Drawn {
         "MACs saved [%]",
         series,
     );
-    if let Shape::Lines(points) = drawn.chart.shape {
-        drawn.chart.shape = Shape::Points(points);
+    if let ChartData::Lines(points) = drawn.chart.shape {
+        drawn.chart.shape = ChartData::Points(points);
     }
     drawn
 }
 
 /// Draws the error of each trial against the MACs that it needs, up to the error of outputs that
 /// never change.
-fn tuning(tuning: &Tuning) -> Drawn {
-    let all = tried(tuning);
+fn tuning_chart(tuning: &TuningSummary) -> ChartWithIds {
+    let all = trials_with_ids(tuning);
     let line = |name: &str, look, kinds: &[&str]| {
         let of_kind = all.iter().filter(|(_, (limits, _))| kinds.contains(limits));
         let points = of_kind.map(|(id, (_, tried))| {
@@ -149,32 +149,32 @@ fn tuning(tuning: &Tuning) -> Drawn {
         "MACs needed [%]",
         "RMS error of the outputs [% of their standard deviation]",
         vec![
-            line("same relative limit", Look::Plain, &["exact", "uniform"]),
-            line("never computed again", Look::Plain, &["frozen"]),
-            line("chosen", Look::Target, &["chosen"]),
+            line("same relative limit", LineLook::Plain, &["exact", "uniform"]),
+            line("never computed again", LineLook::Plain, &["frozen"]),
+            line("chosen", LineLook::Target, &["chosen"]),
         ],
     )
 }
 
-fn series(name: &str, look: Look, points: impl Iterator<Item = (String, (f64, f64))>) -> Series {
-    Series { name: name.to_owned(), look, points: points.collect() }
+fn series(name: &str, look: LineLook, points: impl Iterator<Item = (String, (f64, f64))>) -> ChartSeries {
+    ChartSeries { name: name.to_owned(), look, points: points.collect() }
 }
 
-fn chart(file: &str, title: &str, x: &str, y: &str, series: Vec<Series>) -> Drawn {
+fn chart(file: &str, title: &str, x: &str, y: &str, series: Vec<ChartSeries>) -> ChartWithIds {
     let (lines, ids) = series
         .into_iter()
-        .map(|Series { name, look, points }| {
+        .map(|ChartSeries { name, look, points }| {
             let (ids, points) = points.into_iter().unzip();
-            (Line { name, points, look }, ids)
+            (ChartSeries { name, points, look }, ids)
         })
         .unzip();
     let chart = Chart {
-        file: file.to_owned(),
+        file_stem: file.to_owned(),
         title: title.to_owned(),
-        x: x.to_owned(),
-        y: y.to_owned(),
+        x_title: x.to_owned(),
+        y_title: y.to_owned(),
         caption: String::new(),
-        shape: Shape::Lines(lines),
+        shape: ChartData::Lines(lines),
     };
-    Drawn { chart, ids }
+    ChartWithIds { chart, ids }
 }

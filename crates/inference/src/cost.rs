@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cost of a run's frames on an accelerator, computed whole and computed where the masks say.
 
-use foveate_accelerator::{Accelerator, AcceleratorError, Cost, Layer, Plan, Shape, Window};
-use foveate_network::{Executor, Form, Network, Products, Window as Taps};
+use foveate_accelerator::{Accelerator, AcceleratorError, LayerCost, Layer, LayerPlan, TensorShape, KernelWindow};
+use foveate_network::{Executor, TensorForm, Network, ProductKind, AxisWindow as Taps};
 use serde::Serialize;
 
 /// The costs of a network's nodes on an accelerator.
-pub(crate) struct Costs<'a> {
+pub(crate) struct NodeCosts<'a> {
     accelerator: &'a Accelerator,
     /// The plan of every node; `None` for a node that only renames values.
-    plans: Vec<Option<Plan<'a>>>,
+    plans: Vec<Option<LayerPlan<'a>>>,
     /// The cost of every node for a frame that is computed whole.
-    whole: Vec<Cost>,
+    whole: Vec<LayerCost>,
     /// The cost of every node for all counted frames so far, where they were needed.
-    masked: Vec<Cost>,
+    masked: Vec<LayerCost>,
     frames: u64,
 }
 
@@ -34,7 +34,7 @@ pub struct FrameCost {
 
 /// The cost of a run on an accelerator.
 #[derive(Clone, Debug, Serialize)]
-pub struct Accelerated {
+pub struct AcceleratorSummary {
     /// The accelerator's name, as the user gave it.
     pub name: String,
     /// The cost of a frame that is computed whole.
@@ -43,7 +43,7 @@ pub struct Accelerated {
     pub masked: FrameCost,
 }
 
-impl<'a> Costs<'a> {
+impl<'a> NodeCosts<'a> {
     /// Maps the nodes of a network onto an accelerator.
     ///
     /// # Errors
@@ -53,66 +53,66 @@ impl<'a> Costs<'a> {
         network: &Network,
     ) -> Result<Self, (String, AcceleratorError)> {
         let plan = |node: usize| {
-            let layer = layer(network, node);
+            let layer = accelerator_layer(network, node);
             let plan =
                 layer.and_then(|layer| layer.map(|layer| accelerator.plan(layer)).transpose());
             plan.map_err(|error| (network.nodes()[node].name().to_owned(), error))
         };
         let plans = (0..network.nodes().len()).map(plan).collect::<Result<Vec<_>, _>>()?;
-        let of = |plan: &Option<Plan<'_>>| plan.as_ref().map(Plan::whole).unwrap_or_default();
+        let of = |plan: &Option<LayerPlan<'_>>| plan.as_ref().map(LayerPlan::whole_cost).unwrap_or_default();
         let whole: Vec<_> = plans.iter().map(of).collect();
-        let masked = vec![Cost::default(); plans.len()];
+        let masked = vec![LayerCost::default(); plans.len()];
         Ok(Self { accelerator, plans, whole, masked, frames: 0 })
     }
 
     /// Returns the cost of a node for the last frame, where it was needed.
-    pub(crate) fn of_frame(&self, executor: &Executor<'_>, node: usize) -> Cost {
-        let Some(plan) = &self.plans[node] else { return Cost::default() };
-        let wanted = executor.wanted(node);
+    pub(crate) fn node_cost_of_frame(&self, executor: &Executor<'_>, node: usize) -> LayerCost {
+        let Some(plan) = &self.plans[node] else { return LayerCost::default() };
+        let wanted = executor.needed_mask(node);
         let shape = plan.layer().outputs();
         let fits = (shape.height, shape.width) == (wanted.height() as u64, wanted.width() as u64);
         // A product whose rows are not positions needs all its rows or none.
         if fits {
-            plan.masked(|x, y| wanted.contains(x, y))
+            plan.masked_cost(|x, y| wanted.contains(x, y))
         } else {
-            plan.masked(|_, _| !wanted.is_empty())
+            plan.masked_cost(|_, _| !wanted.is_empty())
         }
     }
 
     /// Counts a frame, given the costs of its nodes.
-    pub(crate) fn add(&mut self, nodes: impl Iterator<Item = Cost>) {
+    pub(crate) fn add_frame(&mut self, nodes: impl Iterator<Item = LayerCost>) {
         self.frames += 1;
         self.masked.iter_mut().zip(nodes).for_each(|(sum, cost)| *sum += cost);
     }
 
     /// Returns the whole and the masked cost of a node.
-    pub(crate) fn of_node(&self, node: usize) -> (FrameCost, FrameCost) {
-        (self.mean(self.whole[node], 1), self.mean(self.masked[node], self.frames))
+    pub(crate) fn mean_node_costs(&self, node: usize) -> (FrameCost, FrameCost) {
+        (self.mean_cost(self.whole[node], 1), self.mean_cost(self.masked[node], self.frames))
     }
 
     /// Returns the cost of a frame that is computed whole.
-    pub(crate) fn whole(&self) -> FrameCost {
-        self.mean(self.whole.iter().copied().sum(), 1)
+    pub(crate) fn whole_frame_cost(&self) -> FrameCost {
+        self.mean_cost(self.whole.iter().copied().sum(), 1)
     }
 
     /// Returns the sums over all nodes.
-    pub(crate) fn summary(&self, name: &str) -> Accelerated {
+    pub(crate) fn summary(&self, name: &str) -> AcceleratorSummary {
         let masked = self.masked.iter().copied().sum();
-        Accelerated {
+        AcceleratorSummary {
             name: name.to_owned(),
-            whole: self.whole(),
-            masked: self.mean(masked, self.frames),
+            whole: self.whole_frame_cost(),
+            masked: self.mean_cost(masked, self.frames),
         }
     }
 
     /// Returns the mean over `frames` frames whose costs add up to `sum`.
     #[allow(clippy::cast_precision_loss, reason = "means")]
-    pub(crate) fn mean(&self, sum: Cost, frames: u64) -> FrameCost {
+    pub(crate) fn mean_cost(&self, sum: LayerCost, frames: u64) -> FrameCost {
         let frames = frames.max(1) as f64;
         FrameCost {
             cycles: sum.cycles as f64 / frames,
             seconds: self.accelerator.seconds(sum.cycles) / frames,
-            dram_accesses: sum.dram.accesses() as f64 / frames,
+            dram_accesses: sum.dram.access_count() as f64 / frames,
             dram_weights: sum.dram.weights as f64 / frames,
             energy_mj: sum.energy.total() / 1e9 / frames,
         }
@@ -120,54 +120,54 @@ impl<'a> Costs<'a> {
 }
 
 /// Returns a node as a layer of an accelerator; `None` if it only renames values.
-fn layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorError> {
+fn accelerator_layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorError> {
     let place = &network.nodes()[node];
     let (output, inputs) = (network.form(node + 1), place.inputs());
     Ok(Some(match place.products() {
-        Products::Renamed => return Ok(None),
-        Products::Convolution { rows, columns, groups } => Layer::convolution(
+        ProductKind::NoComputation => return Ok(None),
+        ProductKind::Convolution { rows, columns, groups } => Layer::convolution(
             shape(network.form(inputs[0])),
             shape(output),
             [window(rows), window(columns)],
             groups as u64,
         )?,
         // Each output position is a product with the inputs that reach it.
-        Products::Transposed { inputs } => {
-            let of = Shape { channels: inputs as u64, ..shape(output) };
-            Layer::convolution(of, shape(output), [Window::SAME; 2], 1)?
+        ProductKind::Transposed { inputs } => {
+            let of = TensorShape { channels: inputs as u64, ..shape(output) };
+            Layer::convolution(of, shape(output), [KernelWindow::SAME; 2], 1)?
         }
-        Products::Matrix { inputs } => {
+        ProductKind::Matrix { inputs } => {
             let columns = output.shape().last().map_or(1, |&columns| columns as u64);
-            let rows = output.elements() as u64 / columns;
-            if rows == output.places() as u64 {
-                let of = |channels| Shape { channels, ..shape(output) };
-                Layer::convolution(of(inputs as u64), of(columns), [Window::SAME; 2], 1)?
+            let rows = output.element_count() as u64 / columns;
+            if rows == output.position_count() as u64 {
+                let of = |channels| TensorShape { channels, ..shape(output) };
+                Layer::convolution(of(inputs as u64), of(columns), [KernelWindow::SAME; 2], 1)?
             } else {
                 Layer::product(rows, inputs as u64, columns)?
             }
         }
         // Every output takes an equal share of all inputs, wherever it is.
-        Products::None => {
-            let values: usize = inputs.iter().map(|&input| network.form(input).elements()).sum();
-            let channels = values.div_ceil(output.places()) as u64;
-            Layer::transfer(Shape { channels, ..shape(output) }, shape(output), [Window::SAME; 2])?
+        ProductKind::None => {
+            let values: usize = inputs.iter().map(|&input| network.form(input).element_count()).sum();
+            let channels = values.div_ceil(output.position_count()) as u64;
+            Layer::transfer(TensorShape { channels, ..shape(output) }, shape(output), [KernelWindow::SAME; 2])?
         }
     }))
 }
 
-fn shape(form: &Form) -> Shape {
-    Shape {
-        channels: (form.elements() / form.places()) as u64,
+fn shape(form: &TensorForm) -> TensorShape {
+    TensorShape {
+        channels: (form.element_count() / form.position_count()) as u64,
         height: form.height() as u64,
         width: form.width() as u64,
     }
 }
 
-fn window(taps: Taps) -> Window {
-    Window {
+fn window(taps: Taps) -> KernelWindow {
+    KernelWindow {
         kernel: taps.kernel as u64,
         stride: taps.stride as u64,
         dilation: taps.dilation as u64,
-        before: taps.before as u64,
+        padding_before: taps.padding_before as u64,
     }
 }

@@ -11,7 +11,7 @@ use foveate_files::npy::NpyError;
 use foveate_footage::FootageError;
 use foveate_footage::boxes::BoxError;
 use foveate_network::NetworkError;
-use foveate_network::sight::SightError;
+use foveate_network::vision::VisionError;
 use foveate_pictures::chart::ChartError;
 use foveate_pictures::page::PageError;
 use foveate_staging::StagingError;
@@ -23,7 +23,7 @@ use thiserror::Error;
 pub enum InferenceError {
     /// The network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
-    Sight(#[from] SightError),
+    Sight(#[from] VisionError),
     /// The network cannot be read for arrays.
     #[error(transparent)]
     Network(#[from] NetworkError),
@@ -40,7 +40,7 @@ pub enum InferenceError {
     },
     /// An option names something that does not exist or cannot be used.
     #[error("{problem}")]
-    Choice {
+    InvalidOption {
         /// The message: the chosen value, and the values that exist.
         problem: String,
     },
@@ -69,7 +69,7 @@ pub enum InferenceError {
     #[error(
         "no output is a picture, which has 1 or 3 channels and the height and width of the input: {outputs}; leave out png"
     )]
-    NoPicture {
+    NoPictureOutput {
         /// The outputs with their shapes.
         outputs: String,
     },
@@ -112,7 +112,7 @@ pub enum InferenceError {
     #[error(
         "no frame of the {clips} counts, because a clip's first frame is computed whole; give clips of at least 2 frames"
     )]
-    NothingCounts {
+    NoCountedFrame {
         /// The clips in words.
         clips: &'static str,
     },
@@ -121,7 +121,7 @@ pub enum InferenceError {
         "all clips of a run must have one size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; give --resize, or --crop",
         first_size.0, first_size.1, other_size.0, other_size.1
     )]
-    Sizes {
+    DifferentSizes {
         /// The name of the first clip.
         first: String,
         /// The width and height of the first clip in pixels.

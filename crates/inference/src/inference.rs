@@ -2,49 +2,49 @@
 //! A run: every frame of some clips goes through a camera and a network, and the results go to one
 //! folder.
 
-use crate::album::Album;
-use crate::camera::Shown;
-use crate::charts::{Drawn, charts};
-use crate::clips::{Clips, Showing};
-use crate::cost::Costs;
-use crate::details::Details;
-use crate::facts::{DETECTIONS, FRAMES, LAYERS, TRIED, table};
-use crate::frame::counted;
-use crate::page::page;
-use crate::player::{Player, Way};
-use crate::recording::{Record, Recording};
-use crate::run::{Beside, Ended, Files, Run, Told};
-use crate::sight::Judge;
-use crate::summary::{Summary, mode_name};
-use crate::tune::{Tuned, tune};
-use crate::{Goal, InferenceError, Viewing, Witness};
+use crate::kept_clips::KeptClips;
+use crate::camera::CameraSetup;
+use crate::charts::{ChartWithIds, charts};
+use crate::clips::{RunClips, ClipPlayback};
+use crate::cost::NodeCosts;
+use crate::layer_frame_table::LayerFrameTable;
+use crate::table_columns::{DETECTIONS, FRAMES, LAYERS, TRIALS, table};
+use crate::frame::counted_frames;
+use crate::page::render_page;
+use crate::runner::{NetworkRunner, ExecutorMode};
+use crate::recording::{RecordOptions, OutputRecorder};
+use crate::run::{RunComparisons, FinishedRun, RunFiles, InferenceRun, RunMetadata};
+use crate::whole_frames::WholeFrameComparison;
+use crate::summary::{InferenceSummary, mode_name};
+use crate::tuning::{TunedLimits, tune};
+use crate::{TuningGoal, InferenceError, VisionOptions, VisionNetwork};
 use foveate_accelerator::Accelerator;
-use foveate_design::{Config, Design};
-use foveate_footage::{Hooks, InputOptions, Source};
-use foveate_network::Mode;
+use foveate_design::{DesignConfig, Design};
+use foveate_footage::{RunHooks, InputOptions, FrameSource};
+use foveate_network::ExecutionMode;
 use foveate_staging::{FolderKind, StagedFolder};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 /// The options of a run.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct InferenceOptions {
     /// The computation for each frame.
-    pub computed: Computed,
+    pub computation: Computation,
     /// The accelerator whose cost is counted, with its name.
     pub accelerator: Option<(String, Accelerator)>,
     /// Whether a whole computation also runs, for comparison.
-    pub reference: bool,
+    pub with_whole_computation: bool,
     /// Whether the network also runs on whole frames, to compare its outputs there.
-    pub sight: bool,
+    pub with_whole_frames: bool,
     /// Standard deviations of noise in grey levels of 8 bits, each above 0. With `sight`, the
     /// network also runs on whole frames with this noise.
     pub noise: Vec<f64>,
     /// The interval of the frames that the network sees: one of so many frames of a clip, from the
     /// first one. The camera sees all frames.
-    pub every: NonZeroU32,
+    pub frame_interval: NonZeroU32,
     /// The files of the outputs that are written.
-    pub record: Record,
+    pub record: RecordOptions,
     /// The words of the command line, which the page shows; empty if there was no command.
     pub command: Vec<String>,
     /// Whether the folder of an earlier run is replaced.
@@ -53,22 +53,22 @@ pub struct Options {
 
 /// The computation for each frame after the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Computed {
+pub enum Computation {
     /// The computation of a mode.
-    Mode(Mode),
+    Mode(ExecutionMode),
     /// A computation of the changes above a limit for each layer. The limits are chosen on the
     /// first half of the clips, rounded up, or on the first half of the frames of a single clip.
     /// The second half is reported.
-    Tuned(Goal),
+    Tuned(TuningGoal),
 }
 
 /// A camera, a network and the clips of a run.
 pub struct Inference {
     design: Design,
-    witness: Witness,
-    viewing: Viewing,
+    witness: VisionNetwork,
+    viewing: VisionOptions,
     path: PathBuf,
-    clips: Clips,
+    clips: RunClips,
 }
 
 impl Inference {
@@ -81,37 +81,37 @@ impl Inference {
     /// Fails if an input cannot be read, clips have different sizes, the configuration is not a
     /// valid design, or the network cannot be read or takes frames of another size.
     pub fn new(
-        config: &Config,
+        config: &DesignConfig,
         network: &Path,
-        viewing: Viewing,
+        viewing: VisionOptions,
         (inputs, boxes): (&[PathBuf], &[PathBuf]),
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
-        Self::with(config, network, viewing, Clips::new(inputs, boxes, config, input)?)
+        Self::from_clips(config, network, viewing, RunClips::new(inputs, boxes, config, input)?)
     }
 
     /// Creates a run over one clip or data set that is already open.
     ///
     /// # Errors
     /// Fails like [`Inference::new`], but not on inputs.
-    pub fn of_source(
-        config: &Config,
+    pub fn from_source(
+        config: &DesignConfig,
         network: &Path,
-        viewing: Viewing,
-        (source, boxes): (Box<dyn Source>, &[PathBuf]),
+        viewing: VisionOptions,
+        (source, boxes): (Box<dyn FrameSource>, &[PathBuf]),
     ) -> Result<Self, InferenceError> {
-        Self::with(config, network, viewing, Clips::of(source, boxes, config)?)
+        Self::from_clips(config, network, viewing, RunClips::from_source(source, boxes, config)?)
     }
 
-    fn with(
-        config: &Config,
+    fn from_clips(
+        config: &DesignConfig,
         network: &Path,
-        viewing: Viewing,
-        clips: Clips,
+        viewing: VisionOptions,
+        clips: RunClips,
     ) -> Result<Self, InferenceError> {
         let (width, height) = clips.size;
-        let witness = Witness::read(network, clips.size, &viewing)?;
-        let design = config.for_frames(width, height)?;
+        let witness = VisionNetwork::read(network, clips.size, &viewing)?;
+        let design = config.validate_for_frames(width, height)?;
         Ok(Self { design, witness, viewing, path: network.to_owned(), clips })
     }
 
@@ -123,12 +123,12 @@ impl Inference {
     pub fn run(
         self,
         output: &Path,
-        options: &Options,
-        hooks: &mut dyn Hooks,
-    ) -> Result<Summary, InferenceError> {
-        let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
-        let summary = self.write(&staging, options, hooks).map_err(|error| match error {
-            InferenceError::Output(error) => InferenceError::Output(staging.named(error)),
+        options: &InferenceOptions,
+        hooks: &mut dyn RunHooks,
+    ) -> Result<InferenceSummary, InferenceError> {
+        let staging = StagedFolder::new(output, INFERENCE_FOLDER, options.overwrite)?;
+        let summary = self.write_files(&staging, options, hooks).map_err(|error| match error {
+            InferenceError::Output(error) => InferenceError::Output(staging.with_shown_path(error)),
             other => other,
         })?;
         staging.commit()?;
@@ -136,67 +136,67 @@ impl Inference {
     }
 
     /// Runs the network and writes all files.
-    fn write(
+    fn write_files(
         self,
         staging: &StagedFolder,
-        options: &Options,
-        hooks: &mut dyn Hooks,
-    ) -> Result<Summary, InferenceError> {
+        options: &InferenceOptions,
+        hooks: &mut dyn RunHooks,
+    ) -> Result<InferenceSummary, InferenceError> {
         let Self { design, witness, viewing, path, mut clips } = self;
         let network = witness.network();
         let accelerator = options.accelerator.as_ref();
         let costs =
-            accelerator.map(|(_, accelerator)| Costs::new(accelerator, network)).transpose();
+            accelerator.map(|(_, accelerator)| NodeCosts::new(accelerator, network)).transpose();
         let costs = costs.map_err(|(node, source)| InferenceError::Accelerator { node, source })?;
-        let files = Files {
-            outputs: Recording::new(staging, network, options.record)?,
-            details: Details::new(staging)?,
+        let files = RunFiles {
+            outputs: OutputRecorder::new(staging, network, options.record)?,
+            details: LayerFrameTable::new(staging)?,
         };
         let (all, inputs) = (clips.count(), clips.inputs());
-        let with_truth = clips.have_boxes();
+        let with_truth = clips.has_boxes();
         let judge =
-            options.sight.then(|| Judge::new(&witness, &design, &options.noise, with_truth));
-        let shown = Shown { design: &design, witness: &witness, with_originals: options.sight };
-        let mut showing = Showing { shown, clips: &mut clips, every: options.every, done: 0 };
+            options.with_whole_frames.then(|| WholeFrameComparison::new(&witness, &design, &options.noise, with_truth));
+        let shown = CameraSetup { design: &design, witness: &witness, with_originals: options.with_whole_frames };
+        let mut showing = ClipPlayback { setup: shown, clips: &mut clips, every: options.frame_interval, frames_done: 0 };
         let run = |way, reference| {
-            let beside = Beside { reference, judge };
-            Run::new(&design, Player::new(network, way), beside, costs, files)
+            let beside = RunComparisons { with_whole_computation: reference, whole_frames: judge };
+            InferenceRun::new(&design, NetworkRunner::new(network, way), beside, costs, files)
         };
-        let (run, problem, mode, tuning) = match options.computed {
-            Computed::Mode(mode) => {
-                let mut run = run(Way::Mode(mode), options.reference);
-                showing.show(0..all, hooks, &mut run)?;
-                let problem = problem(run.problems(), all, run.clips());
+        let (run, problem, mode, tuning) = match options.computation {
+            Computation::Mode(mode) => {
+                let mut run = run(ExecutorMode::Mode(mode), options.with_whole_computation);
+                showing.play_clips(0..all, hooks, &mut run)?;
+                let problem = missing_frames_reason(run.problems(), all, run.clip_count());
                 (run, problem, mode_name(mode), None)
             }
-            Computed::Tuned(goal) => {
-                let mut album = Album::default();
+            Computation::Tuned(goal) => {
+                let mut album = KeptClips::default();
                 let tuned_on = all.div_ceil(2);
-                if !showing.show(0..tuned_on, hooks, &mut album)? {
+                if !showing.play_clips(0..tuned_on, hooks, &mut album)? {
                     return Err(InferenceError::Cancelled);
                 }
-                let (parts, rest) = album.parts(all)?;
-                let Tuned { limits, tuning } = tune(network, goal, &parts, album.frames(), hooks)?;
-                let mut run = run(Way::Limits(limits), true);
+                let (parts, rest) = album.tuning_parts(all)?;
+                let TunedLimits { limits, tuning } = tune(network, goal, &parts, album.frames(), hooks)?;
+                let mut run = run(ExecutorMode::Limits(limits), true);
                 if let Some(rest) = rest {
-                    run.see(rest)?;
+                    run.run_part(rest)?;
                 }
-                let is_whole = showing.show(tuned_on..all, hooks, &mut run)?;
-                match (run.counts(), is_whole) {
+                let is_whole = showing.play_clips(tuned_on..all, hooks, &mut run)?;
+                match (run.has_counted_frames(), is_whole) {
                     (true, _) => {}
                     (false, true) => {
-                        return Err(InferenceError::NothingCounts {
+                        return Err(InferenceError::NoCountedFrame {
                             clips: "clips that it reports",
                         });
                     }
                     (false, false) => return Err(InferenceError::Cancelled),
                 }
                 let problems = [album.problems(), run.problems()].concat();
-                let problem = problem(problems, all, tuned_on.min(all - 1) + run.clips());
+                let problem = missing_frames_reason(problems, all, tuned_on.min(all - 1) + run.clip_count());
                 (run, problem, format!("tuned to {goal}"), Some((tuning, goal)))
             }
         };
-        let ended = run.end(Told {
+        let ended = run.finish(RunMetadata {
             mode,
             accelerator: accelerator.map(|(name, _)| name.clone()),
             tuning,
@@ -205,19 +205,19 @@ impl Inference {
             inputs,
             mapping: viewing.mapping,
             framing: viewing.framing,
-            every: options.every,
+            every: options.frame_interval,
         })?;
-        write(staging, &ended)?;
-        let Ended { summary, frames, detected } = &ended;
+        write_tables_and_charts(staging, &ended)?;
+        let FinishedRun { summary, frames, detections: detected } = &ended;
         let shots = detected.as_ref().map(|detected| &detected.shots);
-        let page = page(summary, frames, shots, &design, &options.command)?;
+        let page = render_page(summary, frames, shots, &design, &options.command)?;
         staging.write("report.html", page.as_bytes())?;
         Ok(ended.summary)
     }
 }
 
 /// Returns the reason for missing frames, if some are missing. A single clip is not named.
-fn problem(clips: Vec<(String, String)>, all: usize, begun: usize) -> Option<String> {
+fn missing_frames_reason(clips: Vec<(String, String)>, all: usize, begun: usize) -> Option<String> {
     let named = |(clip, problem): (String, String)| {
         if all == 1 { problem } else { format!("`{clip}`: {problem}") }
     };
@@ -237,12 +237,12 @@ impl std::fmt::Debug for Inference {
 }
 
 /// Writes the tables, the charts and the summary of a run.
-fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
-    let Ended { summary, frames, detected } = ended;
+fn write_tables_and_charts(staging: &StagedFolder, ended: &FinishedRun) -> Result<(), InferenceError> {
+    let FinishedRun { summary, frames, detections: detected } = ended;
     let layers = (0..).zip(&summary.layers);
     let of_frames = frames.iter().map(|frame| (frame.number, frame));
-    let tried: Option<Vec<_>> = summary.tuning.as_ref().map(|tuning| tuning.tried().collect());
-    let tried = tried.map(|tried| table(None, TRIED, (0..).zip(&tried)));
+    let tried: Option<Vec<_>> = summary.tuning.as_ref().map(|tuning| tuning.named_trials().collect());
+    let tried = tried.map(|tried| table(None, TRIALS, (0..).zip(&tried)));
     let mut tables = vec![("layers", table(Some("layer"), LAYERS, layers))];
     tables.push(("frames", table(Some("frame"), FRAMES, of_frames)));
     tables.extend(tried.map(|tried| ("tuning", tried)));
@@ -251,24 +251,24 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
     }
     for (name, table) in tables {
         let file = format!("{name}.parquet");
-        let parquet = table.parquet(name);
+        let parquet = table.to_parquet(name);
         let parquet =
             parquet.map_err(|source| InferenceError::Table { name: file.clone(), source })?;
-        staging.write(&format!("{name}.csv"), table.csv().as_bytes())?;
+        staging.write(&format!("{name}.csv"), table.to_csv().as_bytes())?;
         staging.write(&file, &parquet)?;
     }
-    for Drawn { chart, .. } in charts(summary, &counted(frames)) {
+    for ChartWithIds { chart, .. } in charts(summary, &counted_frames(frames)) {
         let notes = [chart.caption.clone()];
-        staging.write(&format!("{}.svg", chart.file), chart.svg(&notes)?.as_bytes())?;
-        staging.write(&format!("{}.png", chart.file), &chart.png()?)?;
+        staging.write(&format!("{}.svg", chart.file_stem), chart.to_svg(&notes)?.as_bytes())?;
+        staging.write(&format!("{}.png", chart.file_stem), &chart.to_png()?)?;
     }
     let json = serde_json::to_vec_pretty(summary).expect("a summary has no keys that are not text");
     Ok(staging.write("inference.json", &json)?)
 }
 
 /// The kind of folder that a run writes, and the only kind that it replaces.
-pub const INFERENCE: FolderKind =
-    FolderKind { what: "an inference (its inference.json)", is: is_inference };
+pub const INFERENCE_FOLDER: FolderKind =
+    FolderKind { description: "an inference (its inference.json)", matches: is_inference };
 
 fn is_inference(folder: &Path) -> bool {
     folder.join("inference.json").is_file()

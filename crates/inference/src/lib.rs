@@ -6,53 +6,53 @@
 //! computed again. An [`Inference`] runs a camera and a network over a clip or a data set, and
 //! writes how much was needed, layer by layer and frame by frame.
 
-mod album;
+mod kept_clips;
 mod arrays;
 mod camera;
 mod charts;
-mod checked;
-mod choices;
+mod network_check;
+mod option_parsers;
 mod clips;
 mod closeness;
 mod cost;
-mod details;
+mod layer_frame_table;
 mod error;
-mod facts;
+mod table_columns;
 mod frame;
 mod inference;
 mod macs;
 mod page;
-mod player;
+mod runner;
 mod positions;
 mod recording;
-mod reference;
+mod whole_computation;
 mod run;
-mod sight;
+mod whole_frames;
 mod summary;
 mod sums;
 mod tally;
 mod traffic;
-mod tune;
+mod tuning;
 
 pub use arrays::{ArrayFile, ArraySummary, infer_arrays, is_array};
-pub use camera::frames_of;
-pub use checked::{NetworkFacts, NetworkReport, OPEN_SIZE, check_network};
-pub use choices::{parse_goal, parse_mode, parse_noise, read_accelerator};
-pub use closeness::Goal;
-pub use cost::{Accelerated, FrameCost};
+pub use camera::frame_format_of;
+pub use network_check::{NetworkFacts, NetworkReport, OPEN_SIZE, check_network};
+pub use option_parsers::{parse_goal, parse_mode, parse_noise, read_accelerator};
+pub use closeness::TuningGoal;
+pub use cost::{AcceleratorSummary, FrameCost};
 pub use error::InferenceError;
 // Types that appear in the interface of this crate.
-pub use foveate_network::sight::{
-    Agreement, ClassKept, Detection, DetectionsKept, Detector, Found, Framing, Head, Looking,
-    Mapping, Output, SightError, Testimony, Viewing, Witness, parse_detector, parse_framing,
+pub use foveate_network::vision::{
+    OutputAgreement, ClassAgreement, Detection, DetectionAgreement, Detector, DetectionCounts, Framing, DetectionFormat, VisionRun,
+    PixelMapping, OutputTensor, VisionError, FrameOutcome, VisionOptions, VisionNetwork, parse_detector, parse_framing,
     parse_mean, parse_scale,
 };
-pub use inference::{Computed, INFERENCE, Inference, Options};
+pub use inference::{Computation, INFERENCE_FOLDER, Inference, InferenceOptions};
 pub use macs::Macs;
-pub use recording::{Record, Recorded};
-pub use sight::{
-    ConfidenceIntervals, NOISE_LEVELS, NoiseAgreement, NoiseCeiling, Sight, Truth, has_places,
-    wilson,
+pub use recording::{RecordOptions, RecordedOutput};
+pub use whole_frames::{
+    ConfidenceIntervals, NOISE_LEVELS, NoiseAgreement, NoiseComparison, WholeFrameAgreement, GroundTruthFigures, has_class_map,
+    wilson_interval,
 };
-pub use summary::{Clip, Error, Layer, Outputs, Summary, Tried, Tuning};
+pub use summary::{ClipSummary, WholeComputationError, LayerSummary, OutputCloseness, InferenceSummary, TuningTrial, TuningSummary};
 pub use traffic::FrameTraffic;

@@ -2,33 +2,33 @@
 //! The page of a run: its setup, its savings, charts, tables, and the command that repeats it. The
 //! page needs no script to be read, and loads nothing.
 
-mod again;
+mod command_line;
 mod figures;
 mod plots;
 mod rows;
-mod shots;
+mod frame_pictures;
 #[cfg(test)]
 mod tests;
-mod words;
+mod sentences;
 
-use crate::Summary;
+use crate::InferenceSummary;
 use crate::charts::charts;
-use crate::frame::{Frame, counted};
-use crate::sight::Shots;
+use crate::frame::{FrameFigures, counted_frames};
+use crate::whole_frames::KeptScreens;
 use askama::Template;
 use foveate_design::Design;
-use foveate_pictures::page::{Notice, Page, PageError, Plot, Table, Target};
-use rows::Rows;
+use foveate_pictures::page::{PageNotice, ResultPage, PageError, PagePlot, SortableTable, LinkTarget};
+use rows::TableRows;
 
 /// The most frames that a page shows; with more it would be too large to open.
-const FRAMES: usize = 400;
+const MAX_FRAMES: usize = 400;
 /// The target of the links of marks: the row of a mark.
-const TARGETS: [Target; 1] = [Target { prefix: "p", name: "its row" }];
+const TARGETS: [LinkTarget; 1] = [LinkTarget { prefix: "p", name: "its row" }];
 
 /// The section about the run and its findings.
 #[derive(Template)]
 #[template(path = "about.html")]
-struct About {
+struct AboutSection {
     run: String,
     findings: Vec<String>,
     tuned: bool,
@@ -40,16 +40,16 @@ struct About {
 /// The other sections.
 #[derive(Template)]
 #[template(path = "main.html")]
-struct Main<'a> {
+struct MainSections<'a> {
     /// The frames with detections, if the network finds objects.
-    shots: Option<shots::Pictures>,
-    plots: Vec<Plot>,
+    shots: Option<frame_pictures::FramePictures>,
+    plots: Vec<PagePlot>,
     /// The table of clips, if there are several.
-    clips: Option<Table<'a>>,
-    layers: Table<'a>,
-    tried: Option<Table<'a>>,
+    clips: Option<SortableTable<'a>>,
+    layers: SortableTable<'a>,
+    tried: Option<SortableTable<'a>>,
     /// The table of counted frames, if there are any.
-    frames: Option<Table<'a>>,
+    frames: Option<SortableTable<'a>>,
     /// The number of counted frames of which one is shown.
     every: usize,
     command: String,
@@ -64,71 +64,71 @@ struct Main<'a> {
 /// The footer, with the files of the run.
 #[derive(Template)]
 #[template(path = "files.html")]
-struct Files<'a> {
+struct FilesFooter<'a> {
     tuned: bool,
     detected: bool,
-    outputs: &'a [crate::Recorded],
+    outputs: &'a [crate::RecordedOutput],
 }
 
 /// Renders the page.
-pub(crate) fn page(
-    summary: &Summary,
-    frames: &[Frame],
-    shots: Option<&Shots>,
+pub(crate) fn render_page(
+    summary: &InferenceSummary,
+    frames: &[FrameFigures],
+    shots: Option<&KeptScreens>,
     design: &Design,
     command: &[String],
 ) -> Result<String, PageError> {
-    let frames = counted(frames);
-    let every = frames.len().div_ceil(FRAMES).max(1);
-    let shown = shown(&frames, every);
+    let frames = counted_frames(frames);
+    let every = frames.len().div_ceil(MAX_FRAMES).max(1);
+    let shown = most_expensive_frames(&frames, every);
     let is_counted = !frames.is_empty();
     let (layers, tried, rows) =
-        (rows::layers(summary), rows::tried(summary), rows::frames(&shown, summary));
+        (rows::layers(summary), rows::trials(summary), rows::frames(&shown, summary));
     let clips = rows::clips(summary);
-    let titles = [&layers, &tried, &rows].into_iter().flat_map(Rows::titles).collect();
+    let titles = [&layers, &tried, &rows].into_iter().flat_map(TableRows::titles).collect();
     let charts = if is_counted { charts(summary, &shown) } else { Vec::new() };
-    let note = if every > 1 { words::sampled(every) } else { String::new() };
-    let title = words::title(summary);
+    let note = if every > 1 { sentences::sampling_note(every) } else { String::new() };
+    let title = sentences::title(summary);
     let failed =
         |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
-    let about = About {
-        run: words::run(summary, design),
-        findings: words::findings(summary),
+    let about = AboutSection {
+        run: sentences::run_sentences(summary, design),
+        findings: sentences::findings(summary),
         tuned: summary.tuning.is_some(),
         counted: is_counted,
         several: summary.clips.len() > 1,
-        shots: shots.is_some_and(|shots| !shots.kept().is_empty()),
+        shots: shots.is_some_and(|shots| !shots.screens().is_empty()),
     };
-    let main = Main {
-        shots: shots.map(shots::pictures).transpose()?.flatten(),
+    let main = MainSections {
+        shots: shots.map(frame_pictures::frame_pictures).transpose()?.flatten(),
         plots: charts.iter().map(|drawn| plots::plot(drawn, &titles, &note)).collect(),
         clips: (summary.clips.len() > 1).then(|| clips.table("number of the clip")),
         layers: layers.table("number of the layer"),
         tried: summary.tuning.is_some().then(|| tried.table("number of the run")),
         frames: is_counted.then(|| rows.table("number of the frame")),
         every,
-        command: again::line(command),
-        camera: words::camera(design),
+        command: command_line::shell_command(command),
+        camera: sentences::camera_text(design),
         toml: design.config().to_toml(),
         fingerprint: design.fingerprint(),
         accelerated: summary.accelerator.is_some(),
         compared: summary.error.is_some(),
         sighted: summary.sight.is_some(),
     };
-    let files = Files {
+    let files = FilesFooter {
         tuned: summary.tuning.is_some(),
         detected: summary.sight.as_ref().is_some_and(|sight| sight.detections.is_some()),
         outputs: &summary.outputs,
     };
-    let page = Page {
+    let page = ResultPage {
         kind: "Inference",
         program: &format!("foveate {}", summary.foveate_version),
         title: &title,
         notices: &[
-            Notice { title: "Not complete", lines: &words::problems(summary) },
-            Notice { title: "Note", lines: &summary.warnings },
+            PageNotice { title: "Not complete", lines: &sentences::problems(summary) },
+            PageNotice { title: "Note", lines: &summary.warnings },
         ],
-        facts: &figures::facts(summary),
+        facts: &figures::heading_facts(summary),
         about: &about.render().map_err(failed)?,
         main: &main.render().map_err(failed)?,
         footer: &files.render().map_err(failed)?,
@@ -140,11 +140,11 @@ pub(crate) fn page(
 
 /// Returns, of every `every` frames in a row, the frame that needs the most MACs, so that no peak
 /// is lost.
-fn shown<'a>(frames: &[&'a Frame], every: usize) -> Vec<&'a Frame> {
-    let by_macs = |one: &&&Frame, other: &&&Frame| {
+fn most_expensive_frames<'a>(frames: &[&'a FrameFigures], every: usize) -> Vec<&'a FrameFigures> {
+    let by_macs = |one: &&&FrameFigures, other: &&&FrameFigures| {
         // Of equal frames the first one is taken.
-        one.macs.needed.total_cmp(&other.macs.needed).then(other.place.cmp(&one.place))
+        one.macs.needed.total_cmp(&other.macs.needed).then(other.index_in_run.cmp(&one.index_in_run))
     };
-    let most = |frames: &[&'a Frame]| frames.iter().max_by(by_macs).copied();
+    let most = |frames: &[&'a FrameFigures]| frames.iter().max_by(by_macs).copied();
     frames.chunks(every).filter_map(most).collect()
 }

@@ -3,21 +3,21 @@
 //! of outputs that are frames.
 
 use crate::InferenceError;
-use foveate_files::npy::{Element, NpyWriter};
-use foveate_network::{Executor, Form, Network};
+use foveate_files::npy::{ElementType, NpyWriter};
+use foveate_network::{Executor, TensorForm, Network};
 use foveate_staging::{StagedFolder, StagingError};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;
 
 /// The folder of all outputs.
-pub(crate) const FOLDER: &str = "outputs";
+pub(crate) const OUTPUTS_FOLDER: &str = "outputs";
 /// The most letters of a file's name.
-const LETTERS: usize = 100;
+const MAX_NAME_LETTERS: usize = 100;
 
 /// The files of the outputs that are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Record {
+pub struct RecordOptions {
     /// Whether NumPy arrays of shape `[frames, ...shape]` are written.
     pub arrays: bool,
     /// Whether PNG files are written of the outputs with one or three channels and the size of the
@@ -27,7 +27,7 @@ pub struct Record {
 
 /// An output of the network and its files.
 #[derive(Clone, Debug, Serialize)]
-pub struct Recorded {
+pub struct RecordedOutput {
     /// The name of the output in the model.
     pub name: String,
     /// The shape of the output for one frame.
@@ -41,20 +41,20 @@ pub struct Recorded {
 }
 
 /// The open files of all outputs.
-pub(crate) struct Recording<'a> {
+pub(crate) struct OutputRecorder<'a> {
     staging: &'a StagedFolder,
-    outputs: Vec<Output>,
+    outputs: Vec<OutputFiles>,
     frames: u64,
 }
 
 /// The open files of one output.
-struct Output {
+struct OutputFiles {
     value: usize,
-    told: Recorded,
+    recorded: RecordedOutput,
     array: Option<NpyWriter>,
 }
 
-impl<'a> Recording<'a> {
+impl<'a> OutputRecorder<'a> {
     /// Creates the files of all outputs.
     ///
     /// # Errors
@@ -63,9 +63,9 @@ impl<'a> Recording<'a> {
     pub(crate) fn new(
         staging: &'a StagedFolder,
         network: &Network,
-        record: Record,
+        record: RecordOptions,
     ) -> Result<Self, InferenceError> {
-        let mut outputs: Vec<Output> = Vec::new();
+        let mut outputs: Vec<OutputFiles> = Vec::new();
         if !record.arrays && !record.pictures {
             return Ok(Self { staging, outputs, frames: 0 });
         }
@@ -73,29 +73,29 @@ impl<'a> Recording<'a> {
         let is_picture = |value: usize| is_picture(network.form(value), network.input());
         if record.pictures && !values().any(|(&value, _)| is_picture(value)) {
             let shapes = values()
-                .map(|(&value, name)| format!("`{name}` is {}", by(network.form(value).shape())));
-            return Err(InferenceError::NoPicture {
+                .map(|(&value, name)| format!("`{name}` is {}", shape_text(network.form(value).shape())));
+            return Err(InferenceError::NoPictureOutput {
                 outputs: shapes.collect::<Vec<_>>().join(", "),
             });
         }
-        let folder = staging.folder().join(FOLDER);
+        let folder = staging.folder().join(OUTPUTS_FOLDER);
         std::fs::create_dir(&folder)
-            .map_err(|source| StagingError::Write { path: folder.clone(), source })?;
+            .map_err(|source| StagingError::Unwritable { path: folder.clone(), source })?;
         for (&value, name) in values() {
-            let taken = outputs.iter().flat_map(|output| output.told.files());
+            let taken = outputs.iter().flat_map(|output| output.recorded.files());
             let file = free_name(name, &taken.collect::<Vec<_>>());
             let shape = network.form(value).shape().to_vec();
             let path = folder.join(format!("{file}.npy"));
-            let array = record.arrays.then(|| NpyWriter::create(&path, Element::Float32, &shape));
-            let told = Recorded {
+            let array = record.arrays.then(|| NpyWriter::create(&path, ElementType::Float32, &shape));
+            let told = RecordedOutput {
                 name: name.clone(),
                 shape,
                 dtype: "float32",
-                array: record.arrays.then(|| format!("{FOLDER}/{file}.npy")),
+                array: record.arrays.then(|| format!("{OUTPUTS_FOLDER}/{file}.npy")),
                 pictures: (record.pictures && is_picture(value))
-                    .then(|| format!("{FOLDER}/{file}")),
+                    .then(|| format!("{OUTPUTS_FOLDER}/{file}")),
             };
-            outputs.push(Output { value, told, array: array.transpose()? });
+            outputs.push(OutputFiles { value, recorded: told, array: array.transpose()? });
         }
         Ok(Self { staging, outputs, frames: 0 })
     }
@@ -106,13 +106,13 @@ impl<'a> Recording<'a> {
     /// Fails if they cannot be written.
     pub(crate) fn push(&mut self, executor: &Executor<'_>) -> Result<(), InferenceError> {
         for output in &mut self.outputs {
-            let tensor = executor.value(output.value);
-            let values = tensor.reals();
+            let tensor = executor.tensor(output.value);
+            let values = tensor.real_values();
             if let Some(array) = &mut output.array {
                 array.push(values.iter().map(|value| value.to_bits().into()));
-                array.write_out(false)?;
+                array.write_pending(false)?;
             }
-            if let Some(pictures) = &output.told.pictures {
+            if let Some(pictures) = &output.recorded.pictures {
                 let name = format!("{pictures}/{:06}.png", self.frames);
                 self.staging.write(&name, &png(tensor.form(), &values))?;
             }
@@ -125,10 +125,10 @@ impl<'a> Recording<'a> {
     ///
     /// # Errors
     /// Fails if they cannot be written.
-    pub(crate) fn finish(self) -> Result<Vec<Recorded>, InferenceError> {
+    pub(crate) fn finish(self) -> Result<Vec<RecordedOutput>, InferenceError> {
         let finished = self.outputs.into_iter().map(|output| {
             output.array.map_or(Ok(()), NpyWriter::finish)?;
-            Ok(output.told)
+            Ok(output.recorded)
         });
         finished.collect()
     }
@@ -136,15 +136,15 @@ impl<'a> Recording<'a> {
 
 /// Returns whether an output can be shown as a frame: it has one or three channels and the size of
 /// the input.
-fn is_picture(form: &Form, input: &Form) -> bool {
+fn is_picture(form: &TensorForm, input: &TensorForm) -> bool {
     let (shape, input) = (form.shape(), input.shape());
     shape.len() == 4 && shape[0] == 1 && [1, 3].contains(&shape[1]) && shape[2..] == input[2..]
 }
 
 /// Encodes an output as a PNG, with 0 as black and 1 as white. Values beyond are clamped, and NaN
 /// is black.
-fn png(form: &Form, values: &[f32]) -> Vec<u8> {
-    let (channels, places) = (form.shape()[1], form.places());
+fn png(form: &TensorForm, values: &[f32]) -> Vec<u8> {
+    let (channels, places) = (form.shape()[1], form.position_count());
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
     let shown = |value: f32| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
     let bytes: Vec<u8> = (0..places)
@@ -160,7 +160,7 @@ fn png(form: &Form, values: &[f32]) -> Vec<u8> {
     file
 }
 
-impl Recorded {
+impl RecordedOutput {
     /// Returns the file and the folder of the output.
     fn files(&self) -> impl Iterator<Item = String> {
         [self.array.clone(), self.pictures.clone()].into_iter().flatten()
@@ -173,10 +173,10 @@ pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
     let safe = |letter: char| {
         if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' }
     };
-    let stem: String = name.chars().map(safe).take(LETTERS).collect();
+    let stem: String = name.chars().map(safe).take(MAX_NAME_LETTERS).collect();
     let stem = if stem.is_empty() { "output".to_owned() } else { stem };
     let is_taken = |file: &str| {
-        let all = [format!("{FOLDER}/{file}"), format!("{FOLDER}/{file}.npy")];
+        let all = [format!("{OUTPUTS_FOLDER}/{file}"), format!("{OUTPUTS_FOLDER}/{file}.npy")];
         taken.iter().any(|taken| all.iter().any(|file| file.eq_ignore_ascii_case(taken)))
     };
     let numbered = (2..).map(|number| format!("{stem}_{number}"));
@@ -185,7 +185,7 @@ pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
 }
 
 /// Formats a shape as text.
-fn by(shape: &[usize]) -> String {
+fn shape_text(shape: &[usize]) -> String {
     shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x")
 }
 
@@ -200,7 +200,7 @@ mod tests {
         for name in ["output", "Output", "../a/b:0", "__/a.b:0", "", "\"<é>\"", &long, "output_2"]
         {
             let file = free_name(name, &files);
-            files.push(format!("{FOLDER}/{file}.npy"));
+            files.push(format!("{OUTPUTS_FOLDER}/{file}.npy"));
         }
         let long = format!("outputs/{}.npy", "x".repeat(100));
         let expected = [
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn pictures_are_what_has_the_size_of_the_input() {
-        let form = |shape: &[usize]| Form::features(shape.to_vec());
+        let form = |shape: &[usize]| TensorForm::features(shape.to_vec());
         let input = form(&[1, 1, 4, 6]);
         for (shape, expected) in [
             (&[1, 1, 4, 6][..], true),
@@ -234,7 +234,7 @@ mod tests {
     #[test]
     fn channels_lie_side_by_side_and_what_is_beyond_is_cut() {
         let values = [0.0, 1.0, -3.0, 9.0, f32::NAN, 0.5];
-        let file = png(&Form::features(vec![1, 3, 1, 2]), &values);
+        let file = png(&TensorForm::features(vec![1, 3, 1, 2]), &values);
         let picture = image::load_from_memory(&file).unwrap().into_rgb8();
         assert_eq!(picture.dimensions(), (2, 1));
         // These are red, green and blue of both pixels: 0, -3 and NaN; 1, 9 and 0.5.

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The summary of a run, and its tables.
 
-use crate::closeness::Closeness;
-use crate::cost::{Accelerated, Costs, FrameCost};
+use crate::closeness::ClosenessTally;
+use crate::cost::{AcceleratorSummary, NodeCosts, FrameCost};
 use crate::macs::Macs;
-use crate::positions::Positions;
-use crate::reference::Reference;
+use crate::positions::PositionCounts;
+use crate::whole_computation::WholeComputation;
 use crate::traffic::FrameTraffic;
-use crate::{Framing, Mapping, Recorded, Sight};
-use foveate_design::Config;
-use foveate_network::{Executor, Form, Mode, Network};
+use crate::{Framing, PixelMapping, RecordedOutput, WholeFrameAgreement};
+use foveate_design::DesignConfig;
+use foveate_network::{Executor, TensorForm, ExecutionMode, Network};
 use serde::Serialize;
 use std::num::NonZeroU32;
 
 /// The summary of a run of a network behind a camera. All shares and means are over the counted
 /// frames.
 #[derive(Clone, Debug, Serialize)]
-pub struct Summary {
+pub struct InferenceSummary {
     /// The version of this summary as JSON; it changes if a field changes its meaning or is
     /// removed.
     pub format_version: u32,
@@ -38,7 +38,7 @@ pub struct Summary {
     /// The computation: `dense`, `exact`, `compare`, `truncate=0.1`, `fixed`, or `tuned to` a goal.
     pub mode: String,
     /// The mapping from pixels to inputs.
-    pub mapping: Mapping,
+    pub mapping: PixelMapping,
     /// The fit of frames to the size of the network's input, as on the command line.
     pub framing: Framing,
     /// The width of the frames in pixels.
@@ -73,28 +73,28 @@ pub struct Summary {
     /// It is part of `seconds_per_frame`.
     pub overhead_seconds_per_frame: f64,
     /// The cost of a frame on an accelerator, if one is named.
-    pub accelerator: Option<Accelerated>,
+    pub accelerator: Option<AcceleratorSummary>,
     /// The error of the outputs against a whole computation, if one ran.
-    pub error: Option<Error>,
+    pub error: Option<WholeComputationError>,
     /// The choice of the limits of the layers, if they were tuned.
-    pub tuning: Option<Tuning>,
+    pub tuning: Option<TuningSummary>,
     /// The loss of the network behind the camera, if it also ran on whole frames.
-    pub sight: Option<Sight>,
+    pub sight: Option<WholeFrameAgreement>,
     /// The files of the outputs, if they are written.
-    pub outputs: Vec<Recorded>,
+    pub outputs: Vec<RecordedOutput>,
     /// The clips and data sets that are reported, in the order of the frames.
-    pub clips: Vec<Clip>,
+    pub clips: Vec<ClipSummary>,
     /// The fingerprint of the design.
     pub design: String,
     /// The configuration of the camera, with the frame size filled in.
-    pub configuration: Config,
+    pub configuration: DesignConfig,
     /// The layers of the network.
-    pub layers: Vec<Layer>,
+    pub layers: Vec<LayerSummary>,
 }
 
 /// The figures of a clip or data set. All shares and means are over its counted frames.
 #[derive(Clone, Debug, Serialize)]
-pub struct Clip {
+pub struct ClipSummary {
     /// The name in tables and charts.
     pub name: String,
     /// The number of frames that the network saw.
@@ -113,19 +113,19 @@ pub struct Clip {
 
 /// The comparison with a whole computation.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Error {
+pub struct WholeComputationError {
     /// The number of frames with a tensor in which some value has other bits.
     pub different_frames: u64,
     /// The closeness of the outputs.
     #[serde(flatten)]
-    pub outputs: Outputs,
+    pub outputs: OutputCloseness,
     /// The mean time of a whole computation in this run in seconds.
     pub dense_seconds_per_frame: f64,
 }
 
 /// The closeness of the outputs of all counted frames to those of a whole computation.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Outputs {
+pub struct OutputCloseness {
     /// The share of frames in which every output has its largest value at the same position.
     pub agreement: f64,
     /// The cosine of the angle between all outputs as vectors.
@@ -143,23 +143,23 @@ pub struct Outputs {
     pub rms_of_variation: f64,
 }
 
-impl From<&Closeness> for Outputs {
-    fn from(found: &Closeness) -> Self {
+impl From<&ClosenessTally> for OutputCloseness {
+    fn from(found: &ClosenessTally) -> Self {
         let distance = &found.distance;
         Self {
             agreement: found.agreement(),
             cosine: distance.cosine(),
             psnr: distance.psnr(),
             largest: distance.largest,
-            relative_rms: distance.relative(),
-            rms_of_variation: found.of_variation(),
+            relative_rms: distance.relative_rms(),
+            rms_of_variation: found.rms_of_variation(),
         }
     }
 }
 
 /// The choice of the limits of the layers.
 #[derive(Clone, Debug, Serialize)]
-pub struct Tuning {
+pub struct TuningSummary {
     /// The goal, as on the command line.
     pub goal: String,
     /// The clips whose frames it was tuned on: the first half of several clips, rounded up, or a
@@ -171,25 +171,25 @@ pub struct Tuning {
     /// The number of runs over the frames that it was tuned on.
     pub runs: u64,
     /// The trial with limits of 0, in which only equal values are not passed on.
-    pub exact: Tried,
+    pub exact: TuningTrial,
     /// The trials with the same relative limit at every layer.
-    pub uniform: Vec<Tried>,
+    pub uniform: Vec<TuningTrial>,
     /// The trial with the chosen limits, one per layer.
-    pub chosen: Tried,
+    pub chosen: TuningTrial,
     /// The trial that computes only the first frame, so that the outputs stay the same. A goal that
     /// it reaches has little meaning.
-    pub frozen: Tried,
+    pub frozen: TuningTrial,
     /// Whether the second half also reaches the goal.
     pub holds: bool,
 }
 
-impl Tuning {
+impl TuningSummary {
     /// The sentence about a goal that frozen outputs reach.
-    pub const SAYS_LITTLE: &'static str =
+    pub const FROZEN_OUTPUTS_NOTE: &'static str =
         "outputs that never change after the first frame reach it as well, so it says little";
 
     /// Returns all trials in the order of their table, each with the name of its kind of limits.
-    pub(crate) fn tried(&self) -> impl Iterator<Item = (&'static str, Tried)> {
+    pub(crate) fn named_trials(&self) -> impl Iterator<Item = (&'static str, TuningTrial)> {
         let uniform = self.uniform.iter().map(|tried| ("uniform", *tried));
         let others = [("frozen", self.frozen), ("chosen", self.chosen)];
         [("exact", self.exact)].into_iter().chain(uniform).chain(others)
@@ -198,7 +198,7 @@ impl Tuning {
 
 /// The result of some limits on the first half.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Tried {
+pub struct TuningTrial {
     /// The limit as a share of the root mean square of each layer's values in the first frame, if
     /// it is the same at all layers and finite.
     pub relative_limit: Option<f64>,
@@ -206,14 +206,14 @@ pub struct Tried {
     pub needed_share: f64,
     /// The closeness of the outputs.
     #[serde(flatten)]
-    pub outputs: Outputs,
+    pub outputs: OutputCloseness,
     /// Whether the goal is reached.
     pub holds: bool,
 }
 
 /// The figures of one node.
 #[derive(Clone, Debug, Serialize)]
-pub struct Layer {
+pub struct LayerSummary {
     /// The name of the node in the model.
     pub name: String,
     /// The operator of the node.
@@ -250,30 +250,30 @@ pub struct Layer {
 }
 
 /// Returns the name of a mode on the command line.
-pub(crate) fn mode_name(mode: Mode) -> String {
+pub(crate) fn mode_name(mode: ExecutionMode) -> String {
     match mode {
-        Mode::Dense => "dense".to_owned(),
-        Mode::Exact => "exact".to_owned(),
-        Mode::Compare => "compare".to_owned(),
-        Mode::Truncate(limit) => format!("truncate={limit}"),
-        Mode::Fixed => "fixed".to_owned(),
+        ExecutionMode::Dense => "dense".to_owned(),
+        ExecutionMode::Exact => "exact".to_owned(),
+        ExecutionMode::Compare => "compare".to_owned(),
+        ExecutionMode::Truncate(limit) => format!("truncate={limit}"),
+        ExecutionMode::Fixed => "fixed".to_owned(),
     }
 }
 
 /// Returns the layers with their figures.
-pub(crate) fn layers(
+pub(crate) fn layer_summaries(
     network: &Network,
-    (sums, traffic): (&[Positions], &[FrameTraffic]),
+    (sums, traffic): (&[PositionCounts], &[FrameTraffic]),
     executor: &Executor<'_>,
-    reference: Option<&Reference<'_>>,
-    costs: Option<&Costs<'_>>,
-) -> Vec<Layer> {
-    let layer = |(node, sums): (usize, &Positions)| {
+    reference: Option<&WholeComputation<'_>>,
+    costs: Option<&NodeCosts<'_>>,
+) -> Vec<LayerSummary> {
+    let layer = |(node, sums): (usize, &PositionCounts)| {
         let (place, form) = (&network.nodes()[node], network.form(node + 1));
-        let cost = costs.map(|costs| costs.of_node(node));
-        Layer {
+        let cost = costs.map(|costs| costs.mean_node_costs(node));
+        LayerSummary {
             name: place.name().to_owned(),
-            operator: place.kind().to_owned(),
+            operator: place.operator_name().to_owned(),
             shape: form.shape().to_vec(),
             macs: network.macs(node),
             needed_share: sums.needed_share(),
@@ -283,34 +283,34 @@ pub(crate) fn layers(
             output_bytes: form.bytes(),
             mask_bytes: mask_bytes(form),
             traffic: traffic[node],
-            limit: executor.limit(node + 1),
+            limit: executor.change_limit(node + 1),
             whole_cost: cost.map(|(whole, _)| whole),
             masked_cost: cost.map(|(_, masked)| masked),
-            relative_rms: reference.map(|reference| reference.layers[node].relative()),
+            relative_rms: reference.map(|reference| reference.layers[node].relative_rms()),
         }
     };
     sums.iter().enumerate().map(layer).collect()
 }
 
 /// Returns the size of a mask in bytes.
-pub(crate) fn mask_bytes(form: &Form) -> u64 {
-    form.places().div_ceil(8) as u64
+pub(crate) fn mask_bytes(form: &TensorForm) -> u64 {
+    form.position_count().div_ceil(8) as u64
 }
 
 /// Returns the comparison of the outputs with a whole computation.
-pub(crate) fn error(reference: &Reference<'_>) -> Error {
+pub(crate) fn whole_computation_error(reference: &WholeComputation<'_>) -> WholeComputationError {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     let frames = reference.outputs.frames.max(1) as f64;
-    Error {
-        different_frames: reference.different,
+    WholeComputationError {
+        different_frames: reference.different_frames,
         outputs: (&reference.outputs).into(),
         dense_seconds_per_frame: reference.seconds / frames,
     }
 }
 
-impl Summary {
+impl InferenceSummary {
     /// The sentence that replaces shares if no frame counts.
-    pub const ONLY_FRAME: &'static str =
+    pub const ONLY_FRAME_NOTE: &'static str =
         "the only frame was computed whole; savings begin with a second one";
 
     /// Returns the share of the MACs of a whole computation, both in blocks, up to which this run
@@ -322,9 +322,9 @@ impl Summary {
     pub fn break_even_share(&self) -> Option<f64> {
         let dense = self.error?.dense_seconds_per_frame;
         let computing = self.seconds_per_frame - self.overhead_seconds_per_frame;
-        let per_share = computing * self.macs.whole / self.macs.scheduled;
+        let per_share = computing * self.macs.whole_blocks / self.macs.scheduled;
         let share = (dense - self.overhead_seconds_per_frame) / per_share;
-        (share.is_finite() && self.macs.scheduled < self.macs.whole).then_some(share.min(1.0))
+        (share.is_finite() && self.macs.scheduled < self.macs.whole_blocks).then_some(share.min(1.0))
     }
 
     /// Returns whether the limits were chosen on other clips than the reported ones, and not on the

@@ -8,6 +8,6 @@ pub(crate) fn sum(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Returns a share; 0 if `all` is 0.
 #[allow(clippy::cast_precision_loss, reason = "a share")]
-pub(crate) fn ratio(part: u64, all: u64) -> f64 {
+pub(crate) fn share(part: u64, all: u64) -> f64 {
     if all == 0 { 0.0 } else { part as f64 / all as f64 }
 }

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The means over the frames of a clip, and the frames whose outputs are not finite.
 
-use crate::frame::{Frame, counted, mean};
+use crate::frame::{FrameFigures, counted_frames, mean_of_frames};
 use crate::macs::Macs;
-use crate::summary::Clip;
+use crate::summary::ClipSummary;
 use foveate_network::{Executor, Network};
 
 /// Returns a clip with the means of its counted frames.
-pub(crate) fn clip(name: &str, problem: Option<&String>, frames: &[Frame]) -> Clip {
-    let counted = counted(frames);
-    Clip {
+pub(crate) fn clip_summary(name: &str, problem: Option<&String>, frames: &[FrameFigures]) -> ClipSummary {
+    let counted = counted_frames(frames);
+    ClipSummary {
         name: name.to_owned(),
         frames: frames.len() as u64,
         counted_frames: counted.len() as u64,
-        active_share: mean(&counted, |frame| frame.active),
-        changed_share: mean(&counted, |frame| frame.changed),
+        active_share: mean_of_frames(&counted, |frame| frame.active_share),
+        changed_share: mean_of_frames(&counted, |frame| frame.changed_share),
         macs: Macs {
-            dense: mean(&counted, |frame| frame.macs.dense),
-            needed: mean(&counted, |frame| frame.macs.needed),
-            scheduled: mean(&counted, |frame| frame.macs.scheduled),
-            whole: mean(&counted, |frame| frame.macs.whole),
+            whole_frame: mean_of_frames(&counted, |frame| frame.macs.whole_frame),
+            needed: mean_of_frames(&counted, |frame| frame.macs.needed),
+            scheduled: mean_of_frames(&counted, |frame| frame.macs.scheduled),
+            whole_blocks: mean_of_frames(&counted, |frame| frame.macs.whole_blocks),
         },
         problem: problem.cloned(),
     }
@@ -27,22 +27,22 @@ pub(crate) fn clip(name: &str, problem: Option<&String>, frames: &[Frame]) -> Cl
 
 /// The frames whose outputs are infinite or NaN.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct NotFinite {
+pub(crate) struct NotFiniteTally {
     frames: u64,
     /// The clip and the number of the first such frame, and the first node with such a value in it.
     first: Option<(String, u64, usize)>,
 }
 
-impl NotFinite {
+impl NotFiniteTally {
     /// Checks the outputs of a frame.
-    pub(crate) fn look(
+    pub(crate) fn check_outputs(
         &mut self,
         (clip, frame): (&str, u64),
         network: &Network,
         executor: &Executor<'_>,
     ) {
         let is_odd =
-            |value: usize| !executor.value(value).reals().iter().all(|value| value.is_finite());
+            |value: usize| !executor.tensor(value).real_values().iter().all(|value| value.is_finite());
         if !network.outputs().iter().any(|&value| is_odd(value)) {
             return;
         }
@@ -62,7 +62,7 @@ impl NotFinite {
             "outputs hold infinite values, or such that are no numbers, in {} frames; in the first, frame {frame}{clip}, they begin at node `{}` ({})",
             self.frames,
             node.name(),
-            node.kind()
+            node.operator_name()
         ))
     }
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bytes that the layers read and write for a frame, and their time.
 
-use foveate_network::{Executor, Form, Network};
+use foveate_network::{Executor, TensorForm, Network};
 use serde::Serialize;
 use std::ops::AddAssign;
 
 /// The traffic summed over frames.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Traffic {
+pub(crate) struct TrafficTally {
     pub(crate) read: u64,
     pub(crate) halo: u64,
     pub(crate) written: u64,
@@ -28,20 +28,20 @@ pub struct FrameTraffic {
     pub seconds: f64,
 }
 
-impl Traffic {
+impl TrafficTally {
     /// Returns the traffic of a node for the last frame.
-    pub(crate) fn of(network: &Network, executor: &Executor<'_>, node: usize) -> Self {
+    pub(crate) fn of_node(network: &Network, executor: &Executor<'_>, node: usize) -> Self {
         let bytes =
-            |form: &Form, positions: usize| form.bytes() / form.places() as u64 * positions as u64;
+            |form: &TensorForm, positions: usize| form.bytes() / form.position_count() as u64 * positions as u64;
         let mut found = Self {
-            written: bytes(network.form(node + 1), executor.wanted(node).count()),
-            seconds: executor.time(node).as_secs_f64(),
+            written: bytes(network.form(node + 1), executor.needed_mask(node).count()),
+            seconds: executor.operator_time(node).as_secs_f64(),
             ..Self::default()
         };
-        for (value, seen) in executor.seen(node) {
+        for (value, seen) in executor.needed_inputs(node) {
             let form = network.form(value);
             found.read += bytes(form, seen.count());
-            found.halo += bytes(form, seen.count_outside(executor.mask(value)));
+            found.halo += bytes(form, seen.count_outside(executor.change_mask(value)));
         }
         found
     }
@@ -59,7 +59,7 @@ impl Traffic {
     }
 }
 
-impl AddAssign for Traffic {
+impl AddAssign for TrafficTally {
     fn add_assign(&mut self, other: Self) {
         self.read += other.read;
         self.halo += other.halo;

@@ -8,13 +8,13 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Neg, Sub};
 
 /// The lanes of a block: as many as a full AVX-512 register holds bytes.
-pub const BLOCK: usize = 64;
+pub const BLOCK_LANES: usize = 64;
 
 /// One value per lane of a block.
-pub type Block<T> = [T; BLOCK];
+pub type Block<T> = [T; BLOCK_LANES];
 
 /// A pixel in the type in which the kernels compute.
-pub trait Lane:
+pub trait PixelLane:
     Copy
     + Debug
     + Default
@@ -41,9 +41,9 @@ pub trait Lane:
         + From<Self>
         + TryFrom<u32>;
     /// The sum of a column of pixels of one region: 64 pixels at most.
-    type Sum: Copy + Debug + Default + Send + Sync + AddAssign + From<Self> + Into<u32> + Into<u64>;
+    type ColumnSum: Copy + Debug + Default + Send + Sync + AddAssign + From<Self> + Into<u32> + Into<u64>;
     /// The sum of the squares of a column of pixels of one region: 64 pixels at most.
-    type Square: Copy + Debug + Default + Send + Sync + AddAssign + Into<u64>;
+    type SquareSum: Copy + Debug + Default + Send + Sync + AddAssign + Into<u64>;
 
     /// The value 1.
     const ONE: Self;
@@ -51,17 +51,17 @@ pub trait Lane:
     const MAX: Self;
 
     /// Returns `self - other`, at least 0.
-    fn minus(self, other: Self) -> Self;
+    fn saturating_minus(self, other: Self) -> Self;
     /// Returns `self + other`, at most [`Lane::MAX`].
-    fn plus(self, other: Self) -> Self;
+    fn saturating_plus(self, other: Self) -> Self;
     /// Returns `|self - other|`.
-    fn distance(self, other: Self) -> Self;
+    fn absolute_difference(self, other: Self) -> Self;
     /// Returns the square of the pixel.
-    fn square(self) -> Self::Square;
+    fn square(self) -> Self::SquareSum;
     /// Returns 1 for true and 0 for false.
-    fn hit(hit: bool) -> Self;
+    fn from_hit(hit: bool) -> Self;
     /// Converts a number that fits into the type; higher bits would be cut off.
-    fn low(value: u32) -> Self;
+    fn from_low_bits(value: u32) -> Self;
 }
 
 macro_rules! lane {
@@ -113,6 +113,6 @@ lane!(u16, signed i32, sum u32, square u64);
 
 /// Converts a threshold that the design has checked against its pixel range. A threshold that does
 /// not fit into the lane type cannot be exceeded, so the largest value of the type replaces it.
-pub fn threshold<T: Lane>(value: u32) -> T {
+pub fn saturated_threshold<T: PixelLane>(value: u32) -> T {
     T::try_from(value).unwrap_or(T::MAX)
 }

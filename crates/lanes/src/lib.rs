@@ -8,12 +8,12 @@
 //! * [`Aligned`]: a buffer whose blocks are cache lines.
 //! * [`best_arc`]: FAST 5/8 as a network of minima and maxima.
 
-mod aligned;
+mod aligned_buffer;
 mod lane;
-mod level;
+mod instruction_set;
 mod ring;
 
-pub use aligned::Aligned;
-pub use lane::{BLOCK, Block, Lane, threshold};
-pub use level::{Level, PanelTask, Task, prefetch};
+pub use aligned_buffer::AlignedBuffer;
+pub use lane::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
+pub use instruction_set::{InstructionSet, PanelTask, VectorTask, prefetch};
 pub use ring::best_arc;

@@ -24,14 +24,14 @@ pub enum Codec {
 
 /// The preset of x264 and x265, which sets their work for a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
+pub enum EncoderPreset {
     /// The preset `veryfast`.
     Veryfast,
     /// The preset `medium`.
     Medium,
 }
 
-impl Effort {
+impl EncoderPreset {
     /// Returns the name of the preset.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -88,7 +88,7 @@ impl Codec {
     }
 
     /// Returns the quantizers of a curve.
-    pub(crate) fn steps(self) -> &'static [u32] {
+    pub(crate) fn curve_quantizers(self) -> &'static [u32] {
         match self {
             Self::Mjpeg => &[1, 2, 4, 8, 16, 31],
             Self::H264Intra | Self::H264 | Self::H265Intra | Self::H265 => {
@@ -98,7 +98,7 @@ impl Codec {
     }
 
     /// Returns ffmpeg's options for this codec.
-    pub(crate) fn options(self, quantizer: u32, effort: Effort) -> Vec<String> {
+    pub(crate) fn options(self, quantizer: u32, effort: EncoderPreset) -> Vec<String> {
         let preset = effort.name();
         let text = match self {
             Self::Mjpeg => {
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn only_the_plain_ones_refer_to_other_frames() {
-        let options = |codec: Codec| codec.options(30, Effort::Medium).join(" ");
+        let options = |codec: Codec| codec.options(30, EncoderPreset::Medium).join(" ");
         assert!(options(Codec::H264).contains("-g 1000000"));
         assert!(options(Codec::H264Intra).contains("-g 1 "));
         assert!(options(Codec::H265).contains("qp=30:keyint=-1 "));

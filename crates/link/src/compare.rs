@@ -5,38 +5,38 @@
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
-use foveate_design::Config;
-use foveate_footage::{InputOptions, Subject, subjects};
+use foveate_design::DesignConfig;
+use foveate_footage::{InputOptions, ComparedInput, subjects};
 use foveate_simulator::{BatchHooks, BatchProgress};
 use foveate_staging::{FolderKind, ScratchFolder, StagedFolder};
 use foveate_toolchain::{Tool, Toolchain};
 
-use crate::clip::{Measured, Seen, watch};
-use crate::encoder::{check_encoders, scratch};
-use crate::figures::per_second;
+use crate::clip::{SweptResult, ClipResults, read_clip};
+use crate::encoder::{check_encoders, scratch_error};
+use crate::figures::bytes_per_second;
 use crate::report::{FORMAT_VERSION, QUANTIZER};
-use crate::search::coarsest;
+use crate::search::coarsest_quantizer;
 use crate::{
-    Cameras, ClipReport, Codec, Effort, Encoded, Encoder, Figures, LinkError, LinkReport, Point,
-    Quality, SenderReport, Timeline, Unit, files,
+    SenderCameras, ClipReport, Codec, EncoderPreset, EncodedClip, ClipEncoder, LinkFigures, LinkError, LinkReport, CurvePoint,
+    Quality, SenderReport, Timeline, LinkUnit, files,
 };
 use foveate_design::DECISION_BITS;
 
 /// The request of a comparison.
 #[derive(Clone, Debug)]
-pub struct Request<'a> {
+pub struct LinkRequest<'a> {
     /// The clips. Image files together are one clip; every other input is a clip of its own.
     pub inputs: &'a [PathBuf],
     /// The options for reading the clips.
     pub input: &'a InputOptions,
     /// The design.
-    pub config: &'a Config,
+    pub config: &'a DesignConfig,
     /// The codecs, in the order of the table.
     pub codecs: &'a [Codec],
     /// The preset of the encoders.
-    pub effort: Effort,
+    pub preset: EncoderPreset,
     /// The rate of the link in bits per second.
-    pub link: u64,
+    pub link_bits_per_second: u64,
     /// The clock of the array in Hz. Without it the array takes no time, and the report states the
     /// clocks that are left out.
     pub clock_hz: Option<u64>,
@@ -48,13 +48,13 @@ pub struct Request<'a> {
 /// Fails if an input cannot be read or is not a clip, ffmpeg is missing or fails, the folder cannot
 /// be written, or `hooks` cancels; nothing is written then.
 pub fn compare(
-    request: &Request<'_>,
+    request: &LinkRequest<'_>,
     tools: &Toolchain,
     output: &Path,
     overwrite: bool,
     hooks: &dyn BatchHooks,
 ) -> Result<LinkReport, LinkError> {
-    let staging = StagedFolder::new(output, LINK, overwrite)?;
+    let staging = StagedFolder::new(output, LINK_FOLDER, overwrite)?;
     let subjects = subjects(request.inputs, request.input)?;
     let ffmpeg = tools.find(Tool::Ffmpeg)?.banner;
     check_encoders(tools, request.codecs)?;
@@ -64,17 +64,17 @@ pub fn compare(
         let done = clips.len();
         let tick = || {
             frames.set(frames.get() + 1);
-            hooks.progress(BatchProgress { clips: done, all, frames: frames.get() });
-            hooks.cancelled()
+            hooks.progress(BatchProgress { clips: done, total_clips: all, frames: frames.get() });
+            hooks.is_cancelled()
         };
-        clips.push(one(request, tools, subject, &tick)?);
+        clips.push(compare_clip(request, tools, subject, &tick)?);
     }
     let report = LinkReport {
         format_version: FORMAT_VERSION,
         foveate_version: env!("CARGO_PKG_VERSION"),
         ffmpeg,
-        effort: request.effort.name(),
-        link_bits_per_second: request.link,
+        effort: request.preset.name(),
+        link_bits_per_second: request.link_bits_per_second,
         clock_hz: request.clock_hz,
         clips,
     };
@@ -83,39 +83,39 @@ pub fn compare(
     Ok(report)
 }
 
-fn one(
-    request: &Request<'_>,
+fn compare_clip(
+    request: &LinkRequest<'_>,
     tools: &Toolchain,
-    subject: &Subject,
+    subject: &ComparedInput,
     tick: &dyn Fn() -> bool,
 ) -> Result<ClipReport, LinkError> {
     let place = std::env::temp_dir();
-    let folder = ScratchFolder::new().map_err(scratch("make a folder in", &place))?;
-    let seen = watch(subject, request.config, request.input, folder.path(), tick)?;
+    let folder = ScratchFolder::new().map_err(scratch_error("make a folder in", &place))?;
+    let seen = read_clip(subject, request.config, request.input, folder.path(), tick)?;
     let timeline = Timeline::new(&subject.name, &seen.times_us, seen.design.height())?;
-    let cameras = Cameras::new(&subject.name, &seen.design, &timeline, request.clock_hz)?;
-    let figures = |units: Vec<Unit>| Figures::of(units, &timeline, request.link);
-    let mut senders = of_cameras(&cameras, &seen, &figures);
-    let mut curves: Vec<Point> =
-        seen.swept.iter().map(|measured| own_point(&seen, measured, &timeline)).collect();
+    let cameras = SenderCameras::new(&subject.name, &seen.design, &timeline, request.clock_hz)?;
+    let figures = |units: Vec<LinkUnit>| LinkFigures::from_units(units, &timeline, request.link_bits_per_second);
+    let mut senders = camera_reports(&cameras, &seen, &figures);
+    let mut curves: Vec<CurvePoint> =
+        seen.swept.iter().map(|measured| region_point(&seen, measured, &timeline)).collect();
     for &codec in request.codecs {
-        let mut encoder = Encoder::new(tools, &seen.footage, (codec, request.effort), tick);
-        for equal in Equal::ALL {
+        let mut encoder = ClipEncoder::new(tools, &seen.grey_footage, (codec, request.preset), tick);
+        for equal in EqualFigure::ALL {
             let (quantizer, found) = equal.search(&mut encoder, codec, seen.quality)?;
-            let encoded = encoder.at(quantizer)?;
+            let encoded = encoder.encode_with(quantizer)?;
             senders.push(SenderReport {
                 sender: codec.name(),
                 equal: Some(equal.name()),
                 quantizer: Some(quantizer),
-                found: Some(found),
+                search_result: Some(found),
                 quality: Some(encoded.quality),
-                figures: figures(cameras.codec(&encoded.packets)),
+                figures: figures(cameras.codec_units(&encoded.packets)),
             });
         }
-        for &quantizer in codec.steps() {
-            encoder.at(quantizer)?;
+        for &quantizer in codec.curve_quantizers() {
+            encoder.encode_with(quantizer)?;
         }
-        curves.extend(encoder.known().iter().map(|known| codec_point(codec, known, &timeline)));
+        curves.extend(encoder.encoded_clips().iter().map(|known| codec_point(codec, known, &timeline)));
     }
     Ok(ClipReport {
         name: subject.name.clone(),
@@ -125,48 +125,48 @@ fn one(
         width: seen.design.width(),
         height: seen.design.height(),
         frames: timeline.frames(),
-        duration_ns: timeline.end(),
-        array_clocks: cameras.own_clocks(),
+        duration_ns: timeline.end_ns(),
+        array_clocks: cameras.added_clocks(),
         needed_clock_hz: cameras.needed_clock_hz(),
         senders,
         curves,
     })
 }
 
-fn of_cameras(
-    cameras: &Cameras<'_>,
-    seen: &Seen,
-    figures: &dyn Fn(Vec<Unit>) -> Figures,
+fn camera_reports(
+    cameras: &SenderCameras<'_>,
+    seen: &ClipResults,
+    figures: &dyn Fn(Vec<LinkUnit>) -> LinkFigures,
 ) -> Vec<SenderReport> {
     let row = |sender, quality, units| SenderReport {
         sender,
         equal: None,
         quantizer: None,
-        found: None,
+        search_result: None,
         quality,
         figures: figures(units),
     };
     let own = Some(seen.quality);
-    let by_rows = cameras.region_by_rows(&seen.sent);
+    let by_rows = cameras.region_units_by_rows(&seen.sent);
     by_rows
         .map(|units| row("region by rows", own, units))
         .into_iter()
         .chain([
-            row("region array", own, cameras.region_array(&seen.sent)),
-            row("pixel events", None, cameras.pixel(&seen.sent)),
-            row("raw", Some(Quality::IDENTICAL), cameras.raw()),
+            row("region array", own, cameras.region_array_units(&seen.sent)),
+            row("pixel events", None, cameras.pixel_event_units(&seen.sent)),
+            row("raw", Some(Quality::IDENTICAL), cameras.raw_units()),
         ])
         .collect()
 }
 
 /// The figure in which a codec must equal the region camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Equal {
+enum EqualFigure {
     Psnr,
     Ssim,
 }
 
-impl Equal {
+impl EqualFigure {
     const ALL: [Self; 2] = [Self::Psnr, Self::Ssim];
 
     fn name(self) -> &'static str {
@@ -180,16 +180,16 @@ impl Equal {
     /// finest one if none is. Also returns which case it is: `finest`, `coarsest` or `equal`.
     fn search(
         self,
-        encoder: &mut Encoder<'_>,
+        encoder: &mut ClipEncoder<'_>,
         codec: Codec,
         own: Quality,
     ) -> Result<(u32, &'static str), LinkError> {
         let range = codec.quantizers();
-        let found = coarsest(range.clone(), |quantizer| {
-            let quality = encoder.at(quantizer)?.quality;
+        let found = coarsest_quantizer(range.clone(), |quantizer| {
+            let quality = encoder.encode_with(quantizer)?.quality;
             Ok::<_, LinkError>(match self {
-                Self::Psnr => quality.has_psnr_of(own),
-                Self::Ssim => quality.has_ssim_of(own),
+                Self::Psnr => quality.reaches_psnr_of(own),
+                Self::Ssim => quality.reaches_ssim_of(own),
             })
         })?;
         Ok(match found {
@@ -200,35 +200,35 @@ impl Equal {
     }
 }
 
-fn own_point(seen: &Seen, measured: &Measured, timeline: &Timeline) -> Point {
+fn region_point(seen: &ClipResults, measured: &SweptResult, timeline: &Timeline) -> CurvePoint {
     let map = DECISION_BITS * u64::from(seen.design.regions()) * timeline.frames();
     let bits = map + measured.pixels * u64::from(seen.design.pixel_bits());
-    Point {
+    CurvePoint {
         sender: "region",
-        knob: measured.swept.key,
+        setting: measured.swept.key,
         value: measured.swept.value,
-        bytes_per_second: per_second(bits, timeline.end()),
+        bytes_per_second: bytes_per_second(bits, timeline.end_ns()),
         quality: measured.quality,
     }
 }
 
 fn codec_point(
     codec: Codec,
-    (&quantizer, encoded): (&u32, &Encoded),
+    (&quantizer, encoded): (&u32, &EncodedClip),
     timeline: &Timeline,
-) -> Point {
-    Point {
+) -> CurvePoint {
+    CurvePoint {
         sender: codec.name(),
-        knob: QUANTIZER,
+        setting: QUANTIZER,
         value: quantizer.into(),
-        bytes_per_second: per_second(8 * encoded.packets.iter().sum::<u64>(), timeline.end()),
+        bytes_per_second: bytes_per_second(8 * encoded.packets.iter().sum::<u64>(), timeline.end_ns()),
         quality: encoded.quality,
     }
 }
 
 /// The kind of folder that a comparison writes, and the only kind that it replaces.
-pub const LINK: FolderKind =
-    FolderKind { what: "a comparison of links (its link.json)", is: is_link };
+pub const LINK_FOLDER: FolderKind =
+    FolderKind { description: "a comparison of links (its link.json)", matches: is_link };
 
 fn is_link(folder: &Path) -> bool {
     folder.join("link.json").is_file()

@@ -7,18 +7,18 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_fidelity::Likeness;
-use foveate_toolchain::{Invocation, Stream, Tool, ToolError, Toolchain};
+use foveate_fidelity::FrameSimilarity;
+use foveate_toolchain::{Invocation, ProgramReader, Tool, ToolError, Toolchain};
 
-use crate::{Codec, Effort, LinkError, Quality};
+use crate::{Codec, EncoderPreset, LinkError, Quality};
 
 /// The frame rate that the encoders are given. With a constant quantizer it does not change any
 /// frame.
-const RATE: &str = "30";
+const FRAME_RATE: &str = "30";
 
 /// The frames of a clip as grey bytes in a file, one after the other.
 #[derive(Clone, Debug)]
-pub struct Footage {
+pub struct GreyFootage {
     /// The name of the clip.
     pub clip: String,
     /// The path of the file.
@@ -33,7 +33,7 @@ pub struct Footage {
 
 /// A clip after encoding and decoding.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Encoded {
+pub struct EncodedClip {
     /// The bytes of every frame.
     pub packets: Vec<u64>,
     /// The quality of the decoded frames.
@@ -41,26 +41,26 @@ pub struct Encoded {
 }
 
 /// An encoder of one clip with one codec. It encodes each quantizer once.
-pub struct Encoder<'a> {
+pub struct ClipEncoder<'a> {
     tools: &'a Toolchain,
-    footage: &'a Footage,
+    footage: &'a GreyFootage,
     codec: Codec,
-    effort: Effort,
+    effort: EncoderPreset,
     /// The path of the stream, next to the footage.
     stream: PathBuf,
-    known: BTreeMap<u32, Encoded>,
+    known: BTreeMap<u32, EncodedClip>,
     /// A callback for every decoded frame, which returns whether to stop.
     tick: &'a dyn Fn() -> bool,
 }
 
-impl<'a> Encoder<'a> {
+impl<'a> ClipEncoder<'a> {
     /// Creates an encoder that has encoded nothing. `tick` is called for every decoded frame, and
     /// returns whether to stop.
     #[must_use]
     pub fn new(
         tools: &'a Toolchain,
-        footage: &'a Footage,
-        (codec, effort): (Codec, Effort),
+        footage: &'a GreyFootage,
+        (codec, effort): (Codec, EncoderPreset),
         tick: &'a dyn Fn() -> bool,
     ) -> Self {
         let stream = footage.path.with_extension(codec.format());
@@ -71,7 +71,7 @@ impl<'a> Encoder<'a> {
     ///
     /// # Errors
     /// Fails if ffmpeg fails or loses frames, or if `tick` says to stop.
-    pub fn at(&mut self, quantizer: u32) -> Result<&Encoded, LinkError> {
+    pub fn encode_with(&mut self, quantizer: u32) -> Result<&EncodedClip, LinkError> {
         if !self.known.contains_key(&quantizer) {
             let encoded = self.encode(quantizer)?;
             self.known.insert(quantizer, encoded);
@@ -81,17 +81,17 @@ impl<'a> Encoder<'a> {
 
     /// Returns the results so far, by quantizer.
     #[must_use]
-    pub fn known(&self) -> &BTreeMap<u32, Encoded> {
+    pub fn encoded_clips(&self) -> &BTreeMap<u32, EncodedClip> {
         &self.known
     }
 
     /// Returns the path of the stream of the last quantizer.
     #[must_use]
-    pub fn stream(&self) -> &Path {
+    pub fn stream_path(&self) -> &Path {
         &self.stream
     }
 
-    fn encode(&self, quantizer: u32) -> Result<Encoded, LinkError> {
+    fn encode(&self, quantizer: u32) -> Result<EncodedClip, LinkError> {
         if (self.tick)() {
             return Err(LinkError::Cancelled);
         }
@@ -101,17 +101,17 @@ impl<'a> Encoder<'a> {
             .invocation(Tool::Ffmpeg)?
             .args(["-hide_banner", "-nostdin", "-loglevel", "error", "-y"])
             .args(["-f", "rawvideo", "-pixel_format", "gray", "-video_size", &size])
-            .args(["-framerate", RATE, "-i"])
+            .args(["-framerate", FRAME_RATE, "-i"])
             .arg(&self.footage.path)
             .args(self.codec.options(quantizer, self.effort))
             .args(["-f", self.codec.format()])
             .arg(&self.stream);
-        self.tools.run_checked(&encode).map_err(|error| self.refused(error))?;
-        Ok(Encoded { packets: self.packets(quantizer)?, quality: self.quality(quantizer)? })
+        self.tools.run_checked(&encode).map_err(|error| self.encoder_error(error))?;
+        Ok(EncodedClip { packets: self.packet_sizes(quantizer)?, quality: self.decoded_quality(quantizer)? })
     }
 
     /// Converts an error of ffmpeg to an error in one line, if the encoder printed a reason.
-    fn refused(&self, error: ToolError) -> LinkError {
+    fn encoder_error(&self, error: ToolError) -> LinkError {
         let (encoder, codec) = (self.codec.encoder(), self.codec.name());
         let ToolError::Failed { full, .. } = &error else { return error.into() };
         let own = |line: &str| {
@@ -122,19 +122,19 @@ impl<'a> Encoder<'a> {
                 .then(|| said.trim_end_matches('.').to_owned())
         };
         let Some(said) = full.lines().find_map(own) else { return error.into() };
-        let Footage { clip, width, height, .. } = self.footage;
-        LinkError::Refused {
+        let GreyFootage { clip, width, height, .. } = self.footage;
+        LinkError::EncoderRefused {
             encoder,
             codec,
             clip: clip.clone(),
             width: *width,
             height: *height,
-            said,
+            message: said,
         }
     }
 
     /// Returns the bytes of every frame.
-    fn packets(&self, quantizer: u32) -> Result<Vec<u64>, LinkError> {
+    fn packet_sizes(&self, quantizer: u32) -> Result<Vec<u64>, LinkError> {
         let ask = self
             .tools
             .invocation(Tool::Ffprobe)?
@@ -145,37 +145,37 @@ impl<'a> Encoder<'a> {
         let text = String::from_utf8_lossy(&text);
         let sizes = text.lines().map(|line| line.trim_end_matches(',').parse());
         let sizes: Result<Vec<u64>, _> = sizes.collect();
-        let sizes = sizes.map_err(|error| self.lost(quantizer, 0, error.to_string()))?;
-        self.all(quantizer, sizes.len() as u64, "of ffprobe's packets")?;
+        let sizes = sizes.map_err(|error| self.lost_frames_error(quantizer, 0, error.to_string()))?;
+        self.check_frame_count(quantizer, sizes.len() as u64, "of ffprobe's packets")?;
         Ok(sizes)
     }
 
     /// Returns the quality of the decoded frames.
-    fn quality(&self, quantizer: u32) -> Result<Quality, LinkError> {
-        let mut decoder = Stream::start(&self.decoding()?, &self.tools.interrupt())?;
+    fn decoded_quality(&self, quantizer: u32) -> Result<Quality, LinkError> {
+        let mut decoder = ProgramReader::start(&self.decoder_command()?, &self.tools.interrupt())?;
         let path = &self.footage.path;
-        let original = File::open(path).map_err(scratch("read", path))?;
+        let original = File::open(path).map_err(scratch_error("read", path))?;
         let mut original = BufReader::new(original);
         let (width, height) = (self.footage.width, self.footage.height);
-        let mut likeness = Likeness::new(width, height);
+        let mut likeness = FrameSimilarity::new(width, height);
         let mut pixels = [0, 1].map(|_| vec![0; width as usize * height as usize]);
         let [seen, expected] = &mut pixels;
         while decoder.read_exact(seen).is_ok() && likeness.frames() < self.footage.frames {
             if (self.tick)() {
                 return Err(LinkError::Cancelled);
             }
-            original.read_exact(expected).map_err(scratch("read", path))?;
+            original.read_exact(expected).map_err(scratch_error("read", path))?;
             likeness.add(seen, expected)?;
         }
         let said = decoder.next_line()?.unwrap_or_else(|| "ffmpeg said nothing".to_owned());
-        self.all(quantizer, likeness.frames(), &said)?;
-        Ok(Quality::of(&likeness))
+        self.check_frame_count(quantizer, likeness.frames(), &said)?;
+        Ok(Quality::from_likeness(&likeness))
     }
 
-    fn decoding(&self) -> Result<Invocation, LinkError> {
+    fn decoder_command(&self) -> Result<Invocation, LinkError> {
         let ffmpeg = self.tools.find(Tool::Ffmpeg)?;
         // The option had another name before ffmpeg 5.1. Builds between releases have no version.
-        let renamed = ffmpeg.version.as_ref().is_none_or(|version| version.reaches(5, 1));
+        let renamed = ffmpeg.version.as_ref().is_none_or(|version| version.is_at_least(5, 1));
         Ok(Invocation::new(ffmpeg.path)
             .args(["-hide_banner", "-nostdin", "-loglevel", "error"])
             .args(["-f", self.codec.format(), "-i"])
@@ -185,16 +185,16 @@ impl<'a> Encoder<'a> {
             .args(["-f", "rawvideo", "pipe:1"]))
     }
 
-    fn all(&self, quantizer: u32, found: u64, said: &str) -> Result<(), LinkError> {
+    fn check_frame_count(&self, quantizer: u32, found: u64, said: &str) -> Result<(), LinkError> {
         match found == self.footage.frames {
             true => Ok(()),
-            false => Err(self.lost(quantizer, found, said.to_owned())),
+            false => Err(self.lost_frames_error(quantizer, found, said.to_owned())),
         }
     }
 
-    fn lost(&self, quantizer: u32, found: u64, said: String) -> LinkError {
+    fn lost_frames_error(&self, quantizer: u32, found: u64, said: String) -> LinkError {
         let (clip, expected) = (self.footage.clip.clone(), self.footage.frames);
-        LinkError::Frames { codec: self.codec.name(), quantizer, clip, found, expected, said }
+        LinkError::LostFrames { codec: self.codec.name(), quantizer, clip, found, expected, message: said }
     }
 }
 
@@ -214,7 +214,7 @@ pub fn check_encoders(tools: &Toolchain, codecs: &[Codec]) -> Result<(), LinkErr
 }
 
 /// Returns a function that adds a temporary file's path to an error of the system.
-pub(crate) fn scratch(
+pub(crate) fn scratch_error(
     action: &'static str,
     path: &Path,
 ) -> impl Fn(std::io::Error) -> LinkError + use<> {

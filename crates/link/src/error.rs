@@ -68,13 +68,13 @@ pub enum LinkError {
     #[error(
         "`{name}` is a set of unrelated images, which have no rate; `link` needs clips, for example with --images clip"
     )]
-    Set {
+    DataSet {
         /// The name of the input.
         name: String,
     },
     /// A clip has fewer than two frames.
     #[error("`{clip}` has {frames} frame, which makes no rate; at least 2 are needed")]
-    OneFrame {
+    TooFewFrames {
         /// The name of the clip.
         clip: String,
         /// The number of frames of the clip.
@@ -84,7 +84,7 @@ pub enum LinkError {
     #[error(
         "frame {frame} of `{clip}` is at {time_us} us, not after the frame before it; give times that rise, for example with --input-fps"
     )]
-    Times {
+    TimesNotRising {
         /// The name of the clip.
         clip: String,
         /// The number of the frame.
@@ -96,7 +96,7 @@ pub enum LinkError {
     #[error(
         "the design has {bits} bits per pixel, but codecs are compared with 8; set frame.pixel_bits = 8"
     )]
-    Depth {
+    UnsupportedDepth {
         /// The number of bits per pixel.
         bits: u32,
     },
@@ -133,7 +133,7 @@ pub enum LinkError {
     #[error(
         "the encoder `{encoder}` does not take `{clip}` of {width}x{height} pixels: {said}; give frames of another size with --resize, or leave `{codec}` out of --codecs"
     )]
-    Refused {
+    EncoderRefused {
         /// The name of the encoder.
         encoder: &'static str,
         /// The codec that needs the encoder.
@@ -145,11 +145,11 @@ pub enum LinkError {
         /// The height in pixels.
         height: u32,
         /// The message of the encoder.
-        said: String,
+        message: String,
     },
     /// An encoder or decoder lost frames.
     #[error("{codec} at {quantizer} gave {found} of {expected} frames of `{clip}`; {said}")]
-    Frames {
+    LostFrames {
         /// The name of the codec.
         codec: &'static str,
         /// The quantizer.
@@ -161,7 +161,7 @@ pub enum LinkError {
         /// The number of frames that should have come.
         expected: u64,
         /// The message of ffmpeg.
-        said: String,
+        message: String,
     },
     /// The user stopped the comparison.
     #[error("interrupted; nothing was written")]

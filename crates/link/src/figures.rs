@@ -4,27 +4,27 @@
 use serde::Serialize;
 
 use crate::windows::nearest_rank;
-use crate::{Rates, Timeline, Unit, serve};
+use crate::{WindowRates, Timeline, LinkUnit, send_over_link};
 
 /// The lengths of the windows in ms.
 pub(crate) const WINDOWS_MS: [u64; 3] = [1, 10, 100];
 
 /// The load that a sender puts on a link. Times are in ns.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Figures {
+pub struct LinkFigures {
     /// The bytes of the clip; bits are rounded up once.
     pub bytes: u64,
     /// The bytes per second over the clip, rounded to the nearest.
     pub bytes_per_second: u64,
     /// The rates in windows of 1, 10 and 100 ms.
-    pub windows: [Rates; 3],
+    pub windows: [WindowRates; 3],
     /// The bytes of the largest frame.
     pub largest_frame_bytes: u64,
     /// The longest time from reading the oldest pixel of a unit to its decision.
     pub decision_ns: u64,
     /// The times from reading the oldest pixel of a unit to its last bit at the other end of the
     /// link.
-    pub delivery_ns: Delivery,
+    pub delivery_ns: DeliveryTimes,
     /// The size in bytes of the buffer in front of the link that loses nothing of this clip.
     pub buffer_bytes: u64,
     /// Whether the clip needs more than the link carries, so that the buffer grows with the length
@@ -34,7 +34,7 @@ pub struct Figures {
 
 /// The delivery times over the units of a sender, in ns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Delivery {
+pub struct DeliveryTimes {
     /// The median (nearest rank).
     pub median: u64,
     /// The time that 99 of 100 units do not exceed (nearest rank).
@@ -43,41 +43,41 @@ pub struct Delivery {
     pub longest: u64,
 }
 
-impl Figures {
+impl LinkFigures {
     /// Computes the figures of units, in any order, over a link of `rate` bits per second.
     #[must_use]
-    pub fn of(mut units: Vec<Unit>, timeline: &Timeline, rate: u64) -> Self {
-        units.sort_by_key(|unit| (unit.sent, unit.frame, unit.read));
-        let served = serve(&units, rate);
+    pub fn from_units(mut units: Vec<LinkUnit>, timeline: &Timeline, rate: u64) -> Self {
+        units.sort_by_key(|unit| (unit.sent_ns, unit.frame, unit.read_ns));
+        let served = send_over_link(&units, rate);
         let bits: u64 = units.iter().map(|unit| unit.bits).sum();
-        let mut frames = vec![0_u64; units.iter().map(number).max().unwrap_or(0) + 1];
-        units.iter().for_each(|unit| frames[number(unit)] += unit.bits);
-        let waits = units.iter().zip(&served.finished);
-        let mut waits: Vec<u64> = waits.map(|(unit, finished)| finished - unit.read).collect();
+        let mut frames = vec![0_u64; units.iter().map(frame_index).max().unwrap_or(0) + 1];
+        units.iter().for_each(|unit| frames[frame_index(unit)] += unit.bits);
+        let waits = units.iter().zip(&served.finished_ns);
+        let mut waits: Vec<u64> = waits.map(|(unit, finished)| finished - unit.read_ns).collect();
         waits.sort_unstable();
         let rank = |percent| nearest_rank(&waits, percent);
-        let decisions = units.iter().map(|unit| unit.decided - unit.read);
-        let span = (0, timeline.end());
+        let decisions = units.iter().map(|unit| unit.decided_ns - unit.read_ns);
+        let span = (0, timeline.end_ns());
         Self {
             bytes: bits.div_ceil(8),
-            bytes_per_second: per_second(bits, timeline.end()),
-            windows: WINDOWS_MS.map(|window| Rates::of(&units, span, window)),
+            bytes_per_second: bytes_per_second(bits, timeline.end_ns()),
+            windows: WINDOWS_MS.map(|window| WindowRates::from_units(&units, span, window)),
             largest_frame_bytes: frames.into_iter().max().unwrap_or(0).div_ceil(8),
             decision_ns: decisions.max().unwrap_or(0),
-            delivery_ns: Delivery { median: rank(50), p99: rank(99), longest: rank(100) },
-            buffer_bytes: served.backlog.div_ceil(8),
-            overloaded: is_overloaded(bits, timeline.end(), rate),
+            delivery_ns: DeliveryTimes { median: rank(50), p99: rank(99), longest: rank(100) },
+            buffer_bytes: served.backlog_bits.div_ceil(8),
+            overloaded: is_overloaded(bits, timeline.end_ns(), rate),
         }
     }
 }
 
 /// Returns the frame of a unit as an index.
-fn number(unit: &Unit) -> usize {
+fn frame_index(unit: &LinkUnit) -> usize {
     usize::try_from(unit.frame).expect("frames are in memory")
 }
 
 /// Returns the rate in bytes per second, rounded to the nearest.
-pub(crate) fn per_second(bits: u64, duration_ns: u64) -> u64 {
+pub(crate) fn bytes_per_second(bits: u64, duration_ns: u64) -> u64 {
     let duration = 8 * u128::from(duration_ns.max(1));
     let rate = (u128::from(bits) * 1_000_000_000 + duration / 2) / duration;
     u64::try_from(rate).unwrap_or(u64::MAX)

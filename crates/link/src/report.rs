@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::{Figures, Quality};
+use crate::{LinkFigures, Quality};
 
 /// The version of the JSON format; it changes if a key changes its meaning or is removed.
 pub(crate) const FORMAT_VERSION: u32 = 2;
@@ -57,7 +57,7 @@ pub struct ClipReport {
     /// The senders: cameras, then codecs.
     pub senders: Vec<SenderReport>,
     /// The points of bytes against quality.
-    pub curves: Vec<Point>,
+    pub curves: Vec<CurvePoint>,
 }
 
 /// The report of one sender of a clip.
@@ -73,20 +73,20 @@ pub struct SenderReport {
     /// The result of the search for a codec's quantizer. `equal` is the coarsest quantizer that is
     /// good enough; `finest` did not reach the quality of the region camera; `coarsest` is still
     /// better.
-    pub found: Option<&'static str>,
+    pub search_result: Option<&'static str>,
     /// The quality of the receiver's frames; `None` for a sender without frames.
     pub quality: Option<Quality>,
     /// The load on the link.
-    pub figures: Figures,
+    pub figures: LinkFigures,
 }
 
 /// A point of a curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
+pub struct CurvePoint {
     /// The name of the sender.
     pub sender: &'static str,
     /// The setting that differs from point to point: a key of the design, or the quantizer.
-    pub knob: &'static str,
+    pub setting: &'static str,
     /// The value of the setting.
     pub value: u64,
     /// The bytes per second.

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 ///
 /// # Errors
 /// Fails if `is_good` fails.
-pub fn coarsest<E>(
+pub fn coarsest_quantizer<E>(
     quantizers: RangeInclusive<u32>,
     mut is_good: impl FnMut(u32) -> Result<bool, E>,
 ) -> Result<Option<u32>, E> {
@@ -39,14 +39,14 @@ mod tests {
     fn every_limit_is_found_in_few_steps() {
         for limit in 0..=53 {
             let mut asked = 0;
-            let found = coarsest(1..=52, |quantizer| {
+            let found = coarsest_quantizer(1..=52, |quantizer| {
                 asked += 1;
                 Ok::<_, ()>(quantizer <= limit)
             });
             assert_eq!(found, Ok((limit > 0).then_some(limit.min(52))));
             assert!(asked <= 8, "{asked} for {limit}");
         }
-        assert_eq!(coarsest(5..=5, |_| Ok::<_, ()>(true)), Ok(Some(5)));
-        assert_eq!(coarsest(0..=9, |_| Err(7)), Err(7));
+        assert_eq!(coarsest_quantizer(5..=5, |_| Ok::<_, ()>(true)), Ok(Some(5)));
+        assert_eq!(coarsest_quantizer(0..=9, |_| Err(7)), Err(7));
     }
 }

@@ -15,30 +15,30 @@
 //! regions after the other: the decisions of a row when the last of them falls, and the pixels when
 //! the last word is out. A decision has two bits.
 
-use foveate_design::{Action, DECISION_BITS, Departure, Design, Hardware, RasterTiming};
+use foveate_design::{RegionAction, DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming};
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
-use crate::stream::{Leaving, Streamed, own_clocks};
-use crate::{LinkError, Timeline, Unit};
+use crate::stream::{RowDepartureTimes, RasterArrayStream, most_added_clocks};
+use crate::{LinkError, Timeline, LinkUnit};
 
 /// The values that a region camera sends for one frame, and the events of a pixel camera.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Sent {
+pub struct SentCounts {
     /// The number of pixels and means that are sent for every row of regions.
     pub rows: Vec<u64>,
     /// The number of pixels and means that are sent for every slot; there is one slot if no regions
     /// share a unit.
     pub slots: Vec<u64>,
     /// The action of every region.
-    pub actions: Vec<Action>,
+    pub actions: Vec<RegionAction>,
     /// The number of pixel events of every row.
     pub events: Vec<u64>,
 }
 
-impl Sent {
+impl SentCounts {
     /// Counts the values that are sent for regions with these actions.
     #[must_use]
-    pub fn of(design: &Design, actions: &[Action], events: Vec<u64>) -> Self {
+    pub fn from_actions(design: &Design, actions: &[RegionAction], events: Vec<u64>) -> Self {
         let mut rows = vec![0; design.rows() as usize];
         let mut slots = vec![0; design.slots() as usize];
         for (region, &action) in (0..).zip(actions) {
@@ -52,14 +52,14 @@ impl Sent {
 
 /// The cameras over a clip.
 #[derive(Debug)]
-pub struct Cameras<'a> {
+pub struct SenderCameras<'a> {
     design: &'a Design,
     timeline: &'a Timeline,
-    departure: Departure,
+    departure: DepartureTiming,
     clock_hz: Option<u64>,
 }
 
-impl<'a> Cameras<'a> {
+impl<'a> SenderCameras<'a> {
     /// Creates cameras with an array at a clock of `clock_hz`. Without a clock the array takes no
     /// time, and [`Self::own_clocks`] returns the clocks that are left out.
     ///
@@ -74,7 +74,7 @@ impl<'a> Cameras<'a> {
         let timing = design.timing();
         let cameras = Self { design, timeline, departure: timing.departure(), clock_hz };
         let (needed_ns, interval_ns) =
-            (cameras.clocks(cameras.frame_clocks()), timeline.shortest());
+            (cameras.clocks_to_ns(cameras.frame_clocks()), timeline.shortest_interval_ns());
         match clock_hz {
             Some(clock_hz) if needed_ns > interval_ns => {
                 let clip = clip.to_owned();
@@ -87,11 +87,11 @@ impl<'a> Cameras<'a> {
     /// Returns the most clocks that the array adds to a time after the pixels that it waits for
     /// have been read.
     #[must_use]
-    pub fn own_clocks(&self) -> u64 {
-        if let Some(core) = self.core() {
-            return own_clocks(core, self.design.regions());
+    pub fn added_clocks(&self) -> u64 {
+        if let Some(core) = self.raster_timing() {
+            return most_added_clocks(core, self.design.regions());
         }
-        let Departure { take_clocks, decision_clocks, forward_clocks, slot_clocks, alone, .. } =
+        let DepartureTiming { take_clocks, decision_clocks, forward_clocks, slot_clocks, has_independent_units: alone, .. } =
             self.departure;
         let last_slot = u64::from(self.design.slots() - 1) * slot_clocks;
         let array = take_clocks + decision_clocks.max(forward_clocks) + last_slot;
@@ -103,25 +103,25 @@ impl<'a> Cameras<'a> {
     #[must_use]
     pub fn needed_clock_hz(&self) -> u64 {
         let clocks = u128::from(self.frame_clocks()) * 1_000_000_000;
-        let hertz = clocks.div_ceil(u128::from(self.timeline.shortest().max(1)));
+        let hertz = clocks.div_ceil(u128::from(self.timeline.shortest_interval_ns().max(1)));
         u64::try_from(hertz).unwrap_or(u64::MAX)
     }
 
     /// Returns the timing of a raster core, which takes pixels as they are read; `None` for other
     /// organizations.
-    fn core(&self) -> Option<RasterTiming> {
+    fn raster_timing(&self) -> Option<RasterTiming> {
         match self.design.hardware() {
-            Hardware::Raster(own) => Some(RasterTiming::of(self.design.on(own))),
+            Hardware::Raster(own) => Some(RasterTiming::from_design(self.design.with_hardware(own))),
             Hardware::Pipelined(_) | Hardware::Serial(_) => None,
         }
     }
 
     /// Returns the most clocks of a frame, as a whole frame or row by row.
     fn frame_clocks(&self) -> u64 {
-        if let Some(timing) = self.core() {
-            return timing.most_clocks_per_frame();
+        if let Some(timing) = self.raster_timing() {
+            return timing.max_clocks_per_frame();
         }
-        let by_rows = match self.departure.alone {
+        let by_rows = match self.departure.has_independent_units {
             true => u64::from(self.design.height()) * u64::from(self.design.stream_side()),
             false => 0,
         };
@@ -130,14 +130,14 @@ impl<'a> Cameras<'a> {
 
     /// Returns the units of a camera that sends every pixel of every frame.
     #[must_use]
-    pub fn raw(&self) -> Vec<Unit> {
+    pub fn raw_units(&self) -> Vec<LinkUnit> {
         let bits = u64::from(self.design.width()) * u64::from(self.design.pixel_bits());
         self.rows_of_pixels(|_, _| bits)
     }
 
     /// Returns the units of a camera with pixel events.
     #[must_use]
-    pub fn pixel(&self, sent: &[Sent]) -> Vec<Unit> {
+    pub fn pixel_event_units(&self, sent: &[SentCounts]) -> Vec<LinkUnit> {
         let events = |frame: usize, row: usize| sent[frame].events[row] * 8 * PIXEL_EVENT_BYTES;
         self.rows_of_pixels(events)
     }
@@ -145,8 +145,8 @@ impl<'a> Cameras<'a> {
     /// Returns the units of the region camera by rows; `None` if the units of the array work in
     /// step.
     #[must_use]
-    pub fn region_by_rows(&self, sent: &[Sent]) -> Option<Vec<Unit>> {
-        if !self.departure.alone {
+    pub fn region_units_by_rows(&self, sent: &[SentCounts]) -> Option<Vec<LinkUnit>> {
+        if !self.departure.has_independent_units {
             return None;
         }
         let (size, rows) = (self.design.region_size(), self.design.rows());
@@ -154,12 +154,12 @@ impl<'a> Cameras<'a> {
         let mut units = Vec::new();
         for (frame, sent) in (0..).zip(sent) {
             for (row, &pixels) in (0..rows).zip(&sent.rows) {
-                let at = self.decided_by_rows(frame, row);
-                units.push(Unit {
+                let at = self.row_decision_ns(frame, row);
+                units.push(LinkUnit {
                     frame,
-                    read: self.timeline.row(frame, row * size),
-                    decided: at,
-                    sent: at,
+                    read_ns: self.timeline.row_read_ns(frame, row * size),
+                    decided_ns: at,
+                    sent_ns: at,
                     bits: map + pixels * u64::from(self.design.pixel_bits()),
                 });
             }
@@ -169,28 +169,28 @@ impl<'a> Cameras<'a> {
 
     /// Returns the units of the generated array.
     #[must_use]
-    pub fn region_array(&self, sent: &[Sent]) -> Vec<Unit> {
-        match self.core() {
-            Some(timing) => self.streamed(timing, sent),
-            None => self.slot_by_slot(sent),
+    pub fn region_array_units(&self, sent: &[SentCounts]) -> Vec<LinkUnit> {
+        match self.raster_timing() {
+            Some(timing) => self.units_by_stream(timing, sent),
+            None => self.units_by_slot(sent),
         }
     }
 
     /// Returns the units of an array that takes pixels as they are read, one row of regions after
     /// the other.
-    fn streamed(&self, timing: RasterTiming, sent: &[Sent]) -> Vec<Unit> {
+    fn units_by_stream(&self, timing: RasterTiming, sent: &[SentCounts]) -> Vec<LinkUnit> {
         let map = DECISION_BITS * u64::from(self.design.columns());
-        let mut array = Streamed::new(timing, self.timeline, self.clock_hz);
+        let mut array = RasterArrayStream::new(timing, self.timeline, self.clock_hz);
         let mut units = Vec::new();
         for (frame, sent) in (0..).zip(sent) {
-            let rows = array.next(&sent.actions).into_iter().zip(&sent.rows);
-            for (row, (Leaving { decided, sent }, &pixels)) in (0..).zip(rows) {
-                let read = self.timeline.row(frame, row * self.design.region_size());
-                units.push(Unit { frame, read, decided, sent: decided, bits: map });
+            let rows = array.next_frame(&sent.actions).into_iter().zip(&sent.rows);
+            for (row, (RowDepartureTimes { decided, sent }, &pixels)) in (0..).zip(rows) {
+                let read = self.timeline.row_read_ns(frame, row * self.design.region_size());
+                units.push(LinkUnit { frame, read_ns: read, decided_ns: decided, sent_ns: decided, bits: map });
                 let bits = pixels * u64::from(self.design.pixel_bits());
                 // The pixels may be out before the last decision of the row, if the last decisions
                 // send no pixels.
-                let unit = |sent| Unit { frame, read, decided: decided.min(sent), sent, bits };
+                let unit = |sent| LinkUnit { frame, read_ns: read, decided_ns: decided.min(sent), sent_ns: sent, bits };
                 units.extend(sent.map(unit));
             }
         }
@@ -198,23 +198,23 @@ impl<'a> Cameras<'a> {
     }
 
     /// Returns the units of an array that takes a frame when all of it has been read.
-    fn slot_by_slot(&self, sent: &[Sent]) -> Vec<Unit> {
+    fn units_by_slot(&self, sent: &[SentCounts]) -> Vec<LinkUnit> {
         let (fold, regions) = (self.design.slots(), self.design.regions());
-        let Departure { decision_frames, decision_clocks, .. } = self.departure;
-        let Departure { forward_frames, forward_clocks, slot_clocks, .. } = self.departure;
+        let DepartureTiming { decision_frames, decision_clocks, .. } = self.departure;
+        let DepartureTiming { forward_frames, forward_clocks, slot_clocks, .. } = self.departure;
         let mut units = Vec::new();
         for (frame, sent) in (0..).zip(sent) {
-            let read = self.timeline.row(frame, 0);
+            let read = self.timeline.row_read_ns(frame, 0);
             for (slot, &pixels) in (0..fold).zip(&sent.slots) {
                 let wait = u64::from(slot) * slot_clocks;
-                let decided = self.leaves(frame, decision_frames, decision_clocks + wait);
+                let decided = self.departure_ns(frame, decision_frames, decision_clocks + wait);
                 // The slot has the regions `slot`, `slot + fold`, `slot + 2 fold` and so on.
                 let map = DECISION_BITS * u64::from((regions - slot).div_ceil(fold));
-                units.push(Unit { frame, read, decided, sent: decided, bits: map });
-                let sent = self.leaves(frame, forward_frames, forward_clocks + wait);
+                units.push(LinkUnit { frame, read_ns: read, decided_ns: decided, sent_ns: decided, bits: map });
+                let sent = self.departure_ns(frame, forward_frames, forward_clocks + wait);
                 let bits = pixels * u64::from(self.design.pixel_bits());
                 if bits > 0 {
-                    units.push(Unit { frame, read, decided, sent, bits });
+                    units.push(LinkUnit { frame, read_ns: read, decided_ns: decided, sent_ns: sent, bits });
                 }
             }
         }
@@ -224,23 +224,23 @@ impl<'a> Cameras<'a> {
     /// Returns the units of an encoder that takes a frame when all of it has been read, and needs
     /// no time for it. Encoders that send a frame in slices would begin earlier.
     #[must_use]
-    pub fn codec(&self, packets: &[u64]) -> Vec<Unit> {
+    pub fn codec_units(&self, packets: &[u64]) -> Vec<LinkUnit> {
         let unit = |(frame, &bytes): (u64, &u64)| {
-            let sent = self.timeline.start(frame + 1);
-            let read = self.timeline.row(frame, 0);
-            Unit { frame, read, decided: sent, sent, bits: 8 * bytes }
+            let sent = self.timeline.start_ns(frame + 1);
+            let read = self.timeline.row_read_ns(frame, 0);
+            LinkUnit { frame, read_ns: read, decided_ns: sent, sent_ns: sent, bits: 8 * bytes }
         };
         (0..).zip(packets).map(unit).collect()
     }
 
-    fn rows_of_pixels(&self, bits: impl Fn(usize, usize) -> u64) -> Vec<Unit> {
+    fn rows_of_pixels(&self, bits: impl Fn(usize, usize) -> u64) -> Vec<LinkUnit> {
         let mut units = Vec::new();
         for (frame, number) in (0..self.timeline.frames()).zip(0..) {
             for (row, place) in (0..self.design.height()).zip(0..) {
-                let at = self.timeline.row(frame, row);
+                let at = self.timeline.row_read_ns(frame, row);
                 match bits(number, place) {
                     0 => {}
-                    bits => units.push(Unit { frame, read: at, decided: at, sent: at, bits }),
+                    bits => units.push(LinkUnit { frame, read_ns: at, decided_ns: at, sent_ns: at, bits }),
                 }
             }
         }
@@ -250,10 +250,10 @@ impl<'a> Cameras<'a> {
     /// Returns the time in ns at which the decisions of a row of regions fall: its last row of
     /// pixels, or of their halo, has been read, the repeated rows below the frame have been taken,
     /// and the latency is over.
-    fn decided_by_rows(&self, frame: u64, row: u32) -> u64 {
+    fn row_decision_ns(&self, frame: u64, row: u32) -> u64 {
         let (last, clocks) = self.row_clocks(row);
         let frame = frame + u64::from(self.departure.decision_frames);
-        self.timeline.row(frame, last) + self.clocks(clocks)
+        self.timeline.row_read_ns(frame, last) + self.clocks_to_ns(clocks)
     }
 
     /// Returns the last row of pixels that a row of regions waits for, and the clocks from there to
@@ -267,13 +267,13 @@ impl<'a> Cameras<'a> {
     }
 
     /// Returns the time in ns at which bits of a frame leave the array.
-    fn leaves(&self, frame: u64, later: u32, clocks: u64) -> u64 {
-        let read = self.timeline.start(frame + u64::from(later) + 1);
-        read + self.clocks(self.departure.take_clocks + clocks)
+    fn departure_ns(&self, frame: u64, later: u32, clocks: u64) -> u64 {
+        let read = self.timeline.start_ns(frame + u64::from(later) + 1);
+        read + self.clocks_to_ns(self.departure.take_clocks + clocks)
     }
 
     /// Converts clocks to ns, rounded up; returns 0 without a clock.
-    fn clocks(&self, clocks: u64) -> u64 {
+    fn clocks_to_ns(&self, clocks: u64) -> u64 {
         let Some(clock_hz) = self.clock_hz else { return 0 };
         let ns = (u128::from(clocks) * 1_000_000_000).div_ceil(u128::from(clock_hz.max(1)));
         u64::try_from(ns).unwrap_or(u64::MAX)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The design with one threshold at a time set to other values, for the points of its own curves.
 
-use foveate_design::{Config, Decimal, Design};
+use foveate_design::{DesignConfig, Decimal, Design};
 
 /// The values of `temporal.level`, in grey levels of 8 bits.
 const LEVELS: [u32; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];
@@ -10,7 +10,7 @@ const SCORES: [u64; 8] = [0, 1, 2, 5, 10, 20, 40, 60];
 
 /// A design of a curve.
 #[derive(Clone, Debug)]
-pub(crate) struct Swept {
+pub(crate) struct SweptDesign {
     /// The key of the threshold that differs.
     pub(crate) key: &'static str,
     /// The value of the threshold.
@@ -20,10 +20,10 @@ pub(crate) struct Swept {
 
 /// Returns the design with other values of `temporal.level` and of `spatial.0.min_score`, each
 /// varied alone.
-pub(crate) fn swept(config: &Config) -> Vec<Swept> {
+pub(crate) fn swept_designs(config: &DesignConfig) -> Vec<SweptDesign> {
     // A score above the largest one of this design's regions is not valid, and is left out.
     let swept =
-        |key, value, config: Config| Some(Swept { key, value, design: config.validate().ok()? });
+        |key, value, config: DesignConfig| Some(SweptDesign { key, value, design: config.validate().ok()? });
     let level = |&value: &u32| {
         let mut config = config.clone();
         config.camera.temporal.level = Some(value);
@@ -31,7 +31,7 @@ pub(crate) fn swept(config: &Config) -> Vec<Swept> {
     };
     let score = |&value: &u64| {
         let mut config = config.clone();
-        config.camera.spatial.first_mut()?.min_score = Some(Decimal::whole(value));
+        config.camera.spatial.first_mut()?.min_score = Some(Decimal::from_whole(value));
         swept("spatial.0.min_score", value, config)
     };
     LEVELS.iter().filter_map(level).chain(SCORES.iter().filter_map(score)).collect()

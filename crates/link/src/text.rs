@@ -37,7 +37,7 @@ impl LinkReport {
                 clip.width,
                 clip.height,
                 clip.duration_ns / 1_000_000,
-                kilo(self.link_bits_per_second / 8),
+                thousands_text(self.link_bits_per_second / 8),
                 if clip.problem.is_some() { ", NOT COMPLETE" } else { "" },
                 self.clock(clip),
             );
@@ -53,18 +53,18 @@ impl LinkReport {
     /// Describes the clock of the array, or the clocks that are left out without one.
     fn clock(&self, clip: &ClipReport) -> String {
         match self.clock_hz {
-            Some(hertz) => format!("The array runs at {} MHz.", megahertz(hertz)),
+            Some(hertz) => format!("The array runs at {} MHz.", megahertz_text(hertz)),
             None => format!(
                 "Without --clock: the array adds up to {} clocks to the times of the region camera. It needs {} MHz to keep up.",
                 clip.array_clocks,
-                megahertz(clip.needed_clock_hz)
+                megahertz_text(clip.needed_clock_hz)
             ),
         }
     }
 }
 
 /// Formats Hz as MHz, exactly.
-fn megahertz(hertz: u64) -> String {
+fn megahertz_text(hertz: u64) -> String {
     let digits = format!("{}.{:06}", hertz / 1_000_000, hertz % 1_000_000);
     digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
@@ -72,31 +72,31 @@ fn megahertz(hertz: u64) -> String {
 fn row(clip: &ClipReport, sender: &SenderReport) -> [String; COLUMNS.len()] {
     let figures = &sender.figures;
     let [one, ten, hundred] =
-        figures.windows.map(|rates| format!("{}, {}", kilo(rates.p99), kilo(rates.peak)));
+        figures.windows.map(|rates| format!("{}, {}", thousands_text(rates.p99), thousands_text(rates.peak)));
     let delivery = figures.delivery_ns;
     let grows = if figures.overloaded { "grows: " } else { "" };
-    let ms = |ns: u64| milli(ns / 1000, 3);
+    let ms = |ns: u64| thousandths_text(ns / 1000, 3);
     [
         sender.sender.to_owned(),
         sender.equal.map_or("-".to_owned(), str::to_uppercase),
         quantizer(sender),
         psnr(sender),
         sender.quality.map_or("-".to_owned(), |quality| format!("{:.4}", quality.ssim)),
-        kilo(figures.bytes_per_second),
+        thousands_text(figures.bytes_per_second),
         ratio(clip, sender),
         one,
         ten,
         hundred,
-        kilo(figures.largest_frame_bytes),
+        thousands_text(figures.largest_frame_bytes),
         ms(figures.decision_ns),
         format!("{}, {}", ms(delivery.median), ms(delivery.longest)),
-        format!("{grows}{}", kilo(figures.buffer_bytes)),
+        format!("{grows}{}", thousands_text(figures.buffer_bytes)),
     ]
 }
 
 fn quantizer(sender: &SenderReport) -> String {
     let Some(quantizer) = sender.quantizer else { return "-".to_owned() };
-    match sender.found {
+    match sender.search_result {
         Some("finest") => format!("{quantizer}: not reached"),
         Some("coarsest") => format!("{quantizer}: still better"),
         _ => quantizer.to_string(),
@@ -118,12 +118,12 @@ fn ratio(clip: &ClipReport, sender: &SenderReport) -> String {
 }
 
 /// Formats thousands with one decimal, rounded to the nearest.
-fn kilo(value: u64) -> String {
-    milli((value + 50) / 100 * 100, 1)
+fn thousands_text(value: u64) -> String {
+    thousandths_text((value + 50) / 100 * 100, 1)
 }
 
 /// Formats thousandths with one to three decimals; further digits are cut off.
-fn milli(value: u64, decimals: usize) -> String {
+fn thousandths_text(value: u64, decimals: usize) -> String {
     let thousandths = format!("{:03}", value % 1000);
     format!("{}.{}", value / 1000, &thousandths[..decimals])
 }
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn thousands_are_rounded_and_thousandths_are_cut() {
-        assert_eq!([0, 49, 50, 12_345].map(kilo), ["0.0", "0.0", "0.1", "12.3"]);
-        assert_eq!([milli(1_002, 3), milli(999, 1)], ["1.002", "0.9"]);
+        assert_eq!([0, 49, 50, 12_345].map(thousands_text), ["0.0", "0.0", "0.1", "12.3"]);
+        assert_eq!([thousandths_text(1_002, 3), thousandths_text(999, 1)], ["1.002", "0.9"]);
     }
 }

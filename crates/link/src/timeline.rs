@@ -5,7 +5,7 @@
 use crate::LinkError;
 
 /// The number of nanoseconds of a microsecond.
-const OF_MICRO: u64 = 1000;
+const NS_PER_US: u64 = 1000;
 
 /// The times of a clip in ns. After the last frame the sensor goes on at the mean interval.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,22 +23,22 @@ impl Timeline {
     /// Fails if there are fewer than two frames, or if a frame does not begin after the one before.
     pub fn new(clip: &str, times_us: &[u64], rows: u32) -> Result<Self, LinkError> {
         let (&[first, ..], &[.., last]) = (times_us, times_us) else {
-            return Err(LinkError::OneFrame { clip: clip.to_owned(), frames: 0 });
+            return Err(LinkError::TooFewFrames { clip: clip.to_owned(), frames: 0 });
         };
         let frames = times_us.len() as u64;
         if frames < 2 {
-            return Err(LinkError::OneFrame { clip: clip.to_owned(), frames });
+            return Err(LinkError::TooFewFrames { clip: clip.to_owned(), frames });
         }
         if let Some(frame) = times_us.windows(2).position(|pair| pair[1] <= pair[0]) {
             let time_us = times_us[frame + 1];
-            return Err(LinkError::Times { clip: clip.to_owned(), frame: frame + 1, time_us });
+            return Err(LinkError::TimesNotRising { clip: clip.to_owned(), frame: frame + 1, time_us });
         }
         // The last frame lasts as long as the others on average.
         let (span, intervals) = (u128::from(last - first), u128::from(frames - 1));
         let duration = (span * (intervals + 1) + intervals / 2) / intervals;
         let duration = u64::try_from(duration).unwrap_or(u64::MAX);
-        let starts: Vec<u64> = times_us.iter().map(|time| (time - first) * OF_MICRO).collect();
-        Ok(Self { starts, end: duration.saturating_mul(OF_MICRO), rows: rows.into() })
+        let starts: Vec<u64> = times_us.iter().map(|time| (time - first) * NS_PER_US).collect();
+        Ok(Self { starts, end: duration.saturating_mul(NS_PER_US), rows: rows.into() })
     }
 
     /// Returns the number of frames of the clip.
@@ -49,14 +49,14 @@ impl Timeline {
 
     /// Returns the end of the clip in ns, which is its duration.
     #[must_use]
-    pub fn end(&self) -> u64 {
+    pub fn end_ns(&self) -> u64 {
         self.end
     }
 
     /// Returns the time in ns at which a frame begins, which is when the frame before it has been
     /// read.
     #[must_use]
-    pub fn start(&self, frame: u64) -> u64 {
+    pub fn start_ns(&self, frame: u64) -> u64 {
         match self.starts.get(usize::try_from(frame).unwrap_or(usize::MAX)) {
             Some(&start) => start,
             None => self.end + scaled(self.end, frame - self.frames(), self.frames()),
@@ -65,15 +65,15 @@ impl Timeline {
 
     /// Returns the time in ns at which a row of a frame has been read.
     #[must_use]
-    pub fn row(&self, frame: u64, row: u32) -> u64 {
-        let (start, next) = (self.start(frame), self.start(frame + 1));
+    pub fn row_read_ns(&self, frame: u64, row: u32) -> u64 {
+        let (start, next) = (self.start_ns(frame), self.start_ns(frame + 1));
         start + scaled(next - start, u64::from(row) + 1, self.rows)
     }
 
     /// Returns the shortest time between two frames in ns.
     #[must_use]
-    pub fn shortest(&self) -> u64 {
-        let intervals = (0..self.frames()).map(|frame| self.start(frame + 1) - self.start(frame));
+    pub fn shortest_interval_ns(&self) -> u64 {
+        let intervals = (0..self.frames()).map(|frame| self.start_ns(frame + 1) - self.start_ns(frame));
         intervals.min().expect("there are two frames")
     }
 }

@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::Unit;
+use crate::LinkUnit;
 
 /// The rates in windows of one length, in bytes per second, rounded to the nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Rates {
+pub struct WindowRates {
     /// The length of a window in ms.
     pub window_ms: u64,
     /// The rate that 99 of 100 windows do not exceed (nearest rank).
@@ -19,16 +19,16 @@ pub struct Rates {
     pub peak: u64,
 }
 
-impl Rates {
+impl WindowRates {
     /// Computes the rates between `start` and `end`, in ns, and after `end` as long as bits are
     /// sent. The last window counts as a whole window.
     #[must_use]
-    pub fn of(units: &[Unit], (start, end): (u64, u64), window_ms: u64) -> Self {
+    pub fn from_units(units: &[LinkUnit], (start, end): (u64, u64), window_ms: u64) -> Self {
         let length = window_ms * 1_000_000;
         // Only windows with bits are stored, because a clip may last for days.
         let mut windows: BTreeMap<u64, u64> = BTreeMap::new();
         for unit in units {
-            *windows.entry(unit.sent.saturating_sub(start) / length).or_default() += unit.bits;
+            *windows.entry(unit.sent_ns.saturating_sub(start) / length).or_default() += unit.bits;
         }
         let during = end.saturating_sub(start).div_ceil(length);
         let count = windows.last_key_value().map_or(0, |(last, _)| last + 1).max(during);

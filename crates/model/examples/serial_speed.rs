@@ -6,20 +6,20 @@
 
 use std::time::{Duration, Instant};
 
-use foveate_design::{Config, Design};
-use foveate_model::{CoreInput, SerialRcm, Thresholds};
+use foveate_design::{DesignConfig, Design};
+use foveate_model::{CoreInput, SerialRcm, ThresholdInputs};
 
 /// Duration of each measurement.
-const LASTS: Duration = Duration::from_secs(3);
+const MEASUREMENT_TIME: Duration = Duration::from_secs(3);
 
 fn design(feed: &str) -> Design {
     let toml = format!("[hardware]\norganization = \"serial\"\nfeed = \"{feed}\"\n");
-    Config::from_toml(&toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(&toml).unwrap().validate().unwrap()
 }
 
 /// A small random generator (xorshift). The values of the pixels do not matter, only that they
 /// differ.
-fn noise(state: &mut u64) -> u16 {
+fn next_pixel(state: &mut u64) -> u16 {
     *state ^= *state << 13;
     *state ^= *state >> 7;
     *state ^= *state << 17;
@@ -28,15 +28,15 @@ fn noise(state: &mut u64) -> u16 {
 
 fn measure(feed: &str, skips: bool) {
     let design = design(feed);
-    let thresholds = Thresholds::of(&design);
-    let mut rcm = SerialRcm::new(design.serial().unwrap());
+    let thresholds = ThresholdInputs::from_camera(&design);
+    let mut rcm = SerialRcm::new(design.as_serial().unwrap());
     let ports = rcm.output().forward_valid.len();
     let frame = 224 * 224 / ports;
     let mut state = 1;
-    let pixels: Vec<u16> = (0..8 * 224 * 224).map(|_| noise(&mut state)).collect();
+    let pixels: Vec<u16> = (0..8 * 224 * 224).map(|_| next_pixel(&mut state)).collect();
     let (mut clocks, mut frames) = (0u64, 0u32);
     let start = Instant::now();
-    while start.elapsed() < LASTS {
+    while start.elapsed() < MEASUREMENT_TIME {
         for place in 0..frame {
             let at = (frames as usize % 8 * frame + place) * ports;
             let pixels = &pixels[at..at + ports];

@@ -5,16 +5,16 @@
 use foveate_camera::{Camera, Payload};
 
 use crate::ModelError;
-use crate::decision::combined;
-use crate::denoise::denoise_into;
+use crate::decision::combine_votes;
+use crate::denoising::denoise_into;
 use crate::feature::score;
-use crate::number::index;
-use crate::periphery::{Summary, block_means, no_summaries};
-use crate::region::{Area, black, black_padded, check_kind, pad_into};
-use crate::render::Screen;
-use crate::temporal::{References, changed_pixels};
-use crate::view::FrameRegion;
-use foveate_camera::Action;
+use crate::conversions::index;
+use crate::periphery::{ShownSummary, block_means, no_summaries};
+use crate::region::{RegionArea, black_frame, black_padded_frame, check_frame_kind, pad_into};
+use crate::screen::Screen;
+use crate::temporal::{RegionReferences, changed_pixels};
+use crate::region_view::FrameRegion;
+use foveate_camera::RegionAction;
 use foveate_frame::Frame;
 
 /// The results of one frame. Regions are numbered row by row.
@@ -27,7 +27,7 @@ pub struct FunctionalOutcome {
     /// SRS and TRS of every region are both 1, so its pixels are forwarded.
     pub active: Vec<bool>,
     /// Action on every region of the screen.
-    pub actions: Vec<Action>,
+    pub actions: Vec<RegionAction>,
     /// Number of changed pixels of every region. It is n for a region without a valid reference.
     pub temporal_count: Vec<u32>,
     /// Scores, by feature in the order of the camera and then by region.
@@ -50,13 +50,13 @@ impl FunctionalOutcome {
             srs: vec![false; regions],
             trs: vec![false; regions],
             active: vec![false; regions],
-            actions: vec![Action::Hold; regions],
+            actions: vec![RegionAction::Hold; regions],
             temporal_count: vec![0; regions],
             scores: vec![vec![0; regions]; camera.features().len()],
             means: vec![Vec::new(); regions],
-            padded: black_padded(camera),
-            denoised: black_padded(camera),
-            rendered: black(camera),
+            padded: black_padded_frame(camera),
+            denoised: black_padded_frame(camera),
+            rendered: black_frame(camera),
         }
     }
 
@@ -72,7 +72,7 @@ impl FunctionalOutcome {
 
 /// The state of a region that is kept between frames, except its pixels on the screen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Remembered {
+pub struct RegionMemory {
     /// The reference of the region: denoised pixels in row-major order, or `None` if there is no
     /// valid reference.
     pub reference: Option<Vec<u16>>,
@@ -85,8 +85,8 @@ pub struct Remembered {
 #[derive(Clone, Debug)]
 pub struct FunctionalCamera {
     camera: Camera,
-    references: References,
-    summaries: Vec<Summary>,
+    references: RegionReferences,
+    summaries: Vec<ShownSummary>,
     screen: Screen,
     outcome: FunctionalOutcome,
 }
@@ -96,7 +96,7 @@ impl FunctionalCamera {
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         Self {
-            references: References::none(camera),
+            references: RegionReferences::without_references(camera),
             summaries: no_summaries(camera),
             screen: Screen::black(camera),
             outcome: FunctionalOutcome::new(camera),
@@ -112,7 +112,7 @@ impl FunctionalCamera {
 
     /// Resets references, summaries and the screen.
     pub fn reset(&mut self) {
-        self.references = References::none(&self.camera);
+        self.references = RegionReferences::without_references(&self.camera);
         self.summaries = no_summaries(&self.camera);
         self.screen = Screen::black(&self.camera);
     }
@@ -142,9 +142,9 @@ impl FunctionalCamera {
     /// # Panics
     /// Panics if the camera has no such region.
     #[must_use]
-    pub fn remembered(&self, region: u32) -> Remembered {
+    pub fn region_memory(&self, region: u32) -> RegionMemory {
         let summary = self.summary(region).map(<[u16]>::to_vec);
-        Remembered { reference: self.reference(region), summary }
+        RegionMemory { reference: self.reference(region), summary }
     }
 
     /// Makes a camera that continues from the state of another one: its screen, and the state of
@@ -158,17 +158,17 @@ impl FunctionalCamera {
     pub fn resume(
         camera: &Camera,
         screen: &Frame,
-        remembered: impl Fn(u32) -> Remembered,
+        remembered: impl Fn(u32) -> RegionMemory,
     ) -> Result<Self, ModelError> {
-        check_kind(camera, screen)?;
+        check_frame_kind(camera, screen)?;
         let mut resumed = Self::new(camera);
-        resumed.screen.show_all(screen);
+        resumed.screen.show_frame(screen);
         for region in 0..camera.regions() {
-            let Remembered { reference, summary } = remembered(region);
+            let RegionMemory { reference, summary } = remembered(region);
             if let Some(pixels) = reference {
                 resumed.references.set(camera, region, &pixels);
             }
-            resumed.summaries[index(region)] = Summary::of(summary);
+            resumed.summaries[index(region)] = ShownSummary::from_means(summary);
         }
         Ok(resumed)
     }
@@ -179,13 +179,13 @@ impl FunctionalCamera {
     /// Returns an error if the frame does not have the size and depth of the camera. The state is
     /// then unchanged.
     pub fn step(&mut self, frame: &Frame) -> Result<&FunctionalOutcome, ModelError> {
-        check_kind(&self.camera, frame)?;
+        check_frame_kind(&self.camera, frame)?;
         pad_into(frame, &mut self.outcome.padded);
         denoise_into(&self.camera, &self.outcome.padded, &mut self.outcome.denoised);
         for region in 0..self.camera.regions() {
             self.decide(region);
             self.summarize(region);
-            self.act(region);
+            self.apply_decision(region);
         }
         self.screen.crop_into(&mut self.outcome.rendered);
         Ok(&self.outcome)
@@ -196,7 +196,7 @@ impl FunctionalCamera {
         let Self { camera, references, outcome, .. } = self;
         let at = index(region);
         let seen = FrameRegion::new(camera, &outcome.denoised, region);
-        let seen = seen.after(references.frame(region));
+        let seen = seen.with_reference(references.frame(region));
         for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
             // A feature without a level ignores this argument.
             scores[at] = score(feature, feature.level().unwrap_or(0), &seen);
@@ -206,7 +206,7 @@ impl FunctionalCamera {
             .iter()
             .zip(&outcome.scores)
             .map(|(feature, scores)| scores[at] >= feature.min_score());
-        let srs = combined(camera.combine(), votes);
+        let srs = combine_votes(camera.combine(), votes);
         let count = changed_pixels(&seen, camera.temporal().level);
         let trs = count >= camera.temporal().min_count;
         outcome.srs[at] = srs;
@@ -219,13 +219,13 @@ impl FunctionalCamera {
     fn summarize(&mut self, region: u32) {
         let Self { camera, outcome, .. } = self;
         if let Some(periphery) = camera.periphery() {
-            let pixels = Area::of(camera, region).pixels(outcome.payload(camera));
+            let pixels = RegionArea::from_region(camera, region).pixels(outcome.payload(camera));
             outcome.means[index(region)] = block_means(periphery, pixels);
         }
     }
 
     /// Applies the decision for one region: the action, the screen, the reference and the summary.
-    fn act(&mut self, region: u32) {
+    fn apply_decision(&mut self, region: u32) {
         let Self { camera, references, summaries, screen, outcome } = self;
         let at = index(region);
         let means = &outcome.means[at];
@@ -233,7 +233,7 @@ impl FunctionalCamera {
         let (srs, trs) = (outcome.srs[at], outcome.trs[at]);
         let action = summaries[at].decide(camera.irrelevant(), srs, trs, means, level);
         outcome.actions[at] = action;
-        screen.show(camera, region, action, (outcome.payload(camera), means));
+        screen.show_region(camera, region, action, (outcome.payload(camera), means));
         references.update(camera, &outcome.denoised, region, action);
     }
 }

@@ -2,11 +2,11 @@
 //! The summaries of irrelevant regions: the means of their blocks, and the frames in which they are
 //! sent.
 
-use foveate_camera::{Action, Camera, Irrelevant, Periphery};
+use foveate_camera::{RegionAction, Camera, IrrelevantRendering, Periphery};
 
-use crate::decision::action;
-use crate::number::index;
-use crate::region::Area;
+use crate::decision::region_action;
+use crate::conversions::index;
+use crate::region::RegionArea;
 use foveate_frame::Frame;
 
 /// Returns the means of the blocks of a region in row-major order, each
@@ -26,54 +26,54 @@ pub fn block_means(periphery: &Periphery, pixels: impl Iterator<Item = u16>) -> 
 }
 
 /// Returns the number, in its region, of the upper left pixel of a block.
-pub(crate) fn first_of_block(periphery: &Periphery, block: u32) -> u32 {
+pub(crate) fn first_position_of_block(periphery: &Periphery, block: u32) -> u32 {
     let (blocks, side) = (periphery.blocks, periphery.block_side);
     let (left, top) = (block % blocks * side, block / blocks * side);
     top * blocks * side + left
 }
 
 /// Returns the number, in its region, of the lower right pixel of a block.
-pub(crate) fn last_of_block(periphery: &Periphery, block: u32) -> u32 {
+pub(crate) fn last_position_of_block(periphery: &Periphery, block: u32) -> u32 {
     let (blocks, side) = (periphery.blocks, periphery.block_side);
-    first_of_block(periphery, block) + (side - 1) * blocks * side + side - 1
+    first_position_of_block(periphery, block) + (side - 1) * blocks * side + side - 1
 }
 
 /// The summary of a region that was sent last, as long as the screen shows it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Summary {
+pub(crate) struct ShownSummary {
     shown: Option<Vec<u16>>,
 }
 
-impl Summary {
+impl ShownSummary {
     /// Makes the state of a region of which the screen shows these means, or no means.
-    pub(crate) fn of(shown: Option<Vec<u16>>) -> Self {
+    pub(crate) fn from_means(shown: Option<Vec<u16>>) -> Self {
         Self { shown }
     }
 
     /// Returns the action on the region for its SRS, TRS and means. The state does not change.
     pub(crate) fn action(
         &self,
-        irrelevant: Irrelevant,
+        irrelevant: IrrelevantRendering,
         srs: bool,
         trs: bool,
         means: &[u16],
         level: u32,
-    ) -> Action {
-        action(irrelevant, srs, trs, || self.is_due(means, level))
+    ) -> RegionAction {
+        region_action(irrelevant, srs, trs, || self.is_due(means, level))
     }
 
     /// Returns the action on the region, and records the means that the screen shows after it.
     pub(crate) fn decide(
         &mut self,
-        irrelevant: Irrelevant,
+        irrelevant: IrrelevantRendering,
         srs: bool,
         trs: bool,
         means: &[u16],
         level: u32,
-    ) -> Action {
+    ) -> RegionAction {
         let action = self.action(irrelevant, srs, trs, means, level);
-        self.follow(action, means);
-        action
+        self.record_action(region_action, means);
+        region_action
     }
 
     /// Returns true if an irrelevant region with these means must send them: the screen shows no
@@ -96,29 +96,29 @@ impl Summary {
     }
 
     /// Records the means that the screen shows after an action.
-    fn follow(&mut self, action: Action, means: &[u16]) {
-        match action {
-            Action::Forward => self.shown = None,
-            Action::Summarize => self.shown = Some(means.to_vec()),
-            Action::Hold | Action::Blank => {}
+    fn record_action(&mut self, action: RegionAction, means: &[u16]) {
+        match region_action {
+            RegionAction::Forward => self.shown = None,
+            RegionAction::Summarize => self.shown = Some(means.to_vec()),
+            RegionAction::Hold | RegionAction::Blank => {}
         }
     }
 }
 
 /// Returns the state of every region of a camera before the first frame: the screen shows no
 /// summary.
-pub(crate) fn no_summaries(camera: &Camera) -> Vec<Summary> {
-    vec![Summary::default(); index(camera.regions())]
+pub(crate) fn no_summaries(camera: &Camera) -> Vec<ShownSummary> {
+    vec![ShownSummary::default(); index(camera.regions())]
 }
 
-impl Area {
+impl RegionArea {
     /// Writes the means of the blocks of a region to a frame. Every pixel of a block gets its mean.
-    pub(crate) fn fill(self, periphery: &Periphery, means: &[u16], frame: &mut Frame) {
+    pub(crate) fn fill_blocks(self, periphery: &Periphery, means: &[u16], frame: &mut Frame) {
         let side = index(periphery.block_side);
         for (y, row) in self.rows().zip(0..) {
             let means = &means[row / side * index(periphery.blocks)..][..index(periphery.blocks)];
             let line: Vec<u16> = means.iter().flat_map(|&mean| vec![mean; side]).collect();
-            frame.write(self.left, y, &line);
+            frame.write_row(self.left, y, &line);
         }
     }
 }

@@ -4,20 +4,20 @@
 use foveate_camera::Camera;
 
 use crate::ModelError;
-use crate::number::index;
+use crate::conversions::index;
 use foveate_frame::Frame;
 
 /// The square of pixels of a region, in coordinates of the padded frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Area {
+pub(crate) struct RegionArea {
     pub(crate) left: u32,
     pub(crate) top: u32,
     pub(crate) side: u32,
 }
 
-impl Area {
+impl RegionArea {
     /// Returns the area of region `region`. Regions are numbered row by row.
-    pub(crate) fn of(camera: &Camera, region: u32) -> Self {
+    pub(crate) fn from_region(camera: &Camera, region: u32) -> Self {
         let side = camera.region_size();
         let (column, row) = (region % camera.columns(), region / camera.columns());
         Self { left: column * side, top: row * side, side }
@@ -51,7 +51,7 @@ impl Area {
     /// Copies the region from one frame to another of the same size.
     pub(crate) fn copy(self, from: &Frame, to: &mut Frame) {
         for y in self.rows() {
-            to.write(self.left, y, self.row(from, y));
+            to.write_row(self.left, y, self.row(from, y));
         }
     }
 
@@ -59,23 +59,23 @@ impl Area {
     pub(crate) fn blank(self, frame: &mut Frame) {
         let black = vec![0; index(self.side)];
         for y in self.rows() {
-            frame.write(self.left, y, &black);
+            frame.write_row(self.left, y, &black);
         }
     }
 }
 
 /// Returns a black frame of the size of the camera.
-pub(crate) fn black(camera: &Camera) -> Frame {
-    filled(camera, camera.width(), camera.height())
+pub(crate) fn black_frame(camera: &Camera) -> Frame {
+    black_frame_of_size(camera, camera.width(), camera.height())
 }
 
 /// Returns a black frame of the size of the padded frame of the camera.
-pub(crate) fn black_padded(camera: &Camera) -> Frame {
+pub(crate) fn black_padded_frame(camera: &Camera) -> Frame {
     let side = camera.region_size();
-    filled(camera, camera.columns() * side, camera.rows() * side)
+    black_frame_of_size(camera, camera.columns() * side, camera.rows() * side)
 }
 
-fn filled(camera: &Camera, width: u32, height: u32) -> Frame {
+fn black_frame_of_size(camera: &Camera, width: u32, height: u32) -> Frame {
     Frame::filled(width, height, camera.pixel_bits(), 0).expect("a camera has a size and a depth")
 }
 
@@ -85,7 +85,7 @@ fn filled(camera: &Camera, width: u32, height: u32) -> Frame {
 /// Panics if the frame does not have the size of the padded frame of the camera, or has no such
 /// region.
 pub fn region_pixels(camera: &Camera, padded: &Frame, region: u32, out: &mut Vec<u16>) {
-    out.extend(Area::of(camera, region).pixels(padded));
+    out.extend(RegionArea::from_region(camera, region).pixels(padded));
 }
 
 /// Returns the padded frame: its last column and row are repeated until its sides are multiples of
@@ -94,36 +94,36 @@ pub fn region_pixels(camera: &Camera, padded: &Frame, region: u32, out: &mut Vec
 /// # Errors
 /// Returns an error if the frame does not have the size and depth of the camera.
 pub fn pad(camera: &Camera, frame: &Frame) -> Result<Frame, ModelError> {
-    check_kind(camera, frame)?;
-    let mut padded = black_padded(camera);
+    check_frame_kind(camera, frame)?;
+    let mut padded = black_padded_frame(camera);
     pad_into(frame, &mut padded);
     Ok(padded)
 }
 
 /// Refuses a frame that does not have the size and depth of the camera.
-pub(crate) fn check_kind(camera: &Camera, frame: &Frame) -> Result<(), ModelError> {
+pub(crate) fn check_frame_kind(camera: &Camera, frame: &Frame) -> Result<(), ModelError> {
     let expected = (camera.width(), camera.height(), camera.pixel_bits());
     if (frame.width(), frame.height(), frame.bits()) == expected {
         return Ok(());
     }
     let (width, height, bits) = expected;
     let expected = format!("{width}x{height} pixels of {bits} bits");
-    Err(ModelError::FrameKind { given: frame.kind(), expected })
+    Err(ModelError::FrameKind { given: frame.size_and_depth(), expected })
 }
 
 /// Writes a frame and its padding to `padded`.
 pub(crate) fn pad_into(frame: &Frame, padded: &mut Frame) {
     for y in 0..padded.height() {
         let own = frame.row(y.min(frame.height() - 1));
-        padded.write(0, y, own);
+        padded.write_row(0, y, own);
         let last = frame.get(frame.width() - 1, y.min(frame.height() - 1));
-        padded.write(frame.width(), y, &vec![last; index(padded.width()) - own.len()]);
+        padded.write_row(frame.width(), y, &vec![last; index(padded.width()) - own.len()]);
     }
 }
 
 /// Copies the part of `padded` that is not padding to `frame`.
 pub(crate) fn crop_into(padded: &Frame, frame: &mut Frame) {
     for y in 0..frame.height() {
-        frame.write(0, y, &padded.row(y)[..index(frame.width())]);
+        frame.write_row(0, y, &padded.row(y)[..index(frame.width())]);
     }
 }

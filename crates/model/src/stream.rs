@@ -4,18 +4,18 @@
 
 use foveate_camera::Camera;
 
-use crate::region::Area;
+use crate::region::RegionArea;
 use foveate_frame::Frame;
 
 /// Appends the raw pixels that region `region` of a frame sends to its RPU: a square of side
 /// `camera.stream_side()` in row-major order. A position outside of the frame holds the nearest
 /// pixel, both for padding and for the halo. A padded frame gives the same stream.
 pub fn region_stream(camera: &Camera, frame: &Frame, region: u32, out: &mut Vec<u16>) {
-    let area = Area::of(camera, region);
+    let area = RegionArea::from_region(camera, region);
     let halo = i64::from(camera.halo());
     let reach = |from: u32| i64::from(from) - halo..i64::from(from + area.side) + halo;
     for y in reach(area.top) {
-        out.extend(reach(area.left).map(|x| frame.clamped(x, y)));
+        out.extend(reach(area.left).map(|x| frame.get_clamped(x, y)));
     }
 }
 

@@ -2,12 +2,12 @@
 //! The temporal score, which is the number of pixels that differ from the reference of their
 //! region, and the references.
 
-use foveate_camera::{Camera, Reference};
+use foveate_camera::{Camera, ReferencePolicy};
 
-use crate::number::{count, index};
-use crate::region::{Area, black_padded};
-use crate::view::RegionView;
-use foveate_camera::Action;
+use crate::conversions::{count_true, index};
+use crate::region::{RegionArea, black_padded_frame};
+use crate::region_view::RegionView;
+use foveate_camera::RegionAction;
 use foveate_frame::Frame;
 
 /// Returns `|now - reference|` of every pixel of a region of two padded frames, in row-major order.
@@ -23,7 +23,7 @@ pub fn temporal_differences(
     reference: &Frame,
     region: u32,
 ) -> Vec<u32> {
-    let area = Area::of(camera, region);
+    let area = RegionArea::from_region(camera, region);
     let pairs = area.pixels(now).zip(area.pixels(reference));
     pairs.map(|(now, reference)| now.abs_diff(reference).into()).collect()
 }
@@ -31,38 +31,38 @@ pub fn temporal_differences(
 /// Returns the number of changed pixels of a region: those that differ from its reference by more
 /// than the level, or n if there is no valid reference.
 pub fn changed_pixels(region: &impl RegionView, level: u32) -> u32 {
-    match region.before() {
+    match region.reference() {
         Some(before) => {
             let pairs = region.pixels().zip(before);
-            count(pairs.map(|(now, before)| u32::from(now.abs_diff(before)) > level))
+            count_true(pairs.map(|(now, before)| u32::from(now.abs_diff(before)) > level))
         }
-        None => count(region.pixels().map(|_| true)),
+        None => count_true(region.pixels().map(|_| true)),
     }
 }
 
 /// The references of all regions: denoised pixels of an earlier frame.
 #[derive(Clone, Debug)]
-pub(crate) struct References {
+pub(crate) struct RegionReferences {
     frame: Frame,
     valid: Vec<bool>,
 }
 
-impl References {
+impl RegionReferences {
     /// Makes the state in which no region has a valid reference.
-    pub(crate) fn none(camera: &Camera) -> Self {
-        Self { frame: black_padded(camera), valid: vec![false; index(camera.regions())] }
+    pub(crate) fn without_references(camera: &Camera) -> Self {
+        Self { frame: black_padded_frame(camera), valid: vec![false; index(camera.regions())] }
     }
 
     /// Returns the reference of a region in row-major order, or `None` if it is not valid.
     pub(crate) fn pixels(&self, camera: &Camera, region: u32) -> Option<Vec<u16>> {
-        self.frame(region).map(|frame| Area::of(camera, region).pixels(frame).collect())
+        self.frame(region).map(|frame| RegionArea::from_region(camera, region).pixels(frame).collect())
     }
 
     /// Sets the reference of a region to `pixels`, in row-major order.
     pub(crate) fn set(&mut self, camera: &Camera, region: u32, pixels: &[u16]) {
-        let area = Area::of(camera, region);
+        let area = RegionArea::from_region(camera, region);
         for (y, row) in area.rows().zip(pixels.chunks(index(area.side))) {
-            self.frame.write(area.left, y, row);
+            self.frame.write_row(area.left, y, row);
         }
         self.valid[index(region)] = true;
     }
@@ -79,19 +79,19 @@ impl References {
         camera: &Camera,
         denoised: &Frame,
         region: u32,
-        action: Action,
+        action: RegionAction,
     ) {
         let keep = match (camera.temporal().reference, action) {
-            (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => false,
-            (Reference::LastSent, Action::Hold) => true,
-            (Reference::LastSent, Action::Blank | Action::Summarize) => {
+            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => false,
+            (ReferencePolicy::LastSent, RegionAction::Hold) => true,
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
                 // The screen no longer shows the pixels that were sent.
                 self.valid[index(region)] = false;
                 true
             }
         };
         if !keep {
-            Area::of(camera, region).copy(denoised, &mut self.frame);
+            RegionArea::from_region(camera, region).copy(denoised, &mut self.frame);
             self.valid[index(region)] = true;
         }
     }

@@ -7,7 +7,7 @@ use foveate_design::Design;
 /// The values of the threshold inputs in one clock. Features are numbered in the order of the
 /// camera. Elements that the camera does not use are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Thresholds {
+pub struct ThresholdInputs {
     /// Per-pixel thresholds of the features that count hits.
     pub level: [u32; FeatureKind::COUNT],
     /// Per-region thresholds in units of the scores.
@@ -21,10 +21,10 @@ pub struct Thresholds {
     pub summary_level: u32,
 }
 
-impl Thresholds {
+impl ThresholdInputs {
     /// Returns the thresholds of the configuration of the camera.
     #[must_use]
-    pub fn of(camera: &Camera) -> Self {
+    pub fn from_camera(camera: &Camera) -> Self {
         let temporal = camera.temporal();
         let mut thresholds = Self {
             level: [0; FeatureKind::COUNT],
@@ -44,9 +44,9 @@ impl Thresholds {
 
     /// Returns the thresholds of a core that has them as constants, or `None` if they are inputs.
     pub(crate) fn constants(design: &Design) -> Option<Self> {
-        match design.thresholds() {
-            foveate_design::Thresholds::Runtime => None,
-            foveate_design::Thresholds::Constant => Some(Self::of(design)),
+        match design.threshold_source() {
+            foveate_design::ThresholdSource::Runtime => None,
+            foveate_design::ThresholdSource::Constant => Some(Self::from_camera(design)),
         }
     }
 }

@@ -8,7 +8,7 @@
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
+use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -48,9 +48,9 @@ fn region(x: usize, y: usize) -> usize {
 /// the time.
 fn measure(network: &Network, mask: &Mask) -> (f64, f64) {
     let input = network.input();
-    let picture = vec![0.5; input.elements()];
+    let picture = vec![0.5; input.element_count()];
     let whole = Mask::full(input.height(), input.width());
-    let mut executor = Executor::new(network, Mode::Exact);
+    let mut executor = Executor::new(network, ExecutionMode::Exact);
     executor.step(&picture, &whole);
     let (mut part_time, mut whole_time) = (Duration::MAX, Duration::MAX);
     let (mut part_products, mut whole_products) = (0.0, 0.0);
@@ -77,7 +77,7 @@ fn step(
     let products = work.iter().enumerate().map(|(node, work)| {
         let form = network.form(node + 1);
         let places = form.height() * form.width();
-        network.macs(node) as f64 * work.scheduled as f64 / places as f64
+        network.macs(node) as f64 * work.scheduled_positions as f64 / places as f64
     });
     (products.sum(), time)
 }

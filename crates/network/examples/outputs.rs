@@ -12,7 +12,7 @@
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
+use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -34,10 +34,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let picture: Vec<f32> =
         bytes.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
     let whole = Mask::full(frames.height, frames.width);
-    let mut dense = Executor::new(&network, Mode::Dense);
+    let mut dense = Executor::new(&network, ExecutionMode::Dense);
     dense.step(&picture, &whole);
     let values =
-        network.outputs().iter().flat_map(|&output| dense.value(output).reals().into_owned());
+        network.outputs().iter().flat_map(|&output| dense.tensor(output).real_values().into_owned());
     std::fs::write(outputs, values.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
     let mut best = Duration::MAX;
     for _ in 0..TIMED {
@@ -46,9 +46,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         best = best.min(start.elapsed());
     }
     let (mut needed, mut all) = (0.0, 0.0);
-    for mode in [Mode::Exact, Mode::Compare] {
+    for mode in [ExecutionMode::Exact, ExecutionMode::Compare] {
         let (share, odd) = changed(&network, mode, &picture);
-        if mode == Mode::Exact {
+        if mode == ExecutionMode::Exact {
             (needed, all) = share;
         }
         println!("{mode:?} {}", odd.unwrap_or_else(|| "same".to_owned()));
@@ -62,9 +62,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// Returns the products that the changed frames needed and those of dense computations, with a
 /// description of the first tensor that differs from a dense computation.
 #[allow(clippy::cast_precision_loss, reason = "shares")]
-fn changed(network: &Network, mode: Mode, picture: &[f32]) -> ((f64, f64), Option<String>) {
+fn changed(network: &Network, mode: ExecutionMode, picture: &[f32]) -> ((f64, f64), Option<String>) {
     let (height, width) = (network.input().height(), network.input().width());
-    let (mut dense, mut part) = (Executor::new(network, Mode::Dense), Executor::new(network, mode));
+    let (mut dense, mut part) = (Executor::new(network, ExecutionMode::Dense), Executor::new(network, mode));
     let mut picture = picture.to_vec();
     let (mut needed, mut all) = (0.0, 0.0);
     for number in 0..=CHANGED {
@@ -82,11 +82,11 @@ fn changed(network: &Network, mode: Mode, picture: &[f32]) -> ((f64, f64), Optio
         let work = part.step(&picture, &mask).to_vec();
         for (node, work) in work.iter().enumerate().filter(|_| number > 0) {
             let macs = network.macs(node) as f64;
-            needed += macs * work.needed as f64 / network.form(node + 1).places() as f64;
+            needed += macs * work.needed_positions as f64 / network.form(node + 1).position_count() as f64;
             all += macs;
         }
         for value in 0..=network.nodes().len() {
-            if !dense.value(value).differences(part.value(value)).is_empty() {
+            if !dense.tensor(value).differing_positions(part.tensor(value)).is_empty() {
                 let kind = value.checked_sub(1).map(|node| &network.nodes()[node]);
                 let name = kind.map_or("picture", |node| node.name());
                 return ((needed, all), Some(format!("differs in picture {number} at `{name}`")));

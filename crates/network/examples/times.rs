@@ -9,7 +9,7 @@
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use foveate_network::{Executor, FrameSize, Mask, Mode, Network, Products};
+use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network, ProductKind};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -27,9 +27,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let frames = FrameSize { width: width.parse()?, height: height.parse()? };
     let network = Network::read(Path::new(network), frames)?;
     let (picture, whole) =
-        (vec![0.5; network.input().elements()], Mask::full(frames.height, frames.width));
-    let mut dense = Executor::new(&network, Mode::Dense);
-    let mut exact = Executor::new(&network, Mode::Exact);
+        (vec![0.5; network.input().element_count()], Mask::full(frames.height, frames.width));
+    let mut dense = Executor::new(&network, ExecutionMode::Dense);
+    let mut exact = Executor::new(&network, ExecutionMode::Exact);
     let mut best = [Duration::MAX; 2];
     let mut nodes = vec![Duration::MAX; network.nodes().len()];
     let begin = Instant::now();
@@ -40,18 +40,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             *best = start.elapsed().min(*best);
         }
         for (node, best) in nodes.iter_mut().enumerate() {
-            *best = dense.time(node).min(*best);
+            *best = dense.operator_time(node).min(*best);
         }
     }
     println!("dense {:.3}\nexact {:.3}", milliseconds(best[0]), milliseconds(best[1]));
-    let mut kinds = BTreeMap::<String, Kind>::new();
+    let mut kinds = BTreeMap::<String, OperatorTotals>::new();
     for (node, &time) in nodes.iter().enumerate() {
         let kind = kinds.entry(describe(&network, node)).or_default();
         kind.time += time;
         kind.nodes += 1;
         kind.macs += network.macs(node);
     }
-    let mut kinds: Vec<(String, Kind)> = kinds.into_iter().collect();
+    let mut kinds: Vec<(String, OperatorTotals)> = kinds.into_iter().collect();
     kinds.sort_by_key(|(_, kind)| std::cmp::Reverse(kind.time));
     for (name, kind) in kinds {
         println!(
@@ -66,13 +66,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// The totals of the nodes of a kind.
 #[derive(Default)]
-struct Kind {
+struct OperatorTotals {
     time: Duration,
     nodes: usize,
     macs: u64,
 }
 
-impl Kind {
+impl OperatorTotals {
     /// The speed in 10^9 multiply-accumulate operations per second.
     #[allow(clippy::cast_precision_loss, reason = "shown with one digit behind the point")]
     fn speed(&self) -> f64 {
@@ -84,12 +84,12 @@ impl Kind {
 fn describe(network: &Network, node: usize) -> String {
     let node = &network.nodes()[node];
     match node.products() {
-        Products::Convolution { rows, columns, groups } => {
+        ProductKind::Convolution { rows, columns, groups } => {
             let groups = if groups > 1 { ", groups" } else { "" };
-            let (kind, stride) = (node.kind(), rows.stride);
+            let (kind, stride) = (node.operator_name(), rows.stride);
             format!("{kind} {}x{}, stride {stride}{groups}", rows.kernel, columns.kernel)
         }
-        _ => node.kind().to_owned(),
+        _ => node.operator_name().to_owned(),
     }
 }
 

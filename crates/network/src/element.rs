@@ -2,7 +2,7 @@
 //! The types in which values of a tensor are stored, and the real numbers that they stand for.
 
 /// Evaluates an expression with the Rust type of an [`Element`].
-macro_rules! typed {
+macro_rules! with_element_type {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
             $crate::element::Element::F32 => {
@@ -26,7 +26,7 @@ macro_rules! typed {
 }
 
 /// Evaluates an expression with the Rust type of an [`Element`] of 8 bits.
-macro_rules! typed_byte {
+macro_rules! with_byte_type {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
             $crate::element::Element::U8 => {
@@ -44,11 +44,11 @@ macro_rules! typed_byte {
     };
 }
 
-pub(crate) use {typed, typed_byte};
+pub(crate) use {with_element_type, with_byte_type};
 
 /// The type of a stored value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Element {
+pub enum ElementType {
     /// A 32-bit floating-point value.
     F32,
     /// An unsigned 8-bit integer.
@@ -59,7 +59,7 @@ pub enum Element {
     I32,
 }
 
-impl Element {
+impl ElementType {
     pub(crate) const ALL: [Self; 4] = [Self::F32, Self::U8, Self::I8, Self::I32];
 
     /// The bytes of a value.
@@ -78,7 +78,7 @@ impl Element {
 
     /// The lowest and the highest integer of a type of 8 bits.
     pub(crate) fn range(self) -> (i32, i32) {
-        typed_byte!(self, T => (T::MIN.into(), T::MAX.into()))
+        with_byte_type!(self, T => (T::MIN.into(), T::MAX.into()))
     }
 
     /// The name of such values in messages, in the plural.
@@ -97,20 +97,20 @@ impl Element {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoding {
     /// The type of a stored value.
-    pub element: Element,
+    pub element: ElementType,
     /// The real number of one quantization step.
     pub scale: f32,
     /// The zero point: the stored value that stands for 0.
-    pub zero: i32,
+    pub zero_point: i32,
 }
 
 impl Encoding {
     /// Floating-point values that stand for themselves.
-    pub const FLOAT: Self = Self::plain(Element::F32);
+    pub const FLOAT: Self = Self::plain(ElementType::F32);
 
     /// Values that stand for themselves, or whose scale is not known.
     #[must_use]
-    pub const fn plain(element: Element) -> Self {
-        Self { element, scale: 1.0, zero: 0 }
+    pub const fn plain(element: ElementType) -> Self {
+        Self { element, scale: 1.0, zero_point: 0 }
     }
 }

@@ -25,10 +25,10 @@ pub enum NetworkError {
     /// An operator is not supported.
     #[error(
         "node `{}` has the operator `{}`, which is not supported{advice}",
-        shown(node),
-        shown(operator)
+        printable_text(node),
+        printable_text(operator)
     )]
-    Operator {
+    UnsupportedOperator {
         /// The name of the node.
         node: String,
         /// The operator with its domain.
@@ -37,8 +37,8 @@ pub enum NetworkError {
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.
-    #[error("node `{}` ({}): {}", shown(node), shown(operator), shown(problem))]
-    Node {
+    #[error("node `{}` ({}): {}", printable_text(node), printable_text(operator), printable_text(problem))]
+    InvalidNode {
         /// The name of the node.
         node: String,
         /// The operator of the node.
@@ -47,13 +47,13 @@ pub enum NetworkError {
         problem: String,
     },
     /// The network as a whole is not valid or not supported.
-    #[error("the network: {}", shown(.0))]
-    Network(String),
+    #[error("the network: {}", printable_text(.0))]
+    InvalidNetwork(String),
     /// The frames have another size than the network's input.
     #[error(
         "the network takes pictures of {wanted} pixels, but the frames have {found}; give --resize {wanted}, or --framing letterbox to scale behind the camera"
     )]
-    Size {
+    FrameSizeMismatch {
         /// The width x height of the input.
         wanted: String,
         /// The width x height of the frames.
@@ -69,7 +69,7 @@ impl NetworkError {
 
 /// Makes text from a file fit for a message: removes control characters and cuts it after a line or
 /// two.
-fn shown(text: &str) -> String {
+fn printable_text(text: &str) -> String {
     const LONGEST: usize = 300;
     let mut shown: String =
         text.chars().filter(|letter| !letter.is_control()).take(LONGEST).collect();

@@ -9,33 +9,33 @@
 //!
 //! [`sight`] converts frames to the input of a network and reads detections from its outputs.
 
-mod compare;
+mod comparison;
 mod element;
 mod error;
-mod evaluate;
+mod evaluation;
 mod executor;
-mod form;
+mod tensor_form;
 mod kernel;
-mod layout;
+mod input_layout;
 mod mask;
-mod moment;
+mod optional_instant;
 mod network;
 pub mod onnx;
 mod operator;
-mod read;
-pub mod sight;
+mod reader;
+pub mod vision;
 mod tensor;
 mod threads;
 mod values;
 
-pub use element::{Element, Encoding};
+pub use element::{ElementType, Encoding};
 pub use error::NetworkError;
-pub use evaluate::{NetworkEvaluation, evaluate};
-pub use executor::{Executor, Mode, Work};
-pub use form::Form;
-pub use layout::Layout;
-pub use mask::{Mask, Window};
-pub use network::{Network, Node};
-pub use operator::Products;
-pub use read::{FrameSize, NetworkCheck, operators};
+pub use evaluation::{NetworkEvaluation, evaluate};
+pub use executor::{Executor, ExecutionMode, NodeWork};
+pub use tensor_form::TensorForm;
+pub use input_layout::InputLayout;
+pub use mask::{Mask, AxisWindow};
+pub use network::{Network, NetworkNode};
+pub use operator::ProductKind;
+pub use reader::{FrameSize, NetworkCheck, operators};
 pub use tensor::Tensor;

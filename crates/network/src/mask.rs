@@ -9,7 +9,7 @@ pub struct Mask {
     height: usize,
     width: usize,
     /// The words of a row; bit `x % 64` of word `x / 64` is the position in column x.
-    pitch: usize,
+    words_per_row: usize,
     words: Vec<u64>,
 }
 
@@ -17,7 +17,7 @@ pub struct Mask {
 /// sees the inputs `o * stride - before + k * dilation`, for `k` from 0 to `kernel - 1`, as far as
 /// these inputs exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Window {
+pub struct AxisWindow {
     /// The number of inputs that an output sees.
     pub kernel: usize,
     /// The distance of the windows of neighboring outputs, in inputs.
@@ -25,14 +25,14 @@ pub struct Window {
     /// The distance of neighboring taps, in inputs.
     pub dilation: usize,
     /// The padding before the first input.
-    pub before: usize,
+    pub padding_before: usize,
     /// The padding after the last input.
-    pub after: usize,
+    pub padding_after: usize,
 }
 
-impl Window {
+impl AxisWindow {
     /// The window of an output that sees only the input at its own position.
-    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, before: 0, after: 0 };
+    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, padding_before: 0, padding_after: 0 };
 
     /// The number of inputs from the first tap to the last, both included.
     #[must_use]
@@ -42,8 +42,8 @@ impl Window {
 
     /// Returns the input of a tap, or `None` if the tap lies in the padding.
     #[inline(always)]
-    pub(crate) fn input(&self, output: usize, tap: usize, inputs: usize) -> Option<usize> {
-        let at = (output * self.stride + tap * self.dilation).checked_sub(self.before)?;
+    pub(crate) fn input_index(&self, output: usize, tap: usize, inputs: usize) -> Option<usize> {
+        let at = (output * self.stride + tap * self.dilation).checked_sub(self.padding_before)?;
         (at < inputs).then_some(at)
     }
 }
@@ -53,7 +53,7 @@ impl Mask {
     #[must_use]
     pub fn empty(height: usize, width: usize) -> Self {
         let pitch = width.div_ceil(64);
-        Self { height, width, pitch, words: vec![0; pitch * height] }
+        Self { height, width, words_per_row: pitch, words: vec![0; pitch * height] }
     }
 
     /// Returns a mask of all positions.
@@ -105,23 +105,23 @@ impl Mask {
     /// Returns true if the position in column `x` of row `y` is in the mask.
     #[must_use]
     pub fn contains(&self, x: usize, y: usize) -> bool {
-        self.words[y * self.pitch + x / 64] >> (x % 64) & 1 == 1
+        self.words[y * self.words_per_row + x / 64] >> (x % 64) & 1 == 1
     }
 
     /// Adds the position in column `x` of row `y`.
     pub fn insert(&mut self, x: usize, y: usize) {
-        self.words[y * self.pitch + x / 64] |= 1 << (x % 64);
+        self.words[y * self.words_per_row + x / 64] |= 1 << (x % 64);
     }
 
     /// Removes the position in column `x` of row `y`.
     pub fn remove(&mut self, x: usize, y: usize) {
-        self.words[y * self.pitch + x / 64] &= !(1 << (x % 64));
+        self.words[y * self.words_per_row + x / 64] &= !(1 << (x % 64));
     }
 
     /// Adds every position.
     pub fn fill(&mut self) {
         for y in 0..self.height {
-            let row = &mut self.words[y * self.pitch..][..self.pitch];
+            let row = &mut self.words[y * self.words_per_row..][..self.words_per_row];
             row.fill(u64::MAX);
             if !self.width.is_multiple_of(64)
                 && let Some(last) = row.last_mut()
@@ -151,8 +151,8 @@ impl Mask {
         let row = self.row(y);
         let mut from = 0;
         std::iter::from_fn(move || {
-            let start = next(row, from, self.width, false)?;
-            let end = next(row, start, self.width, true).unwrap_or(self.width);
+            let start = next_position(row, from, self.width, false)?;
+            let end = next_position(row, start, self.width, true).unwrap_or(self.width);
             from = end;
             Some((start, end - start))
         })
@@ -160,7 +160,7 @@ impl Mask {
 
     /// Returns the runs of positions that follow each other in memory. A run at the end of a row
     /// and a run at the beginning of the next row are one.
-    pub(crate) fn ranges(&self) -> Vec<Range<usize>> {
+    pub(crate) fn memory_ranges(&self) -> Vec<Range<usize>> {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         for y in 0..self.height {
             for (x, length) in self.runs(y) {
@@ -183,7 +183,7 @@ impl Mask {
             let (own, rest) = marks.split_at(marks.len().min(64 - x % 64).min(self.width - x));
             let word = |word, (bit, &mark): (usize, &u32)| word | u64::from(mark != 0) << bit;
             let word = own.iter().enumerate().fold(0, word);
-            self.words[y * self.pitch + x / 64] |= word << (x % 64);
+            self.words[y * self.words_per_row + x / 64] |= word << (x % 64);
             x += own.len();
             if x == self.width {
                 (x, y) = (0, y + 1);
@@ -195,20 +195,20 @@ impl Mask {
     /// Returns the positions of `height` x `width` outputs that see a position of this mask through
     /// a window.
     #[must_use]
-    pub fn through(&self, rows: Window, columns: Window, height: usize, width: usize) -> Self {
+    pub fn outputs_through(&self, rows: AxisWindow, columns: AxisWindow, height: usize, width: usize) -> Self {
         let mut seen = Self::empty(height, width);
-        let mut line = vec![0; self.pitch];
+        let mut line = vec![0; self.words_per_row];
         for y in 0..height {
             line.fill(0);
             for tap in 0..rows.kernel {
-                if let Some(input) = rows.input(y, tap, self.height) {
+                if let Some(input) = rows.input_index(y, tap, self.height) {
                     for (line, word) in line.iter_mut().zip(self.row(input)) {
                         *line |= word;
                     }
                 }
             }
             if line.iter().any(|&word| word != 0) {
-                seen.see_row(y, &line, self.width, columns);
+                seen.insert_outputs_of(y, &line, self.width, columns);
             }
         }
         seen
@@ -217,16 +217,16 @@ impl Mask {
     /// Returns the positions of `height` x `width` inputs that an output at a position of this mask
     /// sees through a window.
     #[must_use]
-    pub fn seen(&self, rows: Window, columns: Window, height: usize, width: usize) -> Self {
+    pub fn inputs_through(&self, rows: AxisWindow, columns: AxisWindow, height: usize, width: usize) -> Self {
         let mut seen = Self::empty(height, width);
         let mut line = Self::empty(1, width);
         for y in (0..self.height).filter(|&y| self.row(y).iter().any(|&word| word != 0)) {
             line.words.fill(0);
             for (x, count) in self.runs(y) {
-                (x..x + count).for_each(|x| line.see_inputs(x, columns));
+                (x..x + count).for_each(|x| line.insert_inputs_of(x, columns));
             }
-            for input in (0..rows.kernel).filter_map(|tap| rows.input(y, tap, height)) {
-                let row = &mut seen.words[input * seen.pitch..][..seen.pitch];
+            for input in (0..rows.kernel).filter_map(|tap| rows.input_index(y, tap, height)) {
+                let row = &mut seen.words[input * seen.words_per_row..][..seen.words_per_row];
                 row.iter_mut().zip(&line.words).for_each(|(row, word)| *row |= word);
             }
         }
@@ -234,8 +234,8 @@ impl Mask {
     }
 
     /// Adds the inputs that output `x` sees to this mask, which has a single row.
-    fn see_inputs(&mut self, x: usize, columns: Window) {
-        let inputs = (0..columns.kernel).filter_map(|tap| columns.input(x, tap, self.width));
+    fn insert_inputs_of(&mut self, x: usize, columns: AxisWindow) {
+        let inputs = (0..columns.kernel).filter_map(|tap| columns.input_index(x, tap, self.width));
         inputs.for_each(|input| self.words[input / 64] |= 1 << (input % 64));
     }
 
@@ -249,20 +249,20 @@ impl Mask {
     /// Scales the mask to a tensor of another size. A position of that tensor is in the result if
     /// it covers a position of this mask.
     #[must_use]
-    pub fn under(&self, height: usize, width: usize) -> Self {
+    pub fn scaled_to(&self, height: usize, width: usize) -> Self {
         let range = |outputs: usize, inputs: usize| -> Vec<(usize, usize)> {
             let first = |at: usize| (at * inputs / outputs).min(inputs - 1);
             (0..outputs)
                 .map(|at| (first(at), ((at + 1) * inputs).div_ceil(outputs).max(first(at) + 1) - 1))
                 .collect()
         };
-        self.between(&range(height, self.height), &range(width, self.width))
+        self.outputs_of_ranges(&range(height, self.height), &range(width, self.width))
     }
 
     /// Returns the positions of outputs that see a position of this mask, if output `i` of an axis
     /// sees the inputs of range `i`. A range is the first and the last input.
     #[must_use]
-    pub fn between(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
+    pub fn outputs_of_ranges(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
         let mut seen = Self::empty(rows.len(), columns.len());
         let is_taken = |y: usize| self.row(y).iter().any(|&word| word != 0);
         for (y, &(top, bottom)) in rows.iter().enumerate() {
@@ -270,7 +270,7 @@ impl Mask {
                 continue;
             }
             for (x, &(left, right)) in columns.iter().enumerate() {
-                if self.any(top..bottom + 1, left..right + 1) {
+                if self.has_any(top..bottom + 1, left..right + 1) {
                     seen.insert(x, y);
                 }
             }
@@ -279,16 +279,16 @@ impl Mask {
     }
 
     /// Returns true if the mask has a position in these rows and columns.
-    pub(crate) fn any(&self, mut rows: Range<usize>, columns: Range<usize>) -> bool {
-        rows.any(|y| next(self.row(y), columns.start, columns.end, false).is_some())
+    pub(crate) fn has_any(&self, mut rows: Range<usize>, columns: Range<usize>) -> bool {
+        rows.any(|y| next_position(self.row(y), columns.start, columns.end, false).is_some())
     }
 
     /// Adds to row `y` the outputs that see a position of `line`, a row of `inputs` positions.
-    fn see_row(&mut self, y: usize, line: &[u64], inputs: usize, columns: Window) {
-        let row = &mut self.words[y * self.pitch..][..self.pitch];
+    fn insert_outputs_of(&mut self, y: usize, line: &[u64], inputs: usize, columns: AxisWindow) {
+        let row = &mut self.words[y * self.words_per_row..][..self.words_per_row];
         if columns.stride == 1 {
             for tap in 0..columns.kernel {
-                shifted_into(row, line, columns.before, tap * columns.dilation);
+                or_shifted(row, line, columns.padding_before, tap * columns.dilation);
             }
             if !self.width.is_multiple_of(64)
                 && let Some(last) = row.last_mut()
@@ -298,9 +298,9 @@ impl Mask {
             return;
         }
         let mut from = 0;
-        while let Some(x) = next(line, from, inputs, false) {
+        while let Some(x) = next_position(line, from, inputs, false) {
             for tap in 0..columns.kernel {
-                let Some(at) = (x + columns.before).checked_sub(tap * columns.dilation) else {
+                let Some(at) = (x + columns.padding_before).checked_sub(tap * columns.dilation) else {
                     continue;
                 };
                 if at % columns.stride == 0 && at / columns.stride < self.width {
@@ -312,13 +312,13 @@ impl Mask {
     }
 
     fn row(&self, y: usize) -> &[u64] {
-        &self.words[y * self.pitch..][..self.pitch]
+        &self.words[y * self.words_per_row..][..self.words_per_row]
     }
 }
 
 /// Returns the first position in `from..end` that is in the row, or the first that is not in it if
 /// `is_gap`.
-fn next(row: &[u64], from: usize, end: usize, is_gap: bool) -> Option<usize> {
+fn next_position(row: &[u64], from: usize, end: usize, is_gap: bool) -> Option<usize> {
     let mut at = from;
     while at < end {
         let word = if is_gap { !row[at / 64] } else { row[at / 64] };
@@ -333,7 +333,7 @@ fn next(row: &[u64], from: usize, end: usize, is_gap: bool) -> Option<usize> {
 }
 
 /// Adds the bits of `line`, shifted up by `up` and down by `down`.
-fn shifted_into(row: &mut [u64], line: &[u64], up: usize, down: usize) {
+fn or_shifted(row: &mut [u64], line: &[u64], up: usize, down: usize) {
     let word =
         |at: isize| usize::try_from(at).ok().and_then(|at| line.get(at)).copied().unwrap_or(0);
     // Bit x of the result is bit `x - up + down` of the line.
@@ -351,14 +351,14 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn window() -> impl Strategy<Value = Window> {
+    fn window() -> impl Strategy<Value = AxisWindow> {
         (1..6usize, 1..4usize, 1..4usize, 0..6usize, 0..6usize).prop_map(
-            |(kernel, stride, dilation, before, after)| Window {
+            |(kernel, stride, dilation, before, after)| AxisWindow {
                 kernel,
                 stride,
                 dilation,
-                before,
-                after,
+                padding_before: before,
+                padding_after: after,
             },
         )
     }
@@ -372,20 +372,20 @@ mod tests {
             let is = |x: usize, y: usize| bits[y] >> (x * 7 % 32) & 1 == 1 && !x.is_multiple_of(3);
             let mask = Mask::from_fn(height, width, is);
             let (out_height, out_width) = (height + 3, width.div_ceil(columns.stride) + 2);
-            let seen = mask.through(rows, columns, out_height, out_width);
+            let seen = mask.outputs_through(rows, columns, out_height, out_width);
             let naive = Mask::from_fn(out_height, out_width, |x, y| {
-                (0..rows.kernel).filter_map(|tap| rows.input(y, tap, height)).any(|y| {
-                    (0..columns.kernel).filter_map(|tap| columns.input(x, tap, width)).any(|x| is(x, y))
+                (0..rows.kernel).filter_map(|tap| rows.input_index(y, tap, height)).any(|y| {
+                    (0..columns.kernel).filter_map(|tap| columns.input_index(x, tap, width)).any(|x| is(x, y))
                 })
             });
             prop_assert_eq!(seen, naive);
             // In the other direction, the mask holds positions of outputs.
             let (in_height, in_width) = (height * rows.stride + 2, width * columns.stride + 3);
-            let inputs = mask.seen(rows, columns, in_height, in_width);
+            let inputs = mask.inputs_through(rows, columns, in_height, in_width);
             let mut naive = Mask::empty(in_height, in_width);
             for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| is(x, y)) {
-                for y in (0..rows.kernel).filter_map(|tap| rows.input(y, tap, in_height)) {
-                    for x in (0..columns.kernel).filter_map(|tap| columns.input(x, tap, in_width)) {
+                for y in (0..rows.kernel).filter_map(|tap| rows.input_index(y, tap, in_height)) {
+                    for x in (0..columns.kernel).filter_map(|tap| columns.input_index(x, tap, in_width)) {
                         naive.insert(x, y);
                     }
                 }

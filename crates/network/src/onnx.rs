@@ -202,7 +202,7 @@ pub mod data_type {
     /// Returns the name of a type in the standard, or a phrase with the number if the standard has
     /// no such type.
     #[must_use]
-    pub fn name(kind: i64) -> String {
+    pub fn type_name(kind: i64) -> String {
         let known = usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind));
         known
             .map_or_else(|| format!("number {kind}, which ONNX does not have"), ToString::to_string)
@@ -232,7 +232,7 @@ pub mod attribute_type {
 
     /// Returns the name of a type in the standard, if there is one with this number.
     #[must_use]
-    pub fn name(kind: i32) -> Option<&'static str> {
+    pub fn type_name(kind: i32) -> Option<&'static str> {
         usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind)).copied()
     }
 }

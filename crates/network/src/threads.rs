@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 /// Calls `work` with the number and the values of every chunk of `length` values.
-pub(crate) fn each_chunk<T: Send>(
+pub(crate) fn for_each_chunk<T: Send>(
     values: &mut [T],
     length: usize,
     work: &(dyn Fn(usize, &mut [T]) + Sync),
@@ -17,7 +17,7 @@ pub(crate) fn each_chunk<T: Send>(
 
 /// Calls `work` with a scratch buffer and with the number and the values of every chunk of `length`
 /// values. A thread reuses its scratch buffer for several chunks.
-pub(crate) fn each_chunk_in<T: Send, S: Default>(
+pub(crate) fn for_each_chunk_with_scratch<T: Send, S: Default>(
     values: &mut [T],
     length: usize,
     work: &(dyn Fn(&mut S, usize, &mut [T]) + Sync),
@@ -27,6 +27,6 @@ pub(crate) fn each_chunk_in<T: Send, S: Default>(
 }
 
 /// Calls `work` with every part.
-pub(crate) fn each_part<P: Send>(parts: Vec<P>, work: &(dyn Fn(P) + Sync)) {
+pub(crate) fn for_each_part<P: Send>(parts: Vec<P>, work: &(dyn Fn(P) + Sync)) {
     parts.into_par_iter().for_each(work);
 }

@@ -1,69 +1,69 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Stored values of a tensor, and the traits of their number types.
 
-use crate::element::Element;
+use crate::element::ElementType;
 use std::fmt::Debug;
 
 /// The stored values of a tensor.
 #[derive(Clone, Debug)]
-pub(crate) enum Values {
+pub(crate) enum TensorValues {
     F32(Vec<f32>),
     U8(Vec<u8>),
     I8(Vec<i8>),
     I32(Vec<i32>),
 }
 
-impl Values {
-    pub(crate) fn zeros(element: Element, count: usize) -> Self {
+impl TensorValues {
+    pub(crate) fn zeros(element: ElementType, count: usize) -> Self {
         match element {
-            Element::F32 => Self::F32(vec![0.0; count]),
-            Element::U8 => Self::U8(vec![0; count]),
-            Element::I8 => Self::I8(vec![0; count]),
-            Element::I32 => Self::I32(vec![0; count]),
+            ElementType::F32 => Self::F32(vec![0.0; count]),
+            ElementType::U8 => Self::U8(vec![0; count]),
+            ElementType::I8 => Self::I8(vec![0; count]),
+            ElementType::I32 => Self::I32(vec![0; count]),
         }
     }
 }
 
 /// A number of the type of an [`Element`].
-pub(crate) trait Number:
+pub(crate) trait TensorNumber:
     Copy + Default + Debug + PartialOrd + Send + Sync + 'static
 {
     /// The value that is not greater than any other.
     const LOWEST: Self;
 
-    fn of(values: &Values) -> &[Self];
-    fn of_mut(values: &mut Values) -> &mut [Self];
+    fn slice_of(values: &TensorValues) -> &[Self];
+    fn slice_of_mut(values: &mut TensorValues) -> &mut [Self];
 
     /// The absolute difference from another value, in quantization steps for integers.
     fn distance(self, other: Self) -> f32;
 
     /// The value as a floating-point number.
-    fn float(self) -> f32;
+    fn to_f32(self) -> f32;
 
     /// Returns true if all bits are equal.
     #[inline(always)]
-    fn is_same(self, other: Self) -> bool {
+    fn has_same_bits(self, other: Self) -> bool {
         self == other
     }
 
     /// Returns true if the value is greater than another. NaN is greater than any value.
     #[inline(always)]
-    fn is_more(self, than: Self) -> bool {
+    fn is_greater(self, than: Self) -> bool {
         self > than
     }
 }
 
 /// A value of 8 bits.
-pub(crate) trait Byte: Number + Into<i32> + Into<f32> {
+pub(crate) trait ByteNumber: TensorNumber + Into<i32> + Into<f32> {
     /// Returns the value of this type that is nearest to an integer.
-    fn saturated(value: i32) -> Self;
+    fn from_saturated(value: i32) -> Self;
 
     /// The number of values of the type that are lower.
-    fn index(self) -> usize;
+    fn table_index(self) -> usize;
 }
 
 /// Implements access to the stored values of a type.
-macro_rules! stored {
+macro_rules! stored_access {
     ($variant:ident) => {
         fn of(values: &Values) -> &[Self] {
             match values {
@@ -81,9 +81,9 @@ macro_rules! stored {
     };
 }
 
-impl Number for f32 {
+impl TensorNumber for f32 {
     const LOWEST: Self = Self::NEG_INFINITY;
-    stored!(F32);
+    stored_access!(F32);
 
     #[inline(always)]
     fn distance(self, other: Self) -> f32 {
@@ -91,25 +91,25 @@ impl Number for f32 {
     }
 
     #[inline(always)]
-    fn float(self) -> f32 {
+    fn to_f32(self) -> f32 {
         self
     }
 
     #[inline(always)]
-    fn is_same(self, other: Self) -> bool {
+    fn has_same_bits(self, other: Self) -> bool {
         self.to_bits() == other.to_bits()
     }
 
     #[inline(always)]
-    fn is_more(self, than: Self) -> bool {
+    fn is_greater(self, than: Self) -> bool {
         self > than || self.is_nan()
     }
 }
 
 #[allow(clippy::cast_precision_loss, reason = "a distance, and what ONNX calls a cast")]
-impl Number for i32 {
+impl TensorNumber for i32 {
     const LOWEST: Self = Self::MIN;
-    stored!(I32);
+    stored_access!(I32);
 
     #[inline(always)]
     fn distance(self, other: Self) -> f32 {
@@ -117,12 +117,12 @@ impl Number for i32 {
     }
 
     #[inline(always)]
-    fn float(self) -> f32 {
+    fn to_f32(self) -> f32 {
         self as f32
     }
 }
 
-macro_rules! byte {
+macro_rules! byte_number {
     ($number:ident, $variant:ident) => {
         impl Number for $number {
             const LOWEST: Self = Self::MIN;
@@ -157,5 +157,5 @@ macro_rules! byte {
         }
     };
 }
-byte!(u8, U8);
-byte!(i8, I8);
+byte_number!(u8, U8);
+byte_number!(i8, I8);

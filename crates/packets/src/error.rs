@@ -23,7 +23,7 @@ pub enum PacketError {
     #[error(
         "frame {frame} of the stream has version {version} of the packet format; this program reads version 1"
     )]
-    Version {
+    UnsupportedVersion {
         /// The number of the frame.
         frame: u32,
         /// The version in its FRAME.
@@ -34,7 +34,7 @@ pub enum PacketError {
         "frame {frame} of the stream was sent by design {stream:016x}, but the configuration makes design {given:016x} of \
          its {width}x{height} pixels; give the configuration of the camera that sent it"
     )]
-    Design {
+    DesignMismatch {
         /// The number of the frame.
         frame: u32,
         /// The fingerprint in the stream.
@@ -50,7 +50,7 @@ pub enum PacketError {
     #[error(
         "frame {frame} of the stream has design {stream:016x}, but not its {what}; the sender breaks the format"
     )]
-    Fields {
+    FieldMismatch {
         /// The number of the frame.
         frame: u32,
         /// The fingerprint in the stream.
@@ -60,7 +60,7 @@ pub enum PacketError {
     },
     /// A number is outside the range of its field, or of the design.
     #[error("the {field} of a packet cannot be {value}: it is {least} to {most}")]
-    Field {
+    FieldOutOfRange {
         /// The name of the field.
         field: &'static str,
         /// The number.
@@ -72,7 +72,7 @@ pub enum PacketError {
     },
     /// The number of values differs from that in such a packet of the design.
     #[error("a {packet} of this design carries {right} {what}, not {found}")]
-    Count {
+    ValueCountMismatch {
         /// The type of the packet.
         packet: &'static str,
         /// The name of the values.
@@ -89,10 +89,10 @@ impl PacketError {
     #[must_use]
     pub fn frame(&self) -> Option<u32> {
         match *self {
-            Self::NoFrame { .. } | Self::Field { .. } | Self::Count { .. } => None,
-            Self::Version { frame, .. }
-            | Self::Design { frame, .. }
-            | Self::Fields { frame, .. } => Some(frame),
+            Self::NoFrame { .. } | Self::FieldOutOfRange { .. } | Self::ValueCountMismatch { .. } => None,
+            Self::UnsupportedVersion { frame, .. }
+            | Self::DesignMismatch { frame, .. }
+            | Self::FieldMismatch { frame, .. } => Some(frame),
         }
     }
 }

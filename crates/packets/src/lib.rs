@@ -6,26 +6,26 @@
 //! with a list of losses. The crate accesses no files and does not depend on the code that computes
 //! a frame.
 
-mod assemble;
-mod clock;
-mod command;
+mod frame_assembler;
+mod frame_clock;
+mod register_command;
 mod error;
-mod frame;
-mod info;
-mod layout;
-mod loss;
+mod received_frame;
+mod frame_info;
+mod packet_layout;
+mod stream_loss;
 mod packet;
-mod split;
-mod word;
-pub mod write;
+mod packet_splitter;
+mod word_fields;
+pub mod packet_writer;
 
-pub use assemble::Assembler;
-pub use clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
-pub use command::Command;
+pub use frame_assembler::FrameAssembler;
+pub use frame_clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
+pub use register_command::RegisterCommand;
 pub use error::PacketError;
-pub use frame::{Content, ReceivedFrame};
-pub use info::FrameInfo;
-pub use layout::{Layout, MAGIC, VERSION};
-pub use loss::Loss;
-pub use packet::{Decision, End, Packet, Region, RegionFlags, Register, Row, Scores};
-pub use split::{Found, Splitter};
+pub use received_frame::{RegionContent, ReceivedFrame};
+pub use frame_info::FrameInfo;
+pub use packet_layout::{PacketLayout, MAGIC, VERSION};
+pub use stream_loss::StreamLoss;
+pub use packet::{RegionDecision, EndPacket, Packet, RegionPacket, RegionFlags, RegisterPacket, RowPacket, ScoresPacket};
+pub use packet_splitter::{StreamItem, PacketSplitter};

@@ -2,12 +2,12 @@
 //! Packets as values, and their checks: only bytes that exactly match the layout are a packet.
 
 use crate::FrameInfo;
-use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, REGISTER_WORDS, WORD};
-use crate::word::{byte, half, index, short, word};
+use crate::packet_layout::{HEAD_AND_TAIL_WORDS, END_WORDS, FRAME_WORDS, PacketLayout, MAGIC, MARK, REGISTER_WORDS, WORD_BYTES};
+use crate::word_fields::{bits8, bits32, index, bits16, word};
 
 /// The decision of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Decision {
+pub struct RegionDecision {
     /// The spatial relevance of the region.
     pub srs: bool,
     /// The temporal relevance of the region.
@@ -18,16 +18,16 @@ pub struct Decision {
 
 /// The content of a ROW packet: the decisions of a row of regions.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct RowPacket {
     /// The number of the row.
     pub row: u32,
     /// The decision of each region.
-    pub decisions: Vec<Decision>,
+    pub decisions: Vec<RegionDecision>,
 }
 
 /// The content of a SCORES packet: the scores of a row of regions.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Scores {
+pub struct ScoresPacket {
     /// The number of the row.
     pub row: u32,
     /// The number of changed pixels of each region.
@@ -47,7 +47,7 @@ pub struct RegionFlags {
 
 /// The content of a REGION packet: the pixels or means of a region.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Region {
+pub struct RegionPacket {
     /// The row of the region.
     pub row: u32,
     /// The column of the region.
@@ -60,7 +60,7 @@ pub struct Region {
 
 /// The content of an END packet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct End {
+pub struct EndPacket {
     /// The number of REGION packets of the frame.
     pub regions_sent: u32,
     /// The number of regions of the frame that the camera dropped.
@@ -71,11 +71,11 @@ pub struct End {
 
 /// The content of a REGISTER packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Register {
+pub struct RegisterPacket {
     /// The address of the register in bytes.
     pub address: u16,
     /// Whether the register is or was written, as opposed to read.
-    pub written: bool,
+    pub is_write: bool,
     /// The value that is written, was written or was read; 0 in a command to read.
     pub value: u32,
 }
@@ -86,28 +86,28 @@ pub enum Packet {
     /// The beginning of a frame.
     Frame(FrameInfo),
     /// The decisions of a row of regions.
-    Row(Row),
+    Row(RowPacket),
     /// The scores of a row of regions.
-    Scores(Scores),
+    Scores(ScoresPacket),
     /// The pixels or means of a region.
-    Region(Region),
+    Region(RegionPacket),
     /// The end of a frame.
-    End(End),
+    End(EndPacket),
     /// A command to a board, or the answer to one. It belongs to no frame.
-    Register(Register),
+    Register(RegisterPacket),
 }
 
 /// The type number of a FRAME in the head of a packet. The other types follow.
-pub(crate) const FRAME: u8 = 1;
-pub(crate) const ROW: u8 = 2;
-pub(crate) const SCORES: u8 = 3;
-pub(crate) const REGION: u8 = 4;
-pub(crate) const END: u8 = 5;
-pub(crate) const REGISTER: u8 = 6;
+pub(crate) const FRAME_TYPE: u8 = 1;
+pub(crate) const ROW_TYPE: u8 = 2;
+pub(crate) const SCORES_TYPE: u8 = 3;
+pub(crate) const REGION_TYPE: u8 = 4;
+pub(crate) const END_TYPE: u8 = 5;
+pub(crate) const REGISTER_TYPE: u8 = 6;
 
 /// The first word of a packet.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Head {
+pub(crate) struct PacketHead {
     kind: u8,
     flags: u8,
     pub(crate) words: usize,
@@ -115,27 +115,27 @@ pub(crate) struct Head {
     column: u16,
 }
 
-impl Head {
+impl PacketHead {
     /// Parses the head at the beginning of these bytes; `None` if no packet can have it. Without a
     /// layout, only the head of a FRAME or of a REGISTER is accepted.
-    pub(crate) fn of(bytes: &[u8], layout: Option<&Layout>) -> Option<Self> {
+    pub(crate) fn of(bytes: &[u8], layout: Option<&PacketLayout>) -> Option<Self> {
         let word = word(bytes)?;
-        let kind_and_flags = byte(word, 8);
+        let kind_and_flags = bits8(word, 8);
         let head = Self {
             kind: kind_and_flags & 0xF,
             flags: kind_and_flags >> 4,
-            words: usize::from(short(word, 16)),
-            row: short(word, 32),
-            column: short(word, 48),
+            words: usize::from(bits16(word, 16)),
+            row: bits16(word, 32),
+            column: bits16(word, 48),
         };
-        (byte(word, 0) == MARK && head.fits(layout)).then_some(head)
+        (bits8(word, 0) == MARK && head.is_possible(layout)).then_some(head)
     }
 
     /// Returns whether the length, the row, the column and the flags are possible for the type.
-    fn fits(self, layout: Option<&Layout>) -> bool {
+    fn is_possible(self, layout: Option<&PacketLayout>) -> bool {
         match self.kind {
-            FRAME => return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0,
-            REGISTER => return self.flags <= 1 && self.words == REGISTER_WORDS && self.column == 0,
+            FRAME_TYPE => return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0,
+            REGISTER_TYPE => return self.flags <= 1 && self.words == REGISTER_WORDS && self.column == 0,
             _ => {}
         }
         let Some(layout) = layout else { return false };
@@ -144,21 +144,21 @@ impl Head {
             self.flags == 0
                 && self.row < rows
                 && self.column == columns
-                && self.words * WORD == bytes
+                && self.words * WORD_BYTES == bytes
         };
         match self.kind {
-            ROW => of_row(layout.row_bytes()),
-            SCORES => layout.info().has_scores && of_row(layout.scores_bytes()),
-            REGION => {
+            ROW_TYPE => of_row(layout.row_bytes()),
+            SCORES_TYPE => layout.info().has_scores && of_row(layout.scores_bytes()),
+            REGION_TYPE => {
                 let flags = RegionFlags::of(self.flags);
                 self.row < rows
                     && self.column < columns
                     && self.flags == flags.bits()
                     && flags.raw == layout.info().raw
                     && (layout.has_periphery() || !flags.summary)
-                    && self.words * WORD == layout.region_bytes(flags.summary)
+                    && self.words * WORD_BYTES == layout.region_bytes(flags.summary)
             }
-            END => {
+            END_TYPE => {
                 self.flags <= 1 && self.words == END_WORDS && self.column == 0 && self.row <= rows
             }
             _ => false,
@@ -179,49 +179,49 @@ impl RegionFlags {
 impl Packet {
     /// Parses these bytes, which begin with `head`, to a packet and the number of its frame; `None`
     /// if they are not exactly one packet.
-    pub(crate) fn of(bytes: &[u8], head: Head, layout: Option<&Layout>) -> Option<(u32, Self)> {
-        let (before, tail) = bytes.split_last_chunk::<WORD>()?;
+    pub(crate) fn of(bytes: &[u8], head: PacketHead, layout: Option<&PacketLayout>) -> Option<(u32, Self)> {
+        let (before, tail) = bytes.split_last_chunk::<WORD_BYTES>()?;
         let tail = u64::from_le_bytes(*tail);
         let (checked, _) = bytes.split_at_checked(bytes.len() - 4)?;
-        if crc32fast::hash(checked) != half(tail, 32) {
+        if crc32fast::hash(checked) != bits32(tail, 32) {
             return None;
         }
-        let carried = before.get(WORD..)?;
+        let carried = before.get(WORD_BYTES..)?;
         let packet = match (head.kind, layout) {
-            (FRAME, _) => Self::Frame(frame(head, carried)?),
-            (ROW, Some(layout)) => Self::Row(row(head, carried, layout)?),
-            (SCORES, Some(layout)) => Self::Scores(scores(head, carried, layout)?),
-            (REGION, Some(layout)) => Self::Region(region(head, carried, layout)?),
-            (END, _) => Self::End(end(head, carried)?),
-            (REGISTER, _) => Self::Register(register(head, carried)?),
+            (FRAME_TYPE, _) => Self::Frame(frame(head, carried)?),
+            (ROW_TYPE, Some(layout)) => Self::Row(row(head, carried, layout)?),
+            (SCORES_TYPE, Some(layout)) => Self::Scores(scores(head, carried, layout)?),
+            (REGION_TYPE, Some(layout)) => Self::Region(region(head, carried, layout)?),
+            (END_TYPE, _) => Self::End(end(head, carried)?),
+            (REGISTER_TYPE, _) => Self::Register(register(head, carried)?),
             _ => return None,
         };
-        debug_assert_eq!(bytes.len(), carried.len() + AROUND * WORD);
-        Some((half(tail, 0), packet))
+        debug_assert_eq!(bytes.len(), carried.len() + HEAD_AND_TAIL_WORDS * WORD_BYTES);
+        Some((bits32(tail, 0), packet))
     }
 }
 
 /// Parses the payload of a FRAME. A FRAME of another version is accepted, too, so that the reader
 /// can report the version.
-fn frame(head: Head, carried: &[u8]) -> Option<FrameInfo> {
+fn frame(head: PacketHead, carried: &[u8]) -> Option<FrameInfo> {
     if !carried.starts_with(&MAGIC) {
         return None;
     }
-    let mut words = carried.chunks_exact(WORD).skip(1).filter_map(word);
+    let mut words = carried.chunks_exact(WORD_BYTES).skip(1).filter_map(word);
     let (fingerprint, time, size, rest) =
         (words.next()?, words.next()?, words.next()?, words.next()?);
     let info = FrameInfo {
         version: head.row,
         fingerprint,
-        ticks_per_second: half(size, 0),
-        width: short(size, 32),
-        height: short(size, 48),
-        columns: short(rest, 32),
-        rows: short(rest, 48),
-        side: byte(rest, 0),
-        pixel_bits: byte(rest, 8),
-        blocks: byte(rest, 16),
-        irrelevant: byte(rest, 24) & 0xF,
+        ticks_per_second: bits32(size, 0),
+        width: bits16(size, 32),
+        height: bits16(size, 48),
+        columns: bits16(rest, 32),
+        rows: bits16(rest, 48),
+        side: bits8(rest, 0),
+        pixel_bits: bits8(rest, 8),
+        blocks: bits8(rest, 16),
+        irrelevant: bits8(rest, 24) & 0xF,
         raw: rest >> 28 & 1 == 1,
         has_scores: rest >> 29 & 1 == 1,
         first: head.flags == 1,
@@ -230,7 +230,7 @@ fn frame(head: Head, carried: &[u8]) -> Option<FrameInfo> {
     (info.ticks_per_second > 0 && rest >> 30 & 3 == 0).then_some(info)
 }
 
-fn row(head: Head, carried: &[u8], layout: &Layout) -> Option<Row> {
+fn row(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<RowPacket> {
     let bits = layout.decision_bits();
     let code = |region: usize| {
         let at = region * bits;
@@ -240,26 +240,26 @@ fn row(head: Head, carried: &[u8], layout: &Layout) -> Option<Row> {
         let code = code(region)?;
         // Only an irrelevant region sends a summary.
         let possible = code & 0b1000 == 0 && code & 0b101 != 0b101;
-        possible.then_some(Decision {
+        possible.then_some(RegionDecision {
             srs: code & 1 != 0,
             trs: code & 2 != 0,
             summary: code & 4 != 0,
         })
     });
-    Some(Row { row: head.row.into(), decisions: decisions.collect::<Option<_>>()? })
+    Some(RowPacket { row: head.row.into(), decisions: decisions.collect::<Option<_>>()? })
 }
 
-fn scores(head: Head, carried: &[u8], layout: &Layout) -> Option<Scores> {
+fn scores(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<ScoresPacket> {
     let columns = index(layout.columns());
     let (mut temporal_count, mut scores) = (
         Vec::with_capacity(columns),
-        vec![Vec::with_capacity(columns); layout.scores().count() - 1],
+        vec![Vec::with_capacity(columns); layout.score_fields().count() - 1],
     );
-    for record in carried.chunks_exact(layout.record()) {
+    for record in carried.chunks_exact(layout.record_bytes()) {
         let mut at = 0usize;
-        for (number, (max, bytes)) in layout.scores().enumerate() {
+        for (number, (max, bytes)) in layout.score_fields().enumerate() {
             at = at.next_multiple_of(bytes);
-            let mut value = [0; WORD];
+            let mut value = [0; WORD_BYTES];
             value.get_mut(..bytes)?.copy_from_slice(record.get(at..at + bytes)?);
             at += bytes;
             let value = Some(u64::from_le_bytes(value)).filter(|&value| value <= max)?;
@@ -269,33 +269,33 @@ fn scores(head: Head, carried: &[u8], layout: &Layout) -> Option<Scores> {
             }
         }
     }
-    Some(Scores { row: head.row.into(), temporal_count, scores })
+    Some(ScoresPacket { row: head.row.into(), temporal_count, scores })
 }
 
-fn region(head: Head, carried: &[u8], layout: &Layout) -> Option<Region> {
+fn region(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<RegionPacket> {
     let flags = RegionFlags::of(head.flags);
-    let count = layout.values(flags.summary);
-    let values: Vec<u16> = match layout.lane() {
+    let count = layout.value_count(flags.summary);
+    let values: Vec<u16> = match layout.value_bytes() {
         1 => carried.iter().take(count).map(|&value| value.into()).collect(),
         _ => carried.as_chunks().0.iter().take(count).map(|&two| u16::from_le_bytes(two)).collect(),
     };
     let fits = values.iter().all(|&value| value <= layout.pixel_max());
     let (row, column) = (head.row.into(), head.column.into());
-    fits.then_some(Region { row, column, flags, values })
+    fits.then_some(RegionPacket { row, column, flags, values })
 }
 
-fn end(head: Head, carried: &[u8]) -> Option<End> {
+fn end(head: PacketHead, carried: &[u8]) -> Option<EndPacket> {
     let counts = word(carried)?;
-    let end = End {
-        regions_sent: half(counts, 0),
-        regions_dropped: half(counts, 32),
+    let end = EndPacket {
+        regions_sent: bits32(counts, 0),
+        regions_dropped: bits32(counts, 32),
         rows_dropped: head.row.into(),
     };
     let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
     (dropped == (head.flags == 1)).then_some(end)
 }
 
-fn register(head: Head, carried: &[u8]) -> Option<Register> {
-    let value = half(word(carried)?, 0);
-    Some(Register { address: head.row, written: head.flags == 1, value })
+fn register(head: PacketHead, carried: &[u8]) -> Option<RegisterPacket> {
+    let value = bits32(word(carried)?, 0);
+    Some(RegisterPacket { address: head.row, is_write: head.flags == 1, value })
 }

@@ -5,4 +5,4 @@
 pub mod chart;
 pub mod page;
 pub mod palette;
-mod xml;
+mod xml_text;

@@ -15,7 +15,7 @@ pub const SETTINGS_LIMIT: u64 = 1 << 20;
 ///
 /// # Errors
 /// Fails if the file cannot be read or has more bytes ([`io::ErrorKind::FileTooLarge`]).
-pub fn bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+pub fn read_bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     LimitedReader::new(File::open(path)?, limit).read_to_end(&mut bytes)?;
     Ok(bytes)
@@ -26,16 +26,16 @@ pub fn bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// Fails like [`text`].
-pub fn settings(path: &Path) -> io::Result<String> {
-    text(path, SETTINGS_LIMIT)
+pub fn read_settings(path: &Path) -> io::Result<String> {
+    read_text(path, SETTINGS_LIMIT)
 }
 
 /// Reads a UTF-8 text of at most `limit` bytes.
 ///
 /// # Errors
 /// Fails like [`bytes`], and if the file is not text ([`io::ErrorKind::InvalidData`]).
-pub fn text(path: &Path, limit: u64) -> io::Result<String> {
-    String::from_utf8(bytes(path, limit)?).map_err(|error| {
+pub fn read_text(path: &Path, limit: u64) -> io::Result<String> {
+    String::from_utf8(read_bytes(path, limit)?).map_err(|error| {
         let place = error.utf8_error().valid_up_to();
         let message = format!("it is not text in UTF-8, from byte {place} on");
         io::Error::new(io::ErrorKind::InvalidData, message)
@@ -51,8 +51,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         std::fs::write(&path, "12345678").unwrap();
-        assert_eq!(text(&path, 8).unwrap(), "12345678");
-        let error = bytes(&path, 7).unwrap_err();
+        assert_eq!(read_text(&path, 8).unwrap(), "12345678");
+        let error = read_bytes(&path, 7).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::FileTooLarge);
         assert_eq!(error.to_string(), "it is larger than 7 bytes, which is the limit");
     }
@@ -60,7 +60,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_device_without_an_end_is_refused() {
-        let error = settings(Path::new("/dev/zero")).unwrap_err();
+        let error = read_settings(Path::new("/dev/zero")).unwrap_err();
         assert_eq!(error.to_string(), "it is larger than 1 MiB, which is the limit");
     }
 
@@ -69,8 +69,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         std::fs::write(&path, b"abc\xFF").unwrap();
-        let error = text(&path, 8).unwrap_err();
+        let error = read_text(&path, 8).unwrap_err();
         assert_eq!(error.to_string(), "it is not text in UTF-8, from byte 3 on");
-        assert_eq!(bytes(&path, 8).unwrap(), b"abc\xFF");
+        assert_eq!(read_bytes(&path, 8).unwrap(), b"abc\xFF");
     }
 }

@@ -14,10 +14,10 @@
 //! [`io::ErrorKind::InvalidData`]: std::io::ErrorKind::InvalidData
 
 mod file;
-mod limited;
-mod size;
+mod limited_reader;
+mod size_text;
 mod table;
 
-pub use file::{SETTINGS_LIMIT, bytes, settings, text};
-pub use limited::LimitedReader;
-pub use table::{RECORD_LIMIT, Records, TableReader, table};
+pub use file::{SETTINGS_LIMIT, read_bytes, read_settings, read_text};
+pub use limited_reader::LimitedReader;
+pub use table::{RECORD_LIMIT, TableRecords, TableReader, table_reader};

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use csv::{Reader, ReaderBuilder, StringRecord};
 
-use crate::size::in_words;
+use crate::size_text::size_text;
 
 /// The largest record of a table in bytes. A row of the widest format that is read has nine
 /// numbers.
@@ -17,15 +17,15 @@ pub const RECORD_LIMIT: u64 = 1 << 20;
 /// buffering.
 #[derive(Debug)]
 pub struct TableReader<R> {
-    reader: Reader<RecordReader<R>>,
-    since: Rc<Cell<u64>>,
+    reader: Reader<RecordLimitReader<R>>,
+    bytes_since_record: Rc<Cell<u64>>,
 }
 
 /// Makes a reader of a table. Blank lines count towards the record that follows them.
-pub fn table<R: Read>(builder: &ReaderBuilder, source: R) -> TableReader<R> {
+pub fn table_reader<R: Read>(builder: &ReaderBuilder, source: R) -> TableReader<R> {
     let since = Rc::new(Cell::new(0));
-    let source = RecordReader { source, since: Rc::clone(&since) };
-    TableReader { reader: builder.from_reader(source), since }
+    let source = RecordLimitReader { source, since: Rc::clone(&since) };
+    TableReader { reader: builder.from_reader(source), bytes_since_record: since }
 }
 
 impl<R: Read> TableReader<R> {
@@ -36,30 +36,30 @@ impl<R: Read> TableReader<R> {
     /// Fails if the record cannot be read or is longer than the limit.
     pub fn headers(&mut self) -> csv::Result<&StringRecord> {
         let headers = self.reader.headers();
-        self.since.set(0);
+        self.bytes_since_record.set(0);
         headers
     }
 
     /// Returns the records in order.
-    pub fn records(&mut self) -> Records<'_, R> {
-        Records { table: self }
+    pub fn records(&mut self) -> TableRecords<'_, R> {
+        TableRecords { table: self }
     }
 }
 
 /// The records of a table in order. A record that cannot be read, is not text, or is longer than
 /// the limit is an error.
 #[derive(Debug)]
-pub struct Records<'a, R> {
+pub struct TableRecords<'a, R> {
     table: &'a mut TableReader<R>,
 }
 
-impl<R: Read> Iterator for Records<'_, R> {
+impl<R: Read> Iterator for TableRecords<'_, R> {
     type Item = csv::Result<StringRecord>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let mut record = StringRecord::new();
         let read = self.table.reader.read_record(&mut record);
-        self.table.since.set(0);
+        self.table.bytes_since_record.set(0);
         match read {
             Ok(true) => Some(Ok(record)),
             Ok(false) => None,
@@ -70,15 +70,15 @@ impl<R: Read> Iterator for Records<'_, R> {
 
 /// Counts the bytes that were read since the last complete record.
 #[derive(Debug)]
-struct RecordReader<R> {
+struct RecordLimitReader<R> {
     source: R,
     since: Rc<Cell<u64>>,
 }
 
-impl<R: Read> Read for RecordReader<R> {
+impl<R: Read> Read for RecordLimitReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.since.get() > RECORD_LIMIT {
-            let limit = in_words(RECORD_LIMIT);
+            let limit = size_text(RECORD_LIMIT);
             let message = format!(
                 "a record has more than {limit}, which is the limit; expected short lines of text"
             );
@@ -96,7 +96,7 @@ mod tests {
 
     /// Returns the number of records, or the error.
     fn count(source: impl Read) -> Result<usize, String> {
-        let mut table = table(ReaderBuilder::new().flexible(true), source);
+        let mut table = table_reader(ReaderBuilder::new().flexible(true), source);
         table.headers().map_err(|error| error.to_string())?;
         let mut count = 0;
         for record in table.records() {

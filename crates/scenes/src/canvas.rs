@@ -25,7 +25,7 @@ pub(crate) struct Canvas {
 
 /// The bounding rectangle of a shape in parts of units, right and bottom excluded.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
+pub(crate) struct ShapeBounds {
     pub(crate) left: i64,
     pub(crate) top: i64,
     pub(crate) right: i64,
@@ -51,16 +51,16 @@ impl Canvas {
     /// true.
     pub(crate) fn fill(
         &mut self,
-        bounds: Bounds,
+        bounds: ShapeBounds,
         shade: u16,
         opacity: u32,
         inside: impl Fn(i64, i64) -> bool,
     ) {
-        let (columns, rows) = self.pixels_of(bounds);
+        let (columns, rows) = self.pixel_ranges(bounds);
         let full = OPAQUE * 16;
         for y in rows {
             for x in columns.clone() {
-                let covered = self.covered(x, y, bounds, &inside);
+                let covered = self.covered_samples(x, y, bounds, &inside);
                 if covered == 0 {
                     continue;
                 }
@@ -76,12 +76,12 @@ impl Canvas {
 
     /// Returns the number of samples of a pixel, 0..=16, that are within `bounds` and for which
     /// `inside` returns true.
-    fn covered(&self, x: u32, y: u32, bounds: Bounds, inside: &impl Fn(i64, i64) -> bool) -> u32 {
+    fn covered_samples(&self, x: u32, y: u32, bounds: ShapeBounds, inside: &impl Fn(i64, i64) -> bool) -> u32 {
         let mut covered = 0;
         for sample_y in 0..SAMPLES {
-            let v = self.parts(i64::from(y) * SAMPLES + sample_y);
+            let v = self.sample_center(i64::from(y) * SAMPLES + sample_y);
             for sample_x in 0..SAMPLES {
-                let u = self.parts(i64::from(x) * SAMPLES + sample_x);
+                let u = self.sample_center(i64::from(x) * SAMPLES + sample_x);
                 covered += u32::from(bounds.contains(u, v) && inside(u, v));
             }
         }
@@ -89,11 +89,11 @@ impl Canvas {
     }
 
     /// Returns the center of a sample in parts of units.
-    fn parts(&self, sample: i64) -> i64 {
+    fn sample_center(&self, sample: i64) -> i64 {
         (2 * sample + 1) * UNITS_HIGH * UNIT / (2 * SAMPLES * i64::from(self.height))
     }
 
-    fn pixels_of(&self, bounds: Bounds) -> (std::ops::Range<u32>, std::ops::Range<u32>) {
+    fn pixel_ranges(&self, bounds: ShapeBounds) -> (std::ops::Range<u32>, std::ops::Range<u32>) {
         let whole = UNITS_HIGH * UNIT;
         let pixel = |parts: i64| parts * i64::from(self.height) / whole;
         let clamp = |pixel: i64, max: u32| {
@@ -107,14 +107,14 @@ impl Canvas {
     }
 }
 
-impl Bounds {
+impl ShapeBounds {
     fn contains(self, u: i64, v: i64) -> bool {
         (self.left..self.right).contains(&u) && (self.top..self.bottom).contains(&v)
     }
 }
 
 /// A painter of shapes in whole units around an origin. It can mirror them, and dims them at night.
-pub(crate) struct Pen<'a> {
+pub(crate) struct ShapePainter<'a> {
     pub(crate) canvas: &'a mut Canvas,
     /// Position of the origin (0, 0) in parts of units.
     pub(crate) origin: (i64, i64),
@@ -124,11 +124,11 @@ pub(crate) struct Pen<'a> {
     pub(crate) light: u32,
 }
 
-impl Pen<'_> {
+impl ShapePainter<'_> {
     /// Paints a rectangle that reflects daylight. `shade` is an 8-bit grey level.
     pub(crate) fn rect(&mut self, left: i64, top: i64, right: i64, bottom: i64, shade: u32) {
         let bounds = self.bounds(left, top, right, bottom);
-        let shade = self.reflected(shade);
+        let shade = self.reflected_shade(shade);
         self.canvas.fill(bounds, shade, OPAQUE, |_, _| true);
     }
 
@@ -136,47 +136,47 @@ impl Pen<'_> {
     pub(crate) fn glow_rect(&mut self, at: [i64; 4], shade: u32, opacity: u32) {
         let [left, top, right, bottom] = at;
         let bounds = self.bounds(left, top, right, bottom);
-        self.canvas.fill(bounds, emitted(shade), opacity, |_, _| true);
+        self.canvas.fill(bounds, emitted_shade(shade), opacity, |_, _| true);
     }
 
     /// Paints a disc that reflects daylight. The radius is in parts of units.
     pub(crate) fn disc(&mut self, x: i64, y: i64, radius: i64, shade: u32) {
-        let shade = self.reflected(shade);
-        self.round(x, y, radius, shade, OPAQUE);
+        let shade = self.reflected_shade(shade);
+        self.fill_disc(x, y, radius, shade, OPAQUE);
     }
 
     /// Paints a disc whose shade does not depend on daylight.
     pub(crate) fn glow_disc(&mut self, x: i64, y: i64, radius: i64, shade: u32, opacity: u32) {
-        self.round(x, y, radius, emitted(shade), opacity);
+        self.fill_disc(x, y, radius, emitted_shade(shade), opacity);
     }
 
     /// Paints a convex polygon that reflects daylight. Its corners are in parts of units from the
     /// origin, in either direction of rotation.
     pub(crate) fn polygon(&mut self, corners: &[(i64, i64)], shade: u32) {
-        let shade = self.reflected(shade);
-        self.convex(corners, shade, OPAQUE);
+        let shade = self.reflected_shade(shade);
+        self.fill_polygon(corners, shade, OPAQUE);
     }
 
     /// Paints a convex polygon whose shade does not depend on daylight.
     pub(crate) fn glow_polygon(&mut self, corners: &[(i64, i64)], shade: u32, opacity: u32) {
-        self.convex(corners, emitted(shade), opacity);
+        self.fill_polygon(corners, emitted_shade(shade), opacity);
     }
 
-    fn round(&mut self, x: i64, y: i64, radius: i64, shade: u16, opacity: u32) {
-        let (cx, cy) = self.place(x * UNIT, y * UNIT);
+    fn fill_disc(&mut self, x: i64, y: i64, radius: i64, shade: u16, opacity: u32) {
+        let (cx, cy) = self.canvas_position(x * UNIT, y * UNIT);
         let bounds =
-            Bounds { left: cx - radius, top: cy - radius, right: cx + radius, bottom: cy + radius };
+            ShapeBounds { left: cx - radius, top: cy - radius, right: cx + radius, bottom: cy + radius };
         self.canvas.fill(bounds, shade, opacity, |u, v| {
             (u - cx) * (u - cx) + (v - cy) * (v - cy) <= radius * radius
         });
     }
 
-    fn convex(&mut self, corners: &[(i64, i64)], shade: u16, opacity: u32) {
+    fn fill_polygon(&mut self, corners: &[(i64, i64)], shade: u16, opacity: u32) {
         const CORNERS: &str = "a polygon has corners";
-        let corners: Vec<_> = corners.iter().map(|&(x, y)| self.place(x, y)).collect();
+        let corners: Vec<_> = corners.iter().map(|&(x, y)| self.canvas_position(x, y)).collect();
         let xs = corners.iter().map(|corner| corner.0);
         let ys = corners.iter().map(|corner| corner.1);
-        let bounds = Bounds {
+        let bounds = ShapeBounds {
             left: xs.clone().min().expect(CORNERS),
             top: ys.clone().min().expect(CORNERS),
             right: xs.max().expect(CORNERS),
@@ -192,21 +192,21 @@ impl Pen<'_> {
         });
     }
 
-    fn bounds(&self, left: i64, top: i64, right: i64, bottom: i64) -> Bounds {
-        let (a, top) = self.place(left * UNIT, top * UNIT);
-        let (b, bottom) = self.place(right * UNIT, bottom * UNIT);
-        Bounds { left: a.min(b), top, right: a.max(b), bottom }
+    fn bounds(&self, left: i64, top: i64, right: i64, bottom: i64) -> ShapeBounds {
+        let (a, top) = self.canvas_position(left * UNIT, top * UNIT);
+        let (b, bottom) = self.canvas_position(right * UNIT, bottom * UNIT);
+        ShapeBounds { left: a.min(b), top, right: a.max(b), bottom }
     }
 
-    fn place(&self, x: i64, y: i64) -> (i64, i64) {
+    fn canvas_position(&self, x: i64, y: i64) -> (i64, i64) {
         (self.origin.0 + self.facing * x, self.origin.1 + y)
     }
 
-    fn reflected(&self, shade: u32) -> u16 {
+    fn reflected_shade(&self, shade: u32) -> u16 {
         u16::try_from(shade * 257 * self.light / 256).unwrap_or(u16::MAX)
     }
 }
 
-fn emitted(shade: u32) -> u16 {
+fn emitted_shade(shade: u32) -> u16 {
     u16::try_from(shade * 257).unwrap_or(u16::MAX)
 }

@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum SceneError {
     /// A name of a scene that does not exist.
     #[error("unknown scene `{name}`{}; scenes are {known}", hint(nearest.as_deref()))]
-    Unknown {
+    UnknownScene {
         /// The name as the user wrote it.
         name: String,
         /// The most similar name of a scene, if one is similar enough.

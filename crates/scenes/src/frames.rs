@@ -4,15 +4,15 @@
 use foveate_frame::Frame;
 
 use crate::canvas::Canvas;
-use crate::street::{Mood, Street};
-use crate::{Scene, SceneSize, noise, patterns};
+use crate::street::{TimeOfDay, Street};
+use crate::{Scene, SceneParameters, noise, patterns};
 
 impl Scene {
     /// Returns an iterator over the frames of the scene, which computes one at a time. A size
     /// outside of its range is clamped.
     #[must_use]
-    pub fn frames(self, size: SceneSize) -> SceneFrames {
-        SceneFrames::new(self, size.in_range())
+    pub fn frames(self, size: SceneParameters) -> SceneFrames {
+        SceneFrames::new(self, size.clamped())
     }
 }
 
@@ -20,19 +20,19 @@ impl Scene {
 #[derive(Clone, Debug)]
 pub struct SceneFrames {
     scene: Scene,
-    size: SceneSize,
+    size: SceneParameters,
     street: Option<Street>,
     next: u32,
 }
 
 impl SceneFrames {
-    fn new(scene: Scene, size: SceneSize) -> Self {
+    fn new(scene: Scene, size: SceneParameters) -> Self {
         let street = match scene {
-            Scene::Street => Some(Street::new(size.width, size.height, Mood::Day)),
-            Scene::NightRain => Some(Street::new(size.width, size.height, Mood::Night)),
+            Scene::Street => Some(Street::new(size.width, size.height, TimeOfDay::Day)),
+            Scene::NightRain => Some(Street::new(size.width, size.height, TimeOfDay::Night)),
             Scene::Shake => {
                 let margin = 2 * shake_reach(&size);
-                Some(Street::new(size.width + margin, size.height + margin, Mood::Day))
+                Some(Street::new(size.width + margin, size.height + margin, TimeOfDay::Day))
             }
             _ => None,
         };
@@ -41,32 +41,32 @@ impl SceneFrames {
 
     /// Returns frame number `t`, and does not advance the iterator.
     #[must_use]
-    pub fn at(&self, t: u32) -> Frame {
+    pub fn frame_at(&self, t: u32) -> Frame {
         match (self.scene, &self.street) {
-            (Scene::Street, Some(street)) => self.seen(&street.at(t), (0, 0), 160, t),
-            (Scene::NightRain, Some(street)) => self.seen(&street.at(t), (0, 0), 450, t),
+            (Scene::Street, Some(street)) => self.sensor_frame(&street.canvas_at(t), (0, 0), 160, t),
+            (Scene::NightRain, Some(street)) => self.sensor_frame(&street.canvas_at(t), (0, 0), 450, t),
             (Scene::Shake, Some(street)) => {
                 let span = 2 * shake_reach(&self.size) + 1;
                 let shift = |axis| noise::pick(0x5AAE, t, axis, 0, span);
-                self.seen(street.backdrop(), (shift(0), shift(1)), 0, t)
+                self.sensor_frame(street.backdrop(), (shift(0), shift(1)), 0, t)
             }
-            _ => self.made(|x, y| patterns::pixel(self.scene, &self.size, t, x, y)),
+            _ => self.frame_from_pixels(|x, y| patterns::pattern_pixel(self.scene, &self.size, t, x, y)),
         }
     }
 
     /// Returns the frame of a sensor that looks at the canvas: cut out at `corner`, with noise of
     /// the given amplitude, in P bits.
-    fn seen(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Frame {
-        self.made(|x, y| {
+    fn sensor_frame(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Frame {
+        self.frame_from_pixels(|x, y| {
             let light = i32::from(canvas.get(x + corner.0, y + corner.1));
-            let noisy = light + amplitude * noise::bell(0x5EED, t, x, y);
+            let noisy = light + amplitude * noise::normal_noise(0x5EED, t, x, y);
             u32::try_from(noisy.clamp(0, 65_535)).expect("not negative") >> (16 - self.size.bits)
         })
     }
 
-    fn made(&self, mut pixel: impl FnMut(u32, u32) -> u32) -> Frame {
-        let SceneSize { width, height, bits, .. } = self.size;
-        let limit = self.size.max();
+    fn frame_from_pixels(&self, mut pixel: impl FnMut(u32, u32) -> u32) -> Frame {
+        let SceneParameters { width, height, bits, .. } = self.size;
+        let limit = self.size.pixel_max();
         let pixel = |x, y| u16::try_from(pixel(x, y).min(limit)).expect("of at most 16 bits");
         Frame::from_fn(width, height, bits, pixel).expect("a size in range is a valid frame")
     }
@@ -80,7 +80,7 @@ impl Iterator for SceneFrames {
             return None;
         }
         self.next += 1;
-        Some(self.at(self.next - 1))
+        Some(self.frame_at(self.next - 1))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -93,6 +93,6 @@ impl ExactSizeIterator for SceneFrames {}
 
 /// Returns the largest displacement of a shaking camera to either side, in pixels. It is 4 for
 /// 224x224 pixels.
-fn shake_reach(size: &SceneSize) -> u32 {
+fn shake_reach(size: &SceneParameters) -> u32 {
     (size.width.min(size.height) / 56).max(1)
 }

@@ -16,4 +16,4 @@ mod street;
 
 pub use error::SceneError;
 pub use frames::SceneFrames;
-pub use scene::{Scene, SceneSize};
+pub use scene::{Scene, SceneParameters};

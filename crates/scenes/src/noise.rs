@@ -15,7 +15,7 @@ pub(crate) fn pick(seed: u64, a: u32, b: u32, c: u32, bound: u32) -> u32 {
 
 /// Returns approximately normal noise: the number of ones among 16 random bits minus its mean. It
 /// is in -8..=8, with a standard deviation of 2.
-pub(crate) fn bell(seed: u64, t: u32, x: u32, y: u32) -> i32 {
+pub(crate) fn normal_noise(seed: u64, t: u32, x: u32, y: u32) -> i32 {
     let ones = (hash(seed, t, x, y) & 0xFFFF).count_ones();
     i32::try_from(ones).expect("at most 16") - 8
 }
@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn noise_is_centred_and_has_the_stated_spread() {
-        let values: Vec<i32> = (0..10_000).map(|x| bell(7, 0, x, 0)).collect();
+        let values: Vec<i32> = (0..10_000).map(|x| normal_noise(7, 0, x, 0)).collect();
         let sum: i32 = values.iter().sum();
         let squares: i32 = values.iter().map(|v| v * v).sum();
         assert!(sum.abs() < 1_000, "mean {sum} / 10000");

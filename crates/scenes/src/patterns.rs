@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hard cases that are a function of place and time.
 
-use crate::{Scene, SceneSize, noise};
+use crate::{Scene, SceneParameters, noise};
 
 /// Number of frames between two switchings of the light.
 const LIGHT_PERIOD: u32 = 8;
 
 /// Returns the pixel at (`x`, `y`) of frame `t`. The street scenes are made elsewhere, so their
 /// pixels are 0 here.
-pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
-    let max = size.max();
+pub(crate) fn pattern_pixel(scene: Scene, size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
+    let max = size.pixel_max();
     match scene {
         Scene::Zero | Scene::Street | Scene::Shake | Scene::NightRain => 0,
         Scene::Max => max,
@@ -19,7 +19,7 @@ pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u
         Scene::HalfMeans => half_means(size, t, x, y),
         Scene::Flicker => (x + y) % max + (t & 1),
         Scene::Fade => fade(max, t, x, y),
-        Scene::LightStep => bars(max / 2, x, y) + (max - max / 2) * ((t / LIGHT_PERIOD) & 1),
+        Scene::LightStep => checks(max / 2, x, y) + (max - max / 2) * ((t / LIGHT_PERIOD) & 1),
         Scene::OnePixel => one_pixel(size, t, x, y),
         Scene::LateChange => late_change(size, t, x, y),
         Scene::Random => {
@@ -30,28 +30,28 @@ pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u
 
 /// Returns a pixel of a checkerboard with checks of 4x4 pixels of levels 0 and `high`, which has
 /// edges and corners in every region.
-fn bars(high: u32, x: u32, y: u32) -> u32 {
+fn checks(high: u32, x: u32, y: u32) -> u32 {
     high * ((x / 4 + y / 4) & 1)
 }
 
 /// Returns a pixel of a half-grey frame, in which one corner pixel of every region is at an end of
 /// the range. In eight frames each region has a hot and a dead pixel at each of its corners.
-fn hot_pixels(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+fn hot_pixels(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
     let turn = column + 3 * row + t;
     let corner = ((n - 1) * (turn & 1), (n - 1) * (turn >> 1 & 1));
     if (x % n, y % n) == corner {
-        return size.max() * (turn >> 2 & 1);
+        return size.pixel_max() * (turn >> 2 & 1);
     }
-    size.max() / 2
+    size.pixel_max() / 2
 }
 
 /// Returns a pixel of a ramp along x, along y or along the diagonal, or of a step, one for each
 /// region, starting from 0. The slope grows by one level from region to region and from frame to
 /// frame. So for any threshold some region meets it exactly, one is a level below it and one a
 /// level above.
-fn ramps(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+fn ramps(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
     let slope = column + t;
@@ -62,13 +62,13 @@ fn ramps(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
         2 => slope * (u + v),
         _ => slope * u32::from(u >= n / 2),
     };
-    height.min(size.max())
+    height.min(size.pixel_max())
 }
 
 /// Returns a pixel of a region whose first pixels are one level above the others. Their number
 /// makes the mean end in one half at some number of fraction bits. In the following frames it is
 /// one pixel less, then one more.
-fn half_means(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
+fn half_means(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
     let pixels = n * n;
@@ -79,7 +79,7 @@ fn half_means(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
         1 => half.saturating_sub(1),
         _ => half + 1,
     };
-    let base = noise::pick(0x4A1F, column, row, 0, size.max());
+    let base = noise::pick(0x4A1F, column, row, 0, size.pixel_max());
     base + u32::from((y % n) * n + x % n < above)
 }
 
@@ -88,21 +88,21 @@ fn half_means(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
 fn fade(max: u32, t: u32, x: u32, y: u32) -> u32 {
     let reach = max - max / 2;
     let phase = t % (2 * reach);
-    bars(max / 2, x, y) + phase.min(2 * reach - phase)
+    checks(max / 2, x, y) + phase.min(2 * reach - phase)
 }
 
 /// Returns a pixel of a frame of a quarter of the largest level with one bright pixel, which moves
 /// and is reflected at the borders.
-fn one_pixel(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
-    if (x, y) == (reflected(t, size.width), reflected(t, size.height)) {
-        size.max()
+fn one_pixel(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
+    if (x, y) == (bouncing_position(t, size.width), bouncing_position(t, size.height)) {
+        size.pixel_max()
     } else {
-        size.max() / 4
+        size.pixel_max() / 4
     }
 }
 
 /// Returns a position that moves as 0, 1, ... `side` - 1 and back, forever.
-fn reflected(t: u32, side: u32) -> u32 {
+fn bouncing_position(t: u32, side: u32) -> u32 {
     if side < 2 {
         return 0;
     }
@@ -111,8 +111,8 @@ fn reflected(t: u32, side: u32) -> u32 {
 }
 
 /// Returns a pixel of static checks. In the last frame every second region is inverted.
-fn late_change(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
-    let still = bars(size.max(), x, y);
+fn late_change(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
+    let still = checks(size.pixel_max(), x, y);
     let changed = (x / size.region_size + y / size.region_size).is_multiple_of(2);
-    if t + 1 == size.frames && changed { size.max() - still } else { still }
+    if t + 1 == size.frames && changed { size.pixel_max() - still } else { still }
 }

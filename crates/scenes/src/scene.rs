@@ -60,7 +60,7 @@ scenes! {
 /// The size, the depth and the number of frames of a scene. Values outside of their ranges are
 /// clamped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SceneSize {
+pub struct SceneParameters {
     /// Width in pixels, 1..=16384.
     pub width: u32,
     /// Height in pixels, 1..=16384.
@@ -73,13 +73,13 @@ pub struct SceneSize {
     pub frames: u32,
 }
 
-impl SceneSize {
+impl SceneParameters {
     /// Returns the largest pixel value, 2^P - 1.
-    pub(crate) fn max(&self) -> u32 {
+    pub(crate) fn pixel_max(&self) -> u32 {
         (1 << self.bits) - 1
     }
 
-    pub(crate) fn in_range(self) -> Self {
+    pub(crate) fn clamped(self) -> Self {
         Self {
             width: self.width.clamp(1, 16_384),
             height: self.height.clamp(1, 16_384),
@@ -109,7 +109,7 @@ impl Scene {
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, name)| name);
         let known = Self::ALL.iter().map(|scene| scene.name()).collect::<Vec<_>>().join(", ");
-        Err(SceneError::Unknown { name: name.to_owned(), nearest, known })
+        Err(SceneError::UnknownScene { name: name.to_owned(), nearest, known })
     }
 }
 

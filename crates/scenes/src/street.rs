@@ -6,10 +6,10 @@ mod setting;
 mod traffic;
 mod weather;
 
-use crate::canvas::{Canvas, Pen, UNIT};
+use crate::canvas::{Canvas, ShapePainter, UNIT};
 use setting::GROUND;
 
-pub(crate) use setting::Mood;
+pub(crate) use setting::TimeOfDay;
 
 /// Upper and lower border of the road in units from the top.
 const ROAD: (i64, i64) = (142, 206);
@@ -18,11 +18,11 @@ const ROAD: (i64, i64) = (142, 206);
 #[derive(Clone, Debug)]
 pub(crate) struct Street {
     backdrop: Canvas,
-    mood: Mood,
+    mood: TimeOfDay,
 }
 
 impl Street {
-    pub(crate) fn new(width: u32, height: u32, mood: Mood) -> Self {
+    pub(crate) fn new(width: u32, height: u32, mood: TimeOfDay) -> Self {
         let mut backdrop = Canvas::new(width, height);
         paint_backdrop(&mut backdrop, mood);
         Self { backdrop, mood }
@@ -34,19 +34,19 @@ impl Street {
     }
 
     /// Returns the canvas of the street in frame `t`.
-    pub(crate) fn at(&self, t: u32) -> Canvas {
+    pub(crate) fn canvas_at(&self, t: u32) -> Canvas {
         let mut canvas = self.backdrop.clone();
         traffic::paint(&mut canvas, self.mood, t);
-        if self.mood == Mood::Night {
+        if self.mood == TimeOfDay::Night {
             weather::rain(&mut canvas, t);
         }
         canvas
     }
 }
 
-fn paint_backdrop(canvas: &mut Canvas, mood: Mood) {
+fn paint_backdrop(canvas: &mut Canvas, mood: TimeOfDay) {
     let wide = canvas.parts_wide() / UNIT + 1;
-    let mut pen = Pen { canvas, origin: (0, 0), facing: 1, light: mood.light() };
+    let mut pen = ShapePainter { canvas, origin: (0, 0), facing: 1, light: mood.light() };
     for step in 0..GROUND / 4 {
         let shade = u32::try_from(196 + step).expect("a shade");
         // Each band overlaps the next one, so that no seam is visible.
@@ -58,7 +58,7 @@ fn paint_backdrop(canvas: &mut Canvas, mood: Mood) {
     weather::lamps(&mut pen, wide, mood);
 }
 
-fn paint_road(pen: &mut Pen<'_>, wide: i64) {
+fn paint_road(pen: &mut ShapePainter<'_>, wide: i64) {
     let (top, bottom) = ROAD;
     pen.rect(0, GROUND, wide, top, 172);
     pen.rect(0, top - 3, wide, top + 1, 206);

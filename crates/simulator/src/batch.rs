@@ -10,14 +10,14 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
 
 use crate::output::INTERRUPTED;
-use crate::simulation::SIMULATION;
-use crate::{Hooks, Progress, RunOptions, Simulation, SimulatorError, Summary};
-use foveate_footage::{Clip, InputOptions, open};
+use crate::simulation::SIMULATION_FOLDER;
+use crate::{RunHooks, RunProgress, RunOptions, Simulation, SimulatorError, RunSummary};
+use foveate_footage::{BatchClip, InputOptions, open};
 
 /// The progress of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub struct BatchProgress {
     /// The number of clips that are done or have failed.
     pub clips: usize,
     /// The number of all clips.
-    pub all: usize,
+    pub total_clips: usize,
     /// The number of frames of all clips so far.
     pub frames: u64,
 }
@@ -36,7 +36,7 @@ pub trait BatchHooks: Sync {
     fn progress(&self, progress: BatchProgress);
 
     /// Returns true if the batch is to stop. The result is then incomplete, and is marked so.
-    fn cancelled(&self) -> bool;
+    fn is_cancelled(&self) -> bool;
 }
 
 /// Runs every clip into a folder below `output`, with as many clips in parallel as rayon has
@@ -45,15 +45,15 @@ pub trait BatchHooks: Sync {
 /// # Errors
 /// Fails if the output cannot be written, or if no clip could be simulated.
 pub fn run_batch(
-    clips: &[Clip],
-    config: &Config,
+    clips: &[BatchClip],
+    config: &DesignConfig,
     input: &InputOptions,
     output: &Path,
     options: &RunOptions,
     hooks: &dyn BatchHooks,
 ) -> Result<BatchSummary, SimulatorError> {
-    let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
-    let batch = Batch {
+    let staging = StagedFolder::new(output, SIMULATION_FOLDER, options.overwrite)?;
+    let batch = BatchRun {
         clips,
         config,
         input,
@@ -72,9 +72,9 @@ pub fn run_batch(
 }
 
 /// The state of a running batch.
-struct Batch<'a> {
-    clips: &'a [Clip],
-    config: &'a Config,
+struct BatchRun<'a> {
+    clips: &'a [BatchClip],
+    config: &'a DesignConfig,
     input: &'a InputOptions,
     options: &'a RunOptions,
     hooks: &'a dyn BatchHooks,
@@ -84,7 +84,7 @@ struct Batch<'a> {
     frames: AtomicU64,
 }
 
-impl Batch<'_> {
+impl BatchRun<'_> {
     fn run(&self) -> Result<BatchSummary, SimulatorError> {
         let results: Vec<Mutex<Option<ClipSummary>>> =
             self.clips.iter().map(|_| Mutex::new(None)).collect();
@@ -93,7 +93,7 @@ impl Batch<'_> {
         let threads = rayon::current_num_threads();
         std::thread::scope(|scope| {
             for _ in 0..threads.min(self.clips.len()) {
-                scope.spawn(|| self.work(&results));
+                scope.spawn(|| self.run_clips(&results));
             }
         });
         let result = |slot: Mutex<Option<ClipSummary>>| {
@@ -103,56 +103,56 @@ impl Batch<'_> {
             .into_iter()
             .zip(self.clips)
             .map(|(slot, clip)| {
-                result(slot).unwrap_or_else(|| ClipSummary::failed(clip, "not started".to_owned()))
+                result(slot).unwrap_or_else(|| ClipSummary::of_failed_clip(clip, "not started".to_owned()))
             })
             .collect();
-        self.conclude(clips)
+        self.batch_summary(clips)
     }
 
     /// Takes clips until there are no more.
-    fn work(&self, results: &[Mutex<Option<ClipSummary>>]) {
-        while !self.hooks.cancelled() {
+    fn run_clips(&self, results: &[Mutex<Option<ClipSummary>>]) {
+        while !self.hooks.is_cancelled() {
             let number = self.next.fetch_add(1, Ordering::Relaxed);
             let (Some(clip), Some(slot)) = (self.clips.get(number), results.get(number)) else {
                 return;
             };
             let summary = match self.simulate(clip) {
-                Ok(summary) => ClipSummary::done(clip, summary),
-                Err(SimulatorError::Cancelled) => ClipSummary::failed(clip, INTERRUPTED.to_owned()),
-                Err(error) => ClipSummary::failed(clip, error.to_string()),
+                Ok(summary) => ClipSummary::of_finished_clip(clip, summary),
+                Err(SimulatorError::Cancelled) => ClipSummary::of_failed_clip(clip, INTERRUPTED.to_owned()),
+                Err(error) => ClipSummary::of_failed_clip(clip, error.to_string()),
             };
             *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(summary);
             self.done.fetch_add(1, Ordering::Relaxed);
-            self.tell();
+            self.report_progress();
         }
     }
 
-    fn simulate(&self, clip: &Clip) -> Result<Summary, SimulatorError> {
+    fn simulate(&self, clip: &BatchClip) -> Result<RunSummary, SimulatorError> {
         let source = open(&clip.inputs, &self.config.camera, self.input)?;
-        let output = self.staging.folder().join(&clip.place);
+        let output = self.staging.folder().join(&clip.output_folder);
         let simulation = Simulation::new(self.config, source)?;
-        let done = simulation.run(&output, self.options, &mut Frames(self));
-        done.map_err(|error| error.named(self.staging))
+        let done = simulation.run(&output, self.options, &mut ClipHooks(self));
+        done.map_err(|error| error.with_shown_paths(self.staging))
     }
 
-    fn tell(&self) {
+    fn report_progress(&self) {
         self.hooks.progress(BatchProgress {
             clips: self.done.load(Ordering::Relaxed),
-            all: self.clips.len(),
+            total_clips: self.clips.len(),
             frames: self.frames.load(Ordering::Relaxed),
         });
     }
 
-    fn conclude(&self, clips: Vec<ClipSummary>) -> Result<BatchSummary, SimulatorError> {
+    fn batch_summary(&self, clips: Vec<ClipSummary>) -> Result<BatchSummary, SimulatorError> {
         let partial = clips.iter().filter(|clip| !clip.complete).count();
         if clips.iter().all(|clip| clip.output.is_none()) {
-            if self.hooks.cancelled() {
+            if self.hooks.is_cancelled() {
                 return Err(SimulatorError::Cancelled);
             }
             let first = clips.iter().find_map(|clip| clip.problem.clone()).unwrap_or_default();
             return Err(SimulatorError::NoClip { clips: clips.len(), first });
         }
-        let problem = match (self.hooks.cancelled(), partial) {
+        let problem = match (self.hooks.is_cancelled(), partial) {
             (_, 0) => None,
             (true, _) => Some(INTERRUPTED.to_owned()),
             (false, some) => Some(format!("{some} of {} clips are not complete", clips.len())),
@@ -169,16 +169,16 @@ impl Batch<'_> {
 }
 
 /// The hooks of one clip, which count its frames into the batch.
-struct Frames<'a>(&'a Batch<'a>);
+struct ClipHooks<'a>(&'a BatchRun<'a>);
 
-impl Hooks for Frames<'_> {
-    fn progress(&mut self, _: Progress) {
+impl RunHooks for ClipHooks<'_> {
+    fn progress(&mut self, _: RunProgress) {
         self.0.frames.fetch_add(1, Ordering::Relaxed);
-        self.0.tell();
+        self.0.report_progress();
     }
 
-    fn cancelled(&self) -> bool {
-        self.0.hooks.cancelled()
+    fn is_cancelled(&self) -> bool {
+        self.0.hooks.is_cancelled()
     }
 
     fn interrupt(&self) -> Interrupt {

@@ -174,24 +174,24 @@ impl SimulatorError {
     }
 
     /// Returns the path of the file that cannot be written.
-    pub(crate) fn path(&self) -> Option<&Path> {
+    pub(crate) fn unwritten_path(&self) -> Option<&Path> {
         match self {
             Self::Write { path, .. }
             | Self::VideoOutput { path, .. }
-            | Self::Output(StagingError::Write { path, .. }) => Some(path),
+            | Self::Output(StagingError::Unwritable { path, .. }) => Some(path),
             _ => None,
         }
     }
 
     /// Replaces the paths of the staging folder by the paths that the user knows.
     #[must_use]
-    pub fn named(self, staging: &StagedFolder) -> Self {
+    pub fn with_shown_paths(self, staging: &StagedFolder) -> Self {
         match self {
-            Self::Write { path, source } => Self::Write { path: staging.shown(&path), source },
-            Self::Output(error) => Self::Output(staging.named(error)),
+            Self::Write { path, source } => Self::Write { path: staging.shown_path(&path), source },
+            Self::Output(error) => Self::Output(staging.with_shown_path(error)),
             Self::VideoOutput { path, problem, is_full } => {
-                let problem = staging.shown_text(&problem);
-                Self::VideoOutput { path: staging.shown(&path), problem, is_full }
+                let problem = staging.with_shown_paths(&problem);
+                Self::VideoOutput { path: staging.shown_path(&path), problem, is_full }
             }
             other => other,
         }

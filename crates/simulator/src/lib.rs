@@ -10,25 +10,25 @@
 //! through [`Hooks`].
 
 mod batch;
-mod decode;
+mod recording;
 mod error;
-mod explain;
+mod explanation;
 mod losses;
 mod output;
 mod simulation;
 mod stream;
 
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
-pub use decode::{Decoded, Recording};
+pub use recording::{DecodedRecording, PacketRecording};
 pub use error::SimulatorError;
-pub use explain::explain;
+pub use explanation::explain_region;
 pub use foveate_engine::MAX_THREADS;
-pub use foveate_footage::{Hooks, Progress, Silent};
-pub use foveate_model::explain::Explanation;
-pub use foveate_packets::{Command, Loss, Register};
+pub use foveate_footage::{RunHooks, RunProgress, SilentHooks};
+pub use foveate_model::explanation::RegionExplanation;
+pub use foveate_packets::{RegisterCommand, StreamLoss, RegisterPacket};
 pub use output::{
-    Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, Packets, PixelCamera,
-    PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, write_packets,
+    BandwidthComparison, DataSetPaths, EventTableOptions, GridSize, PictureFormat, PIXEL_EVENT_BYTES, PacketContent, PixelCamera,
+    PixelEvent, PixelEventOptions, ValueRange, RunOptions, RunSummary, CameraTraffic, write_packets,
 };
-pub use simulation::{SIMULATION, Simulation};
-pub use stream::{CLAIMED_PIXELS, Received, ShownFrame, Stream};
+pub use simulation::{SIMULATION_FOLDER, Simulation};
+pub use stream::{MAX_CLAIMED_PIXELS, StreamItem, ShownFrame, PacketStream};

@@ -4,37 +4,37 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_packets::Loss;
+use foveate_packets::StreamLoss;
 
 use crate::SimulatorError;
-use crate::output::Csv;
+use crate::output::CsvFile;
 
 /// The number of losses that are kept in memory for messages.
-const TOLD: usize = 10;
+const KEPT_LOSSES: usize = 10;
 
 /// The file of losses, which is created at the first loss.
-pub(crate) struct Losses {
+pub(crate) struct LossTable {
     path: PathBuf,
-    csv: Option<Csv>,
-    first: Vec<Loss>,
+    csv: Option<CsvFile>,
+    first: Vec<StreamLoss>,
     count: u64,
 }
 
-impl Losses {
+impl LossTable {
     pub(crate) fn new(folder: &Path) -> Self {
         Self { path: folder.join("losses.csv"), csv: None, first: Vec::new(), count: 0 }
     }
 
-    pub(crate) fn push(&mut self, loss: Loss) -> Result<(), SimulatorError> {
+    pub(crate) fn push(&mut self, loss: StreamLoss) -> Result<(), SimulatorError> {
         self.count += 1;
         let csv = match &mut self.csv {
             Some(csv) => csv,
-            none => none.insert(Csv::create(&self.path, "what,frame,row,column,count,offset")?),
+            none => none.insert(CsvFile::create(&self.path, "what,frame,row,column,count,offset")?),
         };
         let fields =
             loss.fields().map(|field| field.map_or(String::new(), |field| field.to_string()));
         csv.line([loss.kind().to_owned()].into_iter().chain(fields));
-        if self.first.len() < TOLD {
+        if self.first.len() < KEPT_LOSSES {
             self.first.push(loss);
         }
         csv.write_out(false)
@@ -46,7 +46,7 @@ impl Losses {
     }
 
     /// Completes the file. Returns the first losses and the number of all.
-    pub(crate) fn finish(mut self) -> Result<(Vec<Loss>, u64), SimulatorError> {
+    pub(crate) fn finish(mut self) -> Result<(Vec<StreamLoss>, u64), SimulatorError> {
         self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(true))?;
         Ok((self.first, self.count))
     }

@@ -3,18 +3,18 @@
 
 use std::path::Path;
 
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_engine::Engine;
 use foveate_staging::{FolderKind, StagedFolder};
 
-use crate::output::{DISK_FULL, INTERRUPTED, Recorder};
-use crate::{RunOptions, SimulatorError, Summary};
-use foveate_footage::{FootageError, Hooks, Kind, Progress, Source, read_ahead};
+use crate::output::{DISK_FULL, INTERRUPTED, RunRecorder};
+use crate::{RunOptions, SimulatorError, RunSummary};
+use foveate_footage::{FootageError, RunHooks, SourceKind, RunProgress, FrameSource, read_ahead};
 
 /// A design and the frames that it takes.
 pub struct Simulation {
     design: Design,
-    source: Box<dyn Source>,
+    source: Box<dyn FrameSource>,
 }
 
 impl Simulation {
@@ -22,9 +22,9 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if the configuration gives another size, or is not a valid design.
-    pub fn new(config: &Config, source: Box<dyn Source>) -> Result<Self, SimulatorError> {
+    pub fn new(config: &DesignConfig, source: Box<dyn FrameSource>) -> Result<Self, SimulatorError> {
         let (width, height) = source.size();
-        Ok(Self { design: config.for_frames(width, height)?, source })
+        Ok(Self { design: config.validate_for_frames(width, height)?, source })
     }
 
     /// Returns the design, with the frame size of the source.
@@ -44,30 +44,30 @@ impl Simulation {
         mut self,
         output: &Path,
         options: &RunOptions,
-        hooks: &mut dyn Hooks,
-    ) -> Result<Summary, SimulatorError> {
-        if options.pixel_events.wanted() && self.source.kind() == Kind::Set {
+        hooks: &mut dyn RunHooks,
+    ) -> Result<RunSummary, SimulatorError> {
+        if options.pixel_events.is_wanted() && self.source.kind() == SourceKind::Set {
             return Err(SimulatorError::PixelEventsOfSet);
         }
-        if options.data_set && self.source.kind() == Kind::Clip {
+        if options.data_set && self.source.kind() == SourceKind::Clip {
             return Err(SimulatorError::NotASet { inputs: self.source.inputs().join(", ") });
         }
-        let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
-        let written = self.write(&staging, options, hooks);
-        let summary = written.map_err(|error| error.named(&staging))?;
+        let staging = StagedFolder::new(output, SIMULATION_FOLDER, options.overwrite)?;
+        let written = self.write_files(&staging, options, hooks);
+        let summary = written.map_err(|error| error.with_shown_paths(&staging))?;
         staging.commit()?;
         Ok(summary)
     }
 
     /// Writes all files.
-    fn write(
+    fn write_files(
         &mut self,
         staging: &StagedFolder,
         options: &RunOptions,
-        hooks: &mut dyn Hooks,
-    ) -> Result<Summary, SimulatorError> {
+        hooks: &mut dyn RunHooks,
+    ) -> Result<RunSummary, SimulatorError> {
         let folder = staging.folder();
-        let mut recorder = Recorder::create(
+        let mut recorder = RunRecorder::create(
             folder,
             &self.design,
             &self.source.form(),
@@ -75,69 +75,69 @@ impl Simulation {
             true,
             &hooks.interrupt(),
         )?;
-        let end = match self.record(&mut recorder, hooks) {
+        let end = match self.run_frames(&mut recorder, hooks) {
             // The interrupt ended the wait for a frame.
-            Err(SimulatorError::Cancelled) => Ok(End::Cancelled),
+            Err(SimulatorError::Cancelled) => Ok(RunEnd::Cancelled),
             end => end,
         };
         let problem = match (end, recorder.frames()) {
-            (Ok(End::Cancelled), 0) => return Err(SimulatorError::Cancelled),
-            (Ok(End::Source), 0) => {
+            (Ok(RunEnd::Cancelled), 0) => return Err(SimulatorError::Cancelled),
+            (Ok(RunEnd::EndOfSource), 0) => {
                 let inputs = self.source.inputs().join(", ");
                 return Err(FootageError::NoFrames { inputs }.into());
             }
-            (Ok(End::Cancelled), _) => Some(INTERRUPTED.to_owned()),
+            (Ok(RunEnd::Cancelled), _) => Some(INTERRUPTED.to_owned()),
             // An interrupt may have stopped ffmpeg, too.
-            (Ok(End::Source), _) => self
+            (Ok(RunEnd::EndOfSource), _) => self
                 .source
                 .problem()
-                .map(|problem| if hooks.cancelled() { INTERRUPTED.to_owned() } else { problem }),
-            (Err(SimulatorError::VideoOutput { .. }), 1..) if hooks.cancelled() => {
+                .map(|problem| if hooks.is_cancelled() { INTERRUPTED.to_owned() } else { problem }),
+            (Err(SimulatorError::VideoOutput { .. }), 1..) if hooks.is_cancelled() => {
                 Some(INTERRUPTED.to_owned())
             }
-            (Err(error), 1..) if error.is_full() => Some(full(&error, recorder.frames(), folder)),
+            (Err(error), 1..) if error.is_full() => Some(disk_full_problem(&error, recorder.frames(), folder)),
             (Err(error), _) => return Err(error),
         };
         recorder.finish(folder, self.source.inputs(), problem)
     }
 
     /// Gives every frame to the engine, while the following frames are read.
-    fn record(
+    fn run_frames(
         &mut self,
-        recorder: &mut Recorder,
-        hooks: &mut dyn Hooks,
-    ) -> Result<End, SimulatorError> {
+        recorder: &mut RunRecorder,
+        hooks: &mut dyn RunHooks,
+    ) -> Result<RunEnd, SimulatorError> {
         let mut engine = Engine::new(&self.design);
         let (total, kind) = (self.source.frames(), self.source.kind());
         read_ahead(self.source.as_mut(), |frames| {
             while let Some((current, _)) = frames.next()? {
-                if hooks.cancelled() {
-                    return Ok(End::Cancelled);
+                if hooks.is_cancelled() {
+                    return Ok(RunEnd::Cancelled);
                 }
-                if kind == Kind::Set {
+                if kind == SourceKind::Set {
                     engine.reset();
                 }
-                engine.step_raster(&current.frame)?;
-                let first = kind == Kind::Set || recorder.frames() == 0;
+                engine.step_byte_frame(&current.frame)?;
+                let first = kind == SourceKind::Set || recorder.frames() == 0;
                 recorder.push(&current, &engine, first)?;
-                frames.give_back(current);
-                hooks.progress(Progress { done: recorder.frames(), total });
+                frames.recycle(current);
+                hooks.progress(RunProgress { done: recorder.frames(), total });
             }
-            Ok(End::Source)
+            Ok(RunEnd::EndOfSource)
         })
     }
 }
 
 /// The reason why no more frames come.
-enum End {
-    Source,
+enum RunEnd {
+    EndOfSource,
     Cancelled,
 }
 
 /// Returns the problem in the summary of a run that found no disk space for one of its files in
 /// `folder`.
-pub(crate) fn full(error: &SimulatorError, frames: u64, folder: &Path) -> String {
-    let file = error.path().map(|path| path.strip_prefix(folder).unwrap_or(path));
+pub(crate) fn disk_full_problem(error: &SimulatorError, frames: u64, folder: &Path) -> String {
+    let file = error.unwritten_path().map(|path| path.strip_prefix(folder).unwrap_or(path));
     let at = file.map(|file| format!(", at {}", file.display())).unwrap_or_default();
     format!("{DISK_FULL} after {frames} frames{at}")
 }
@@ -149,8 +149,8 @@ impl std::fmt::Debug for Simulation {
 }
 
 /// The kind of folder that a run leaves, and the only kind that it replaces.
-pub const SIMULATION: FolderKind =
-    FolderKind { what: "a simulation (its summary.json)", is: is_simulation };
+pub const SIMULATION_FOLDER: FolderKind =
+    FolderKind { description: "a simulation (its summary.json)", matches: is_simulation };
 
 fn is_simulation(folder: &Path) -> bool {
     let summary = std::fs::read(folder.join("summary.json")).unwrap_or_default();

@@ -12,7 +12,7 @@ use thiserror::Error;
 pub enum StagingError {
     /// The path names no folder that can be created.
     #[error("output `{}` does not name a folder that can be created; choose another", path.display())]
-    NoName {
+    InvalidPath {
         /// The path as given.
         path: PathBuf,
     },
@@ -27,7 +27,7 @@ pub enum StagingError {
         "output folder `{}` does not hold {what}, so it is not replaced; choose another folder, or empty it",
         path.display()
     )]
-    Foreign {
+    OtherContent {
         /// The path of the folder.
         path: PathBuf,
         /// The expected content, with its article.
@@ -49,7 +49,7 @@ pub enum StagingError {
          since: {names}; move them, or choose another folder",
         path.display()
     )]
-    Mixed {
+    UnlistedFiles {
         /// The path of the folder.
         path: PathBuf,
         /// The names of the first other files, and the number of further ones.
@@ -61,7 +61,7 @@ pub enum StagingError {
         path.display(),
         kept.display()
     )]
-    Kept {
+    FilesKept {
         /// The path of the folder.
         path: PathBuf,
         /// The folder with those files.
@@ -69,7 +69,7 @@ pub enum StagingError {
     },
     /// A file or folder cannot be written.
     #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
-    Write {
+    Unwritable {
         /// The path of the file or folder.
         path: PathBuf,
         /// The error of the system.
@@ -81,12 +81,12 @@ impl StagingError {
     /// Returns whether the disk was full.
     #[must_use]
     pub fn is_full(&self) -> bool {
-        matches!(self, Self::Write { source, .. } if is_full(source))
+        matches!(self, Self::Unwritable { source, .. } if is_full(source))
     }
 
     /// Returns a function that adds the path to an error of the operating system.
-    pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
-        |source| Self::Write { path: path.to_owned(), source }
+    pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
+        |source| Self::Unwritable { path: path.to_owned(), source }
     }
 }
 

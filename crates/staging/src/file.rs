@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::StagingError;
-use crate::leftover::{TEMPORARY, sweep_once};
-use crate::lock::{LETTERS, is_same_file, plain};
+use crate::leftovers::{TEMPORARY_PREFIX, remove_leftovers_once};
+use crate::locked_folder::{RANDOM_LETTERS, is_same_file, without_path};
 
 /// The largest number of links that are followed.
-const LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// Writes `contents` into a temporary file next to `path` and renames it into place. An existing
 /// file is replaced and keeps its mode, owner and hard links. A symbolic link keeps its target.
@@ -21,13 +21,13 @@ const LINKS: usize = 40;
 /// # Errors
 /// Fails if the folder does not exist or cannot be written.
 pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), StagingError> {
-    let place = followed(path);
+    let place = resolve_links(path);
     let written = match fs::metadata(&place) {
         Ok(earlier) if earlier.is_file() => replace(&place, contents, &earlier),
         Ok(_) => fs::write(&place, contents),
         Err(_) => create(&place, contents),
     };
-    written.map_err(StagingError::write(path))
+    written.map_err(StagingError::unwritable(path))
 }
 
 /// Checks whether [`write_file`] can write to a path, as far as this is known in advance, so that a
@@ -36,7 +36,7 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), StagingError> {
 /// # Errors
 /// Fails if the folder does not exist or is not a folder, or if `path` is a folder.
 pub fn check_file(path: &Path) -> Result<(), StagingError> {
-    let refused = |kind: io::ErrorKind| Err(StagingError::write(path)(kind.into()));
+    let refused = |kind: io::ErrorKind| Err(StagingError::unwritable(path)(kind.into()));
     if path.is_dir() {
         return refused(io::ErrorKind::IsADirectory);
     }
@@ -48,9 +48,9 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// Returns the target of a path after following links, even if the target does not exist yet.
-fn followed(path: &Path) -> PathBuf {
+fn resolve_links(path: &Path) -> PathBuf {
     let mut place = path.to_owned();
-    for _ in 0..LINKS {
+    for _ in 0..MAX_LINKS {
         if let Ok(whole) = place.canonicalize() {
             return whole;
         }
@@ -63,25 +63,25 @@ fn followed(path: &Path) -> PathBuf {
 /// Writes a new file, with the same permissions as files of other programs.
 fn create(place: &Path, contents: &[u8]) -> io::Result<()> {
     const MODE: u32 = 0o666;
-    filled(place, contents, MODE)?.persist(place).map(drop).map_err(|error| plain(&error.error))
+    write_temporary_file(place, contents, MODE)?.persist(place).map(drop).map_err(|error| without_path(&error.error))
 }
 
 /// Replaces an existing file and keeps its owner, mode and links. If that requires the same inode,
 /// the file is overwritten in place.
 fn replace(place: &Path, contents: &[u8], earlier: &fs::Metadata) -> io::Result<()> {
     const MODE: u32 = 0o600;
-    let whole = filled(place, contents, MODE).and_then(|beside| {
+    let whole = write_temporary_file(place, contents, MODE).and_then(|beside| {
         let keeps = keep_owner_and_mode(beside.as_file(), earlier)?;
         Ok(keeps.then_some(beside))
     });
     match whole {
         Ok(Some(beside)) => match beside.persist(place) {
             Ok(_) => Ok(()),
-            Err(error) if is_refused(&error.error) => write_over(place, contents),
-            Err(error) => Err(plain(&error.error)),
+            Err(error) if is_refused(&error.error) => overwrite(place, contents),
+            Err(error) => Err(without_path(&error.error)),
         },
-        Ok(None) => write_over(place, contents),
-        Err(error) if is_refused(&error) => write_over(place, contents),
+        Ok(None) => overwrite(place, contents),
+        Err(error) if is_refused(&error) => overwrite(place, contents),
         Err(error) => Err(error),
     }
 }
@@ -93,17 +93,17 @@ fn is_refused(error: &io::Error) -> bool {
 
 /// Makes a complete file next to its place. This process locks the file, so that no other process
 /// removes it as a leftover.
-fn filled(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile> {
+fn write_temporary_file(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile> {
     let folder = folder_of(place);
-    sweep_once(folder);
+    remove_leftovers_once(folder);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY).rand_bytes(LETTERS);
+    builder.prefix(TEMPORARY_PREFIX).rand_bytes(RANDOM_LETTERS);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
     #[cfg(not(unix))]
     let _ = mode;
     loop {
-        let mut beside = builder.tempfile_in(folder).map_err(|error| plain(&error))?;
+        let mut beside = builder.tempfile_in(folder).map_err(|error| without_path(&error))?;
         // If files cannot be locked, no other process removes this file either.
         let _ = beside.as_file().lock();
         if is_same_file(beside.as_file(), beside.path()) {
@@ -114,7 +114,7 @@ fn filled(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile>
 }
 
 /// Overwrites a file in place. If the disk is full, the previous contents are restored.
-fn write_over(place: &Path, contents: &[u8]) -> io::Result<()> {
+fn overwrite(place: &Path, contents: &[u8]) -> io::Result<()> {
     let earlier = fs::read(place)?;
     let mut file = OpenOptions::new().write(true).open(place)?;
     let mut put = |bytes: &[u8]| {
@@ -170,7 +170,7 @@ mod tests {
         for result in [write_file(&nowhere, b""), check_file(&nowhere)] {
             let message = result.unwrap_err().to_string();
             assert!(
-                message.contains("no/report.xml`") && !message.contains(TEMPORARY),
+                message.contains("no/report.xml`") && !message.contains(TEMPORARY_PREFIX),
                 "{message}"
             );
         }

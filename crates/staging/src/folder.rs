@@ -6,18 +6,18 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::StagingError;
-use crate::leftover::{EARLIER, partial, restore, sweep_once};
-use crate::list::{self, FileList, some_of};
-use crate::lock::LockedFolder;
+use crate::leftovers::{PREVIOUS_FOLDER, partial_prefix, restore_previous, remove_leftovers_once};
+use crate::file_list::{self, FileList, first_names};
+use crate::locked_folder::LockedFolder;
 
 /// The kind of an output folder, which identifies folders that may be replaced. A folder of any
 /// kind is replaced only if every file in it is on its list, `.foveate`, and unchanged.
 #[derive(Clone, Copy, Debug)]
 pub struct FolderKind {
     /// The description with its article, for messages: `a simulation (summary.json)`.
-    pub what: &'static str,
+    pub description: &'static str,
     /// A function that returns whether an existing folder is of this kind.
-    pub is: fn(&Path) -> bool,
+    pub matches: fn(&Path) -> bool,
 }
 
 /// An output folder that is being written. It is removed if it is dropped before
@@ -25,7 +25,7 @@ pub struct FolderKind {
 #[derive(Debug)]
 pub struct StagedFolder {
     /// The path as the user gave it.
-    given: PathBuf,
+    user_path: PathBuf,
     target: PathBuf,
     place: LockedFolder,
     kind: FolderKind,
@@ -40,19 +40,19 @@ impl StagedFolder {
     /// # Errors
     /// Fails if `target` has contents that may not be replaced, or cannot be written.
     pub fn new(target: &Path, kind: FolderKind, replace: bool) -> Result<Self, StagingError> {
-        let unnamed = || StagingError::NoName { path: target.to_owned() };
+        let unnamed = || StagingError::InvalidPath { path: target.to_owned() };
         let absolute = std::path::absolute(target).map_err(|_| unnamed())?;
         let place = absolute.canonicalize().unwrap_or(absolute);
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else {
             return Err(unnamed());
         };
         // A killed run may have moved the existing folder away; it is restored first.
-        sweep_once(parent);
-        refuse_occupied(&place, target, kind, replace)?;
-        fs::create_dir_all(parent).map_err(StagingError::write(target))?;
-        let locked = LockedFolder::create(parent, &partial(name));
-        let locked = locked.map_err(StagingError::write(target))?;
-        Ok(Self { given: target.to_owned(), target: place, place: locked, kind, replace })
+        remove_leftovers_once(parent);
+        check_replaceable(&place, target, kind, replace)?;
+        fs::create_dir_all(parent).map_err(StagingError::unwritable(target))?;
+        let locked = LockedFolder::create(parent, &partial_prefix(name));
+        let locked = locked.map_err(StagingError::unwritable(target))?;
+        Ok(Self { user_path: target.to_owned(), target: place, place: locked, kind, replace })
     }
 
     /// Checks whether [`StagedFolder::new`] would accept `target`, without creating anything, so
@@ -61,7 +61,7 @@ impl StagedFolder {
     /// # Errors
     /// Fails if `target` has contents that may not be replaced.
     pub fn check(target: &Path, kind: FolderKind, replace: bool) -> Result<(), StagingError> {
-        refuse_occupied(target, target, kind, replace)
+        check_replaceable(target, target, kind, replace)
     }
 
     /// Removes a folder that [`StagedFolder::new`] would replace, if it exists.
@@ -69,11 +69,11 @@ impl StagedFolder {
     /// # Errors
     /// Fails if `target` has contents that may not be removed, or cannot be removed.
     pub fn remove(target: &Path, kind: FolderKind) -> Result<(), StagingError> {
-        refuse_occupied(target, target, kind, true)?;
+        check_replaceable(target, target, kind, true)?;
         if !target.is_dir() {
             return Ok(());
         }
-        list::remove(target).map(drop).map_err(StagingError::write(target))
+        file_list::remove_listed(target).map(drop).map_err(StagingError::unwritable(target))
     }
 
     /// Returns the working folder.
@@ -84,26 +84,26 @@ impl StagedFolder {
 
     /// Converts a path in [`StagedFolder::folder`] to the path that the user will see.
     #[must_use]
-    pub fn shown(&self, path: &Path) -> PathBuf {
+    pub fn shown_path(&self, path: &Path) -> PathBuf {
         match path.strip_prefix(self.folder()) {
-            Ok(below) if below.as_os_str().is_empty() => self.given.clone(),
-            Ok(below) => self.given.join(below),
+            Ok(below) if below.as_os_str().is_empty() => self.user_path.clone(),
+            Ok(below) => self.user_path.join(below),
             Err(_) => path.to_owned(),
         }
     }
 
     /// Converts the paths in a program's message to those that the user will see.
     #[must_use]
-    pub fn shown_text(&self, text: &str) -> String {
-        text.replace(&*self.folder().to_string_lossy(), &self.given.to_string_lossy())
+    pub fn with_shown_paths(&self, text: &str) -> String {
+        text.replace(&*self.folder().to_string_lossy(), &self.user_path.to_string_lossy())
     }
 
     /// Converts the path in an error to the path that the user will see.
     #[must_use]
-    pub fn named(&self, error: StagingError) -> StagingError {
+    pub fn with_shown_path(&self, error: StagingError) -> StagingError {
         match error {
-            StagingError::Write { path, source } => {
-                StagingError::Write { path: self.shown(&path), source }
+            StagingError::Unwritable { path, source } => {
+                StagingError::Unwritable { path: self.shown_path(&path), source }
             }
             other => other,
         }
@@ -115,8 +115,8 @@ impl StagedFolder {
     /// Fails if the file cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), StagingError> {
         let path = self.folder().join(name);
-        let shown = self.given.join(name);
-        let failed = StagingError::write(&shown);
+        let shown = self.user_path.join(name);
+        let failed = StagingError::unwritable(&shown);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(&failed)?;
         }
@@ -129,27 +129,27 @@ impl StagedFolder {
     /// Fails if another folder has appeared in that place meanwhile, or if the place cannot be
     /// written.
     pub fn commit(self) -> Result<(), StagingError> {
-        let Self { given, target, place, kind, replace } = self;
-        list::write(place.work());
-        let failed = StagingError::write(&given);
+        let Self { user_path: given, target, place, kind, replace } = self;
+        file_list::write_list(place.work());
+        let failed = StagingError::unwritable(&given);
         let Ok(earlier_mode) = fs::metadata(&target).map(|about| about.permissions()) else {
             return fs::rename(place.work(), &target).map_err(failed);
         };
         fs::set_permissions(place.work(), earlier_mode).map_err(&failed)?;
         // The previous folder is checked after it was moved away, where no other program writes,
         // and is removed last, so that one of the two folders always exists.
-        let earlier = place.beside(EARLIER);
+        let earlier = place.sibling(PREVIOUS_FOLDER);
         fs::rename(&target, &earlier).map_err(&failed)?;
-        let put = refuse_occupied(&earlier, &given, kind, replace)
+        let put = check_replaceable(&earlier, &given, kind, replace)
             .and_then(|()| fs::rename(place.work(), &target).map_err(&failed));
         if let Err(error) = put {
-            restore(&place, &target);
+            restore_previous(&place, &target);
             return Err(error);
         }
-        match list::remove(&earlier) {
+        match file_list::remove_listed(&earlier) {
             Ok(true) => Ok(()),
-            Ok(false) => Err(StagingError::Kept { path: given.clone(), kept: earlier }),
-            Err(source) => Err(StagingError::Write { path: earlier, source }),
+            Ok(false) => Err(StagingError::FilesKept { path: given.clone(), kept: earlier }),
+            Err(source) => Err(StagingError::Unwritable { path: earlier, source }),
         }
     }
 }
@@ -157,14 +157,14 @@ impl StagedFolder {
 /// Fails if a folder may not be written. An empty folder may be written. Any other folder may be
 /// written only on request, if it is of the same kind and has no files of the user. `shown` is the
 /// path for messages.
-fn refuse_occupied(
+fn check_replaceable(
     folder: &Path,
     shown: &Path,
     kind: FolderKind,
     replace: bool,
 ) -> Result<(), StagingError> {
     let path = || shown.to_owned();
-    let failed = StagingError::write(shown);
+    let failed = StagingError::unwritable(shown);
     let mut entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -173,20 +173,20 @@ fn refuse_occupied(
     if entries.next().is_none() {
         return Ok(());
     }
-    match (replace, (kind.is)(folder)) {
+    match (replace, (kind.matches)(folder)) {
         (false, _) => return Err(StagingError::NotEmpty { path: path() }),
-        (true, false) => return Err(StagingError::Foreign { path: path(), what: kind.what }),
+        (true, false) => return Err(StagingError::OtherContent { path: path(), what: kind.description }),
         (true, true) => {}
     }
     let list = FileList::read(folder).map_err(&failed)?;
     let Some(list) = list else { return Err(StagingError::NoList { path: path() }) };
-    let found = list::files(folder).map_err(&failed)?;
+    let found = file_list::files_below(folder).map_err(&failed)?;
     let foreign: Vec<String> =
-        found.iter().filter_map(|file| list.objection(&file.name, &file.path)).collect();
+        found.iter().filter_map(|file| list.difference(&file.name, &file.path)).collect();
     if foreign.is_empty() {
         return Ok(());
     }
-    Err(StagingError::Mixed { path: path(), names: some_of(&foreign) })
+    Err(StagingError::UnlistedFiles { path: path(), names: first_names(&foreign) })
 }
 
 #[cfg(test)]
@@ -194,7 +194,7 @@ mod tests {
     use super::*;
 
     const KIND: FolderKind =
-        FolderKind { what: "a test (marker)", is: |folder| folder.join("marker").is_file() };
+        FolderKind { description: "a test (marker)", matches: |folder| folder.join("marker").is_file() };
 
     fn write(target: &Path, name: &str, replace: bool) -> Result<(), StagingError> {
         let staged = StagedFolder::new(target, KIND, replace)?;
@@ -300,7 +300,7 @@ mod tests {
         fs::create_dir(&thesis).unwrap();
         fs::write(thesis.join("text"), "thesis").unwrap();
         let line =
-            |name: &str| format!("{}  {name}\n", String::from_utf8(list::sum(b"thesis")).unwrap());
+            |name: &str| format!("{}  {name}\n", String::from_utf8(file_list::hash(b"thesis")).unwrap());
         let forged = |names: &[&str]| {
             let text: String = names.iter().map(|name| line(name)).collect();
             fs::write(target.join(".foveate"), text).unwrap();
@@ -351,10 +351,10 @@ mod tests {
         let target = dir.path().join("out");
         let staged = StagedFolder::new(&target, KIND, false).unwrap();
         let inside = staged.folder().join("a/b");
-        assert_eq!(staged.shown(&inside), target.join("a/b"));
-        assert_eq!(staged.shown(staged.folder()), target);
-        assert_eq!(staged.shown(Path::new("/else")), Path::new("/else"));
-        let said = staged.shown_text(&format!("no room for {}", inside.display()));
+        assert_eq!(staged.shown_path(&inside), target.join("a/b"));
+        assert_eq!(staged.shown_path(staged.folder()), target);
+        assert_eq!(staged.shown_path(Path::new("/else")), Path::new("/else"));
+        let said = staged.with_shown_paths(&format!("no room for {}", inside.display()));
         assert_eq!(said, format!("no room for {}", target.join("a/b").display()));
     }
 
@@ -376,6 +376,6 @@ mod tests {
             let error = write(&dir.path().join(target), "x", false).unwrap_err().to_string();
             assert!(error.contains(&format!("{target}`")), "{error}");
         }
-        assert!(matches!(write(Path::new("/"), "x", false), Err(StagingError::NoName { .. })));
+        assert!(matches!(write(Path::new("/"), "x", false), Err(StagingError::InvalidPath { .. })));
     }
 }

@@ -7,22 +7,22 @@
 //! delete other files. The leftovers of a killed process next to its output are removed when the
 //! next process writes there.
 
-mod continued;
+mod continued_folder;
 mod error;
 mod file;
 mod folder;
-mod growing;
-mod leftover;
-mod list;
-mod lock;
-mod reserve;
-mod scratch;
+mod growing_file;
+mod leftovers;
+mod file_list;
+mod locked_folder;
+mod space_reserve;
+mod scratch_folder;
 
-pub use continued::ContinuedFolder;
+pub use continued_folder::ContinuedFolder;
 pub use error::{StagingError, is_full};
 pub use file::{check_file, write_file};
 pub use folder::{FolderKind, StagedFolder};
-pub use growing::GrowingFile;
-pub use leftover::TEMPORARY;
-pub use reserve::{Reserve, has_room};
-pub use scratch::ScratchFolder;
+pub use growing_file::GrowingFile;
+pub use leftovers::TEMPORARY_PREFIX;
+pub use space_reserve::{SpaceReserve, has_room};
+pub use scratch_folder::ScratchFolder;

@@ -2,14 +2,14 @@
 //! The designs of the cases.
 
 use foveate_design::{
-    Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
-    Reference, SUMMARY_BLOCKS, SpatialConfig,
+    DesignConfig, Decimal, Design, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Organization, Payload,
+    ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 
 /// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
 /// The thresholds are low enough for any depth.
-pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[FeatureKind]) -> Config {
-    let mut config = Config::default();
+pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[FeatureKind]) -> DesignConfig {
+    let mut config = DesignConfig::default();
     (config.camera.frame.width, config.camera.frame.height) = (Some(size.0), Some(size.1));
     config.camera.frame.pixel_bits = bits;
     config.camera.region.size = side;
@@ -20,7 +20,7 @@ pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[Feature
         match spatial.feature {
             FeatureKind::Edge | FeatureKind::Corner => {
                 spatial.level = Some((1 << bits) / 4);
-                spatial.min_score = Some(Decimal::whole(2));
+                spatial.min_score = Some(Decimal::from_whole(2));
             }
             FeatureKind::Mad | FeatureKind::Variance => {
                 spatial.min_score = Decimal::from_f64(0.2);
@@ -31,12 +31,12 @@ pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[Feature
 }
 
 /// Validates a configuration that is known to be valid.
-pub(crate) fn design(config: &Config) -> Design {
+pub(crate) fn design(config: &DesignConfig) -> Design {
     config.validate().unwrap_or_else(|error| unreachable!("the matrix holds designs: {error}"))
 }
 
 /// Returns a list of features that contains this one, alone or among others.
-fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
+fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
     use FeatureKind::{Corner, Edge, Mad, Variance};
     match kind {
         Edge => &[Edge],
@@ -47,25 +47,25 @@ fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
 }
 
 /// Returns every feature that the organization of the cases supports.
-pub(crate) fn kinds() -> Vec<FeatureKind> {
+pub(crate) fn supported_features() -> Vec<FeatureKind> {
     let organization = Organization::default();
     FeatureKind::ALL.iter().copied().filter(|kind| organization.takes_feature(*kind)).collect()
 }
 
 /// Returns designs with every neighborhood, filter and payload, every reference that the
 /// organization supports, and its features in turn.
-pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
-    let kinds = kinds();
+pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    let kinds = supported_features();
     let organization = Organization::default();
-    let references = Reference::ALL.iter().copied();
+    let references = ReferencePolicy::ALL.iter().copied();
     let references: Vec<_> = references.filter(|own| organization.takes_reference(*own)).collect();
     let mut designs = Vec::new();
     for &neighborhood in Neighborhood::ALL {
-        for &filter in Filter::ALL {
+        for &filter in DenoiseFilter::ALL {
             for &reference in &references {
                 for &payload in Payload::ALL {
                     let turn = kinds[designs.len() % kinds.len()];
-                    let mut config = config(size, side, bits, among_others(turn));
+                    let mut config = config(size, side, bits, features_with(turn));
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
@@ -80,19 +80,19 @@ pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
 
 /// Returns the designs of [`matrix`] with irrelevant regions that show the means of blocks. The
 /// scores of random frames lie on both sides of the thresholds.
-pub(crate) fn with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
     let mut designs = Vec::new();
-    for (turn, one) in matrix(size, side, bits).iter().enumerate() {
+    for (turn, one) in design_matrix(size, side, bits).iter().enumerate() {
         let mut config = one.config();
-        config.camera.render.irrelevant = Irrelevant::Mean;
+        config.camera.render.irrelevant = IrrelevantRendering::Mean;
         config.camera.periphery.blocks = Some(SUMMARY_BLOCKS[turn % SUMMARY_BLOCKS.len()]);
         config.camera.periphery.level = Some((1 << bits) >> (turn % 7 + 1));
         for spatial in &mut config.camera.spatial {
             spatial.min_score = match spatial.feature {
                 FeatureKind::Edge | FeatureKind::Corner => {
-                    Some(Decimal::whole(u64::from(side * side / 2)))
+                    Some(Decimal::from_whole(u64::from(side * side / 2)))
                 }
-                FeatureKind::Mad | FeatureKind::Variance => Some(Decimal::whole(1 << (bits - 2))),
+                FeatureKind::Mad | FeatureKind::Variance => Some(Decimal::from_whole(1 << (bits - 2))),
             };
         }
         designs.push(design(&config));

@@ -12,24 +12,24 @@
 mod case;
 mod depth;
 mod designs;
-mod pixels;
-mod row;
-mod trio;
+mod test_frames;
+mod case_row;
+mod model_comparison;
 
 use rayon::prelude::*;
 
-pub use depth::Depth;
-pub use row::CaseRow;
+pub use depth::RunDepth;
+pub use case_row::CaseRow;
 
 /// Runs every case in parallel. `done` is called with the number of finished cases and the number
 /// of all. The rows are in the order of the documentation. Cases that have not started when
 /// `cancelled` becomes true have no rows.
-pub fn run(
-    depth: Depth,
+pub fn run_cases(
+    depth: RunDepth,
     done: &(dyn Fn(usize, usize) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Vec<CaseRow> {
-    let cases = case::ALL;
+    let cases = case::ALL_CASES;
     let finished = std::sync::atomic::AtomicUsize::new(0);
     let rows: Vec<Vec<CaseRow>> = cases
         .par_iter()

@@ -31,7 +31,7 @@ pub enum StudyError {
     #[error(
         "`{name}` is a set of unrelated images, in which nothing changes; the study {study} needs clips"
     )]
-    Set {
+    DataSet {
         /// The name of the input.
         name: String,
         /// The name of the study.
@@ -44,7 +44,7 @@ pub enum StudyError {
     NoSensorEvents,
     /// The study `sensor` takes a single clip.
     #[error("the study `sensor` takes one clip, but {clips} are given")]
-    OneClip {
+    SeveralClips {
         /// The number of clips that were given.
         clips: usize,
     },

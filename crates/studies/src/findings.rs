@@ -4,24 +4,24 @@
 use foveate_pictures::chart::Chart;
 
 use crate::study::Study;
-use crate::table::Table;
-use crate::watch::Watched;
+use crate::table::StudyTable;
+use crate::runner::ClipResult;
 
 /// The findings of a study.
-pub(crate) struct Findings {
-    pub(crate) table: Table,
+pub(crate) struct StudyFindings {
+    pub(crate) table: StudyTable,
     /// A smaller table, which is printed if the table is too large.
-    pub(crate) shown: Option<Table>,
+    pub(crate) printed: Option<StudyTable>,
     /// Further tables, each with the suffix that follows the study's name in its file name.
-    pub(crate) more: Vec<(&'static str, Table)>,
+    pub(crate) further_tables: Vec<(&'static str, StudyTable)>,
     pub(crate) charts: Vec<Chart>,
     pub(crate) notes: Vec<String>,
     pub(crate) problems: Vec<String>,
 }
 
-impl Findings {
+impl StudyFindings {
     /// Creates findings with notes on the clips.
-    pub(crate) fn new<T, G>(study: Study, watched: &[Watched<T, G>], table: Table) -> Self {
+    pub(crate) fn new<T, G>(study: Study, watched: &[ClipResult<T, G>], table: StudyTable) -> Self {
         let version = env!("CARGO_PKG_VERSION");
         let mut notes = vec![format!("foveate {version} analyze {}", study.name())];
         let mut problems = Vec::new();
@@ -40,11 +40,11 @@ impl Findings {
             problems.extend(clip.problem.as_ref().map(|why| format!("{}: {why}", clip.name)));
         }
         notes.extend(problems.iter().map(|problem| format!("NOT COMPLETE: {problem}")));
-        Self { table, shown: None, more: Vec::new(), charts: Vec::new(), notes, problems }
+        Self { table, printed: None, further_tables: Vec::new(), charts: Vec::new(), notes, problems }
     }
 
     /// Adds a chart, with a caption that names the program, the first designs and the inputs.
-    pub(crate) fn chart<T, G>(&mut self, mut chart: Chart, watched: &[Watched<T, G>]) {
+    pub(crate) fn add_chart<T, G>(&mut self, mut chart: Chart, watched: &[ClipResult<T, G>]) {
         // The first note names the program; every study has it.
         let program = self.notes[0].clone();
         let mut designs: Vec<String> = watched

@@ -15,9 +15,9 @@ mod report;
 mod study;
 mod table;
 mod tally;
-mod watch;
+mod runner;
 
 pub use error::StudyError;
 pub use rank::spearman;
-pub use report::{Request, STUDY, StudyReport, analyze};
+pub use report::{StudyRequest, STUDY_FOLDER, StudyReport, analyze};
 pub use study::Study;

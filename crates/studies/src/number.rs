@@ -10,7 +10,7 @@ fn millionths(part: u64, whole: u64) -> u32 {
 }
 
 /// Formats a share with six digits after the decimal point.
-pub(crate) fn share(part: u64, whole: u64) -> String {
+pub(crate) fn share_text(part: u64, whole: u64) -> String {
     let value = millionths(part, whole);
     format!("{}.{:06}", value / 1_000_000, value % 1_000_000)
 }
@@ -26,7 +26,7 @@ pub(crate) fn coordinate(value: u64) -> f64 {
 }
 
 /// Counts the regions with a vote.
-pub(crate) fn count(votes: &[bool]) -> u64 {
+pub(crate) fn count_votes(votes: &[bool]) -> u64 {
     votes.iter().map(|&vote| u64::from(vote)).sum()
 }
 
@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn shares_are_rounded_to_six_digits() {
-        assert_eq!([share(1, 3), share(2, 3), share(3, 3)], ["0.333333", "0.666667", "1.000000"]);
-        assert_eq!((share(0, 0).as_str(), percent(1, 8)), ("0.000000", 12.5));
+        assert_eq!([share_text(1, 3), share_text(2, 3), share_text(3, 3)], ["0.333333", "0.666667", "1.000000"]);
+        assert_eq!((share_text(0, 0).as_str(), percent(1, 8)), ("0.000000", 12.5));
     }
 }

@@ -3,21 +3,21 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, subjects};
 use foveate_simulator::BatchHooks;
 use foveate_staging::{FolderKind, StagedFolder};
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::findings::Findings;
+use crate::findings::StudyFindings;
 use crate::study::{Study, activity, histogram, recall, redundancy, sensor, sweep, temporal};
-use crate::table::Table;
-use crate::watch::Watcher;
+use crate::table::StudyTable;
+use crate::runner::StudyRunner;
 
 /// The request of a study.
 #[derive(Clone, Debug)]
-pub struct Request<'a> {
+pub struct StudyRequest<'a> {
     /// The study.
     pub study: Study,
     /// The clips and data sets. Image files together are one clip; every other input is its own.
@@ -25,7 +25,7 @@ pub struct Request<'a> {
     /// The options for reading the inputs.
     pub input: &'a InputOptions,
     /// The design, which a study may vary.
-    pub config: &'a Config,
+    pub config: &'a DesignConfig,
     /// The events of a real sensor for [`Study::Sensor`], as CSV (`.gz` or not) with the columns
     /// `t_us,x,y`.
     pub sensor_events: Option<&'a Path>,
@@ -52,15 +52,15 @@ pub struct StudyReport {
     pub problems: Vec<String>,
     /// A smaller table, which is printed if the table is too large.
     #[serde(skip)]
-    shown: Option<Table>,
+    printed: Option<StudyTable>,
 }
 
 impl StudyReport {
     /// Returns the table as Markdown, or the smaller table if the table is too large.
     #[must_use]
     pub fn markdown(&self) -> String {
-        let whole = || Table { columns: self.columns.clone(), rows: self.rows.clone() };
-        self.shown.clone().unwrap_or_else(whole).markdown()
+        let whole = || StudyTable { columns: self.columns.clone(), rows: self.rows.clone() };
+        self.printed.clone().unwrap_or_else(whole).markdown()
     }
 }
 
@@ -70,53 +70,53 @@ impl StudyReport {
 /// Fails if an input cannot be read or does not fit the study, the folder cannot be written, or
 /// `hooks` cancels; nothing is written then.
 pub fn analyze(
-    request: &Request<'_>,
+    request: &StudyRequest<'_>,
     output: &Path,
     overwrite: bool,
     hooks: &dyn BatchHooks,
 ) -> Result<StudyReport, StudyError> {
     let study = request.study;
-    let staging = StagedFolder::new(output, STUDY, overwrite)?;
+    let staging = StagedFolder::new(output, STUDY_FOLDER, overwrite)?;
     let subjects = subjects(request.inputs, request.input)?;
     let input = InputOptions { numbered: study == Study::Recall, ..request.input.clone() };
-    let watcher = Watcher { subjects: &subjects, config: request.config, input: &input, hooks };
-    let findings = run(&watcher, request)?;
+    let watcher = StudyRunner { subjects: &subjects, config: request.config, input: &input, hooks };
+    let findings = run_study(&watcher, request)?;
     let mut files = vec![format!("{}.csv", study.name())];
     staging.write(&files[0], findings.table.csv(&findings.notes).as_bytes())?;
-    for (name, table) in &findings.more {
+    for (name, table) in &findings.further_tables {
         let name = format!("{}-{name}.csv", study.name());
         staging.write(&name, table.csv(&findings.notes).as_bytes())?;
         files.push(name);
     }
     for chart in &findings.charts {
         for (extension, contents) in
-            [("svg", chart.svg(&findings.notes)?.into_bytes()), ("png", chart.png()?)]
+            [("svg", chart.to_svg(&findings.notes)?.into_bytes()), ("png", chart.to_png()?)]
         {
-            let name = format!("{}.{extension}", chart.file);
+            let name = format!("{}.{extension}", chart.file_stem);
             staging.write(&name, &contents)?;
             files.push(name);
         }
     }
     staging.commit()?;
-    let Findings { table: Table { columns, rows }, shown, problems, .. } = findings;
-    Ok(StudyReport { study: study.name(), files, columns, rows, problems, shown })
+    let StudyFindings { table: StudyTable { columns, rows }, printed: shown, problems, .. } = findings;
+    Ok(StudyReport { study: study.name(), files, columns, rows, problems, printed: shown })
 }
 
-fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyError> {
+fn run_study(watcher: &StudyRunner<'_>, request: &StudyRequest<'_>) -> Result<StudyFindings, StudyError> {
     match request.study {
         Study::Activity => activity::run(watcher),
         Study::Temporal => temporal::run(watcher),
         Study::Redundancy => redundancy::run(watcher),
         Study::MadHistogram => histogram::run(watcher),
-        Study::Size => sweep::size(watcher),
-        Study::Threshold => sweep::threshold(watcher),
+        Study::Size => sweep::run_size(watcher),
+        Study::Threshold => sweep::run_threshold(watcher),
         Study::Sensor => sensor::run(watcher, request.sensor_events, request.sensor_start_us),
         Study::Recall => recall::run(watcher, request.boxes),
     }
 }
 
 /// The kind of folder that a study writes, and the only kind that it replaces.
-pub const STUDY: FolderKind = FolderKind { what: "a study (its CSV)", is: is_study };
+pub const STUDY_FOLDER: FolderKind = FolderKind { description: "a study (its CSV)", matches: is_study };
 
 fn is_study(folder: &Path) -> bool {
     Study::ALL.iter().any(|study| {

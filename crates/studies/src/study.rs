@@ -9,10 +9,10 @@ pub(crate) mod sensor;
 pub(crate) mod sweep;
 pub(crate) mod temporal;
 
-use foveate_footage::Kind;
+use foveate_footage::SourceKind;
 
 use crate::StudyError;
-use crate::watch::Watched;
+use crate::runner::ClipResult;
 
 /// A study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,9 +65,9 @@ impl Study {
 }
 
 /// Refuses data sets in studies of change.
-fn clips_only<T>(study: Study, watched: &[Watched<T>]) -> Result<(), StudyError> {
-    match watched.iter().find(|clip| clip.kind == Kind::Set) {
-        Some(set) => Err(StudyError::Set { name: set.name.clone(), study: study.name() }),
+fn refuse_data_sets<T>(study: Study, watched: &[ClipResult<T>]) -> Result<(), StudyError> {
+    match watched.iter().find(|clip| clip.kind == SourceKind::Set) {
+        Some(set) => Err(StudyError::DataSet { name: set.name.clone(), study: study.name() }),
         None => Ok(()),
     }
 }

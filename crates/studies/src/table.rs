@@ -3,16 +3,16 @@
 
 use std::fmt::Write as _;
 
-use foveate_files::tables::plain;
+use foveate_files::tables::escape_name;
 
 /// A table whose cells are rounded text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Table {
+pub(crate) struct StudyTable {
     pub(crate) columns: Vec<&'static str>,
     pub(crate) rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl StudyTable {
     pub(crate) fn new(columns: &[&'static str]) -> Self {
         Self { columns: columns.to_vec(), rows: Vec::new() }
     }
@@ -26,7 +26,7 @@ impl Table {
         }
         let _ = writeln!(text, "{}", self.columns.join(","));
         for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(|cell| plain(cell)).collect();
+            let cells: Vec<String> = row.iter().map(|cell| escape_name(cell)).collect();
             let _ = writeln!(text, "{}", cells.join(","));
         }
         text
@@ -51,7 +51,7 @@ mod tests {
 
     #[test]
     fn cells_are_plain() {
-        let mut table = Table::new(&["a", "b"]);
+        let mut table = StudyTable::new(&["a", "b"]);
         table.rows.push(vec!["x, \"y\"".to_owned(), "1|\n2".to_owned()]);
         assert_eq!(table.csv(&["of\nme".to_owned()]), "# of me\na,b\nx%2C %22y%22,1|%0A2\n");
         assert_eq!(table.markdown(), "| a | b |\n| --- | --- |\n| x, \"y\" | 1\\| 2 |\n");

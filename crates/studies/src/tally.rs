@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sums over the frames of a clip.
 
-use crate::number::count;
-use crate::watch::Seen;
+use crate::number::count_votes;
+use crate::runner::FrameResult;
 
 /// The numbers of regions in one frame, or in many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Regions {
+pub(crate) struct RegionCounts {
     pub(crate) all: u64,
     pub(crate) srs: u64,
     pub(crate) trs: u64,
     pub(crate) active: u64,
 }
 
-impl Regions {
-    pub(crate) fn of(seen: &Seen<'_>) -> Self {
+impl RegionCounts {
+    pub(crate) fn of_frame(seen: &FrameResult<'_>) -> Self {
         let outcome = seen.outcome;
         Self {
             all: outcome.srs.len() as u64,
-            srs: count(&outcome.srs),
-            trs: count(&outcome.trs),
-            active: count(&outcome.active),
+            srs: count_votes(&outcome.srs),
+            trs: count_votes(&outcome.trs),
+            active: count_votes(&outcome.active),
         }
     }
 }
@@ -29,16 +29,16 @@ impl Regions {
 /// count as changed. It counts only in a clip without other frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RegionTally {
-    sum: Regions,
-    without_reference: Regions,
+    sum: RegionCounts,
+    without_reference: RegionCounts,
     /// The smallest and the largest number of active regions of a frame.
     extremes: Option<(u64, u64)>,
 }
 
 impl RegionTally {
-    pub(crate) fn add(&mut self, seen: &Seen<'_>) {
-        let frame = Regions::of(seen);
-        if seen.without_reference {
+    pub(crate) fn add(&mut self, seen: &FrameResult<'_>) {
+        let frame = RegionCounts::of_frame(seen);
+        if seen.is_without_reference {
             self.without_reference = frame;
             return;
         }
@@ -50,7 +50,7 @@ impl RegionTally {
         self.extremes = Some((min.min(frame.active), max.max(frame.active)));
     }
 
-    pub(crate) fn sum(&self) -> Regions {
+    pub(crate) fn sum(&self) -> RegionCounts {
         if self.extremes.is_some() { self.sum } else { self.without_reference }
     }
 

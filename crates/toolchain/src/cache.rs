@@ -9,11 +9,11 @@
 //!   that a process holds is not removed.
 
 mod entry;
-mod evict;
+mod eviction;
 mod limit;
 #[cfg(test)]
 mod tests;
-mod trust;
+mod folder_trust;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -25,35 +25,35 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use foveate_staging::ScratchFolder;
 use tempfile::TempDir;
 
-pub use self::entry::Entry;
-use self::entry::Hold;
-use self::evict::{BUILDING, LOGS};
-use self::limit::Limit;
+pub use self::entry::CacheEntry;
+use self::entry::FolderLock;
+use self::eviction::{BUILDING_PREFIX, LOG_FOLDER};
+use self::limit::CacheLimit;
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
-use crate::key::Key;
+use crate::cache_key::CacheKey;
 
 /// The number of attempts to move a build to its place while other processes add and remove
 /// entries.
-const ATTEMPTS: u32 = 3;
+const PUBLISH_ATTEMPTS: u32 = 3;
 
 /// A build cache. Clones share the folder.
 #[derive(Debug, Clone)]
 pub struct Cache {
     root: PathBuf,
-    limit: Limit,
-    state: Arc<State>,
+    limit: CacheLimit,
+    state: Arc<SharedCacheState>,
     scratch: Option<Arc<ScratchFolder>>,
 }
 
 /// The state that the clones of a cache share.
 #[derive(Debug, Default)]
-struct State {
-    swept: OnceLock<()>,
+struct SharedCacheState {
+    stale_builds_removed: OnceLock<()>,
     /// The number of bytes built since the folder was last checked against its limit; unset before
     /// the first check.
-    built: OnceLock<AtomicU64>,
-    kept: Mutex<HashMap<PathBuf, Entry>>,
+    built_bytes: OnceLock<AtomicU64>,
+    kept_entries: Mutex<HashMap<PathBuf, CacheEntry>>,
 }
 
 impl Cache {
@@ -70,40 +70,40 @@ impl Cache {
 
     fn from_host(host: &dyn Host) -> Result<Self, ToolError> {
         let variable = |name| host.variable(name).filter(|value: &OsString| !value.is_empty());
-        let limit = variable(limit::VARIABLE).map(|value| Limit::parse(&value.to_string_lossy()));
+        let limit = variable(limit::VARIABLE).map(|value| CacheLimit::parse(&value.to_string_lossy()));
         let limit = limit.transpose()?.unwrap_or_default();
         let root = match variable("FOVEATE_CACHE") {
-            Some(value) if value == "off" => return Self::throw_away(),
+            Some(value) if value == "off" => return Self::temporary(),
             Some(value) => PathBuf::from(value),
             None => variable("XDG_CACHE_HOME")
                 .map(PathBuf::from)
                 .or_else(|| variable("HOME").map(|home| Path::new(&home).join(".cache")))
-                .ok_or(ToolError::NoCache)?
+                .ok_or(ToolError::NoCacheFolder)?
                 .join("foveate"),
         };
-        Ok(Self { limit, ..Self::at(&root)? })
+        Ok(Self { limit, ..Self::in_folder(&root)? })
     }
 
     /// Makes a cache of the default size in this folder, which is created when something is built.
     ///
     /// # Errors
     /// Fails if the path cannot be made absolute.
-    pub fn at(root: &Path) -> Result<Self, ToolError> {
+    pub fn in_folder(root: &Path) -> Result<Self, ToolError> {
         let root = std::path::absolute(root).map_err(ToolError::io("use", root))?;
-        Ok(Self { root, limit: Limit::default(), state: Arc::default(), scratch: None })
+        Ok(Self { root, limit: CacheLimit::default(), state: Arc::default(), scratch: None })
     }
 
     /// Makes a cache that is deleted together with its last clone, with all entries.
     ///
     /// # Errors
     /// Fails if the temporary folder cannot be created.
-    pub fn throw_away() -> Result<Self, ToolError> {
+    pub fn temporary() -> Result<Self, ToolError> {
         let parent = std::env::temp_dir();
         let dir =
             ScratchFolder::new().map_err(ToolError::temporary("create a folder in", &parent))?;
         let root = dir.path().to_owned();
         let scratch = Some(Arc::new(dir));
-        Ok(Self { root, limit: Limit::NONE, state: Arc::default(), scratch })
+        Ok(Self { root, limit: CacheLimit::NONE, state: Arc::default(), scratch })
     }
 
     /// Returns the folder of the cache.
@@ -114,7 +114,7 @@ impl Cache {
 
     /// Returns whether `artifact` is in the entry of `key`.
     #[must_use]
-    pub fn holds(&self, key: &Key, artifact: &str) -> bool {
+    pub fn contains(&self, key: &CacheKey, artifact: &str) -> bool {
         self.root.join(key.as_str()).join(artifact).exists()
     }
 
@@ -127,28 +127,28 @@ impl Cache {
     /// Fails if `build` fails, if the folder cannot be written, or if another user can write to it.
     pub fn get_or_build(
         &self,
-        key: &Key,
+        key: &CacheKey,
         artifact: &str,
         build: impl FnOnce(&Path) -> Result<(), ToolError>,
-    ) -> Result<Entry, ToolError> {
-        let root = trust::open(&self.root)?;
+    ) -> Result<CacheEntry, ToolError> {
+        let root = folder_trust::open_root(&self.root)?;
         let place = root.join(key.as_str());
-        if let Some(entry) = Entry::take(&place, artifact) {
+        if let Some(entry) = CacheEntry::open_entry(&place, artifact) {
             return Ok(entry);
         }
-        self.state.swept.get_or_init(|| evict::sweep(&root));
+        self.state.stale_builds_removed.get_or_init(|| eviction::remove_stale_builds(&root));
         let mut builder = tempfile::Builder::new();
-        builder.prefix(BUILDING);
+        builder.prefix(BUILDING_PREFIX);
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let dir =
             builder.tempdir_in(&root).map_err(ToolError::cache("create a folder in", &root))?;
         let gone = || ToolError::cache("use", dir.path())(std::io::ErrorKind::NotFound.into());
-        let hold = Hold::shared(dir.path()).ok_or_else(gone)?;
+        let hold = FolderLock::shared(dir.path()).ok_or_else(gone)?;
         build(dir.path()).map_err(|error| self.keep_log(key, error))?;
-        let bytes = evict::size(dir.path());
+        let bytes = eviction::folder_bytes(dir.path());
         let entry = publish(dir, hold, &place, artifact)?;
-        self.limit.enforce(&root, &self.state.built, bytes);
+        self.limit.enforce(&root, &self.state.built_bytes, bytes);
         Ok(entry)
     }
 
@@ -159,36 +159,36 @@ impl Cache {
     /// Fails like [`Cache::get_or_build`].
     pub fn keep_or_build(
         &self,
-        key: &Key,
+        key: &CacheKey,
         artifact: &str,
         build: impl FnOnce(&Path) -> Result<(), ToolError>,
     ) -> Result<PathBuf, ToolError> {
         let entry = self.get_or_build(key, artifact, build)?;
         let path = entry.path().to_owned();
-        let mut kept = self.state.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.state.kept_entries.lock().unwrap_or_else(PoisonError::into_inner);
         kept.entry(path.clone()).or_insert(entry);
         Ok(path)
     }
 
     /// Writes the log of a failed build next to the entries, and adds its path to the error.
-    fn keep_log(&self, key: &Key, error: ToolError) -> ToolError {
+    fn keep_log(&self, key: &CacheKey, error: ToolError) -> ToolError {
         let ToolError::Failed { command, status, tail, log: None, full } = error else {
             return error;
         };
-        let path = self.root.join(LOGS).join(format!("{key}.log"));
+        let path = self.root.join(LOG_FOLDER).join(format!("{key}.log"));
         let text = format!("$ {command}\n{full}\n{status}\n");
         let written = self.scratch.is_none()
-            && fs::create_dir_all(self.root.join(LOGS)).is_ok()
+            && fs::create_dir_all(self.root.join(LOG_FOLDER)).is_ok()
             && fs::write(&path, text).is_ok();
         ToolError::Failed { command, status, tail, log: written.then_some(path), full }
     }
 }
 
 /// Moves a finished build to its place, unless another process has already built the entry.
-fn publish(dir: TempDir, hold: Hold, place: &Path, artifact: &str) -> Result<Entry, ToolError> {
-    let mut attempts = ATTEMPTS;
+fn publish(dir: TempDir, hold: FolderLock, place: &Path, artifact: &str) -> Result<CacheEntry, ToolError> {
+    let mut attempts = PUBLISH_ATTEMPTS;
     loop {
-        if place.exists() && !(place.join(artifact).exists() && trust::is_entry(place, artifact)) {
+        if place.exists() && !(place.join(artifact).exists() && folder_trust::is_entry(place, artifact)) {
             // The entry is damaged because a part of it was deleted, by hand or by a cleaner of old
             // files, or another user could change it.
             fs::remove_dir_all(place).map_err(ToolError::io("remove the damaged", place))?;
@@ -196,11 +196,11 @@ fn publish(dir: TempDir, hold: Hold, place: &Path, artifact: &str) -> Result<Ent
         let error = match fs::rename(dir.path(), place) {
             Ok(()) => {
                 let _moved = dir.keep();
-                return Ok(Entry::new(place.join(artifact), hold));
+                return Ok(CacheEntry::new(place.join(artifact), hold));
             }
             Err(error) => error,
         };
-        if let Some(entry) = Entry::take(place, artifact) {
+        if let Some(entry) = CacheEntry::open_entry(place, artifact) {
             return Ok(entry);
         }
         attempts -= 1;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use crate::tool::{Tool, Version};
+use crate::tool::{Tool, ToolVersion};
 
 /// An external tool is missing, is too old, or failed.
 #[derive(Debug, Error)]
@@ -15,8 +15,8 @@ pub enum ToolError {
     /// The tool is not in `PATH`.
     #[error(
         "{tool} is not installed; install it with `{} {}`, or set {} to its path",
-        tool.installer(),
-        tool.package(),
+        tool.install_command(),
+        tool.package_name(),
         tool.variable()
     )]
     Missing {
@@ -42,7 +42,7 @@ pub enum ToolError {
         "{tool} {found} at `{}` is too old; {needed} or later is needed. \
          Install a newer {}, or set {} to its path",
         path.display(),
-        tool.package(),
+        tool.package_name(),
         tool.variable()
     )]
     TooOld {
@@ -51,9 +51,9 @@ pub enum ToolError {
         /// The path of the tool.
         path: PathBuf,
         /// The version that the tool reports.
-        found: Version,
+        found: ToolVersion,
         /// The oldest version that works.
-        needed: Version,
+        needed: ToolVersion,
     },
 
     /// The tool ran, but did not report its version.
@@ -68,11 +68,11 @@ pub enum ToolError {
         /// The path of the tool.
         path: PathBuf,
         /// The beginning of its output.
-        said: String,
+        output: String,
     },
 
     /// The command ended with a failure.
-    #[error("`{command}` failed ({status}){}\n{tail}", kept(log.as_deref()))]
+    #[error("`{command}` failed ({status}){}\n{tail}", log_location(log.as_deref()))]
     Failed {
         /// The command line.
         command: String,
@@ -109,7 +109,7 @@ pub enum ToolError {
 
     /// The command succeeded, but a file that it should have written is missing.
     #[error("`{command}` succeeded but did not write `{file}`\n{tail}")]
-    NoOutput {
+    MissingOutput {
         /// The command line.
         command: String,
         /// The name of the missing file.
@@ -136,7 +136,7 @@ pub enum ToolError {
 
     /// The simulated module lacks a port.
     #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
-    NoPort {
+    MissingPort {
         /// The name of the module.
         top: String,
         /// The name of the missing port.
@@ -147,7 +147,7 @@ pub enum ToolError {
     #[error(
         "source name `{name}` is not valid; use letters, digits, `.`, `_`, `+` and `-`, a first letter that is no `-` or `+`, and no `..`"
     )]
-    BadName {
+    InvalidSourceName {
         /// The name of the source.
         name: String,
     },
@@ -175,7 +175,7 @@ pub enum ToolError {
     /// A folder that the user chooses cannot be written: the build cache or the folder of temporary
     /// files.
     #[error("cannot {action} `{}`: {source}; {advice}", path.display())]
-    Place {
+    UnwritablePlace {
         /// The action that failed, such as "create".
         action: &'static str,
         /// The path of the file or folder.
@@ -201,13 +201,13 @@ pub enum ToolError {
     #[error(
         "there is no folder for the build cache, because HOME is not set; set FOVEATE_CACHE to a folder, or to `off`"
     )]
-    NoCache,
+    NoCacheFolder,
 
     /// The size limit of the cache is invalid.
     #[error(
         "FOVEATE_CACHE_SIZE is `{value}`; expected a size of at least 1M, such as 500M or 5G, or `none`"
     )]
-    CacheSize {
+    InvalidCacheSize {
         /// The value of the variable.
         value: String,
     },
@@ -239,10 +239,10 @@ impl ToolError {
     pub fn is_environment(&self) -> bool {
         use std::io::ErrorKind::{PermissionDenied, ReadOnlyFilesystem, StorageFull};
         match self {
-            Self::Place { .. }
+            Self::UnwritablePlace { .. }
             | Self::Untrusted { .. }
-            | Self::NoCache
-            | Self::CacheSize { .. }
+            | Self::NoCacheFolder
+            | Self::InvalidCacheSize { .. }
             | Self::Unusable { .. } => true,
             Self::Io { action, source, .. } => {
                 let kind = source.kind();
@@ -255,12 +255,12 @@ impl ToolError {
 
     /// Returns a function for `map_err` that names the folder of the cache as the fault.
     pub(crate) fn cache(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::Place { action, path: path.to_owned(), source, advice: CACHE_ADVICE }
+        move |source| Self::UnwritablePlace { action, path: path.to_owned(), source, advice: CACHE_ADVICE }
     }
 
     /// Returns a function for `map_err` that names the folder of temporary files as the fault.
     pub fn temporary(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::Place {
+        move |source| Self::UnwritablePlace {
             action,
             path: path.to_owned(),
             source,
@@ -274,7 +274,7 @@ impl ToolError {
     }
 }
 
-fn kept(log: Option<&Path>) -> String {
+fn log_location(log: Option<&Path>) -> String {
     log.map_or_else(|| ":".to_owned(), |path| format!(", complete log in `{}`:", path.display()))
 }
 
@@ -292,8 +292,8 @@ mod tests {
         let old = ToolError::TooOld {
             tool: Tool::Verilator,
             path: "/usr/bin/verilator".into(),
-            found: Version::find("4.038").unwrap(),
-            needed: Tool::Verilator.minimum(),
+            found: ToolVersion::find("4.038").unwrap(),
+            needed: Tool::Verilator.minimum_version(),
         };
         let text = old.to_string();
         assert!(text.contains("4.038") && text.contains("5.006"), "{text}");

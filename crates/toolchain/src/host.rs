@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::ToolError;
-use crate::invocation::{Invocation, Output};
+use crate::invocation::{Invocation, ProgramOutput};
 use crate::process;
 
 /// The environment, the files and the processes of a machine.
@@ -22,14 +22,14 @@ pub trait Host: Send + Sync {
     /// # Errors
     /// Fails if the program cannot be started, its files cannot be used, or the time limit is
     /// reached.
-    fn run(&self, invocation: &Invocation) -> Result<Output, ToolError>;
+    fn run(&self, invocation: &Invocation) -> Result<ProgramOutput, ToolError>;
 
     /// Runs a program like [`Host::run`], but stops it when `cancel` is set. A host that cannot
     /// stop a program checks the flag before the start.
     ///
     /// # Errors
     /// Fails like [`Host::run`], and with [`ToolError::Interrupted`].
-    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
+    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<ProgramOutput, ToolError> {
         if cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted);
         }
@@ -50,11 +50,11 @@ impl Host for SystemHost {
         std::fs::metadata(path).is_ok_and(|meta| meta.is_file() && may_run(&meta))
     }
 
-    fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+    fn run(&self, invocation: &Invocation) -> Result<ProgramOutput, ToolError> {
         process::run(invocation, &AtomicBool::new(false))
     }
 
-    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
+    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<ProgramOutput, ToolError> {
         process::run(invocation, cancel)
     }
 }

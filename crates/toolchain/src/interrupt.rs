@@ -13,7 +13,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 /// The longest time between two checks of the request.
-pub(crate) const STEP: Duration = Duration::from_millis(50);
+pub(crate) const POLL_STEP: Duration = Duration::from_millis(50);
 
 /// A request to stop. Clones share it.
 #[derive(Clone, Default)]
@@ -22,7 +22,7 @@ pub struct Interrupt(Arc<AtomicBool>);
 impl Interrupt {
     /// Makes an interrupt from this flag.
     #[must_use]
-    pub fn of(flag: Arc<AtomicBool>) -> Self {
+    pub fn from_flag(flag: Arc<AtomicBool>) -> Self {
         Self(flag)
     }
 
@@ -40,13 +40,13 @@ impl Interrupt {
 
     /// Returns whether the interrupt is set now or within some milliseconds.
     pub(crate) fn is_set_soon(&self) -> bool {
-        soon(&self.0)
+        flag_is_set_soon(&self.0)
     }
 }
 
 /// Returns whether a flag is set within some milliseconds. A signal that stops a job may go to all
 /// of its processes, so a tool may end before the flag of this process is set.
-pub(crate) fn soon(flag: &AtomicBool) -> bool {
+pub(crate) fn flag_is_set_soon(flag: &AtomicBool) -> bool {
     let start = Instant::now();
     while !flag.load(Ordering::Relaxed) && start.elapsed() < Duration::from_millis(20) {
         std::thread::sleep(Duration::from_millis(1));
@@ -64,7 +64,7 @@ impl fmt::Debug for Interrupt {
 
 /// Returns the error of a read or write that an interrupt has ended. Its kind is not
 /// [`io::ErrorKind::Interrupted`], after which the standard library tries again.
-pub(crate) fn interrupted() -> io::Error {
+pub(crate) fn interrupted_error() -> io::Error {
     io::Error::other("interrupted")
 }
 
@@ -84,10 +84,10 @@ pub fn open_interruptibly(path: &Path, interrupt: &Interrupt) -> io::Result<File
     let opener = std::thread::Builder::new().name("opener".to_owned());
     opener.spawn(move || sender.send(File::open(owned)))?;
     loop {
-        match opened.recv_timeout(STEP) {
+        match opened.recv_timeout(POLL_STEP) {
             Ok(opened) => return opened,
             Err(RecvTimeoutError::Timeout) if !interrupt.is_set() => {}
-            Err(_) => return Err(interrupted()),
+            Err(_) => return Err(interrupted_error()),
         }
     }
 }
@@ -129,7 +129,7 @@ impl<T> InterruptibleReader<T> {
 impl<T: Read + std::os::fd::AsFd> Read for InterruptibleReader<T> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let readable = rustix::event::PollFlags::IN;
-        wait_until(readable, &self.inner, &self.interrupt, Duration::ZERO)?;
+        wait_until_ready(readable, &self.inner, &self.interrupt, Duration::ZERO)?;
         self.inner.read(bytes)
     }
 }
@@ -138,24 +138,24 @@ impl<T: Read + std::os::fd::AsFd> Read for InterruptibleReader<T> {
 #[cfg(not(unix))]
 impl<T: Read> Read for InterruptibleReader<T> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        if self.interrupt.is_set() { Err(interrupted()) } else { self.inner.read(bytes) }
+        if self.interrupt.is_set() { Err(interrupted_error()) } else { self.inner.read(bytes) }
     }
 }
 
 /// Waits until a descriptor is ready. Fails once an interrupt is older than `grace`.
 #[cfg(unix)]
-pub(crate) fn wait_until(
+pub(crate) fn wait_until_ready(
     ready: rustix::event::PollFlags,
     descriptor: &impl std::os::fd::AsFd,
     interrupt: &Interrupt,
     grace: Duration,
 ) -> io::Result<()> {
     use rustix::event::{PollFd, Timespec, poll};
-    let step = Timespec { tv_sec: 0, tv_nsec: i64::from(STEP.subsec_nanos()) };
+    let step = Timespec { tv_sec: 0, tv_nsec: i64::from(POLL_STEP.subsec_nanos()) };
     let mut patience = GracePeriod::new(interrupt, grace);
     loop {
         if patience.is_over() {
-            return Err(interrupted());
+            return Err(interrupted_error());
         }
         match poll(&mut [PollFd::new(descriptor, ready)], Some(&step)) {
             Ok(0) | Err(rustix::io::Errno::INTR) => {}
@@ -169,16 +169,16 @@ pub(crate) fn wait_until(
 pub(crate) struct GracePeriod<'a> {
     interrupt: &'a Interrupt,
     grace: Duration,
-    seen: Option<Instant>,
+    first_noticed: Option<Instant>,
 }
 
 impl<'a> GracePeriod<'a> {
     pub(crate) fn new(interrupt: &'a Interrupt, grace: Duration) -> Self {
-        Self { interrupt, grace, seen: None }
+        Self { interrupt, grace, first_noticed: None }
     }
 
     pub(crate) fn is_over(&mut self) -> bool {
         self.interrupt.is_set()
-            && self.seen.get_or_insert_with(Instant::now).elapsed() >= self.grace
+            && self.first_noticed.get_or_insert_with(Instant::now).elapsed() >= self.grace
     }
 }

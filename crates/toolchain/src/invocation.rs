@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::ToolError;
-use crate::files::log_excerpt;
-use crate::text::shell_word;
+use crate::source_files::log_excerpt;
+use crate::escaping::shell_word;
 
 /// The content of a program's standard input.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub enum Input {
+pub enum StandardInput {
     /// The standard input is empty.
     #[default]
     Empty,
@@ -30,9 +30,9 @@ pub struct Invocation {
     pub(crate) args: Vec<OsString>,
     pub(crate) env: Vec<(OsString, OsString)>,
     pub(crate) dir: Option<PathBuf>,
-    pub(crate) input: Input,
+    pub(crate) input: StandardInput,
     pub(crate) stdout: Option<PathBuf>,
-    pub(crate) merge: bool,
+    pub(crate) merges_stderr: bool,
     pub(crate) timeout: Option<Duration>,
 }
 
@@ -46,9 +46,9 @@ impl Invocation {
             args: Vec::new(),
             env: Vec::new(),
             dir: None,
-            input: Input::Empty,
+            input: StandardInput::Empty,
             stdout: None,
-            merge: false,
+            merges_stderr: false,
             timeout: None,
         }
     }
@@ -88,14 +88,14 @@ impl Invocation {
     /// Feeds bytes to the standard input.
     #[must_use]
     pub fn stdin_bytes(mut self, bytes: impl Into<Vec<u8>>) -> Self {
-        self.input = Input::Bytes(bytes.into());
+        self.input = StandardInput::Bytes(bytes.into());
         self
     }
 
     /// Feeds a file to the standard input.
     #[must_use]
     pub fn stdin_file(mut self, path: impl Into<PathBuf>) -> Self {
-        self.input = Input::File(path.into());
+        self.input = StandardInput::File(path.into());
         self
     }
 
@@ -110,7 +110,7 @@ impl Invocation {
     /// writes.
     #[must_use]
     pub fn merge_stderr(mut self) -> Self {
-        self.merge = true;
+        self.merges_stderr = true;
         self
     }
 
@@ -141,7 +141,7 @@ impl Invocation {
 
     /// Returns the content of the standard input.
     #[must_use]
-    pub fn input(&self) -> &Input {
+    pub fn input(&self) -> &StandardInput {
         &self.input
     }
 
@@ -159,7 +159,7 @@ impl Invocation {
 
 /// The result of a finished program.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Output {
+pub struct ProgramOutput {
     /// The exit code; `None` if a signal ended the program.
     pub code: Option<i32>,
     /// The exit code or signal as words.
@@ -170,7 +170,7 @@ pub struct Output {
     pub stderr: Vec<u8>,
 }
 
-impl Output {
+impl ProgramOutput {
     /// Makes a success with this standard output, for mocks.
     #[must_use]
     pub fn success(stdout: impl Into<Vec<u8>>) -> Self {
@@ -207,7 +207,7 @@ impl Output {
     ///
     /// # Errors
     /// Fails with [`ToolError::Failed`], which names the command of `invocation`.
-    pub fn checked(self, invocation: &Invocation) -> Result<Self, ToolError> {
+    pub fn into_checked(self, invocation: &Invocation) -> Result<Self, ToolError> {
         if self.is_success() {
             return Ok(self);
         }
@@ -216,7 +216,7 @@ impl Output {
         Err(ToolError::Failed {
             command: invocation.command_line(),
             status: self.status,
-            tail: if silent { without_a_word(invocation) } else { log_excerpt(&full) },
+            tail: if silent { silent_failure_advice(invocation) } else { log_excerpt(&full) },
             full,
             log: None,
         })
@@ -225,7 +225,7 @@ impl Output {
 
 /// Returns advice for a program that failed without a message. A full disk is a likely cause,
 /// because messages are written to a disk, too.
-fn without_a_word(invocation: &Invocation) -> String {
+fn silent_failure_advice(invocation: &Invocation) -> String {
     let temporary = std::env::temp_dir();
     let places = invocation.dir.iter().chain([&temporary]);
     let places: Vec<_> = places.map(|place| format!("`{}`", place.display())).collect();
@@ -251,14 +251,14 @@ mod tests {
 
     #[test]
     fn failures_carry_command_code_and_log() {
-        let error = Output::failure(3, "bad\n").checked(&Invocation::new("tool")).unwrap_err();
+        let error = ProgramOutput::failure(3, "bad\n").into_checked(&Invocation::new("tool")).unwrap_err();
         assert_eq!(error.to_string(), "`tool` failed (exit status: 3):\nbad");
     }
 
     #[test]
     fn a_failure_without_a_word_points_to_the_disk() {
         let tool = Invocation::new("tool").dir("/build");
-        let error = Output::failure(1, "\n").checked(&tool).unwrap_err().to_string();
+        let error = ProgramOutput::failure(1, "\n").into_checked(&tool).unwrap_err().to_string();
         assert!(error.contains("printed nothing, as on a full disk"), "{error}");
         for place in [Path::new("/build"), &std::env::temp_dir()] {
             assert!(error.contains(&format!("`{}`", place.display())), "{error}");

@@ -7,15 +7,15 @@ use std::time::Duration;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
-use crate::files::{self, Source, log_excerpt};
-use crate::invocation::{Invocation, Output};
-use crate::key::Key;
-use crate::ports;
+use crate::source_files::{self, Source, log_excerpt};
+use crate::invocation::{Invocation, ProgramOutput};
+use crate::cache_key::CacheKey;
+use crate::port_widths;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
 const PROGRAM: &str = "simulation.vvp";
-const LIMIT: Duration = Duration::from_secs(600);
+const COMPILE_LIMIT: Duration = Duration::from_secs(600);
 
 /// A simulation to compile.
 #[derive(Debug, Clone, Default)]
@@ -55,7 +55,7 @@ pub fn compile(
     cache: &Cache,
     job: &IverilogJob,
 ) -> Result<PathBuf, ToolError> {
-    let key = Key::builder("iverilog")
+    let key = CacheKey::builder("iverilog")
         .field("version", toolchain.find(Tool::Iverilog)?.identity())
         .list("flags", &job.flags())
         .field("strict", job.strict.to_string())
@@ -64,7 +64,7 @@ pub fn compile(
         .finish();
     cache.keep_or_build(&key, PROGRAM, |dir| {
         let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
-        files::write_sources(work.path(), &job.sources)?;
+        source_files::write_sources(work.path(), &job.sources)?;
         let invocation = toolchain
             .invocation(Tool::Iverilog)?
             .args(job.flags())
@@ -73,10 +73,10 @@ pub fn compile(
             .args(job.names())
             .dir(work.path())
             .merge_stderr()
-            .timeout(LIMIT);
+            .timeout(COMPILE_LIMIT);
         let output = toolchain.run_checked(&invocation)?;
         if let Some((module, file)) = &job.exact_ports {
-            ports::check_warnings(module, file, &output.log())?;
+            port_widths::check_warnings(module, file, &output.log())?;
         }
         refuse_warnings(job.strict, &invocation, &output)
     })
@@ -87,7 +87,7 @@ pub fn compile(
 fn refuse_warnings(
     strict: bool,
     invocation: &Invocation,
-    output: &Output,
+    output: &ProgramOutput,
 ) -> Result<(), ToolError> {
     let full = output.log();
     let lacks = |line: &str| {
@@ -135,6 +135,6 @@ pub fn run(
     args: &[String],
     dir: &Path,
     limit: Duration,
-) -> Result<Output, ToolError> {
+) -> Result<ProgramOutput, ToolError> {
     toolchain.run(&invocation(toolchain, program, args, dir)?.timeout(limit))
 }

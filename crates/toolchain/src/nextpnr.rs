@@ -7,14 +7,14 @@ use std::time::Duration;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
-use crate::files::{self, log_excerpt};
-use crate::key::Key;
+use crate::source_files::{self, log_excerpt};
+use crate::cache_key::CacheKey;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
 const NETLIST: &str = "netlist.json";
 const REPORT: &str = "report.json";
-const LIMIT: Duration = Duration::from_secs(3600);
+const RUN_LIMIT: Duration = Duration::from_secs(3600);
 
 /// A netlist to place and route.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub struct NextpnrJob {
     /// The arguments that choose the device, and further arguments.
     pub args: Vec<String>,
     /// A file that the arguments name, with its text.
-    pub beside: Option<(&'static str, String)>,
+    pub extra_file: Option<(&'static str, String)>,
     /// The seed of the placement.
     pub seed: u32,
     /// The netlist in the JSON format of Yosys.
@@ -39,8 +39,8 @@ pub struct NextpnrJob {
 /// lacks.
 pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec<u8>, ToolError> {
     let beside: Vec<_> =
-        job.beside.iter().flat_map(|(name, text)| [(*name).to_owned(), text.clone()]).collect();
-    let key = Key::builder("nextpnr")
+        job.extra_file.iter().flat_map(|(name, text)| [(*name).to_owned(), text.clone()]).collect();
+    let key = CacheKey::builder("nextpnr")
         .field("version", toolchain.find(job.tool)?.identity())
         .list("arguments", &job.args)
         .field("seed", job.seed.to_string())
@@ -55,9 +55,9 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec
 /// see only some of the folders of the machine.
 fn run_in(toolchain: &Toolchain, job: &NextpnrJob, dir: &Path) -> Result<(), ToolError> {
     let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
-    files::write(work.path(), NETLIST, &job.netlist)?;
-    if let Some((name, text)) = &job.beside {
-        files::write(work.path(), name, text.as_bytes())?;
+    source_files::write_file(work.path(), NETLIST, &job.netlist)?;
+    if let Some((name, text)) = &job.extra_file {
+        source_files::write_file(work.path(), name, text.as_bytes())?;
     }
     let seed = job.seed.to_string();
     let invocation = toolchain
@@ -66,11 +66,11 @@ fn run_in(toolchain: &Toolchain, job: &NextpnrJob, dir: &Path) -> Result<(), Too
         .args(["--json", NETLIST, "--report", REPORT, "--seed", &seed])
         .dir(work.path())
         .merge_stderr()
-        .timeout(LIMIT);
+        .timeout(RUN_LIMIT);
     let output = toolchain.run_checked(&invocation)?;
     let written = work.path().join(REPORT);
     if !written.is_file() {
-        return Err(ToolError::NoOutput {
+        return Err(ToolError::MissingOutput {
             command: invocation.command_line(),
             file: REPORT.to_owned(),
             tail: log_excerpt(&output.log()),

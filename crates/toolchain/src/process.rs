@@ -11,41 +11,41 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::error::ToolError;
-use crate::family::Family;
-use crate::interrupt::soon;
-use crate::invocation::{Input, Invocation, Output};
+use crate::process_family::ProcessFamily;
+use crate::interrupt::flag_is_set_soon;
+use crate::invocation::{StandardInput, Invocation, ProgramOutput};
 
 /// Runs a program to its end, to its time limit, or until `cancel` is set.
-pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
+pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<ProgramOutput, ToolError> {
     let program = &invocation.program;
     let mut stdout = match &invocation.stdout {
         Some(path) => File::create(path).map_err(ToolError::io("write", path))?,
-        None => scratch()?,
+        None => temporary_file()?,
     };
-    let mut stderr = if invocation.merge { clone(&stdout)? } else { scratch()? };
+    let mut stderr = if invocation.merges_stderr { duplicate(&stdout)? } else { temporary_file()? };
     let mut command = Command::new(program);
     command
         .args(&invocation.args)
         .env("LC_ALL", "C")
         .envs(invocation.env.iter().map(|(name, value)| (name, value)))
         .stdin(stdin(&invocation.input)?)
-        .stdout(clone(&stdout)?)
-        .stderr(clone(&stderr)?);
+        .stdout(duplicate(&stdout)?)
+        .stderr(duplicate(&stderr)?);
     if let Some(dir) = &invocation.dir {
         command.current_dir(dir);
     }
-    let mut family = Family::start(&mut command).map_err(ToolError::io("run", program))?;
+    let mut family = ProcessFamily::start(&mut command).map_err(ToolError::io("run", program))?;
     let status = wait(&mut family, invocation, cancel)?;
-    Ok(Output {
+    Ok(ProgramOutput {
         code: status.code(),
         status: status.to_string(),
-        stdout: if invocation.stdout.is_some() { Vec::new() } else { contents(&mut stdout)? },
-        stderr: if invocation.merge { Vec::new() } else { contents(&mut stderr)? },
+        stdout: if invocation.stdout.is_some() { Vec::new() } else { read_all(&mut stdout)? },
+        stderr: if invocation.merges_stderr { Vec::new() } else { read_all(&mut stderr)? },
     })
 }
 
 fn wait(
-    family: &mut Family,
+    family: &mut ProcessFamily,
     invocation: &Invocation,
     cancel: &AtomicBool,
 ) -> Result<ExitStatus, ToolError> {
@@ -54,7 +54,7 @@ fn wait(
     let start = Instant::now();
     loop {
         if let Some(status) = family.try_wait().map_err(failed)? {
-            let stopped = !status.success() && (asked_to_stop(status) || soon(cancel));
+            let stopped = !status.success() && (was_signalled_to_stop(status) || flag_is_set_soon(cancel));
             return if stopped { Err(ToolError::Interrupted) } else { Ok(status) };
         }
         if cancel.load(Ordering::Relaxed) {
@@ -71,7 +71,7 @@ fn wait(
 }
 
 #[cfg(unix)]
-fn asked_to_stop(status: ExitStatus) -> bool {
+fn was_signalled_to_stop(status: ExitStatus) -> bool {
     use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt as _;
     let asking = [Signal::INT, Signal::TERM, Signal::HUP].map(Signal::as_raw);
@@ -83,33 +83,33 @@ fn asked_to_stop(_: ExitStatus) -> bool {
     false
 }
 
-fn stdin(input: &Input) -> Result<Stdio, ToolError> {
+fn stdin(input: &StandardInput) -> Result<Stdio, ToolError> {
     match input {
-        Input::Empty => Ok(Stdio::null()),
-        Input::File(path) => File::open(path).map(Into::into).map_err(ToolError::io("read", path)),
-        Input::Bytes(bytes) => {
-            let mut file = scratch()?;
-            file.write_all(bytes).and_then(|()| file.rewind()).map_err(temporary("write"))?;
+        StandardInput::Empty => Ok(Stdio::null()),
+        StandardInput::File(path) => File::open(path).map(Into::into).map_err(ToolError::io("read", path)),
+        StandardInput::Bytes(bytes) => {
+            let mut file = temporary_file()?;
+            file.write_all(bytes).and_then(|()| file.rewind()).map_err(temporary_error("write"))?;
             Ok(file.into())
         }
     }
 }
 
-fn contents(file: &mut File) -> Result<Vec<u8>, ToolError> {
+fn read_all(file: &mut File) -> Result<Vec<u8>, ToolError> {
     let mut bytes = Vec::new();
-    file.rewind().and_then(|()| file.read_to_end(&mut bytes)).map_err(temporary("read"))?;
+    file.rewind().and_then(|()| file.read_to_end(&mut bytes)).map_err(temporary_error("read"))?;
     Ok(bytes)
 }
 
-fn scratch() -> Result<File, ToolError> {
-    tempfile::tempfile().map_err(temporary("create a file in"))
+fn temporary_file() -> Result<File, ToolError> {
+    tempfile::tempfile().map_err(temporary_error("create a file in"))
 }
 
-fn clone(file: &File) -> Result<File, ToolError> {
-    file.try_clone().map_err(temporary("reuse a file in"))
+fn duplicate(file: &File) -> Result<File, ToolError> {
+    file.try_clone().map_err(temporary_error("reuse a file in"))
 }
 
-fn temporary(action: &'static str) -> impl FnOnce(std::io::Error) -> ToolError {
+fn temporary_error(action: &'static str) -> impl FnOnce(std::io::Error) -> ToolError {
     move |source| ToolError::temporary(action, &std::env::temp_dir())(source)
 }
 
@@ -117,7 +117,7 @@ fn temporary(action: &'static str) -> impl FnOnce(std::io::Error) -> ToolError {
 mod tests {
     use super::*;
 
-    fn run(invocation: &Invocation) -> Result<Output, ToolError> {
+    fn run(invocation: &Invocation) -> Result<ProgramOutput, ToolError> {
         super::run(invocation, &AtomicBool::new(false))
     }
 

@@ -8,13 +8,13 @@ use serde_json::Value;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
-use crate::files::Source;
+use crate::source_files::Source;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 use crate::xilinx_cells;
 use crate::yosys::{self, YosysJob};
 
-const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
+const SYNTHESIS_COMMAND: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
 /// The commands that make shift registers after the synthesis; `synth_xilinx` would make them in
 /// the middle. Yosys up to 0.67 loses their enable
 /// (<https://github.com/YosysHQ/yosys/issues/6058>): it records that a shift register has none
@@ -44,7 +44,7 @@ pub struct SynthesisJob {
 
 /// The netlist of an array, as JSON for counts and as Verilog.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Synthesis {
+pub struct SynthesisResult {
     /// The tool that made the netlist.
     pub tool: ToolRecord,
     /// The netlist as JSON.
@@ -64,11 +64,11 @@ pub struct ToolRecord {
     pub flags: String,
 }
 
-impl Synthesis {
+impl SynthesisResult {
     /// Returns the types of all primitive cells, which are those that are no modules of the
     /// netlist. The set is empty if the JSON is not a netlist.
     #[must_use]
-    pub fn cells(&self) -> BTreeSet<String> {
+    pub fn cell_types(&self) -> BTreeSet<String> {
         let netlist: Value = serde_json::from_slice(&self.json).unwrap_or_default();
         let Some(modules) = netlist["modules"].as_object() else { return BTreeSet::new() };
         let cells = modules.values().filter_map(|module| module["cells"].as_object());
@@ -83,14 +83,14 @@ impl SynthesisJob {
     ///
     /// # Errors
     /// Fails if Yosys is missing or rejects the design.
-    pub fn run(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Synthesis, ToolError> {
+    pub fn run(&self, toolchain: &Toolchain, cache: &Cache) -> Result<SynthesisResult, ToolError> {
         let version = toolchain.find(Tool::Yosys)?.banner;
-        let cells = xilinx_cells::made(toolchain, cache)?;
-        let mut run = yosys::run(toolchain, cache, &self.whole(cells))?;
+        let cells = xilinx_cells::reduced_cell_library(toolchain, cache)?;
+        let mut run = yosys::run(toolchain, cache, &self.array_job(cells))?;
         let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
         let flags =
-            format!("{SYNTHESIS} -flatten, then xilinx_srl; {} kept as a module", self.unit);
-        Ok(Synthesis {
+            format!("{SYNTHESIS_COMMAND} -flatten, then xilinx_srl; {} kept as a module", self.unit);
+        Ok(SynthesisResult {
             tool: ToolRecord { name: "Yosys".into(), version, flags },
             json: file(NETLIST),
             verilog: String::from_utf8_lossy(&file(VERILOG)).into_owned(),
@@ -101,19 +101,19 @@ impl SynthesisJob {
     ///
     /// # Errors
     /// Fails like [`SynthesisJob::run`].
-    pub fn run_apart(
+    pub fn run_hierarchical(
         &self,
         top: &str,
         toolchain: &Toolchain,
         cache: &Cache,
     ) -> Result<Vec<u8>, ToolError> {
-        let cells = xilinx_cells::made(toolchain, cache)?;
+        let cells = xilinx_cells::reduced_cell_library(toolchain, cache)?;
         let job = self.script(&format!("hierarchy -check -top {top}\n"), top, "", cells);
         let mut run = yosys::run(toolchain, cache, &job)?;
         Ok(run.files.remove(NETLIST).expect("it is one of the wanted files"))
     }
 
-    fn whole(&self, cells: Option<String>) -> YosysJob {
+    fn array_job(&self, cells: Option<String>) -> YosysJob {
         let Self { unit, array, .. } = self;
         let set = |(name, value): &(&str, u32)| format!(" -set {name} {value}");
         let parameters: String = self.parameters.iter().map(set).collect();
@@ -137,7 +137,7 @@ impl SynthesisJob {
     /// without the library of cells.
     fn script(&self, prepare: &str, top: &str, options: &str, cells: Option<String>) -> YosysJob {
         let mut sources = self.sources.clone();
-        let mut synthesis = format!("{SYNTHESIS}{options} -top {top}");
+        let mut synthesis = format!("{SYNTHESIS_COMMAND}{options} -top {top}");
         if let Some(cells) = cells {
             sources.push((CELLS.to_owned(), cells));
             // These commands replace the first step of `synth_xilinx`, with fewer cells.
@@ -152,12 +152,12 @@ impl SynthesisJob {
             "{}{prepare}{synthesis}\n{SHIFT_REGISTERS}\
              delete =A:blackbox =A:whitebox\n\
              write_json {NETLIST}\n",
-            self.read()
+            self.read_commands()
         );
         YosysJob { sources, script, outputs: vec![NETLIST.to_owned()] }
     }
 
-    fn read(&self) -> String {
+    fn read_commands(&self) -> String {
         let names = self.sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));
         names.map(|name| format!("read_verilog -I. {name}\n")).collect()
     }
@@ -172,7 +172,7 @@ mod tests {
         let tool = ToolRecord { name: String::new(), version: String::new(), flags: String::new() };
         let of = |json: &str| {
             let json = json.as_bytes().to_vec();
-            Synthesis { tool: tool.clone(), json, verilog: String::new() }.cells()
+            SynthesisResult { tool: tool.clone(), json, verilog: String::new() }.cell_types()
         };
         let netlist = r#"{"modules": {"rcm": {"cells": {"a": {"type": "rpu"}, "b": {"type": "LUT4"}}},
             "rpu": {"cells": {"c": {"type": "FDRE"}, "d": {"type": "LUT4"}}}}}"#;

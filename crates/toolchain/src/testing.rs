@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::ToolError;
 use crate::host::Host;
-use crate::invocation::{Invocation, Output};
+use crate::invocation::{Invocation, ProgramOutput};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
@@ -27,7 +27,7 @@ pub fn require_tools(tools: &[Tool]) -> bool {
         return true;
     };
     assert!(!is_strict(), "FOVEATE_REQUIRE_TOOLS is 1, but {error}");
-    skip(&error.to_string());
+    report_skip(&error.to_string());
     false
 }
 
@@ -40,7 +40,7 @@ pub fn takes_whole_lists() -> bool {
 
 /// Returns the step through a list for tests that need only every `n`-th item in most runs.
 #[must_use]
-pub fn every(n: usize) -> usize {
+pub fn sampling_step(n: usize) -> usize {
     if takes_whole_lists() { 1 } else { n }
 }
 
@@ -57,7 +57,7 @@ pub fn data_folder() -> Option<PathBuf> {
 
 fn named_folder(named: Option<OsString>, strict: bool) -> Option<PathBuf> {
     let Some(path) = named.filter(|name| !name.is_empty()).map(PathBuf::from) else {
-        skip("FOVEATE_DATA is not set");
+        report_skip("FOVEATE_DATA is not set");
         return None;
     };
     if path.is_dir() {
@@ -65,7 +65,7 @@ fn named_folder(named: Option<OsString>, strict: bool) -> Option<PathBuf> {
     }
     let problem = format!("FOVEATE_DATA is `{}`, which is no folder", path.display());
     assert!(!strict, "FOVEATE_REQUIRE_TOOLS is 1, but {problem}");
-    skip(&problem);
+    report_skip(&problem);
     None
 }
 
@@ -75,7 +75,7 @@ fn is_strict() -> bool {
 }
 
 /// Prints that a test is skipped, and why, so that the test harness does not capture it.
-pub fn skip(reason: &str) {
+pub fn report_skip(reason: &str) {
     let name = std::thread::current().name().unwrap_or("test").to_owned();
     // A single write keeps the lines of concurrent tests apart. A failed write to the terminal is
     // ignored.
@@ -83,14 +83,14 @@ pub fn skip(reason: &str) {
     let _ = std::io::stderr().write_all(line.as_bytes());
 }
 
-type Handler = Box<dyn Fn(&Invocation) -> Result<Output, ToolError> + Send + Sync>;
+type RunHandler = Box<dyn Fn(&Invocation) -> Result<ProgramOutput, ToolError> + Send + Sync>;
 
 /// A machine with scripted tools, whose `PATH` is `/opt/bin`.
 #[derive(Default)]
 pub struct MockHost {
     variables: HashMap<String, OsString>,
     tools: HashMap<PathBuf, String>,
-    handler: Option<Handler>,
+    run_handler: Option<RunHandler>,
     log: MockLog,
 }
 
@@ -131,9 +131,9 @@ impl MockHost {
     #[must_use]
     pub fn on_run<F>(mut self, handler: F) -> Self
     where
-        F: Fn(&Invocation) -> Result<Output, ToolError> + Send + Sync + 'static,
+        F: Fn(&Invocation) -> Result<ProgramOutput, ToolError> + Send + Sync + 'static,
     {
-        self.handler = Some(Box::new(handler));
+        self.run_handler = Some(Box::new(handler));
         self
     }
 
@@ -153,16 +153,16 @@ impl Host for MockHost {
         self.tools.contains_key(path)
     }
 
-    fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+    fn run(&self, invocation: &Invocation) -> Result<ProgramOutput, ToolError> {
         let mut log = self.log.0.lock().unwrap_or_else(PoisonError::into_inner);
         log.push(invocation.command_line());
         drop(log);
         let asks_version =
             matches!(invocation.arguments().as_slice(), [flag] if is_version_flag(flag));
-        match (self.tools.get(invocation.program()), &self.handler) {
-            (Some(banner), _) if asks_version => Ok(Output::success(banner.as_bytes())),
+        match (self.tools.get(invocation.program()), &self.run_handler) {
+            (Some(banner), _) if asks_version => Ok(ProgramOutput::success(banner.as_bytes())),
             (_, Some(handler)) => handler(invocation),
-            _ => Ok(Output::failure(127, "not scripted")),
+            _ => Ok(ProgramOutput::failure(127, "not scripted")),
         }
     }
 }

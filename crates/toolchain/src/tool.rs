@@ -73,15 +73,15 @@ impl Tool {
 
     /// Returns the oldest version that is known to work.
     #[must_use]
-    pub const fn minimum(self) -> Version {
+    pub const fn minimum_version(self) -> ToolVersion {
         match self {
-            Self::Verilator => Version::new("5.006", 5, 6),
-            Self::Iverilog | Self::Vvp => Version::new("11.0", 11, 0),
-            Self::Yosys => Version::new("0.23", 0, 23),
-            Self::Cxx => Version::new("9.0", 9, 0),
-            Self::Ffmpeg | Self::Ffprobe => Version::new("4.4", 4, 4),
-            Self::NextpnrEcp5 | Self::NextpnrIce40 => Version::new("0.4", 0, 4),
-            Self::NextpnrGowin => Version::new("0.8", 0, 8),
+            Self::Verilator => ToolVersion::new("5.006", 5, 6),
+            Self::Iverilog | Self::Vvp => ToolVersion::new("11.0", 11, 0),
+            Self::Yosys => ToolVersion::new("0.23", 0, 23),
+            Self::Cxx => ToolVersion::new("9.0", 9, 0),
+            Self::Ffmpeg | Self::Ffprobe => ToolVersion::new("4.4", 4, 4),
+            Self::NextpnrEcp5 | Self::NextpnrIce40 => ToolVersion::new("0.4", 0, 4),
+            Self::NextpnrGowin => ToolVersion::new("0.8", 0, 8),
         }
     }
 
@@ -105,7 +105,7 @@ impl Tool {
     /// Returns the package that contains the tool: that of Debian, or of PyPI where Debian has
     /// none.
     #[must_use]
-    pub const fn package(self) -> &'static str {
+    pub const fn package_name(self) -> &'static str {
         match self {
             Self::Verilator => "verilator",
             Self::Iverilog | Self::Vvp => "iverilog",
@@ -120,7 +120,7 @@ impl Tool {
 
     /// Returns the program that installs [`Tool::package`], with its sub-command.
     #[must_use]
-    pub const fn installer(self) -> &'static str {
+    pub const fn install_command(self) -> &'static str {
         match self {
             Self::NextpnrEcp5 | Self::NextpnrGowin => "pip install",
             _ => "apt-get install",
@@ -146,12 +146,12 @@ impl fmt::Display for Tool {
 
 /// A version as `major.minor`, with the tool's own spelling for messages (`5.006`).
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Version {
+pub struct ToolVersion {
     text: std::borrow::Cow<'static, str>,
     numbers: (u32, u32),
 }
 
-impl Version {
+impl ToolVersion {
     const fn new(text: &'static str, major: u32, minor: u32) -> Self {
         Self { text: std::borrow::Cow::Borrowed(text), numbers: (major, minor) }
     }
@@ -171,18 +171,18 @@ impl Version {
 
     /// Returns whether this version is `major.minor` or newer.
     #[must_use]
-    pub fn reaches(&self, major: u32, minor: u32) -> bool {
+    pub fn is_at_least(&self, major: u32, minor: u32) -> bool {
         self.numbers >= (major, minor)
     }
 
     /// Returns whether this version is not older than `other`.
     #[must_use]
-    pub fn at_least(&self, other: &Self) -> bool {
+    pub fn is_not_older_than(&self, other: &Self) -> bool {
         self.numbers >= other.numbers
     }
 }
 
-impl fmt::Display for Version {
+impl fmt::Display for ToolVersion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
@@ -207,16 +207,16 @@ mod tests {
             ),
             ("nextpnr-ice40 -- Next Generation Place and Route (Version 0.4-1+b1)", "0.4"),
         ] {
-            assert_eq!(Version::find(banner).map(|v| v.to_string()).as_deref(), Some(text));
+            assert_eq!(ToolVersion::find(banner).map(|v| v.to_string()).as_deref(), Some(text));
         }
-        assert_eq!(Version::find("no number 64 here"), None);
+        assert_eq!(ToolVersion::find("no number 64 here"), None);
     }
 
     #[test]
     fn versions_are_compared_as_numbers() {
-        let version = |text| Version::find(text).unwrap();
-        assert!(version("0.23").at_least(&version("0.9")));
-        assert!(version("5.048").at_least(&Tool::Verilator.minimum()));
-        assert!(!version("4.228").at_least(&Tool::Verilator.minimum()));
+        let version = |text| ToolVersion::find(text).unwrap();
+        assert!(version("0.23").is_not_older_than(&version("0.9")));
+        assert!(version("5.048").is_not_older_than(&Tool::Verilator.minimum_version()));
+        assert!(!version("4.228").is_not_older_than(&Tool::Verilator.minimum_version()));
     }
 }

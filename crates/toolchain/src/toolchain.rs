@@ -11,15 +11,15 @@ use std::time::Duration;
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
 use crate::interrupt::Interrupt;
-use crate::invocation::{Invocation, Output};
-use crate::located::Located;
-use crate::tool::{Tool, Version};
+use crate::invocation::{Invocation, ProgramOutput};
+use crate::located_tool::LocatedTool;
+use crate::tool::{Tool, ToolVersion};
 
-type Found<K> = Mutex<HashMap<K, Located>>;
+type FoundTools<K> = Mutex<HashMap<K, LocatedTool>>;
 
 /// The tools that this process has found on its machine, for all of its toolchains, because asking
 /// a tool for its version takes longer than a small job.
-static REMEMBERED: LazyLock<Found<(Tool, PathBuf)>> = LazyLock::new(Mutex::default);
+static KNOWN_TOOLS: LazyLock<FoundTools<(Tool, PathBuf)>> = LazyLock::new(Mutex::default);
 
 const VERSION_LIMIT: Duration = Duration::from_secs(600);
 
@@ -27,9 +27,9 @@ const VERSION_LIMIT: Duration = Duration::from_secs(600);
 #[derive(Clone)]
 pub struct Toolchain {
     host: Arc<dyn Host>,
-    found: Arc<Found<Tool>>,
+    found: Arc<FoundTools<Tool>>,
     /// The tools found by other toolchains of the same machine; `None` for a mock.
-    remembered: Option<&'static Found<(Tool, PathBuf)>>,
+    known_tools: Option<&'static FoundTools<(Tool, PathBuf)>>,
     cancel: Arc<AtomicBool>,
 }
 
@@ -49,7 +49,7 @@ impl Toolchain {
     /// Returns the tools of this machine.
     #[must_use]
     pub fn system() -> Self {
-        Self { remembered: Some(&REMEMBERED), ..Self::with_host(SystemHost) }
+        Self { known_tools: Some(&KNOWN_TOOLS), ..Self::with_host(SystemHost) }
     }
 
     /// Returns the tools of another machine, such as a mock.
@@ -58,14 +58,14 @@ impl Toolchain {
         Self {
             host: Arc::new(host),
             found: Arc::default(),
-            remembered: None,
+            known_tools: None,
             cancel: Arc::default(),
         }
     }
 
     /// Stops the running program, and runs nothing more, as soon as the flag is set.
     #[must_use]
-    pub fn cancelled_by(self, flag: Arc<AtomicBool>) -> Self {
+    pub fn with_cancel_flag(self, flag: Arc<AtomicBool>) -> Self {
         Self { cancel: flag, ..self }
     }
 
@@ -78,27 +78,27 @@ impl Toolchain {
     /// Returns an interrupt with the same flag, for waits.
     #[must_use]
     pub fn interrupt(&self) -> Interrupt {
-        Interrupt::of(Arc::clone(&self.cancel))
+        Interrupt::from_flag(Arc::clone(&self.cancel))
     }
 
     /// Finds a tool by its environment variable or in `PATH`, and checks its version.
     ///
     /// # Errors
     /// Fails if the tool is missing, cannot be run, or is too old.
-    pub fn find(&self, tool: Tool) -> Result<Located, ToolError> {
-        if let Some(located) = locked(&self.found).get(&tool) {
+    pub fn find(&self, tool: Tool) -> Result<LocatedTool, ToolError> {
+        if let Some(located) = locked_tools(&self.found).get(&tool) {
             return Ok(located.clone());
         }
         let path = self.locate(tool)?;
         let key = (tool, path.clone());
-        let known = self.remembered.and_then(|all| locked(all).get(&key).cloned());
-        let located = match known.filter(Located::is_unchanged) {
+        let known = self.known_tools.and_then(|all| locked_tools(all).get(&key).cloned());
+        let located = match known.filter(LocatedTool::is_unchanged) {
             Some(located) => located,
             None => self.identify(tool, path)?,
         };
-        locked(&self.found).insert(tool, located.clone());
-        if let Some(all) = self.remembered {
-            locked(all).insert(key, located.clone());
+        locked_tools(&self.found).insert(tool, located.clone());
+        if let Some(all) = self.known_tools {
+            locked_tools(all).insert(key, located.clone());
         }
         Ok(located)
     }
@@ -116,7 +116,7 @@ impl Toolchain {
     /// # Errors
     /// Fails if the program cannot be started, the time limit is reached, or the flag of
     /// [`Toolchain::cancelled_by`] is set.
-    pub fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
+    pub fn run(&self, invocation: &Invocation) -> Result<ProgramOutput, ToolError> {
         self.host.run_until(invocation, &self.cancel)
     }
 
@@ -124,14 +124,14 @@ impl Toolchain {
     ///
     /// # Errors
     /// Fails like [`Toolchain::run`], and with [`ToolError::Failed`], which has the end of the log.
-    pub fn run_checked(&self, invocation: &Invocation) -> Result<Output, ToolError> {
-        self.run(invocation)?.checked(invocation)
+    pub fn run_checked(&self, invocation: &Invocation) -> Result<ProgramOutput, ToolError> {
+        self.run(invocation)?.into_checked(invocation)
     }
 
     fn locate(&self, tool: Tool) -> Result<PathBuf, ToolError> {
         if let Some(value) = self.host.variable(tool.variable()).filter(|v| !v.is_empty()) {
             let path = PathBuf::from(value);
-            let named = if path.components().count() == 1 { self.in_path(&path) } else { None };
+            let named = if path.components().count() == 1 { self.find_in_path(&path) } else { None };
             let path = named.unwrap_or(path);
             return if self.host.is_executable(&path) {
                 Ok(absolute(path))
@@ -140,16 +140,16 @@ impl Toolchain {
             };
         }
         let mut names = std::iter::once(tool.executable()).chain(tool.other_executable());
-        names.find_map(|name| self.in_path(name.as_ref())).ok_or(ToolError::Missing { tool })
+        names.find_map(|name| self.find_in_path(name.as_ref())).ok_or(ToolError::Missing { tool })
     }
 
-    fn in_path(&self, name: &Path) -> Option<PathBuf> {
+    fn find_in_path(&self, name: &Path) -> Option<PathBuf> {
         let path = self.host.variable("PATH")?;
         let mut candidates = std::env::split_paths(&path).map(|dir| dir.join(name));
         candidates.find(|candidate| self.host.is_executable(candidate)).map(absolute)
     }
 
-    fn identify(&self, tool: Tool, path: PathBuf) -> Result<Located, ToolError> {
+    fn identify(&self, tool: Tool, path: PathBuf) -> Result<LocatedTool, ToolError> {
         let ask = Invocation::new(&path).arg(tool.version_flag()).timeout(VERSION_LIMIT);
         let output = self.run(&ask)?;
         // vvp prints its version to the standard error; iverilog prints errors in addition to its
@@ -158,25 +158,25 @@ impl Toolchain {
         let text = String::from_utf8_lossy(text);
         // A YoWASP program prints a message about its compilation before its version when it runs
         // for the first time.
-        let versioned = text.lines().find(|line| Version::find(line).is_some());
+        let versioned = text.lines().find(|line| ToolVersion::find(line).is_some());
         let banner = versioned.or(text.lines().next()).unwrap_or_default().trim().to_owned();
-        let version = Version::find(&banner);
-        let needed = tool.minimum();
+        let version = ToolVersion::find(&banner);
+        let needed = tool.minimum_version();
         match &version {
-            Some(found) if !found.at_least(&needed) => {
+            Some(found) if !found.is_not_older_than(&needed) => {
                 return Err(ToolError::TooOld { tool, path, found: found.clone(), needed });
             }
             None if !is_development_build(tool, &banner) => {
                 let said = output.log().lines().next().unwrap_or("nothing").to_owned();
-                return Err(ToolError::UnknownVersion { tool, path, said });
+                return Err(ToolError::UnknownVersion { tool, path, output: said });
             }
             _ => {}
         }
-        Ok(Located::new(path, version, banner))
+        Ok(LocatedTool::new(path, version, banner))
     }
 }
 
-fn locked<K>(found: &Found<K>) -> MutexGuard<'_, HashMap<K, Located>> {
+fn locked_tools<K>(found: &FoundTools<K>) -> MutexGuard<'_, HashMap<K, LocatedTool>> {
     found.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -222,8 +222,8 @@ mod tests {
         let named = path.to_str().unwrap();
         let host = MockHost::new().tool(named, "Yosys 0.23\n").variable("FOVEATE_YOSYS", named);
         let log = host.log();
-        let remembered: &'static Found<_> = Box::leak(Box::default());
-        let first = Toolchain { remembered: Some(remembered), ..Toolchain::with_host(host) };
+        let remembered: &'static FoundTools<_> = Box::leak(Box::default());
+        let first = Toolchain { known_tools: Some(remembered), ..Toolchain::with_host(host) };
         let next = || Toolchain { found: Arc::default(), ..first.clone() };
         assert_eq!(first.find(Tool::Yosys).unwrap(), next().find(Tool::Yosys).unwrap());
         assert_eq!(log.commands().len(), 1);
@@ -238,7 +238,7 @@ mod tests {
         let host = MockHost::new().tool("/opt/bin/yosys", "Yosys 0.23\n");
         let log = host.log();
         let flag = Arc::new(AtomicBool::new(true));
-        let toolchain = Toolchain::with_host(host).cancelled_by(flag);
+        let toolchain = Toolchain::with_host(host).with_cancel_flag(flag);
         assert!(toolchain.find(Tool::Yosys).unwrap_err().is_interrupted());
         assert!(log.commands().is_empty());
     }
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn builds_between_releases_are_taken() {
+    fn builds_between_releases_are_accepted() {
         let host = MockHost::new()
             .tool("/opt/bin/ffmpeg", "ffmpeg version N-1234-gabcdef\n")
             .tool("/opt/bin/verilator", " rev vUNKNOWN-built20260516-4e853d8\n");

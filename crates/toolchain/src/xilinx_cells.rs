@@ -14,8 +14,8 @@ use std::fs;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
-use crate::files;
-use crate::key::Key;
+use crate::source_files;
+use crate::cache_key::CacheKey;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 use crate::yosys;
@@ -23,29 +23,29 @@ use crate::yosys;
 /// The file of the cells in the library of Yosys.
 const LIBRARY: &str = "xilinx/cells_xtra.v";
 /// The cells that the rules use: block RAM, `UltraRAM` and DSP blocks.
-const MADE: [&str; 4] = ["RAMB18E2", "RAMB36E2", "URAM288", "DSP48E2"];
+const USED_CELLS: [&str; 4] = ["RAMB18E2", "RAMB36E2", "URAM288", "DSP48E2"];
 /// The keywords of Verilog in the file, which are not names.
 const KEYWORDS: [&str; 8] =
     ["module", "endmodule", "parameter", "input", "output", "inout", "integer", "real"];
-const KEPT: &str = "cells.v";
+const REDUCED_FILE: &str = "cells.v";
 
 /// Returns the Verilog of the cells, to be read in place of the file. Returns `None` if the library
 /// of this Yosys cannot be read or has another form.
 ///
 /// # Errors
 /// Fails if Yosys is missing or the cache cannot be used.
-pub(crate) fn made(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String>, ToolError> {
-    let key = Key::builder("cells")
+pub(crate) fn reduced_cell_library(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String>, ToolError> {
+    let key = CacheKey::builder("cells")
         .field("version", toolchain.find(Tool::Yosys)?.identity())
         .field("file", LIBRARY)
-        .list("cells", &MADE)
+        .list("cells", &USED_CELLS)
         .finish();
-    let kept = cache.get_or_build(&key, KEPT, |dir| {
+    let kept = cache.get_or_build(&key, REDUCED_FILE, |dir| {
         let library = match yosys::cell_models(toolchain, cache, LIBRARY) {
             Err(ToolError::Io { .. }) => String::new(),
             found => found?,
         };
-        files::write(dir, KEPT, part(&library).unwrap_or_default().as_bytes())
+        source_files::write_file(dir, REDUCED_FILE, used_part(&library).unwrap_or_default().as_bytes())
     })?;
     let text = fs::read_to_string(kept.path()).map_err(ToolError::io("read", kept.path()))?;
     Ok((!text.is_empty()).then_some(text))
@@ -53,8 +53,8 @@ pub(crate) fn made(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String
 
 /// Returns the names of the whole file, as attributes of a module without content, and the cells
 /// that the rules use.
-fn part(library: &str) -> Option<String> {
-    let made = MADE.iter().map(|name| yosys::module(library, name)).collect::<Option<String>>()?;
+fn used_part(library: &str) -> Option<String> {
+    let made = USED_CELLS.iter().map(|name| yosys::module_text(library, name)).collect::<Option<String>>()?;
     Some(format!("(* {} *)\nmodule names;\nendmodule\n{made}", names(library).join(", ")))
 }
 
@@ -89,11 +89,11 @@ mod tests {
 
     #[test]
     fn a_library_without_one_of_the_cells_is_not_taken() {
-        assert_eq!(part(TEXT), None);
-        let all = MADE.map(|name| format!("module {name} (...);\nendmodule\n")).concat();
+        assert_eq!(used_part(TEXT), None);
+        let all = USED_CELLS.map(|name| format!("module {name} (...);\nendmodule\n")).concat();
         assert_eq!(
-            part(&all).unwrap(),
-            format!("(* {} *)\nmodule names;\nendmodule\n{all}", MADE.join(", "))
+            used_part(&all).unwrap(),
+            format!("(* {} *)\nmodule names;\nendmodule\n{all}", USED_CELLS.join(", "))
         );
     }
 }

@@ -11,8 +11,8 @@ use serde_json::Value;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
-use crate::files::{self, Source, log_excerpt};
-use crate::key::Key;
+use crate::source_files::{self, Source, log_excerpt};
+use crate::cache_key::CacheKey;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
@@ -33,7 +33,7 @@ pub struct YosysJob {
 
 /// The results of a script.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct YosysRun {
+pub struct YosysResult {
     /// Everything that Yosys printed.
     pub log: String,
     /// The requested files by name.
@@ -44,8 +44,8 @@ pub struct YosysRun {
 ///
 /// # Errors
 /// Fails if Yosys is missing, if the script fails, or if a requested file was not written.
-pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<YosysRun, ToolError> {
-    let key = Key::builder("yosys")
+pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<YosysResult, ToolError> {
+    let key = CacheKey::builder("yosys")
         .field("version", toolchain.find(Tool::Yosys)?.identity())
         .field("script", &job.script)
         .list("outputs", &job.outputs)
@@ -60,10 +60,10 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
     let mut files = BTreeMap::new();
     for name in &job.outputs {
         let contents = read(name)?;
-        check(name, &contents, dir)?;
+        check_json(name, &contents, dir)?;
         files.insert(name.clone(), contents);
     }
-    Ok(YosysRun { log: String::from_utf8_lossy(&read(LOG)?).into_owned(), files })
+    Ok(YosysResult { log: String::from_utf8_lossy(&read(LOG)?).into_owned(), files })
 }
 
 /// Returns a file of cell models from the library of Yosys, such as `xilinx/cells_sim.v`. The log
@@ -84,7 +84,7 @@ pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<S
 
 /// Returns the text of the module of that name in a file of models, if the file has one.
 #[must_use]
-pub fn module(library: &str, name: &str) -> Option<String> {
+pub fn module_text(library: &str, name: &str) -> Option<String> {
     let begins = |line: &str| {
         let rest = line.strip_prefix("module ").and_then(|rest| rest.strip_prefix(name));
         rest.is_some_and(|rest| rest.trim_start().starts_with(['(', '#', ';']) || rest.is_empty())
@@ -104,7 +104,7 @@ pub fn module(library: &str, name: &str) -> Option<String> {
 
 /// Fails on JSON that is invalid or empty, as a Yosys that was killed, or another program in its
 /// place, may write it.
-fn check(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
+fn check_json(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
     if !name.ends_with(".json") {
         return Ok(());
     }
@@ -118,8 +118,8 @@ fn check(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
 
 fn run_in(toolchain: &Toolchain, job: &YosysJob, dir: &Path) -> Result<(), ToolError> {
     let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
-    files::write_sources(work.path(), &job.sources)?;
-    files::write(work.path(), SCRIPT, job.script.as_bytes())?;
+    source_files::write_sources(work.path(), &job.sources)?;
+    source_files::write_file(work.path(), SCRIPT, job.script.as_bytes())?;
     let invocation = toolchain
         .invocation(Tool::Yosys)?
         .args(["-Q", "-T", "-s", SCRIPT])
@@ -127,17 +127,17 @@ fn run_in(toolchain: &Toolchain, job: &YosysJob, dir: &Path) -> Result<(), ToolE
         .merge_stderr()
         .timeout(LIMIT);
     let output = toolchain.run_checked(&invocation)?;
-    files::write(dir, LOG, &output.stdout)?;
+    source_files::write_file(dir, LOG, &output.stdout)?;
     for name in &job.outputs {
         let written = work.path().join(name);
         if !written.is_file() {
-            return Err(ToolError::NoOutput {
+            return Err(ToolError::MissingOutput {
                 command: invocation.command_line(),
                 file: name.clone(),
                 tail: log_excerpt(&output.log()),
             });
         }
-        check(name, &fs::read(&written).map_err(ToolError::io("read", &written))?, dir)?;
+        check_json(name, &fs::read(&written).map_err(ToolError::io("read", &written))?, dir)?;
         let kept = dir.join(name);
         fs::rename(&written, &kept).map_err(ToolError::io("write", &kept))?;
     }

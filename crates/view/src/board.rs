@@ -8,83 +8,83 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, s
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use foveate_design::{Config, Design};
-use foveate_emit::{Field, Kind, Register, register_table};
-use foveate_simulator::{Command, Register as Answer};
+use foveate_design::{DesignConfig, Design};
+use foveate_emit::{RegisterField, FieldKind, Register, register_table};
+use foveate_simulator::{RegisterCommand, RegisterPacket as Answer};
 use serde_json::{Value, json};
 
 use crate::ViewError;
-use crate::live::{Live, Reading};
+use crate::shared_stream::{SharedStream, RegisterReading};
 
 /// The time to wait for an answer. It is longer than the pause after which a board takes the next
 /// byte for the first byte of a command.
-const ANSWER: Duration = Duration::from_millis(300);
+const ANSWER_LIMIT: Duration = Duration::from_millis(300);
 /// The number of times that a command is sent.
 const ATTEMPTS: u32 = 3;
 /// The time between two rounds through all registers.
-const ROUND: Duration = Duration::from_secs(1);
+const ROUND_PAUSE: Duration = Duration::from_secs(1);
 /// The time that a browser waits for its write.
-const WRITE: Duration = Duration::from_secs(10);
+const WRITE_LIMIT: Duration = Duration::from_secs(10);
 /// The number of answers that are kept until they are read. A board that sends more answers was not
 /// asked for them.
-const ANSWERS: usize = 256;
+const ANSWER_QUEUE: usize = 256;
 /// The address of the board's own register.
-const BOARD: u32 = 0x1000;
+const BOARD_ADDRESS: u32 = 0x1000;
 
 /// A register that a browser wants to write, and the sender for the result.
-struct Write {
+struct RegisterWrite {
     address: u16,
     value: u32,
-    done: Sender<bool>,
+    result: Sender<bool>,
 }
 
 /// The registers of a core, and the port to it.
 #[derive(Debug, Default)]
-pub(crate) struct Board {
+pub(crate) struct BoardRegisters {
     table: OnceLock<Vec<Register>>,
-    writes: OnceLock<Sender<Write>>,
-    port: Mutex<Option<File>>,
+    writes: OnceLock<Sender<RegisterWrite>>,
+    port_file: Mutex<Option<File>>,
 }
 
-impl Board {
+impl BoardRegisters {
     /// Begins to read the registers, if there is a port and the design has registers. Returns the
     /// sender for the board's answers.
     pub(crate) fn start(
         self: &Arc<Self>,
-        config: &Config,
-        live: &Arc<Live>,
+        config: &DesignConfig,
+        live: &Arc<SharedStream>,
         has_port: bool,
     ) -> Result<SyncSender<Answer>, ViewError> {
-        let (answer, answers) = sync_channel(ANSWERS);
+        let (answer, answers) = sync_channel(ANSWER_QUEUE);
         // The size of frames changes only the constants of the register map.
         let design = config.validate().ok().filter(|design| has_port && design.is_on_axi());
-        if let Some(table) = design.as_ref().and_then(table) {
+        if let Some(table) = design.as_ref().and_then(read_registers) {
             let (write, writes) = channel();
             self.table.get_or_init(|| table);
             self.writes.get_or_init(|| write);
             let (own, live) = (Arc::clone(self), Arc::clone(live));
-            crate::thread("registers", move || own.run(&live, &writes, &answers))?;
+            crate::start_thread("registers", move || own.run(&live, &writes, &answers))?;
         }
         Ok(answer)
     }
 
     /// Sets the port to write to; `None` while the port is gone.
-    pub(crate) fn attach(&self, port: Option<File>) {
-        *self.port.lock().unwrap_or_else(PoisonError::into_inner) = port;
+    pub(crate) fn set_port(&self, port: Option<File>) {
+        *self.port_file.lock().unwrap_or_else(PoisonError::into_inner) = port;
     }
 
     /// Returns a copy of the port, so that no lock is held while a command is written. The reader
     /// may want to report meanwhile that the port is gone.
     fn port(&self) -> Option<File> {
-        let port = self.port.lock().unwrap_or_else(PoisonError::into_inner);
+        let port = self.port_file.lock().unwrap_or_else(PoisonError::into_inner);
         port.as_ref().and_then(|port| port.try_clone().ok())
     }
 
     /// Returns the description of the registers for the page.
     pub(crate) fn describe(&self) -> Value {
-        let field = |field: &Field| {
-            let Field { name, low, width, kind, doc } = field;
-            json!({"name": name, "low": low, "width": width, "kind": word(kind), "doc": doc})
+        let field = |field: &RegisterField| {
+            let RegisterField { name, low, width, kind, doc } = field;
+            json!({"name": name, "low": low, "width": width, "kind": kind_name(kind), "doc": doc})
         };
         self.table.get().map_or(Value::Null, |table| {
             let register = |own: &Register| {
@@ -111,53 +111,53 @@ impl Board {
         let narrow = u16::try_from(own.address).ok().zip(u32::try_from(value).ok());
         let (address, value) = narrow.ok_or("a register has 32 bits")?;
         let (done, answer) = channel();
-        let sent = self.writes.get().and_then(|to| to.send(Write { address, value, done }).ok());
-        match sent.and_then(|()| answer.recv_timeout(WRITE).ok()) {
+        let sent = self.writes.get().and_then(|to| to.send(RegisterWrite { address, value, result: done }).ok());
+        match sent.and_then(|()| answer.recv_timeout(WRITE_LIMIT).ok()) {
             Some(true) => Ok(()),
             Some(false) | None => Err("the board does not answer; it may have been set".to_owned()),
         }
     }
 
-    fn run(&self, live: &Live, writes: &Receiver<Write>, answers: &Receiver<Answer>) {
+    fn run(&self, live: &SharedStream, writes: &Receiver<RegisterWrite>, answers: &Receiver<Answer>) {
         let table = self.table.get().map_or(&[][..], Vec::as_slice);
         while !live.is_over() {
             let mut readings = Vec::with_capacity(table.len());
             for own in table {
                 while let Ok(write) = writes.try_recv() {
-                    self.serve(&write, answers);
+                    self.send_write(&write, answers);
                 }
                 let is_silent =
-                    readings.first().is_some_and(|first: &Reading| first.value.is_none());
+                    readings.first().is_some_and(|first: &RegisterReading| first.value.is_none());
                 let address = u16::try_from(own.address).unwrap_or(u16::MAX);
                 // If the first register of a round has no answer, the others are not asked for
                 // until the next round.
                 let value =
-                    if is_silent { None } else { self.ask(Command::read(address), answers) };
-                readings.push(Reading { address: own.address, value });
+                    if is_silent { None } else { self.ask(RegisterCommand::read(address), answers) };
+                readings.push(RegisterReading { address: own.address, value });
             }
-            live.read(readings);
-            match writes.recv_timeout(ROUND) {
-                Ok(write) => self.serve(&write, answers),
+            live.set_registers(readings);
+            match writes.recv_timeout(ROUND_PAUSE) {
+                Ok(write) => self.send_write(&write, answers),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
             }
         }
     }
 
-    fn serve(&self, write: &Write, answers: &Receiver<Answer>) {
-        let answer = self.ask(Command::write(write.address, write.value), answers);
+    fn send_write(&self, write: &RegisterWrite, answers: &Receiver<Answer>) {
+        let answer = self.ask(RegisterCommand::write(write.address, write.value), answers);
         // A browser that no longer waits sees the value in the table.
-        let _ = write.done.send(answer.is_some());
+        let _ = write.result.send(answer.is_some());
     }
 
     /// Sends a command up to [`ATTEMPTS`] times, until it is answered.
-    fn ask(&self, command: Command, answers: &Receiver<Answer>) -> Option<u32> {
+    fn ask(&self, command: RegisterCommand, answers: &Receiver<Answer>) -> Option<u32> {
         for _ in 0..ATTEMPTS {
             // Answers to earlier commands are dropped; further answers may come meanwhile.
-            answers.try_iter().take(ANSWERS).for_each(drop);
+            answers.try_iter().take(ANSWER_QUEUE).for_each(drop);
             let port = self.port();
             port?.write_all(&command.bytes()).ok()?;
-            let until = Instant::now() + ANSWER;
+            let until = Instant::now() + ANSWER_LIMIT;
             while let Some(left) = until.checked_duration_since(Instant::now()) {
                 match answers.recv_timeout(left) {
                     Ok(answer) if command.is_answered_by(answer) => return Some(answer.value),
@@ -171,17 +171,17 @@ impl Board {
 }
 
 /// Returns the registers of a core and of its board that are read.
-fn table(design: &Design) -> Option<Vec<Register>> {
-    let status = |name: &str, low: u32, width: u32, doc: &str| Field {
+fn read_registers(design: &Design) -> Option<Vec<Register>> {
+    let status = |name: &str, low: u32, width: u32, doc: &str| RegisterField {
         name: name.to_owned(),
         low,
         width,
-        kind: Kind::Status,
+        kind: FieldKind::Status,
         doc: doc.to_owned(),
     };
     let board = Register {
         name: "board".to_owned(),
-        address: BOARD,
+        address: BOARD_ADDRESS,
         fields: vec![
             status("done", 0, 1, "the sensor is set up"),
             status("failed", 1, 1, "the sensor did not acknowledge a register"),
@@ -191,33 +191,33 @@ fn table(design: &Design) -> Option<Vec<Register>> {
     };
     // The first register shows that there is a core. Other constant registers are left out, because
     // every FRAME packet has their values.
-    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(changes);
+    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(may_change);
     let all = register_table(design)?;
     Some(all.into_iter().filter(is_told).chain([board]).collect())
 }
 
 /// Returns true if a field may read as another value later.
-fn changes(field: &Field) -> bool {
+fn may_change(field: &RegisterField) -> bool {
     match field.kind {
-        Kind::Status | Kind::Control { .. } | Kind::Threshold { .. } | Kind::Event => true,
-        Kind::Constant(_) | Kind::Command => false,
+        FieldKind::Status | FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => true,
+        FieldKind::Constant(_) | FieldKind::Command => false,
     }
 }
 
-fn may_be_written(field: &Field) -> bool {
+fn may_be_written(field: &RegisterField) -> bool {
     match field.kind {
-        Kind::Threshold { .. } | Kind::Control { .. } | Kind::Command | Kind::Event => true,
-        Kind::Constant(_) | Kind::Status => false,
+        FieldKind::Threshold { .. } | FieldKind::Control { .. } | FieldKind::Command | FieldKind::Event => true,
+        FieldKind::Constant(_) | FieldKind::Status => false,
     }
 }
 
-fn word(kind: &Kind) -> &'static str {
+fn kind_name(kind: &FieldKind) -> &'static str {
     match kind {
-        Kind::Constant(_) => "constant",
-        Kind::Status => "status",
-        Kind::Control { .. } => "control",
-        Kind::Threshold { .. } => "threshold",
-        Kind::Command => "command",
-        Kind::Event => "event",
+        FieldKind::Constant(_) => "constant",
+        FieldKind::Status => "status",
+        FieldKind::Control { .. } => "control",
+        FieldKind::Threshold { .. } => "threshold",
+        FieldKind::Command => "command",
+        FieldKind::Event => "event",
     }
 }

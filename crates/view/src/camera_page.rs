@@ -11,16 +11,16 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use foveate_pictures::page::variables;
+use foveate_pictures::page::colour_variables;
 use foveate_pictures::palette::{DARK, LIGHT};
 use sha2::{Digest as _, Sha256};
 
-macro_rules! web {
+macro_rules! web_files {
     ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../web/", $name))),*] };
 }
 
 /// The modules of the page. Each stands behind those that it imports.
-const MODULES: [&str; 20] = web![
+const MODULES: [&str; 20] = web_files![
     "engine.js",
     "elements.js",
     "toml.js",
@@ -44,16 +44,16 @@ const MODULES: [&str; 20] = web![
 ];
 
 /// The modules of the thread in which a network runs, in the same order.
-const WORKER: [&str; 2] = web!["engine.js", "network_worker.js"];
+const WORKER_MODULES: [&str; 2] = web_files!["engine.js", "network_worker.js"];
 
 /// Returns the page as one file. With `frames` it begins with the frames that the server has at
 /// that address, relative to the page's own.
 #[must_use]
 pub fn camera_page(frames: Option<&str>) -> String {
-    let script = as_one(&MODULES);
+    let script = joined_modules(&MODULES);
     let style = include_str!("../web/style.css")
-        .replace("/*LIGHT*/", &variables(&LIGHT))
-        .replace("/*DARK*/", &variables(&DARK));
+        .replace("/*LIGHT*/", &colour_variables(&LIGHT))
+        .replace("/*DARK*/", &colour_variables(&DARK));
     let frames = frames.map_or(String::new(), |path| format!(" data-frames=\"{path}\""));
     include_str!("../web/index.html")
         .replace("<html lang=\"en\">", &format!("<html lang=\"en\"{frames}>"))
@@ -61,24 +61,24 @@ pub fn camera_page(frames: Option<&str>) -> String {
         .replace("/*STYLE*/", &style)
         .replace("/*HARDWARE*/", include_str!("../web/hardware.json"))
         .replace("/*SCRIPT*/", &script)
-        .replace("/*WORKER*/", &as_one(&WORKER))
-        .replace("/*WASM*/", &packed(include_bytes!("../web/foveate.wasm")))
+        .replace("/*WORKER*/", &joined_modules(&WORKER_MODULES))
+        .replace("/*WASM*/", &compressed(include_bytes!("../web/foveate.wasm")))
 }
 
 /// Joins modules into one script.
-fn as_one(modules: &[&str]) -> String {
-    modules.iter().map(|module| as_part(module)).collect()
+fn joined_modules(modules: &[&str]) -> String {
+    modules.iter().map(|module| module_part(module)).collect()
 }
 
 /// Turns a module into a part of one script. It imports nothing, because its imports stand above
 /// it.
-fn as_part(module: &str) -> String {
+fn module_part(module: &str) -> String {
     let lines = module.lines().filter(|line| !line.starts_with("import "));
     lines.map(|line| format!("{}\n", line.strip_prefix("export ").unwrap_or(line))).collect()
 }
 
 /// Compresses bytes and encodes them as text.
-fn packed(bytes: &[u8]) -> String {
+fn compressed(bytes: &[u8]) -> String {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
     let written = gzip.write_all(bytes).and_then(|()| gzip.finish());
     BASE64.encode(written.expect("memory takes everything"))
@@ -130,22 +130,22 @@ mod tests {
         let modules: Vec<_> =
             files.filter(|path| path.extension().is_some_and(|own| own == "js")).collect();
         // Both scripts have the engine.
-        assert_eq!(modules.len(), MODULES.len() + WORKER.len() - 1, "{modules:?}");
+        assert_eq!(modules.len(), MODULES.len() + WORKER_MODULES.len() - 1, "{modules:?}");
         for path in modules {
             let text = std::fs::read_to_string(&path).unwrap();
-            let is_part = [&MODULES[..], &WORKER].concat().contains(&text.as_str());
+            let is_part = [&MODULES[..], &WORKER_MODULES].concat().contains(&text.as_str());
             assert!(is_part, "{}", path.display());
         }
     }
 
     #[test]
     fn a_module_stands_behind_what_it_imports() {
-        for modules in [&MODULES[..], &WORKER] {
-            stands_behind(modules);
+        for modules in [&MODULES[..], &WORKER_MODULES] {
+            assert_imports_precede(modules);
         }
     }
 
-    fn stands_behind(modules: &[&str]) {
+    fn assert_imports_precede(modules: &[&str]) {
         let mut known = String::new();
         for module in modules {
             for import in module.lines().filter(|line| line.starts_with("import ")) {

@@ -12,19 +12,19 @@ use std::time::{Duration, Instant};
 /// The number of connections at a time.
 const CONNECTIONS: usize = 32;
 /// The time that a new connection waits for the thread of a closed one to end.
-const ROOM: Duration = Duration::from_secs(1);
+const NEW_CONNECTION_LIMIT: Duration = Duration::from_secs(1);
 /// The time after which another connection is closed, too.
-const CLOSING: Duration = Duration::from_millis(100);
+const CLOSE_INTERVAL: Duration = Duration::from_millis(100);
 
 /// The open connections.
 #[derive(Debug, Default)]
 pub(crate) struct ConnectionTable {
-    state: Mutex<State>,
-    ended: Condvar,
+    state: Mutex<OpenConnections>,
+    connection_ended: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct OpenConnections {
     next: u64,
     open: BTreeMap<u64, Connection>,
 }
@@ -35,7 +35,7 @@ struct Connection {
     /// True if the connection has shown the token.
     is_admitted: bool,
     /// The time of its last request, or of its opening.
-    since: Instant,
+    last_request: Instant,
     is_closed: bool,
 }
 
@@ -49,36 +49,36 @@ pub(crate) struct ConnectionPlace {
 impl ConnectionTable {
     /// Takes a new connection. There is no place only while the threads of [`CONNECTIONS`] closed
     /// connections have not ended.
-    pub(crate) fn take(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<ConnectionPlace> {
-        let until = Instant::now() + ROOM;
+    pub(crate) fn register(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<ConnectionPlace> {
+        let until = Instant::now() + NEW_CONNECTION_LIMIT;
         let mut state = self.lock();
         while state.open.len() >= CONNECTIONS {
             if Instant::now() > until {
                 return None;
             }
             state.close_one();
-            let waited = self.ended.wait_timeout(state, CLOSING);
+            let waited = self.connection_ended.wait_timeout(state, CLOSE_INTERVAL);
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         let number = state.next;
         state.next += 1;
         let (stream, since) = (Arc::clone(stream), Instant::now());
-        let connection = Connection { stream, is_admitted: false, since, is_closed: false };
+        let connection = Connection { stream, is_admitted: false, last_request: since, is_closed: false };
         state.open.insert(number, connection);
         Some(ConnectionPlace { table: Arc::clone(self), number })
     }
 
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, OpenConnections> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl State {
+impl OpenConnections {
     /// Closes the connection that has been silent for the longest time. Connections that have not
     /// shown the token are closed first.
     fn close_one(&mut self) {
         let open = self.open.values_mut().filter(|own| !own.is_closed);
-        if let Some(longest) = open.min_by_key(|own| (own.is_admitted, own.since)) {
+        if let Some(longest) = open.min_by_key(|own| (own.is_admitted, own.last_request)) {
             longest.is_closed = true;
             // The thread of the connection sees the end of the stream. A failure means that the
             // connection is closed already.
@@ -91,7 +91,7 @@ impl ConnectionPlace {
     /// Notes that the connection has sent a request with the token.
     pub(crate) fn admit(&self) {
         if let Some(own) = self.table.lock().open.get_mut(&self.number) {
-            (own.is_admitted, own.since) = (true, Instant::now());
+            (own.is_admitted, own.last_request) = (true, Instant::now());
         }
     }
 }
@@ -99,6 +99,6 @@ impl ConnectionPlace {
 impl Drop for ConnectionPlace {
     fn drop(&mut self) {
         self.table.lock().open.remove(&self.number);
-        self.table.ended.notify_all();
+        self.table.connection_ended.notify_all();
     }
 }

@@ -29,13 +29,13 @@ pub enum ViewError {
     },
     /// The input is a device, but no serial port.
     #[error("`{}` is a device, but no serial port; give a port such as /dev/ttyUSB0, a file, a FIFO, or -", path.display())]
-    NoPort {
+    NotASerialPort {
         /// The path as given.
         path: PathBuf,
     },
     /// The port cannot have the requested rate.
     #[error("cannot set `{}` to {baud} bits per second: {source}; choose a rate that the port has with --baud", path.display())]
-    Rate {
+    BaudRate {
         /// The path of the port.
         path: PathBuf,
         /// The requested rate in bits per second.
@@ -45,7 +45,7 @@ pub enum ViewError {
     },
     /// The input can be read only once, and so cannot be repeated.
     #[error("`{}` is no file, so it cannot be played again; leave --play looped out", path.display())]
-    NotAgain {
+    NotRepeatable {
         /// The path as given.
         path: PathBuf,
     },

@@ -10,24 +10,24 @@ use std::time::Duration;
 use crate::timed_stream::TimedStream;
 
 /// The largest head of a request, in bytes.
-const HEAD: u64 = 16 << 10;
+const HEAD_LIMIT: u64 = 16 << 10;
 /// The largest number of lines in a head.
-const LINES: usize = 100;
+const LINE_LIMIT: usize = 100;
 /// The largest body of a request, in bytes.
-const BODY: usize = 4 << 10;
+const BODY_LIMIT: usize = 4 << 10;
 /// The time for a whole request, from its first byte on. For the first request of a connection it
 /// begins with the connection.
-const REQUEST: Duration = Duration::from_secs(5);
+const REQUEST_TIME: Duration = Duration::from_secs(5);
 /// The longest silence between two requests.
-const IDLE: Duration = Duration::from_secs(30);
+const IDLE_TIME: Duration = Duration::from_secs(30);
 /// The time in which a browser must take an answer. It gets one more second for every
 /// [`BYTES_PER_SECOND`] bytes.
-const ANSWER: Duration = Duration::from_secs(10);
+const ANSWER_TIME: Duration = Duration::from_secs(10);
 const BYTES_PER_SECOND: usize = 64 << 10;
 
 /// A request of a browser.
 #[derive(Debug)]
-pub(crate) struct Request {
+pub(crate) struct HttpRequest {
     pub(crate) method: String,
     pub(crate) target: String,
     /// The name of the server in the request.
@@ -37,20 +37,20 @@ pub(crate) struct Request {
 
 /// An answer to a request.
 #[derive(Debug)]
-pub(crate) struct Answer {
+pub(crate) struct HttpAnswer {
     pub(crate) status: &'static str,
     pub(crate) kind: &'static str,
     pub(crate) body: Vec<u8>,
 }
 
-impl Answer {
+impl HttpAnswer {
     pub(crate) fn text(status: &'static str, text: &str) -> Self {
         let body = format!("{text}\n").into_bytes();
         Self { status, kind: "text/plain; charset=utf-8", body }
     }
 
     /// Returns the answer to a method that the path does not have.
-    pub(crate) fn not_so() -> Self {
+    pub(crate) fn method_not_allowed() -> Self {
         Self::text("405 Method Not Allowed", "not so")
     }
 
@@ -72,26 +72,26 @@ impl RequestStream {
     }
 
     /// Returns the next request; `None` if the browser sends no more.
-    pub(crate) fn next(&mut self) -> io::Result<Option<Request>> {
+    pub(crate) fn next(&mut self) -> io::Result<Option<HttpRequest>> {
         if std::mem::replace(&mut self.is_begun, true) {
-            self.requests.get_mut().allow(IDLE);
+            self.requests.get_mut().set_deadline(IDLE_TIME);
             if self.requests.fill_buf()?.is_empty() {
                 return Ok(None);
             }
         }
-        self.requests.get_mut().allow(REQUEST);
-        read(&mut self.requests)
+        self.requests.get_mut().set_deadline(REQUEST_TIME);
+        read_request(&mut self.requests)
     }
 
     /// Writes an answer. Browsers do not store it, and other pages cannot show it; `policy` says
     /// what it may load. `is_last` announces the end of the connection.
     pub(crate) fn answer(
         &mut self,
-        answer: &Answer,
+        answer: &HttpAnswer,
         policy: &str,
         is_last: bool,
     ) -> io::Result<()> {
-        let Answer { status, kind, body } = answer;
+        let HttpAnswer { status, kind, body } = answer;
         let connection = if is_last { "close" } else { "keep-alive" };
         let head = format!(
             "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: {connection}\r\n\
@@ -101,7 +101,7 @@ impl RequestStream {
         );
         let stream = self.requests.get_mut();
         let more = u64::try_from(body.len() / BYTES_PER_SECOND).unwrap_or(u64::MAX);
-        stream.allow(ANSWER.saturating_add(Duration::from_secs(more)));
+        stream.set_deadline(ANSWER_TIME.saturating_add(Duration::from_secs(more)));
         stream.write_all(&[head.as_bytes(), body].concat())
     }
 }
@@ -111,7 +111,7 @@ fn invalid(what: &str) -> io::Error {
 }
 
 /// Reads a line without its end; `None` at the end of the stream.
-fn line(head: &mut impl BufRead) -> io::Result<Option<String>> {
+fn read_line(head: &mut impl BufRead) -> io::Result<Option<String>> {
     let mut text = Vec::new();
     head.read_until(b'\n', &mut text)?;
     match text.strip_suffix(b"\n") {
@@ -122,46 +122,46 @@ fn line(head: &mut impl BufRead) -> io::Result<Option<String>> {
 }
 
 /// Sets a header that may occur only once.
-fn set<T>(place: &mut Option<T>, value: T) -> io::Result<()> {
+fn set_once<T>(place: &mut Option<T>, value: T) -> io::Result<()> {
     match place.replace(value) {
         None => Ok(()),
         Some(_) => Err(invalid("a line that comes twice")),
     }
 }
 
-fn read(stream: &mut impl BufRead) -> io::Result<Option<Request>> {
-    let mut head = stream.by_ref().take(HEAD);
-    let Some(first) = line(&mut head)? else { return Ok(None) };
+fn read_request(stream: &mut impl BufRead) -> io::Result<Option<HttpRequest>> {
+    let mut head = stream.by_ref().take(HEAD_LIMIT);
+    let Some(first) = read_line(&mut head)? else { return Ok(None) };
     let mut words = first.split(' ');
     let (method, target) = words.next().zip(words.next()).ok_or_else(|| invalid("no request"))?;
     let (method, target) = (method.to_owned(), target.to_owned());
     let (mut host, mut length) = (None, None);
     for number in 1.. {
-        let text = line(&mut head)?.ok_or_else(|| invalid("a head without an end"))?;
+        let text = read_line(&mut head)?.ok_or_else(|| invalid("a head without an end"))?;
         if text.is_empty() {
             break;
         }
-        if number >= LINES {
+        if number >= LINE_LIMIT {
             return Err(invalid("a head of too many lines"));
         }
         let Some((name, value)) = text.split_once(':') else { continue };
         match name.to_ascii_lowercase().as_str() {
-            "host" => set(&mut host, value.trim().to_owned())?,
-            "content-length" => set(&mut length, body_length(value.trim())?)?,
+            "host" => set_once(&mut host, value.trim().to_owned())?,
+            "content-length" => set_once(&mut length, parse_body_length(value.trim())?)?,
             "transfer-encoding" => return Err(invalid("a body without a length")),
             _ => {}
         }
     }
     let mut body = vec![0; length.unwrap_or(0)];
     stream.read_exact(&mut body)?;
-    Ok(Some(Request { method, target, host: host.unwrap_or_default(), body }))
+    Ok(Some(HttpRequest { method, target, host: host.unwrap_or_default(), body }))
 }
 
 /// Parses the length of a body, up to [`BODY`].
-fn body_length(text: &str) -> io::Result<usize> {
+fn parse_body_length(text: &str) -> io::Result<usize> {
     let digits = text.bytes().all(|byte| byte.is_ascii_digit());
     let length: Option<usize> = if digits { text.parse().ok() } else { None };
     length
-        .filter(|&length| length <= BODY)
+        .filter(|&length| length <= BODY_LIMIT)
         .ok_or_else(|| invalid("no length of a body that is taken"))
 }

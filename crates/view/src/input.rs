@@ -6,26 +6,26 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::{Play, ViewError};
+use crate::{PlayMode, ViewError};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum InputKind {
     Port,
     File,
     /// A FIFO or standard input.
-    Once,
+    OneTime,
 }
 
 /// An input that exists.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
     path: PathBuf,
-    kind: Kind,
+    kind: InputKind,
     baud: u32,
 }
 
 /// An opened input.
-pub(crate) struct Source {
+pub(crate) struct OpenInput {
     pub(crate) reader: Box<dyn Read + Send>,
     /// The port for writing, if the input is a serial port.
     pub(crate) port: Option<File>,
@@ -34,26 +34,26 @@ pub(crate) struct Source {
 impl Input {
     pub(crate) fn find(path: PathBuf, baud: u32) -> Result<Self, ViewError> {
         let kind = if path == Path::new("-") {
-            Kind::Once
+            InputKind::OneTime
         } else {
             match std::fs::metadata(&path) {
                 Err(source) => return Err(ViewError::Open { path, source }),
                 Ok(found) if found.is_dir() => return Err(ViewError::Folder { path }),
-                Ok(found) if found.is_file() => Kind::File,
-                Ok(found) if is_device(&found) => Kind::Port,
-                Ok(_) => Kind::Once,
+                Ok(found) if found.is_file() => InputKind::File,
+                Ok(found) if is_device(&found) => InputKind::Port,
+                Ok(_) => InputKind::OneTime,
             }
         };
         Ok(Self { path, kind, baud })
     }
 
     pub(crate) fn is_port(&self) -> bool {
-        self.kind == Kind::Port
+        self.kind == InputKind::Port
     }
 
     /// Returns true if the input sends at times of its own.
     pub(crate) fn is_live(&self) -> bool {
-        self.kind != Kind::File
+        self.kind != InputKind::File
     }
 
     pub(crate) fn name(&self) -> String {
@@ -62,19 +62,19 @@ impl Input {
 
     /// Returns when the frames are shown: as asked, or else by the kind of the input. Fails if an
     /// input that can be read only once is to be repeated.
-    pub(crate) fn play(&self, asked: Option<Play>) -> Result<Play, ViewError> {
+    pub(crate) fn play_mode(&self, asked: Option<PlayMode>) -> Result<PlayMode, ViewError> {
         match (asked, self.kind) {
-            (None, Kind::File) => Ok(Play::Timed),
-            (None, Kind::Port | Kind::Once) => Ok(Play::AtOnce),
-            (Some(Play::Looped), Kind::Port | Kind::Once) => {
-                Err(ViewError::NotAgain { path: self.path.clone() })
+            (None, InputKind::File) => Ok(PlayMode::Timed),
+            (None, InputKind::Port | InputKind::OneTime) => Ok(PlayMode::AtOnce),
+            (Some(PlayMode::Looped), InputKind::Port | InputKind::OneTime) => {
+                Err(ViewError::NotRepeatable { path: self.path.clone() })
             }
             (Some(play), _) => Ok(play),
         }
     }
 
     /// Opens the input. Opening a FIFO waits for a process that writes to it.
-    pub(crate) fn open(&self) -> Result<Source, ViewError> {
+    pub(crate) fn open(&self) -> Result<OpenInput, ViewError> {
         let failed = |source| ViewError::Open { path: self.path.clone(), source };
         if self.is_port() {
             return self.open_port();
@@ -84,13 +84,13 @@ impl Input {
         } else {
             Box::new(File::open(&self.path).map_err(failed)?)
         };
-        Ok(Source { reader, port: None })
+        Ok(OpenInput { reader, port: None })
     }
 
     /// Opens a serial port for raw bytes in both directions, at its rate, and for this process
     /// alone.
     #[cfg(unix)]
-    fn open_port(&self) -> Result<Source, ViewError> {
+    fn open_port(&self) -> Result<OpenInput, ViewError> {
         use rustix::fs::{Mode, OFlags};
         use rustix::termios::{ControlModes, OptionalActions, SpecialCodeIndex};
         use rustix::{fs, io, termios};
@@ -101,7 +101,7 @@ impl Input {
         let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC | OFlags::NONBLOCK;
         let port = fs::open(&self.path, flags, Mode::empty()).map_err(failed)?;
         if !termios::isatty(&port) {
-            return Err(ViewError::NoPort { path: path() });
+            return Err(ViewError::NotASerialPort { path: path() });
         }
         termios::ioctl_tiocexcl(&port).map_err(failed)?;
         let mut modes = termios::tcgetattr(&port).map_err(failed)?;
@@ -110,7 +110,7 @@ impl Input {
         modes.control_modes -= ControlModes::CSTOPB | ControlModes::PARENB | ControlModes::CRTSCTS;
         modes.special_codes[SpecialCodeIndex::VMIN] = 1;
         modes.special_codes[SpecialCodeIndex::VTIME] = 0;
-        let rate = |source: io::Errno| ViewError::Rate {
+        let rate = |source: io::Errno| ViewError::BaudRate {
             path: path(),
             baud: self.baud,
             source: source.into(),
@@ -121,12 +121,12 @@ impl Input {
         fs::fcntl_setfl(&port, flags - OFlags::NONBLOCK).map_err(failed)?;
         let port = File::from(port);
         let reader = port.try_clone().map_err(|source| ViewError::Open { path: path(), source })?;
-        Ok(Source { reader: Box::new(reader), port: Some(port) })
+        Ok(OpenInput { reader: Box::new(reader), port: Some(port) })
     }
 
     #[cfg(not(unix))]
-    fn open_port(&self) -> Result<Source, ViewError> {
-        Err(ViewError::NoPort { path: self.path.clone() })
+    fn open_port(&self) -> Result<OpenInput, ViewError> {
+        Err(ViewError::NotASerialPort { path: self.path.clone() })
     }
 }
 

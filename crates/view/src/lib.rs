@@ -14,12 +14,12 @@ mod connections;
 mod error;
 mod http;
 mod input;
-mod live;
+mod shared_stream;
 mod page;
 mod picture;
 mod player;
 mod reader;
-mod reel;
+mod frame_player;
 mod server;
 mod site;
 mod timed_stream;
@@ -28,22 +28,22 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 
 pub use camera_page::camera_page;
 pub use error::ViewError;
 pub use player::{Player, PlayerOptions};
 
-use board::Board;
+use board::BoardRegisters;
 use input::Input;
-use live::Live;
-use reader::Reader;
-use server::Server;
+use shared_stream::SharedStream;
+use reader::StreamReader;
+use server::PageServer;
 use site::StreamSite;
 
 /// The times at which the frames of a stream are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Play {
+pub enum PlayMode {
     /// At the times of the frames.
     Timed,
     /// At once, as they are read.
@@ -58,21 +58,21 @@ pub struct ViewOptions {
     /// A serial port, a file, a FIFO, or `-` for standard input.
     pub input: PathBuf,
     /// The configuration of the camera, whose frame size may be missing.
-    pub config: Config,
+    pub config: DesignConfig,
     /// The rate of a serial port in bits per second.
     pub baud: u32,
     /// The address at which browsers find the page. It must be an address of this machine alone.
     pub address: SocketAddr,
     /// The times at which frames are shown. Without it, the frames of a file are shown at their
     /// times, and those of any other input at once.
-    pub play: Option<Play>,
+    pub play: Option<PlayMode>,
 }
 
 /// A stream that is shown until this value is dropped.
 #[derive(Debug)]
 pub struct View {
-    live: Arc<Live>,
-    server: Server,
+    live: Arc<SharedStream>,
+    server: PageServer,
 }
 
 impl View {
@@ -83,16 +83,16 @@ impl View {
     pub fn open(options: ViewOptions) -> Result<Self, ViewError> {
         let ViewOptions { input, config, baud, address, play } = options;
         let input = Input::find(input, baud)?;
-        let play = input.play(play)?;
+        let play = input.play_mode(play)?;
         // The port is opened first, so that a port that cannot be used is an error here.
         let mut first = if input.is_port() { Some(input.open()?) } else { None };
-        let (live, board) = (Arc::new(Live::new(&input)), Arc::<Board>::default());
-        board.attach(first.as_mut().and_then(|source| source.port.take()));
+        let (live, board) = (Arc::new(SharedStream::new(&input)), Arc::<BoardRegisters>::default());
+        board.set_port(first.as_mut().and_then(|source| source.port.take()));
         let site = StreamSite { live: Arc::clone(&live), board: Arc::clone(&board) };
-        let server = Server::start(address, Arc::new(site))?;
+        let server = PageServer::start(address, Arc::new(site))?;
         let answers = board.start(&config, &live, input.is_port())?;
-        let reader = Reader { input, config, play, answers, board, live: Arc::clone(&live) };
-        thread("reader", move || reader.run(first))?;
+        let reader = StreamReader { input, config, play, answers, board, live: Arc::clone(&live) };
+        start_thread("reader", move || reader.run(first))?;
         Ok(Self { live, server })
     }
 
@@ -104,25 +104,25 @@ impl View {
 
     /// Returns the messages since the last call.
     #[must_use]
-    pub fn news(&self) -> Vec<String> {
-        self.live.news()
+    pub fn take_messages(&self) -> Vec<String> {
+        self.live.take_messages()
     }
 
     /// Returns the number of frames that were shown.
     #[must_use]
-    pub fn frames(&self) -> u64 {
-        self.live.frames()
+    pub fn frames_shown(&self) -> u64 {
+        self.live.frames_shown()
     }
 }
 
 impl Drop for View {
     fn drop(&mut self) {
-        self.live.end();
+        self.live.stop();
         self.server.wake();
     }
 }
 
-fn thread(name: &'static str, work: impl FnOnce() + Send + 'static) -> Result<(), ViewError> {
+fn start_thread(name: &'static str, work: impl FnOnce() + Send + 'static) -> Result<(), ViewError> {
     let started = std::thread::Builder::new().name(name.to_owned()).spawn(work);
     started.map(drop).map_err(|source| ViewError::Thread { source })
 }

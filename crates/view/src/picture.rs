@@ -6,7 +6,7 @@ use foveate_simulator::ShownFrame;
 use serde_json::{Value, json};
 
 /// Returns the facts about a design that the page needs.
-pub(crate) fn facts(design: &Design) -> Value {
+pub(crate) fn design_facts(design: &Design) -> Value {
     json!({
         "fingerprint": design.fingerprint(),
         "width": design.width(),
@@ -18,8 +18,8 @@ pub(crate) fn facts(design: &Design) -> Value {
 }
 
 /// Returns a byte per region, as the engine packs them, and then a byte per pixel.
-pub(crate) fn picture(frame: &ShownFrame) -> Vec<u8> {
+pub(crate) fn frame_bytes(frame: &ShownFrame) -> Vec<u8> {
     let mut picture: Vec<u8> = frame.outcome.region_bytes().collect();
-    frame.screen.plane().grey(frame.screen.bits(), &mut picture);
+    frame.screen.borrowed_pixels().append_grey(frame.screen.bits(), &mut picture);
     picture
 }

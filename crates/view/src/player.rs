@@ -13,13 +13,13 @@ use foveate_footage::InputOptions;
 use serde_json::Value;
 
 use crate::camera_page::camera_page;
-use crate::http::Answer;
-use crate::reel::Reel;
-use crate::server::{Server, Site};
-use crate::{ViewError, thread};
+use crate::http::HttpAnswer;
+use crate::frame_player::FramePlayer;
+use crate::server::{PageServer, PageSite};
+use crate::{ViewError, start_thread};
 
 /// The time that a browser waits for a frame.
-const PATIENCE: Duration = Duration::from_secs(1);
+const FRAME_WAIT: Duration = Duration::from_secs(1);
 
 /// The options of a player: its inputs, its camera and its address.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub struct PlayerOptions {
 #[derive(Debug)]
 pub struct Player {
     site: Arc<PlayerSite>,
-    server: Server,
+    server: PageServer,
     settings: String,
 }
 
@@ -52,16 +52,16 @@ impl Player {
     /// Fails if the inputs or the address cannot be used.
     pub fn open(options: PlayerOptions) -> Result<Self, ViewError> {
         let PlayerOptions { inputs, input, preset, camera, address } = options;
-        let settings = settings(preset.as_deref(), camera.as_ref())?;
-        let opened = if inputs.is_empty() { None } else { Some(Reel::open(inputs, input)?) };
+        let settings = link_settings(preset.as_deref(), camera.as_ref())?;
+        let opened = if inputs.is_empty() { None } else { Some(FramePlayer::open(inputs, input)?) };
         let (reel, source) = opened.unzip();
         let (page, is_over) = (OnceLock::new(), AtomicBool::new(false));
-        let site = Arc::new(PlayerSite { reel, page, is_over });
-        let server = Server::start(address, Arc::clone(&site))?;
+        let site = Arc::new(PlayerSite { frames: reel, page, is_over });
+        let server = PageServer::start(address, Arc::clone(&site))?;
         if let Some(source) = source {
             let site = Arc::clone(&site);
-            thread("reader", move || {
-                if let Some(reel) = &site.reel {
+            start_thread("reader", move || {
+                if let Some(reel) = &site.frames {
                     reel.run(source);
                 }
             })?;
@@ -78,21 +78,21 @@ impl Player {
 
     /// Returns the messages since the last call.
     #[must_use]
-    pub fn news(&self) -> Vec<String> {
-        self.site.reel.as_ref().map(Reel::news).unwrap_or_default()
+    pub fn take_messages(&self) -> Vec<String> {
+        self.site.frames.as_ref().map(FramePlayer::take_messages).unwrap_or_default()
     }
 
     /// Returns the number of frames that were decoded.
     #[must_use]
-    pub fn frames(&self) -> u64 {
-        self.site.reel.as_ref().map_or(0, Reel::frames)
+    pub fn frames_decoded(&self) -> u64 {
+        self.site.frames.as_ref().map_or(0, FramePlayer::frame_count)
     }
 }
 
 impl Drop for Player {
     fn drop(&mut self) {
         self.site.is_over.store(true, Ordering::Relaxed);
-        if let Some(reel) = &self.site.reel {
+        if let Some(reel) = &self.site.frames {
             reel.end();
         }
         self.server.wake();
@@ -102,20 +102,20 @@ impl Drop for Player {
 /// The page, and the frames of the inputs if there are inputs.
 #[derive(Debug)]
 struct PlayerSite {
-    reel: Option<Reel>,
+    frames: Option<FramePlayer>,
     /// The text of the page. It is made for the first browser, because compressing the engine takes
     /// a while.
     page: OnceLock<String>,
     is_over: AtomicBool,
 }
 
-impl Site for PlayerSite {
+impl PageSite for PlayerSite {
     fn command(&self) -> &'static str {
         "foveate live"
     }
 
     fn page(&self, _nonce: &str) -> String {
-        let frames = self.reel.as_ref().map(|_| "frames");
+        let frames = self.frames.as_ref().map(|_| "frames");
         self.page.get_or_init(|| camera_page(frames)).clone()
     }
 
@@ -124,18 +124,18 @@ impl Site for PlayerSite {
         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'".to_owned()
     }
 
-    fn answer(&self, method: &str, within: &str, query: &str, _body: &[u8]) -> Option<Answer> {
-        let reel = self.reel.as_ref()?;
+    fn answer(&self, method: &str, within: &str, query: &str, _body: &[u8]) -> Option<HttpAnswer> {
+        let reel = self.frames.as_ref()?;
         Some(match (method, within) {
             ("GET", "frames") => {
                 let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
-                Answer::binary(reel.frame(after, PATIENCE))
+                HttpAnswer::binary(reel.frame_after(after, FRAME_WAIT))
             }
             ("POST", "restart") => match reel.restart() {
-                Ok(()) => Answer::text("200 OK", "begins again"),
-                Err(why) => Answer::text("409 Conflict", &why),
+                Ok(()) => HttpAnswer::text("200 OK", "begins again"),
+                Err(why) => HttpAnswer::text("409 Conflict", &why),
             },
-            (_, "frames" | "restart") => Answer::not_so(),
+            (_, "frames" | "restart") => HttpAnswer::method_not_allowed(),
             _ => return None,
         })
     }
@@ -147,14 +147,14 @@ impl Site for PlayerSite {
 
 /// Returns the settings that the page takes from its link: the preset, and every key of the camera
 /// whose value differs from the preset's.
-fn settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<String, ViewError> {
+fn link_settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<String, ViewError> {
     let mut text = preset.map(|name| format!("preset={name}")).unwrap_or_default();
     let Some(camera) = camera else { return Ok(text) };
     let name = preset.unwrap_or("paper");
     if preset.is_none() {
         text = format!("preset={name}");
     }
-    let (before, now) = (keys(&Preset::find(name)?.config()?.camera), keys(camera));
+    let (before, now) = (dotted_keys(&Preset::find(name)?.config()?.camera), dotted_keys(camera));
     let is_feature = |key: &str| key.starts_with("spatial.");
     let differs = |(key, value): &&(String, Value)| {
         !before.iter().any(|(other, old)| other == key && old == value)
@@ -174,7 +174,7 @@ fn settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<Strin
 
 /// Returns every key of a camera with its value. Keys are dotted, such as `spatial.0.level`. The
 /// size of the frame is left out, because the input gives it.
-fn keys(camera: &CameraConfig) -> Vec<(String, Value)> {
+fn dotted_keys(camera: &CameraConfig) -> Vec<(String, Value)> {
     fn walk(path: &str, value: Value, found: &mut Vec<(String, Value)>) {
         let inner =
             |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
@@ -198,16 +198,16 @@ fn keys(camera: &CameraConfig) -> Vec<(String, Value)> {
 
 #[cfg(test)]
 mod tests {
-    use foveate_design::Config;
+    use foveate_design::DesignConfig;
 
-    use super::settings;
+    use super::link_settings;
 
     #[test]
     fn the_link_has_what_differs_from_the_preset() {
         let of = |preset, set: &[&str]| {
             let toml = foveate_design::Preset::find(preset).unwrap().toml;
-            let camera = Config::from_toml_with(toml, set).unwrap().camera;
-            settings(Some(preset), Some(&camera)).unwrap()
+            let camera = DesignConfig::from_toml_with(toml, set).unwrap().camera;
+            link_settings(Some(preset), Some(&camera)).unwrap()
         };
         assert_eq!(of("fovea", &[]), "preset=fovea");
         assert_eq!(
@@ -219,7 +219,7 @@ mod tests {
             all.contains("spatial.0.feature=%22") && all.contains("spatial.0.level=77"),
             "{all}"
         );
-        assert_eq!(settings(None, None).unwrap(), "");
-        assert!(settings(Some("nonsense"), Some(&Config::default().camera)).is_err());
+        assert_eq!(link_settings(None, None).unwrap(), "");
+        assert!(link_settings(Some("nonsense"), Some(&DesignConfig::default().camera)).is_err());
     }
 }

@@ -10,15 +10,15 @@ use std::time::Duration;
 
 use crate::ViewError;
 use crate::connections::{ConnectionPlace, ConnectionTable};
-use crate::http::{Answer, Request, RequestStream};
+use crate::http::{HttpAnswer, HttpRequest, RequestStream};
 
 /// The time to wait for the connection that wakes the server.
-const WAKE: Duration = Duration::from_millis(200);
+const WAKE_TIME: Duration = Duration::from_millis(200);
 /// The pause before the next connection if the system gives none, because too many files are open.
-const NO_CONNECTION: Duration = Duration::from_millis(50);
+const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
 /// The content that a server has below its link.
-pub(crate) trait Site: Send + Sync + 'static {
+pub(crate) trait PageSite: Send + Sync + 'static {
     /// Returns the command that prints the link.
     fn command(&self) -> &'static str;
 
@@ -35,7 +35,7 @@ pub(crate) trait Site: Send + Sync + 'static {
     }
 
     /// Returns the answer to a request for anything but the page; `None` if it does not exist.
-    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<Answer>;
+    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<HttpAnswer>;
 
     /// Returns true if the server must end.
     fn is_over(&self) -> bool;
@@ -43,13 +43,13 @@ pub(crate) trait Site: Send + Sync + 'static {
 
 /// A running server, and its address.
 #[derive(Debug)]
-pub(crate) struct Server {
+pub(crate) struct PageServer {
     address: SocketAddr,
     link: String,
 }
 
 /// The values that all connections share.
-struct Shared<S> {
+struct ServerContext<S> {
     token: String,
     nonce: String,
     policy: String,
@@ -57,26 +57,26 @@ struct Shared<S> {
     site: Arc<S>,
 }
 
-impl Server {
+impl PageServer {
     /// Starts a server that listens until the site is over.
-    pub(crate) fn start(address: SocketAddr, site: Arc<impl Site>) -> Result<Self, ViewError> {
+    pub(crate) fn start(address: SocketAddr, site: Arc<impl PageSite>) -> Result<Self, ViewError> {
         if !address.ip().is_loopback() {
             return Err(ViewError::Address { address });
         }
         let listen = |source| ViewError::Listen { address, source };
         let listener = TcpListener::bind(address).map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
-        let token = random()?;
+        let token = random_token()?;
         let link = format!("http://{address}/{token}/");
-        let nonce = random()?;
-        let shared = Arc::new(Shared {
+        let nonce = random_token()?;
+        let shared = Arc::new(ServerContext {
             token,
             policy: site.policy(&nonce),
             nonce,
             hosts: [address.to_string(), format!("localhost:{}", address.port())],
             site,
         });
-        crate::thread("server", move || serve(&listener, &shared))?;
+        crate::start_thread("server", move || accept_connections(&listener, &shared))?;
         Ok(Self { address, link })
     }
 
@@ -86,34 +86,34 @@ impl Server {
 
     /// Wakes the server, so that it notices that the site is over.
     pub(crate) fn wake(&self) {
-        let _ = TcpStream::connect_timeout(&self.address, WAKE);
+        let _ = TcpStream::connect_timeout(&self.address, WAKE_TIME);
     }
 }
 
-fn serve(listener: &TcpListener, shared: &Arc<Shared<impl Site>>) {
+fn accept_connections(listener: &TcpListener, shared: &Arc<ServerContext<impl PageSite>>) {
     let connections = Arc::<ConnectionTable>::default();
     for stream in listener.incoming() {
         if shared.site.is_over() {
             return;
         }
         let Ok(stream) = stream.map(Arc::new) else {
-            sleep(NO_CONNECTION);
+            sleep(ACCEPT_PAUSE);
             continue;
         };
-        let Some(place) = connections.take(&stream) else { continue };
+        let Some(place) = connections.register(&stream) else { continue };
         let own = Arc::clone(shared);
         // A browser that goes away is no error, and a thread that does not start ends the
         // connection.
-        let _ = crate::thread("browser", move || drop(own.talk(stream, &place)));
+        let _ = crate::start_thread("browser", move || drop(own.answer_requests(stream, &place)));
     }
 }
 
-impl<S: Site> Shared<S> {
-    fn talk(&self, stream: Arc<TcpStream>, place: &ConnectionPlace) -> std::io::Result<()> {
+impl<S: PageSite> ServerContext<S> {
+    fn answer_requests(&self, stream: Arc<TcpStream>, place: &ConnectionPlace) -> std::io::Result<()> {
         stream.set_nodelay(true)?;
         let mut dialogue = RequestStream::new(stream);
         while let Some(request) = dialogue.next()? {
-            let admitted = self.admitted(&request);
+            let admitted = self.admit(&request);
             if admitted.is_ok() {
                 place.admit();
             }
@@ -134,44 +134,44 @@ impl<S: Site> Shared<S> {
 
     /// Returns the path below the link and the query of a request with the token, or else the
     /// answer that refuses the request.
-    fn admitted<'a>(&self, request: &'a Request) -> Result<(&'a str, &'a str), Answer> {
+    fn admit<'a>(&self, request: &'a HttpRequest) -> Result<(&'a str, &'a str), HttpAnswer> {
         if !self.hosts.contains(&request.host.to_ascii_lowercase()) {
-            return Err(Answer::text("403 Forbidden", "this page has another address"));
+            return Err(HttpAnswer::text("403 Forbidden", "this page has another address"));
         }
         let (path, query) = request.target.split_once('?').unwrap_or((&request.target, ""));
         let within = path.strip_prefix('/').and_then(|path| path.split_once('/'));
-        match within.filter(|(token, _)| same(token, &self.token)) {
+        match within.filter(|(token, _)| equal_in_constant_time(token, &self.token)) {
             Some((_, within)) => Ok((within, query)),
             None => {
                 let text = format!("open the link that `{}` prints", self.site.command());
-                Err(Answer::text("403 Forbidden", &text))
+                Err(HttpAnswer::text("403 Forbidden", &text))
             }
         }
     }
 
-    fn answer(&self, request: &Request, within: &str, query: &str) -> Answer {
+    fn answer(&self, request: &HttpRequest, within: &str, query: &str) -> HttpAnswer {
         match (request.method.as_str(), within) {
             ("GET", "") => {
                 let body = self.site.page(&self.nonce).into_bytes();
-                Answer { status: "200 OK", kind: "text/html; charset=utf-8", body }
+                HttpAnswer { status: "200 OK", kind: "text/html; charset=utf-8", body }
             }
-            (_, "") => Answer::not_so(),
+            (_, "") => HttpAnswer::method_not_allowed(),
             (method, within) => {
                 let answer = self.site.answer(method, within, query, &request.body);
-                answer.unwrap_or_else(|| Answer::text("404 Not Found", "there is nothing"))
+                answer.unwrap_or_else(|| HttpAnswer::text("404 Not Found", "there is nothing"))
             }
         }
     }
 }
 
 /// Compares two texts in a time that does not depend on the place where they differ.
-fn same(given: &str, own: &str) -> bool {
+fn equal_in_constant_time(given: &str, own: &str) -> bool {
     let differ = given.bytes().zip(own.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
     given.len() == own.len() && differ == 0
 }
 
 /// Returns a random text of 128 bits.
-fn random() -> Result<String, ViewError> {
+fn random_token() -> Result<String, ViewError> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(|error| ViewError::Random { reason: error.to_string() })?;
     Ok(format!("{:032x}", u128::from_le_bytes(bytes)))

@@ -6,39 +6,39 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::board::Board;
-use crate::http::Answer;
-use crate::live::Live;
+use crate::board::BoardRegisters;
+use crate::http::HttpAnswer;
+use crate::shared_stream::SharedStream;
 use crate::page;
-use crate::server::Site;
+use crate::server::PageSite;
 
 /// The time that a browser waits for a change.
-const PATIENCE: Duration = Duration::from_secs(1);
+const CHANGE_WAIT: Duration = Duration::from_secs(1);
 
 /// A stream, and the board that sends it.
 #[derive(Debug)]
 pub(crate) struct StreamSite {
-    pub(crate) live: Arc<Live>,
-    pub(crate) board: Arc<Board>,
+    pub(crate) live: Arc<SharedStream>,
+    pub(crate) board: Arc<BoardRegisters>,
 }
 
-impl Site for StreamSite {
+impl PageSite for StreamSite {
     fn command(&self) -> &'static str {
         "foveate view"
     }
 
     fn page(&self, nonce: &str) -> String {
-        page::render(nonce, &self.board.describe())
+        page::stream_page(nonce, &self.board.describe())
     }
 
-    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<Answer> {
+    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<HttpAnswer> {
         Some(match (method, within) {
             ("GET", "next") => {
                 let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
-                Answer::binary(self.live.next(after.unwrap_or(0), PATIENCE))
+                HttpAnswer::binary(self.live.changes_after(after.unwrap_or(0), CHANGE_WAIT))
             }
             ("POST", "register") => self.write(body),
-            (_, "next" | "register") => Answer::not_so(),
+            (_, "next" | "register") => HttpAnswer::method_not_allowed(),
             _ => return None,
         })
     }
@@ -50,14 +50,14 @@ impl Site for StreamSite {
 
 impl StreamSite {
     /// Writes a register: `{"address": 256, "value": 4}`.
-    fn write(&self, body: &[u8]) -> Answer {
+    fn write(&self, body: &[u8]) -> HttpAnswer {
         let asked: Value = serde_json::from_slice(body).unwrap_or_default();
         let Some((address, value)) = asked["address"].as_u64().zip(asked["value"].as_u64()) else {
-            return Answer::text("400 Bad Request", "a register has an address and a value");
+            return HttpAnswer::text("400 Bad Request", "a register has an address and a value");
         };
         match self.board.write(address, value) {
-            Ok(()) => Answer::text("200 OK", "written"),
-            Err(why) => Answer::text("409 Conflict", &why),
+            Ok(()) => HttpAnswer::text("200 OK", "written"),
+            Err(why) => HttpAnswer::text("409 Conflict", &why),
         }
     }
 }

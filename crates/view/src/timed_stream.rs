@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The largest number of bytes that are written before the deadline is checked again.
-const PIECE: usize = 64 << 10;
+const PIECE_BYTES: usize = 64 << 10;
 
 /// A connection that fails once its deadline has passed.
 #[derive(Debug)]
@@ -25,11 +25,11 @@ impl TimedStream {
     }
 
     /// Sets the deadline to `time` from now.
-    pub(crate) fn allow(&mut self, time: Duration) {
+    pub(crate) fn set_deadline(&mut self, time: Duration) {
         self.deadline = Instant::now() + time;
     }
 
-    fn left(&self) -> io::Result<Duration> {
+    fn time_left(&self) -> io::Result<Duration> {
         let left = self.deadline.saturating_duration_since(Instant::now());
         if left.is_zero() { Err(ErrorKind::TimedOut.into()) } else { Ok(left) }
     }
@@ -37,15 +37,15 @@ impl TimedStream {
 
 impl Read for TimedStream {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        self.stream.set_read_timeout(Some(self.left()?))?;
+        self.stream.set_read_timeout(Some(self.time_left()?))?;
         (&*self.stream).read(bytes)
     }
 }
 
 impl Write for TimedStream {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.stream.set_write_timeout(Some(self.left()?))?;
-        (&*self.stream).write(&bytes[..bytes.len().min(PIECE)])
+        self.stream.set_write_timeout(Some(self.time_left()?))?;
+        (&*self.stream).write(&bytes[..bytes.len().min(PIECE_BYTES)])
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     /// Returns both ends of a connection.
-    fn connected() -> (TimedStream, TcpStream) {
+    fn connected_pair() -> (TimedStream, TcpStream) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let peer = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         (TimedStream::new(Arc::new(listener.accept().unwrap().0)), peer)
@@ -68,7 +68,7 @@ mod tests {
 
     /// Calls `act` on the other end every 20 ms until `work` has ended. Returns the time that
     /// `work` took.
-    fn disturbed(mut peer: TcpStream, act: fn(&mut TcpStream), work: impl FnOnce()) -> Duration {
+    fn run_disturbed(mut peer: TcpStream, act: fn(&mut TcpStream), work: impl FnOnce()) -> Duration {
         let start = Instant::now();
         let (ended, end) = std::sync::mpsc::channel::<()>();
         std::thread::scope(|scope| {
@@ -91,10 +91,10 @@ mod tests {
 
     #[test]
     fn a_peer_that_sends_a_byte_now_and_then_meets_the_deadline() {
-        let (mut own, peer) = connected();
-        own.allow(Duration::from_millis(300));
+        let (mut own, peer) = connected_pair();
+        own.set_deadline(Duration::from_millis(300));
         let drip = |peer: &mut TcpStream| drop(peer.write_all(&[7]));
-        let took = disturbed(peer, drip, || {
+        let took = run_disturbed(peer, drip, || {
             let error = own.read_exact(&mut [0; 1000]).unwrap_err();
             assert!(is_timeout(&error), "{error}");
         });
@@ -103,10 +103,10 @@ mod tests {
 
     #[test]
     fn a_peer_that_takes_a_byte_now_and_then_meets_the_deadline() {
-        let (mut own, peer) = connected();
-        own.allow(Duration::from_millis(300));
+        let (mut own, peer) = connected_pair();
+        own.set_deadline(Duration::from_millis(300));
         let sip = |peer: &mut TcpStream| drop(peer.read(&mut [0; 1]));
-        let took = disturbed(peer, sip, || {
+        let took = run_disturbed(peer, sip, || {
             // This is more than the buffers of both ends hold.
             let error = own.write_all(&vec![7; 64 << 20]).unwrap_err();
             assert!(is_timeout(&error), "{error}");
@@ -116,10 +116,10 @@ mod tests {
 
     #[test]
     fn another_deadline_gives_more_time() {
-        let (mut own, mut peer) = connected();
+        let (mut own, mut peer) = connected_pair();
         peer.write_all(b"ab").unwrap();
         assert!(is_timeout(&own.read(&mut [0; 1]).unwrap_err()));
-        own.allow(Duration::from_secs(10));
+        own.set_deadline(Duration::from_secs(10));
         own.read_exact(&mut [0; 2]).unwrap();
         own.write_all(b"cd").unwrap();
         peer.read_exact(&mut [0; 2]).unwrap();

@@ -3,18 +3,18 @@
 //! their defaults. All of it comes from the tables that the command uses, so that a page has no
 //! range of its own.
 
-use foveate_camera::text::AsToml as _;
+use foveate_camera::toml_text::TomlConfig as _;
 use foveate_camera::{
-    CameraConfig, ConfigError, FeatureKind, Irrelevant, Key, SpatialConfig, Takes,
+    CameraConfig, ConfigError, FeatureKind, IrrelevantRendering, ConfigKey, SpatialConfig, Takes,
 };
-use foveate_design::{Config, PRESETS};
+use foveate_design::{DesignConfig, PRESETS};
 use foveate_scenes::Scene;
 use serde_json::{Value, json};
 
 use crate::limits::{MAX_CAMERAS, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 
 /// Returns the whole description.
-pub(crate) fn describe() -> Result<Value, ConfigError> {
+pub(crate) fn page_description() -> Result<Value, ConfigError> {
     let defaults = defaults()?;
     let presets = PRESETS.iter().map(
         |preset| json!({ "name": preset.name, "summary": preset.summary, "toml": preset.toml }),
@@ -22,7 +22,7 @@ pub(crate) fn describe() -> Result<Value, ConfigError> {
     let scenes = Scene::ALL.iter().map(|scene| {
         json!({ "name": scene.name(), "summary": scene.summary(), "frames": scene.default_frames() })
     });
-    let keys = Config::keys().map(|key| described(key, &defaults));
+    let keys = DesignConfig::keys().map(|key| described_key(key, &defaults));
     let features = FeatureKind::ALL.iter().map(|&kind| feature(kind));
     Ok(json!({
         "version": env!("CARGO_PKG_VERSION"),
@@ -37,17 +37,17 @@ pub(crate) fn describe() -> Result<Value, ConfigError> {
 /// Returns the default camera with every key. The keys of a periphery are included, although the
 /// default has no periphery.
 fn defaults() -> Result<Value, ConfigError> {
-    let design = Config::default().validate()?;
+    let design = DesignConfig::default().validate()?;
     let mut shown = CameraConfig::default();
-    shown.render.irrelevant = Irrelevant::Mean;
-    let mut defaults = json!(design.spelled_out());
+    shown.render.irrelevant = IrrelevantRendering::Mean;
+    let mut defaults = json!(design.complete_config());
     defaults["periphery"] = json!(shown.validate()?.config().periphery);
     Ok(defaults)
 }
 
 /// Describes a key: its kind, its values in words, its range or choices if these depend on no other
 /// key, and its default.
-fn described((key, takes): &Key, defaults: &Value) -> Value {
+fn described_key((key, takes): &ConfigKey, defaults: &Value) -> Value {
     let path = format!("/{}", key.replacen("spatial.", "spatial.0.", 1).replace('.', "/"));
     let mut told =
         json!({ "key": key, "takes": takes.to_string(), "default": defaults.pointer(&path) });
@@ -66,6 +66,6 @@ fn described((key, takes): &Key, defaults: &Value) -> Value {
 /// apply are left out.
 fn feature(kind: FeatureKind) -> Value {
     let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
-    told["unit"] = json!(kind.measure().name());
+    told["unit"] = json!(kind.score_unit().name());
     told
 }

@@ -4,7 +4,7 @@
 use foveate_camera::ConfigError;
 use foveate_engine::EngineError;
 use foveate_model::ModelError;
-use foveate_network::sight::SightError;
+use foveate_network::vision::VisionError;
 use foveate_scenes::SceneError;
 use thiserror::Error;
 
@@ -26,7 +26,7 @@ pub enum WebError {
     Scene(#[from] SceneError),
     /// The network cannot be read, cannot take the frames, or has outputs that cannot be read.
     #[error(transparent)]
-    Sight(#[from] SightError),
+    Sight(#[from] VisionError),
     /// The file of a network is too large.
     #[error("the file has {given} bytes; a page takes networks of at most {most}")]
     NetworkFile {
@@ -49,13 +49,13 @@ pub enum WebError {
     },
     /// No camera has pixels of this depth.
     #[error("pixels of {bits} bits are refused; a camera has 1 to 16")]
-    Bits {
+    PixelDepth {
         /// The requested bits of a pixel.
         bits: u32,
     },
     /// A setting of a network cannot be read.
     #[error("{what}: {problem}")]
-    Wish {
+    Setting {
         /// The name of the setting.
         what: &'static str,
         /// The message, with what would be right.
@@ -63,7 +63,7 @@ pub enum WebError {
     },
     /// A pixel is larger than its bits allow.
     #[error("a pixel is larger than {bits} bits hold; give pixels as the camera has them")]
-    PixelBits {
+    PixelTooLarge {
         /// The bits of a pixel.
         bits: u32,
     },
@@ -72,7 +72,7 @@ pub enum WebError {
     NoNetwork,
     /// The bytes are not text.
     #[error("the {what} is not UTF-8 text, from byte {at} on; give it as UTF-8")]
-    Text {
+    NotUtf8 {
         /// The name of what should have been text.
         what: &'static str,
         /// The position of the first byte that is not text.
@@ -82,7 +82,7 @@ pub enum WebError {
     #[error(
         "a frame of {width}x{height} pixels is refused; a page takes frames of 1 to {most} pixels"
     )]
-    Size {
+    FrameSize {
         /// The requested width in pixels.
         width: u32,
         /// The requested height in pixels.
@@ -142,7 +142,7 @@ pub enum WebError {
     },
     /// The camera has seen no frame yet.
     #[error("the camera has seen no frame yet; show it one first")]
-    NothingYet,
+    NoFrameYet,
     /// There is no recording.
     #[error("nothing is recorded; begin a recording first")]
     NotRecording,

@@ -13,10 +13,10 @@
 
 use std::cell::RefCell;
 
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 
 use crate::limits::{MAX_NETWORK_FILE, MAX_PIXELS};
-use crate::{Desk, LiveCamera, NetworkDesk, Sent, WebError};
+use crate::{PageCameras, LiveCamera, PageNetwork, FrameSummary, WebError};
 
 /// The largest input in bytes: the file of a network, which is larger than a frame in colour.
 const MAX_INPUT: usize = MAX_NETWORK_FILE;
@@ -24,31 +24,31 @@ const _: () = assert!(MAX_INPUT >= 4 * MAX_PIXELS as usize);
 
 /// The state of a page, and the buffers between it and the page.
 #[derive(Debug, Default)]
-struct Counter {
-    desk: Desk,
-    network: NetworkDesk,
+struct PageState {
+    desk: PageCameras,
+    network: PageNetwork,
     input: Vec<u8>,
     answer: Vec<u8>,
     /// The address of the answer, and its length in bytes.
-    place: (usize, usize),
+    answer_place: (usize, usize),
 }
 
 thread_local! {
-    static COUNTER: RefCell<Counter> = RefCell::default();
+    static PAGE_STATE: RefCell<PageState> = RefCell::default();
 }
 
-impl Counter {
+impl PageState {
     /// Makes a text the answer.
-    fn say(&mut self, text: String) {
+    fn set_answer(&mut self, text: String) {
         self.answer = text.into_bytes();
-        self.place = place(&self.answer);
+        self.answer_place = address_and_length(&self.answer);
     }
 
     /// Returns the number of a successful call, or makes the error message the answer and returns
     /// -1.
-    fn told(&mut self, result: Result<i32, WebError>) -> i32 {
+    fn answer_number(&mut self, result: Result<i32, WebError>) -> i32 {
         result.unwrap_or_else(|error| {
-            self.say(error.to_string());
+            self.set_answer(error.to_string());
             -1
         })
     }
@@ -58,43 +58,43 @@ impl Counter {
         &mut self,
         handle: u32,
         time_us: f64,
-        step: impl FnOnce(&mut LiveCamera, &[u8], Option<u64>) -> Result<Sent, WebError>,
+        step: impl FnOnce(&mut LiveCamera, &[u8], Option<u64>) -> Result<FrameSummary, WebError>,
     ) -> i32 {
         let Self { desk, input, .. } = self;
         let time_us = microseconds(time_us);
         let sent = desk.camera(handle).and_then(|camera| step(camera, input, time_us));
         let sent = sent.map(|sent| {
-            self.say(serde_json::json!(sent).to_string());
+            self.set_answer(serde_json::json!(sent).to_string());
             0
         });
-        self.told(sent)
+        self.answer_number(sent)
     }
 
     /// Makes values that a camera holds the answer.
-    fn show<T>(
+    fn answer_values<T>(
         &mut self,
         handle: u32,
         seen: impl FnOnce(&LiveCamera) -> Result<&[T], WebError>,
     ) -> i32 {
-        let found = self.desk.camera(handle).and_then(|camera| Ok(place(seen(camera)?)));
+        let found = self.desk.camera(handle).and_then(|camera| Ok(address_and_length(seen(camera)?)));
         let found = found.map(|place| {
-            self.place = place;
+            self.answer_place = place;
             0
         });
-        self.told(found)
+        self.answer_number(found)
     }
 
     /// Makes pixels of a camera the answer.
-    fn plane(&mut self, handle: u32, of: impl FnOnce(&LiveCamera) -> Plane<'_>) -> i32 {
+    fn answer_pixels(&mut self, handle: u32, of: impl FnOnce(&LiveCamera) -> FramePixels<'_>) -> i32 {
         let found = self.desk.camera(handle).map(|camera| match of(camera) {
-            Plane::Bytes(pixels) => place(pixels),
-            Plane::Words(pixels) => place(pixels),
+            FramePixels::Bytes(pixels) => address_and_length(pixels),
+            FramePixels::Words(pixels) => address_and_length(pixels),
         });
         let found = found.map(|place| {
-            self.place = place;
+            self.answer_place = place;
             0
         });
-        self.told(found)
+        self.answer_number(found)
     }
 }
 
@@ -107,19 +107,19 @@ fn microseconds(time_us: f64) -> Option<u64> {
 }
 
 /// Returns the address of values, and their length in bytes.
-fn place<T>(values: &[T]) -> (usize, usize) {
+fn address_and_length<T>(values: &[T]) -> (usize, usize) {
     (values.as_ptr().addr(), size_of_val(values))
 }
 
-fn at_the_counter<R>(call: impl FnOnce(&mut Counter) -> R) -> R {
-    COUNTER.with_borrow_mut(call)
+fn with_page_state<R>(call: impl FnOnce(&mut PageState) -> R) -> R {
+    PAGE_STATE.with_borrow_mut(call)
 }
 
 /// Gives the input buffer a length of `length` bytes, and returns its address; 0 if that is more
 /// than the largest network.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_input(length: usize) -> usize {
-    at_the_counter(|counter| {
+    with_page_state(|counter| {
         if length > MAX_INPUT {
             return 0;
         }
@@ -131,24 +131,24 @@ pub extern "C" fn foveate_input(length: usize) -> usize {
 /// Returns the address of the last answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_pointer() -> usize {
-    at_the_counter(|counter| counter.place.0)
+    with_page_state(|counter| counter.answer_place.0)
 }
 
 /// Returns the length of the last answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_length() -> usize {
-    at_the_counter(|counter| counter.place.1)
+    with_page_state(|counter| counter.answer_place.1)
 }
 
 /// Answers with the description of what a page can ask for, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_describe() -> i32 {
-    at_the_counter(|counter| {
-        let told = counter.desk.describe().map(|told| {
-            counter.say(told.to_string());
+    with_page_state(|counter| {
+        let told = counter.desk.description().map(|told| {
+            counter.set_answer(told.to_string());
             0
         });
-        counter.told(told)
+        counter.answer_number(told)
     })
 }
 
@@ -156,14 +156,14 @@ pub extern "C" fn foveate_describe() -> i32 {
 /// about it, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_configure(width: u32, height: u32) -> i32 {
-    at_the_counter(|counter| {
+    with_page_state(|counter| {
         let made =
             counter.desk.configure(&counter.input, (width, height)).map(|(number, facts)| {
-                counter.say(facts.to_string());
+                counter.set_answer(facts.to_string());
                 // There are at most [`crate::MAX_CAMERAS`] cameras, so that the number fits.
                 number.cast_signed()
             });
-        counter.told(made)
+        counter.answer_number(made)
     })
 }
 
@@ -172,63 +172,63 @@ pub extern "C" fn foveate_configure(width: u32, height: u32) -> i32 {
 /// what the camera sends, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_step_grey(handle: u32, time_us: f64) -> i32 {
-    at_the_counter(|counter| counter.step(handle, time_us, LiveCamera::step_grey))
+    with_page_state(|counter| counter.step(handle, time_us, LiveCamera::step_grey))
 }
 
 /// Shows a camera the frame in the input buffer as [`foveate_step_grey`] does, but with four bytes
 /// of colour per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_step_rgba(handle: u32, time_us: f64) -> i32 {
-    at_the_counter(|counter| counter.step(handle, time_us, LiveCamera::step_rgba))
+    with_page_state(|counter| counter.step(handle, time_us, LiveCamera::step_rgba))
 }
 
 /// Answers with the last frame that the camera has seen: a byte per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_seen(handle: u32) -> i32 {
-    at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.input())))
+    with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.input())))
 }
 
 /// Answers with the receiver's screen: a byte per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_screen(handle: u32) -> i32 {
-    at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.screen())))
+    with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.screen())))
 }
 
 /// Answers with the last frame as the camera has it, in pixels of P bits. Pixels of up to 8 bits
 /// have one byte each; deeper pixels have two, the lower first.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_pixels(handle: u32) -> i32 {
-    at_the_counter(|counter| counter.plane(handle, LiveCamera::pixels))
+    with_page_state(|counter| counter.answer_pixels(handle, LiveCamera::pixels))
 }
 
 /// Answers with the receiver's screen, in pixels as [`foveate_pixels`] has them.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_rendered(handle: u32) -> i32 {
-    at_the_counter(|counter| counter.plane(handle, |camera| camera.engine().rendered()))
+    with_page_state(|counter| counter.answer_pixels(handle, |camera| camera.engine().rendered()))
 }
 
 /// Answers with the decisions: a byte per region.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_regions(handle: u32) -> i32 {
-    at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.regions())))
+    with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.regions())))
 }
 
 /// Answers with the scores of a feature: eight bytes per region.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_scores(handle: u32, feature: u32) -> i32 {
-    at_the_counter(|counter| counter.show(handle, |camera| camera.scores(feature)))
+    with_page_state(|counter| counter.answer_values(handle, |camera| camera.scores(feature)))
 }
 
 /// Answers with the hash of the last frame's results, as 16 hexadecimal digits.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_hash(handle: u32) -> i32 {
-    at_the_counter(|counter| {
+    with_page_state(|counter| {
         let hash = counter.desk.camera(handle).map(|camera| camera.engine().digest());
         let hash = hash.map(|hash| {
-            counter.say(format!("{hash:016x}"));
+            counter.set_answer(format!("{hash:016x}"));
             0
         });
-        counter.told(hash)
+        counter.answer_number(hash)
     })
 }
 
@@ -236,78 +236,78 @@ pub extern "C" fn foveate_hash(handle: u32) -> i32 {
 /// that send something.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_record(handle: u32, how: u32) -> i32 {
-    at_the_counter(|counter| {
+    with_page_state(|counter| {
         let done = counter.desk.camera(handle).map(|camera| {
-            camera.record(how > 0, how > 1);
+            camera.set_recording(how > 0, how > 1);
             0
         });
-        counter.told(done)
+        counter.answer_number(done)
     })
 }
 
 /// Answers with the recording, as `events.csv`.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_events(handle: u32) -> i32 {
-    at_the_counter(|counter| counter.show(handle, LiveCamera::events))
+    with_page_state(|counter| counter.answer_values(handle, LiveCamera::recorded_events))
 }
 
 /// Answers with the reason why a region of the last frame was sent or not: `{"json": .., "text":
 /// ..}`. The input buffer holds the name of the frame.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_explain(handle: u32, x: u32, y: u32) -> i32 {
-    at_the_counter(|counter| {
-        let Counter { desk, input, .. } = &mut *counter;
+    with_page_state(|counter| {
+        let PageState { desk, input, .. } = &mut *counter;
         let name = String::from_utf8_lossy(input);
         let told = desk.camera(handle).and_then(|camera| camera.explain((x, y), &name));
         let told = told.map(|told| {
-            counter.say(serde_json::json!({ "text": told.to_string(), "json": told }).to_string());
+            counter.set_answer(serde_json::json!({ "text": told.to_string(), "json": told }).to_string());
             0
         });
-        counter.told(told)
+        counter.answer_number(told)
     })
 }
 
 /// Makes a camera forget all frames.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_reset(handle: u32) -> i32 {
-    at_the_counter(|counter| {
+    with_page_state(|counter| {
         let done = counter.desk.camera(handle).map(|camera| {
             camera.reset();
             0
         });
-        counter.told(done)
+        counter.answer_number(done)
     })
 }
 
 /// Ends a camera.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_free(handle: u32) -> i32 {
-    at_the_counter(|counter| {
-        let done = counter.desk.free(handle).map(|()| 0);
-        counter.told(done)
+    with_page_state(|counter| {
+        let done = counter.desk.remove(handle).map(|()| 0);
+        counter.answer_number(done)
     })
 }
 
 /// Answers with a frame of the scene whose name is in the input buffer: a byte per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_scene(width: u32, height: u32, region_size: u32, number: u32) -> i32 {
-    at_the_counter(|counter| {
-        let Counter { desk, input, .. } = &mut *counter;
-        let frame = desk.scene(input, (width, height), region_size, number).map(place);
+    with_page_state(|counter| {
+        let PageState { desk, input, .. } = &mut *counter;
+        let frame = desk.scene_frame(input, (width, height), region_size, number).map(address_and_length);
         let frame = frame.map(|place| {
-            counter.place = place;
+            counter.answer_place = place;
             0
         });
-        counter.told(frame)
+        counter.answer_number(frame)
     })
 }
 
 /// Takes the content of the input buffer as the file of a network.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_file() -> i32 {
-    at_the_counter(|counter| {
-        let taken = counter.network.take(std::mem::take(&mut counter.input)).map(|()| 0);
-        counter.told(taken)
+    with_page_state(|counter| {
+        let taken = counter.network.set_file(std::mem::take(&mut counter.input)).map(|()| 0);
+        counter.answer_number(taken)
     })
 }
 
@@ -315,13 +315,13 @@ pub extern "C" fn foveate_network_file() -> i32 {
 /// buffer, which are JSON. Answers with the facts about it, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_open(width: u32, height: u32, bits: u32) -> i32 {
-    at_the_counter(|counter| {
-        let Counter { network, input, .. } = &mut *counter;
+    with_page_state(|counter| {
+        let PageState { network, input, .. } = &mut *counter;
         let told = network.open(input, (width, height), bits).map(|told| {
-            counter.say(told.to_string());
+            counter.set_answer(told.to_string());
             0
         });
-        counter.told(told)
+        counter.answer_number(told)
     })
 }
 
@@ -330,11 +330,11 @@ pub extern "C" fn foveate_network_open(width: u32, height: u32, bits: u32) -> i3
 /// its outputs, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_look() -> i32 {
-    at_the_counter(|counter| {
-        let looked = counter.network.look(&counter.input).map(|looked| {
-            counter.say(serde_json::json!(looked).to_string());
+    with_page_state(|counter| {
+        let looked = counter.network.compare(&counter.input).map(|looked| {
+            counter.set_answer(serde_json::json!(looked).to_string());
             0
         });
-        counter.told(looked)
+        counter.answer_number(looked)
     })
 }

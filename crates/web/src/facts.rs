@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The facts about a camera that a page gets.
 
-use foveate_camera::Bound;
+use foveate_camera::KeyBound;
 use foveate_design::Design;
 use serde_json::{Map, Value, json};
 
 /// Returns every key with its value, the sizes that follow, and the possible values of each key
 /// while the others stay.
-pub(crate) fn facts(design: &Design) -> Value {
-    let config = design.spelled_out();
+pub(crate) fn camera_facts(design: &Design) -> Value {
+    let config = design.complete_config();
     let features = design.features().iter().map(|feature| feature.kind().name());
     json!({
         "toml": config.to_toml(),
@@ -23,15 +23,15 @@ pub(crate) fn facts(design: &Design) -> Value {
         "features": features.collect::<Vec<_>>(),
         "organization": design.organization().name(),
         "raw_bits_per_frame": u64::from(design.width()) * u64::from(design.height()) * u64::from(design.pixel_bits()),
-        "bounds": design.bounds().into_iter().map(|(key, bound)| (key, described(bound))).collect::<Map<_, _>>(),
+        "bounds": design.bounds().into_iter().map(|(key, bound)| (key, described_bound(bound))).collect::<Map<_, _>>(),
     })
 }
 
-fn described(bound: Bound) -> Value {
+fn described_bound(bound: KeyBound) -> Value {
     match bound {
-        Bound::UpTo { largest, whole } => {
+        KeyBound::Maximum { largest, whole } => {
             json!({ "kind": if whole { "whole" } else { "decimal" }, "min": 0, "max": largest })
         }
-        Bound::OneOf(values) => json!({ "kind": "choice", "choices": values }),
+        KeyBound::OneOf(values) => json!({ "kind": "choice", "choices": values }),
     }
 }

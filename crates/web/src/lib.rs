@@ -12,19 +12,19 @@
 //! bytes of a recording, a network.
 
 mod describe;
-mod desk;
+mod page_cameras;
 mod error;
 pub mod exports;
 mod facts;
 mod limits;
-mod live;
+mod live_camera;
 mod network;
 mod pixels;
 mod recording;
 
-pub use desk::Desk;
+pub use page_cameras::PageCameras;
 pub use error::WebError;
 pub use limits::{MAX_CAMERAS, MAX_NETWORK_BYTES, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
-pub use live::{Actions, LiveCamera, Sent};
-pub use network::{Looked, NetworkDesk, Seen, Wishes};
-pub use recording::Recorded;
+pub use live_camera::{ActionCounts, LiveCamera, FrameSummary};
+pub use network::{NetworkComparison, PageNetwork, FrameDetection, NetworkSettings};
+pub use recording::RecordingState;

@@ -4,26 +4,26 @@
 
 use std::path::Path;
 
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 use foveate_network::Network;
-use foveate_network::sight::{
-    ClassKept, Detection, Detector, Found, Frames, Mapping, Pairs, Sums, Usual, Viewing, Witness,
-    largest, parse_detector, parse_framing, parse_mean, parse_scale,
+use foveate_network::vision::{
+    ClassAgreement, Detection, Detector, DetectionCounts, FrameFormat, PixelMapping, DetectionPairs, AgreementSums, NetworkDefaults, VisionOptions, VisionNetwork,
+    index_of_largest, parse_detector, parse_framing, parse_mean, parse_scale,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::WebError;
-use crate::desk::check_size;
+use crate::page_cameras::check_size;
 use crate::limits::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
 
 /// The side of the regions in which a frame is converted. The network computes all of it anyway.
-const REGION: u32 = 16;
+const REGION_SIDE: u32 = 16;
 
 /// The settings for showing frames to a network, in the words of the command line.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Wishes {
+pub struct NetworkSettings {
     /// The name of the file, for messages.
     pub name: String,
     /// The value of `--framing`.
@@ -39,35 +39,35 @@ pub struct Wishes {
 
 /// The network of a page: its file, and the opened network.
 #[derive(Debug, Default)]
-pub struct NetworkDesk {
+pub struct PageNetwork {
     file: Option<Vec<u8>>,
-    network: Option<LiveNetwork>,
+    network: Option<OpenNetwork>,
 }
 
 /// A network for frames of one size and depth.
 #[derive(Debug)]
-struct LiveNetwork {
-    witness: Witness,
-    frames: Frames,
+struct OpenNetwork {
+    witness: VisionNetwork,
+    frames: FrameFormat,
     /// The bits of a pixel.
     bits: u32,
 }
 
 /// The outputs of a network for a whole frame and for the receiver's screen, compared.
 #[derive(Clone, Debug, Serialize)]
-pub struct Looked {
+pub struct NetworkComparison {
     /// The agreement as one number, as `foveate infer` computes it.
     pub agreement: f64,
     /// The distance of the outputs from those of the whole frame, as a share of these.
     pub relative_rms: f64,
     /// The numbers of detections that were found, kept and added, if detections are read.
-    pub found: Option<Found>,
+    pub found: Option<DetectionCounts>,
     /// The detections in the whole frame.
-    pub whole: Vec<Seen>,
+    pub whole: Vec<FrameDetection>,
     /// The detections in the receiver's screen.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<FrameDetection>,
     /// The agreement of outputs that are one class.
-    pub classes: Option<ClassKept>,
+    pub classes: Option<ClassAgreement>,
     /// The classes of the whole frame and of the receiver's screen, from the first such output.
     pub class: Option<[usize; 2]>,
     /// The share of the places with the same class, for outputs that have a class at every place.
@@ -76,7 +76,7 @@ pub struct Looked {
 
 /// A detection in a frame.
 #[derive(Clone, Debug, Serialize)]
-pub struct Seen {
+pub struct FrameDetection {
     /// The number of its class.
     pub class: usize,
     /// The score of the detection, 0 to 1.
@@ -87,12 +87,12 @@ pub struct Seen {
     pub both: bool,
 }
 
-impl NetworkDesk {
+impl PageNetwork {
     /// Takes the file of a network. The previous network is dropped.
     ///
     /// # Errors
     /// Fails if the file is too large.
-    pub fn take(&mut self, file: Vec<u8>) -> Result<(), WebError> {
+    pub fn set_file(&mut self, file: Vec<u8>) -> Result<(), WebError> {
         *self = Self::default();
         if file.len() > MAX_NETWORK_FILE {
             return Err(WebError::NetworkFile { given: file.len(), most: MAX_NETWORK_FILE });
@@ -110,9 +110,9 @@ impl NetworkDesk {
     pub fn open(&mut self, wishes: &[u8], size: (u32, u32), bits: u32) -> Result<Value, WebError> {
         self.network = None;
         let file = self.file.as_ref().ok_or(WebError::NoNetwork)?;
-        let wishes: Wishes = serde_json::from_slice(wishes)
-            .map_err(|error| WebError::Wish { what: "wishes", problem: error.to_string() })?;
-        let (network, told) = LiveNetwork::open(file, &wishes, size, bits)?;
+        let wishes: NetworkSettings = serde_json::from_slice(wishes)
+            .map_err(|error| WebError::Setting { what: "wishes", problem: error.to_string() })?;
+        let (network, told) = OpenNetwork::open(file, &wishes, size, bits)?;
         self.network = Some(network);
         Ok(told)
     }
@@ -123,60 +123,60 @@ impl NetworkDesk {
     ///
     /// # Errors
     /// Fails if there is no network, or if the bytes are not two such frames.
-    pub fn look(&self, planes: &[u8]) -> Result<Looked, WebError> {
-        self.network.as_ref().ok_or(WebError::NoNetwork)?.look(planes)
+    pub fn compare(&self, planes: &[u8]) -> Result<NetworkComparison, WebError> {
+        self.network.as_ref().ok_or(WebError::NoNetwork)?.compare_frames(planes)
     }
 }
 
-impl LiveNetwork {
+impl OpenNetwork {
     fn open(
         file: &[u8],
-        wishes: &Wishes,
+        wishes: &NetworkSettings,
         (width, height): (u32, u32),
         bits: u32,
     ) -> Result<(Self, Value), WebError> {
         check_size(width, height)?;
         if !(1..=16).contains(&bits) {
-            return Err(WebError::Bits { bits });
+            return Err(WebError::PixelDepth { bits });
         }
-        let wrong = |what| move |problem| WebError::Wish { what, problem };
+        let wrong = |what| move |problem| WebError::Setting { what, problem };
         let framing = parse_framing(&wishes.framing).map_err(wrong("framing"))?;
-        let mapping = Mapping { mean: vec![0.0], scale: vec![1.0] };
-        let viewing = Viewing { framing, mapping, detector: None };
+        let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
+        let viewing = VisionOptions { framing, mapping, detector: None };
         let path = Path::new(&wishes.name);
-        let witness = Witness::parse(file, path, (width, height), &viewing)?;
+        let witness = VisionNetwork::parse(file, path, (width, height), &viewing)?;
         let (needed, most) = (witness.network().kept_bytes(), MAX_NETWORK_BYTES);
         if needed > most {
             return Err(WebError::NetworkMemory { needed, most });
         }
-        let usual = witness.usual();
+        let usual = witness.guess_defaults();
         let mean = wishes.mean.as_deref().unwrap_or(usual.mean);
         let scale = wishes.scale.as_deref().unwrap_or(usual.scale);
-        let mapping = Mapping {
-            mean: values(mean, parse_mean).map_err(wrong("mean"))?,
-            scale: values(scale, parse_scale).map_err(wrong("scale"))?,
+        let mapping = PixelMapping {
+            mean: parse_values(mean, parse_mean).map_err(wrong("mean"))?,
+            scale: parse_values(scale, parse_scale).map_err(wrong("scale"))?,
         };
         let detector = match wishes.detect.as_deref() {
             None => usual.detector(),
             Some("") => None,
             Some(text) => Some(parse_detector(text).map_err(wrong("detections"))?),
         };
-        let witness = witness.viewed(mapping, detector)?;
+        let witness = witness.with_mapping_and_detector(mapping, detector)?;
         let detector = witness.detector();
-        let mut told = facts(witness.network(), &usual, detector);
-        told["classes"] = json!(witness.classes());
-        told["options"] = json!(options(&framing.to_string(), mean, scale, detector));
+        let mut told = network_facts(witness.network(), &usual, detector);
+        told["classes"] = json!(witness.class_count());
+        told["options"] = json!(command_options(&framing.to_string(), mean, scale, detector));
         (told["framing"], told["mean"], told["scale"]) =
             (json!(framing), json!(mean), json!(scale));
-        let frames = Frames { width, height, pixel_max: (1 << bits) - 1, region: REGION };
+        let frames = FrameFormat { width, height, pixel_max: (1 << bits) - 1, region_side: REGION_SIDE };
         Ok((Self { witness, frames, bits }, told))
     }
 
     /// Runs the network on both frames and compares the outputs.
-    fn look(&self, planes: &[u8]) -> Result<Looked, WebError> {
+    fn compare_frames(&self, planes: &[u8]) -> Result<NetworkComparison, WebError> {
         let each = if self.bits <= 8 { 1 } else { 2 };
         let length = self.frames.width as usize * self.frames.height as usize * each;
-        let Frames { width, height, pixel_max, .. } = self.frames;
+        let FrameFormat { width, height, pixel_max, .. } = self.frames;
         if planes.len() != 2 * length {
             let (given, needed) = (planes.len(), 2 * length);
             return Err(WebError::FrameLength { given, needed, each, width, height });
@@ -184,63 +184,63 @@ impl LiveNetwork {
         let words: Vec<u16>;
         let (whole, seen) = if each == 1 {
             let (whole, seen) = planes.split_at(length);
-            (Plane::Bytes(whole), Plane::Bytes(seen))
+            (FramePixels::Bytes(whole), FramePixels::Bytes(seen))
         } else {
             words =
                 planes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
             let (whole, seen) = words.split_at(length / 2);
-            (Plane::Words(whole), Plane::Words(seen))
+            (FramePixels::Words(whole), FramePixels::Words(seen))
         };
         if [whole, seen].iter().any(|plane| largest_pixel(*plane) > pixel_max) {
-            return Err(WebError::PixelBits { bits: self.bits });
+            return Err(WebError::PixelTooLarge { bits: self.bits });
         }
         // One executor runs both frames. It is made for every call, so that its tensors take no
         // memory between calls.
-        let mut looking = self.witness.look_at(self.frames);
+        let mut looking = self.witness.start_run(self.frames);
         let [whole, seen] = [whole, seen].map(|plane| {
             looking.run(plane);
             looking.findings()
         });
-        let pairs = self.witness.pairs(&whole, &seen);
-        let sums = Sums::of(&whole, &seen, pairs.as_ref());
+        let pairs = self.witness.match_detections(&whole, &seen);
+        let sums = AgreementSums::from_frame(&whole, &seen, pairs.as_ref());
         let is_class = |shape: &[usize]| matches!(shape, [1, n] | [1, n, 1, 1] if *n > 1);
         let outputs = whole.outputs.iter().zip(&seen.outputs);
         let class = outputs.clone().find(|(whole, _)| is_class(&whole.shape));
         let class = class.filter(|_| pairs.is_none());
-        let Pairs { whole: of_whole, seen: of_seen } = pairs.unwrap_or_default();
-        Ok(Looked {
+        let DetectionPairs { whole: of_whole, seen: of_seen } = pairs.unwrap_or_default();
+        Ok(NetworkComparison {
             agreement: sums.agreement(),
-            relative_rms: sums.distance.relative(),
-            found: sums.found(),
-            whole: of_whole.into_iter().map(told).collect(),
-            seen: of_seen.into_iter().map(told).collect(),
-            classes: sums.classes(),
-            class: class.map(|(whole, seen)| [largest(&whole.values), largest(&seen.values)]),
-            same_places: sums.places(),
+            relative_rms: sums.distance.relative_rms(),
+            found: sums.total_counts(),
+            whole: of_whole.into_iter().map(frame_detection).collect(),
+            seen: of_seen.into_iter().map(frame_detection).collect(),
+            classes: sums.class_agreement(),
+            class: class.map(|(whole, seen)| [index_of_largest(&whole.values), index_of_largest(&seen.values)]),
+            same_places: sums.position_share(),
         })
     }
 }
 
-fn largest_pixel(plane: Plane<'_>) -> u32 {
+fn largest_pixel(plane: FramePixels<'_>) -> u32 {
     match plane {
-        Plane::Bytes(pixels) => pixels.iter().copied().max().unwrap_or(0).into(),
-        Plane::Words(pixels) => pixels.iter().copied().max().unwrap_or(0).into(),
+        FramePixels::Bytes(pixels) => pixels.iter().copied().max().unwrap_or(0).into(),
+        FramePixels::Words(pixels) => pixels.iter().copied().max().unwrap_or(0).into(),
     }
 }
 
-fn told((detection, both): (Detection, bool)) -> Seen {
+fn frame_detection((detection, both): (Detection, bool)) -> FrameDetection {
     let Detection { class, score, rect } = detection;
-    Seen { class, score, rect: [rect.x0, rect.y0, rect.x1, rect.y1], both }
+    FrameDetection { class, score, rect: [rect.x0, rect.y0, rect.x1, rect.y1], both }
 }
 
 /// Parses one value, or several that are separated by commas.
-fn values(text: &str, parse: fn(&str) -> Result<f32, String>) -> Result<Vec<f32>, String> {
+fn parse_values(text: &str, parse: fn(&str) -> Result<f32, String>) -> Result<Vec<f32>, String> {
     let value = |word: &str| parse(word.trim()).map_err(|problem| format!("`{word}`: {problem}"));
     text.split(',').map(value).collect()
 }
 
 /// Returns the facts about a network, and the formats that its outputs may have.
-fn facts(network: &Network, usual: &Usual, detector: Option<&Detector>) -> Value {
+fn network_facts(network: &Network, usual: &NetworkDefaults, detector: Option<&Detector>) -> Value {
     let input = network.input();
     let outputs = network.outputs().iter().zip(network.output_names());
     let outputs =
@@ -250,16 +250,16 @@ fn facts(network: &Network, usual: &Usual, detector: Option<&Detector>) -> Value
         "input": { "width": input.width(), "height": input.height(), "channels": input.shape()[1] },
         "outputs": outputs.collect::<Vec<_>>(),
         "macs": macs,
-        "fits": usual.fits.iter().map(|head| head.name()).collect::<Vec<_>>(),
-        "likely": usual.head.map(|head| head.name()),
-        "head": detector.map(|detector| detector.head.name()),
+        "fits": usual.matching_formats.iter().map(|head| head.name()).collect::<Vec<_>>(),
+        "likely": usual.format.map(|head| head.name()),
+        "head": detector.map(|detector| detector.format.name()),
         "score": detector.map(|detector| detector.score),
         "overlap": detector.map(|detector| detector.overlap),
     })
 }
 
 /// Returns the options of `foveate infer` with the same meaning.
-fn options(framing: &str, mean: &str, scale: &str, detector: Option<&Detector>) -> String {
+fn command_options(framing: &str, mean: &str, scale: &str, detector: Option<&Detector>) -> String {
     let mut options = format!("--framing {framing}");
     for (name, value, default) in [("mean", mean, "0"), ("scale", scale, "1")] {
         if value != default {

@@ -2,7 +2,7 @@
 //! The events of a camera as `foveate simulate` writes them to `events.csv`, kept until they are
 //! fetched.
 
-use foveate_engine::{EventTable, Moment};
+use foveate_engine::{EventTable, EventFrame};
 use serde::Serialize;
 
 /// A recording of frames.
@@ -10,12 +10,12 @@ use serde::Serialize;
 pub(crate) struct Recording {
     table: EventTable,
     csv: Vec<u8>,
-    recorded: Recorded,
+    state: RecordingState,
 }
 
 /// The state of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Recorded {
+pub struct RecordingState {
     /// The number of frames in it.
     pub frames: u64,
     /// The length of its text in bytes.
@@ -28,32 +28,32 @@ impl Recording {
     pub(crate) fn new(table: EventTable) -> Self {
         let mut csv = table.heading().into_bytes();
         csv.push(b'\n');
-        let recorded = Recorded { frames: 0, bytes: csv.len(), full: false };
-        Self { table, csv, recorded }
+        let recorded = RecordingState { frames: 0, bytes: csv.len(), full: false };
+        Self { table, csv, state: recorded }
     }
 
     /// Returns an empty recording with the same table.
-    pub(crate) fn anew(&self) -> Self {
+    pub(crate) fn emptied(&self) -> Self {
         Self::new(self.table.clone())
     }
 
     /// Adds a frame. If the text would be longer than `most` bytes, nothing of the frame is added.
-    pub(crate) fn push(&mut self, moment: &Moment<'_>, most: usize) {
-        if self.recorded.full {
+    pub(crate) fn push(&mut self, moment: &EventFrame<'_>, most: usize) {
+        if self.state.full {
             return;
         }
         self.table.csv(moment, &mut self.csv);
         if self.csv.len() > most {
-            self.csv.truncate(self.recorded.bytes);
-            self.recorded.full = true;
+            self.csv.truncate(self.state.bytes);
+            self.state.full = true;
         } else {
-            let frames = self.recorded.frames + 1;
-            self.recorded = Recorded { frames, bytes: self.csv.len(), full: false };
+            let frames = self.state.frames + 1;
+            self.state = RecordingState { frames, bytes: self.csv.len(), full: false };
         }
     }
 
-    pub(crate) fn recorded(&self) -> Recorded {
-        self.recorded
+    pub(crate) fn recording_state(&self) -> RecordingState {
+        self.state
     }
 
     pub(crate) fn csv(&self) -> &[u8] {

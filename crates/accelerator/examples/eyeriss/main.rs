@@ -7,9 +7,9 @@ mod table;
 
 #[allow(clippy::print_stdout, reason = "a program")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    print!("{}", table::totals()?);
+    print!("{}", table::totals_table()?);
     if std::env::args().any(|argument| argument == "--layers") {
-        print!("\n{}", table::layers()?);
+        print!("\n{}", table::layers_table()?);
     }
     Ok(())
 }

@@ -2,10 +2,10 @@
 //! The convolutions of AlexNet and VGG-16, and the measurements on Eyeriss by Chen et al., JSSC
 //! 2017.
 
-use foveate_accelerator::{AcceleratorError, Layer, Shape, Window};
+use foveate_accelerator::{AcceleratorError, Layer, TensorShape, KernelWindow};
 
 /// A network and the measurements of its convolutions.
-pub(crate) struct Published {
+pub(crate) struct PublishedNetwork {
     pub(crate) name: &'static str,
     /// The number of images that ran together.
     pub(crate) images: u64,
@@ -18,21 +18,21 @@ pub(crate) struct Published {
     pub(crate) layers: Vec<(String, Layer)>,
 }
 
-pub(crate) fn alexnet() -> Result<Published, AcceleratorError> {
+pub(crate) fn alexnet() -> Result<PublishedNetwork, AcceleratorError> {
     let layers = [
-        ("conv1", 3, 227, 96, 55, Window::of(11, 4, 0), 1),
-        ("conv2", 96, 27, 256, 27, Window::of(5, 1, 2), 2),
-        ("conv3", 256, 13, 384, 13, Window::of(3, 1, 1), 1),
-        ("conv4", 384, 13, 384, 13, Window::of(3, 1, 1), 2),
-        ("conv5", 384, 13, 256, 13, Window::of(3, 1, 1), 2),
+        ("conv1", 3, 227, 96, 55, KernelWindow::of(11, 4, 0), 1),
+        ("conv2", 96, 27, 256, 27, KernelWindow::of(5, 1, 2), 2),
+        ("conv3", 256, 13, 384, 13, KernelWindow::of(3, 1, 1), 1),
+        ("conv4", 384, 13, 384, 13, KernelWindow::of(3, 1, 1), 2),
+        ("conv5", 384, 13, 256, 13, KernelWindow::of(3, 1, 1), 2),
     ];
     let layer = |(name, channels, side, filters, to, window, groups): (&str, _, _, _, _, _, _)| {
-        let inputs = Shape { channels, height: side, width: side };
-        let outputs = Shape { channels: filters, height: to, width: to };
+        let inputs = TensorShape { channels, height: side, width: side };
+        let outputs = TensorShape { channels: filters, height: to, width: to };
         let layer = Layer::convolution(inputs, outputs, [window; 2], groups)?.with_images(4)?;
         Ok((name.to_owned(), layer))
     };
-    Ok(Published {
+    Ok(PublishedNetwork {
         name: "AlexNet",
         images: 4,
         frames_per_second: 35.0,
@@ -42,20 +42,20 @@ pub(crate) fn alexnet() -> Result<Published, AcceleratorError> {
     })
 }
 
-pub(crate) fn vgg16() -> Result<Published, AcceleratorError> {
+pub(crate) fn vgg16() -> Result<PublishedNetwork, AcceleratorError> {
     let stages = [(224, 64, 2), (112, 128, 2), (56, 256, 3), (28, 512, 3), (14, 512, 3)];
     let mut channels = 3;
     let mut layers = Vec::new();
     for (stage, (side, filters, count)) in (1..).zip(stages) {
         for at in 1..=count {
-            let inputs = Shape { channels, height: side, width: side };
-            let outputs = Shape { channels: filters, ..inputs };
-            let layer = Layer::convolution(inputs, outputs, [Window::of(3, 1, 1); 2], 1)?;
+            let inputs = TensorShape { channels, height: side, width: side };
+            let outputs = TensorShape { channels: filters, ..inputs };
+            let layer = Layer::convolution(inputs, outputs, [KernelWindow::of(3, 1, 1); 2], 1)?;
             layers.push((format!("conv{stage}_{at}"), layer.with_images(3)?));
             channels = filters;
         }
     }
-    Ok(Published {
+    Ok(PublishedNetwork {
         name: "VGG-16",
         images: 3,
         frames_per_second: 0.7,

@@ -7,6 +7,6 @@ mod table;
 
 #[allow(clippy::print_stdout, reason = "a program")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    print!("{}", table::shares()?);
+    print!("{}", table::shares_table()?);
     Ok(())
 }

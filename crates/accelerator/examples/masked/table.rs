@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The table on masks to which `docs/accelerators.md` links, in Markdown.
 
-use foveate_accelerator::{Accelerator, Cost, Layer, PRESETS, Shape, Window};
+use foveate_accelerator::{Accelerator, LayerCost, Layer, PRESETS, TensorShape, KernelWindow};
 use std::fmt::Write;
 
 /// Three layers of ResNet-18 for 224 x 224 pixels: name, channels in and out, and side.
@@ -12,24 +12,24 @@ const LAYERS: [(&str, u64, u64); 3] =
 const SQUARES: [u64; 2] = [1, 3];
 
 /// Returns the share of each cost that remains, for each preset, layer and square.
-pub(crate) fn shares() -> Result<String, Box<dyn std::error::Error>> {
+pub(crate) fn shares_table() -> Result<String, Box<dyn std::error::Error>> {
     let mut table =
         "| accelerator | layer | needed, % | MACs, % | cycles, % | DRAM accesses, % | energy, % |\n\
                      | --- | --- | ---: | ---: | ---: | ---: | ---: |\n"
             .to_owned();
     for preset in PRESETS {
-        let accelerator = Accelerator::preset(preset.name)?;
+        let accelerator = Accelerator::from_preset(preset.name)?;
         for (name, channels, side) in LAYERS {
-            let shape = Shape { channels, height: side, width: side };
-            let layer = Layer::convolution(shape, shape, [Window::of(3, 1, 1); 2], 1)?;
+            let shape = TensorShape { channels, height: side, width: side };
+            let layer = Layer::convolution(shape, shape, [KernelWindow::of(3, 1, 1); 2], 1)?;
             let plan = accelerator.plan(layer)?;
-            let whole = plan.whole();
+            let whole = plan.whole_cost();
             for sevenths in SQUARES {
                 // The square is in the middle of the layer.
                 let (from, to) = ((7 - sevenths) / 2 * side / 7, (7 + sevenths) / 2 * side / 7);
                 let square = from..to;
                 let part = plan
-                    .masked(|x, y| square.contains(&(x as u64)) && square.contains(&(y as u64)));
+                    .masked_cost(|x, y| square.contains(&(x as u64)) && square.contains(&(y as u64)));
                 let shares =
                     percentages(&part, &whole).map(|share| format!("{share:.1}")).join(" | ");
                 let needed = 100 * sevenths * sevenths / 49;
@@ -42,9 +42,9 @@ pub(crate) fn shares() -> Result<String, Box<dyn std::error::Error>> {
 
 /// Returns the percentages of multiplications, cycles, accesses to the DRAM, and energy.
 #[allow(clippy::cast_precision_loss, reason = "shares")]
-fn percentages(part: &Cost, whole: &Cost) -> [f64; 4] {
-    let of = |cost: &Cost| {
-        [cost.macs as f64, cost.cycles as f64, cost.dram.accesses() as f64, cost.energy.total()]
+fn percentages(part: &LayerCost, whole: &LayerCost) -> [f64; 4] {
+    let of = |cost: &LayerCost| {
+        [cost.macs as f64, cost.cycles as f64, cost.dram.access_count() as f64, cost.energy.total()]
     };
     let (part, whole) = (of(part), of(whole));
     std::array::from_fn(|figure| 100.0 * part[figure] / whole[figure])

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Chooses the part of a layer that runs at once in a row-stationary array.
 
-use super::{Cuts, Strip, count_strips};
-use crate::accelerator::{Accelerator, Objective, RowStationary};
-use crate::computed::Computed;
-use crate::cost::Counts;
-use crate::layer::{Layer, Products};
-use crate::{AcceleratorError, Cost};
+use super::{MappingCuts, ComputedStrip, count_strips};
+use crate::accelerator::{Accelerator, MappingObjective, RowStationaryArray};
+use crate::computed_positions::ComputedPositions;
+use crate::cost::LayerCounts;
+use crate::layer::{Layer, ChannelGroups};
+use crate::{AcceleratorError, LayerCost};
 
 /// The part of a layer that runs at once, and the values that the buffer keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Mapping {
+pub(crate) struct PassMapping {
     /// The number of rows of the output.
     pub(crate) strip: u64,
     /// The number of filters in an element.
@@ -22,14 +22,14 @@ pub(crate) struct Mapping {
     /// The number of sets of elements with different channels.
     pub(crate) channel_sets: u64,
     /// The number of filters whose sums the buffer keeps.
-    pub(crate) kept: u64,
+    pub(crate) kept_filters: u64,
     /// The number of images that share a load of weights.
     pub(crate) images: u64,
 }
 
 /// A kernel in parts that fit into the array and its elements.
 #[derive(Clone, Copy, Debug)]
-struct Parts {
+struct KernelParts {
     /// The number of rows of a part.
     rows: u64,
     /// The number of columns of a part.
@@ -38,28 +38,28 @@ struct Parts {
     count: u64,
 }
 
-impl Parts {
-    fn of(array: &RowStationary, layer: &Layer) -> Self {
+impl KernelParts {
+    fn of(array: &RowStationaryArray, layer: &Layer) -> Self {
         let [down, across] = layer.windows.map(|window| window.kernel);
         let (below, beside) = (down.div_ceil(array.rows), across.div_ceil(array.element_inputs));
         Self { rows: down.div_ceil(below), columns: across.div_ceil(beside), count: below * beside }
     }
 }
 
-impl Mapping {
+impl PassMapping {
     /// Returns the parts into which this mapping cuts a group.
-    pub(crate) fn cuts(&self, array: &RowStationary, layer: &Layer, products: &Products) -> Cuts {
-        let parts = Parts::of(array, layer);
+    pub(crate) fn cuts(&self, array: &RowStationaryArray, layer: &Layer, products: &ChannelGroups) -> MappingCuts {
+        let parts = KernelParts::of(array, layer);
         let (filters, channels) =
             (self.filters * self.filter_sets, self.channels * self.channel_sets);
         let weights = filters * channels * parts.rows * parts.columns;
-        Cuts {
-            kept: products.outputs.div_ceil(self.kept),
+        MappingCuts {
+            kept_parts: products.outputs.div_ceil(self.kept_filters),
             filters: products.outputs.div_ceil(filters),
             channels: products.inputs.div_ceil(channels) * parts.count,
             images: layer.images.div_ceil(self.images),
-            loading: weights.div_ceil(array.weights_per_cycle),
-            busy: parts.columns * self.filters * self.channels,
+            loading_cycles: weights.div_ceil(array.weights_per_cycle),
+            cycles_per_position: parts.columns * self.filters * self.channels,
             sums: filters,
             inputs: channels,
             inputs_per_cycle: array.inputs_per_cycle,
@@ -69,40 +69,40 @@ impl Mapping {
 }
 
 /// Returns the mapping that is best for its objective on a whole layer.
-pub(crate) fn search(
+pub(crate) fn best_mapping(
     accelerator: &Accelerator,
-    array: &RowStationary,
+    array: &RowStationaryArray,
     layer: &Layer,
-    products: &Products,
-) -> Result<Mapping, AcceleratorError> {
-    let parts = Parts::of(array, layer);
-    let whole = Computed::all(layer);
-    let mut best: Option<([f64; 2], Mapping)> = None;
+    products: &ChannelGroups,
+) -> Result<PassMapping, AcceleratorError> {
+    let parts = KernelParts::of(array, layer);
+    let whole = ComputedPositions::all(layer);
+    let mut best: Option<([f64; 2], PassMapping)> = None;
     let mut needed = u64::MAX;
     for strip in strip_heights(layer.outputs.height, array, parts) {
-        let strips = Strip::all(layer, strip, &whole);
-        let room = Room::of(accelerator, array, &strips);
-        needed = needed.min(room.needed(1, 1, 1));
-        for pass in passes(array, layer, products, parts, strip) {
-            let Some(mapping) = room.fill(pass, products) else { continue };
+        let strips = ComputedStrip::all(layer, strip, &whole);
+        let room = BufferCapacity::of(accelerator, array, &strips);
+        needed = needed.min(room.needed_bytes(1, 1, 1));
+        for pass in possible_passes(array, layer, products, parts, strip) {
+            let Some(mapping) = room.with_most_kept(pass, products) else { continue };
             let counts = count_strips(array, layer, products, &mapping, &strips);
-            let price = price(accelerator, array.mapping, &counts);
+            let price = objective_values(accelerator, array.mapping, &counts);
             if best.as_ref().is_none_or(|(least, _)| price < *least) {
                 best = Some((price, mapping));
             }
         }
     }
-    let too_small = AcceleratorError::Room { buffer: array.buffer_bytes, needed };
+    let too_small = AcceleratorError::BufferTooSmall { buffer: array.buffer_bytes, needed };
     best.map(|(_, mapping)| mapping).ok_or(too_small)
 }
 
 /// Returns the quantity to minimize; the second number decides between equal first ones.
 #[allow(clippy::cast_precision_loss, reason = "compared, not counted")]
-fn price(accelerator: &Accelerator, objective: Objective, counts: &Counts) -> [f64; 2] {
+fn objective_values(accelerator: &Accelerator, objective: MappingObjective, counts: &LayerCounts) -> [f64; 2] {
     match objective {
-        Objective::LeastDram => [counts.dram.accesses() as f64, counts.array_cycles as f64],
-        Objective::LeastEnergyDelay => {
-            let cost = Cost::of(counts, accelerator);
+        MappingObjective::LeastDram => [counts.dram.access_count() as f64, counts.array_cycles as f64],
+        MappingObjective::LeastEnergyDelay => {
+            let cost = LayerCost::from_counts(counts, accelerator);
             [cost.energy.total() * cost.cycles as f64, cost.cycles as f64]
         }
     }
@@ -110,14 +110,14 @@ fn price(accelerator: &Accelerator, objective: Objective, counts: &Counts) -> [f
 
 /// Returns the heights of strips that can run at once: of those that need the same number of
 /// strips, the lowest.
-fn strip_heights(height: u64, array: &RowStationary, parts: Parts) -> impl Iterator<Item = u64> {
+fn strip_heights(height: u64, array: &RowStationaryArray, parts: KernelParts) -> impl Iterator<Item = u64> {
     let most = (array.rows / parts.rows * array.columns).min(height);
     (1..=most).filter(move |&strip| strip == height.div_ceil(height.div_ceil(strip)))
 }
 
 /// Returns the number of sets of elements that fit into the array. A set that is wider than the
 /// array continues below.
-fn sets(array: &RowStationary, parts: Parts, strip: u64) -> u64 {
+fn set_count(array: &RowStationaryArray, parts: KernelParts, strip: u64) -> u64 {
     let below = array.rows / parts.rows;
     if strip <= array.columns {
         below * (array.columns / strip)
@@ -128,14 +128,14 @@ fn sets(array: &RowStationary, parts: Parts, strip: u64) -> u64 {
 
 /// Returns the passes that fit into the array and its elements, without the number of filters that
 /// the buffer keeps.
-fn passes(
-    array: &RowStationary,
+fn possible_passes(
+    array: &RowStationaryArray,
     layer: &Layer,
-    products: &Products,
-    parts: Parts,
+    products: &ChannelGroups,
+    parts: KernelParts,
     strip: u64,
-) -> Vec<Mapping> {
-    let sets = sets(array, parts, strip);
+) -> Vec<PassMapping> {
+    let sets = set_count(array, parts, strip);
     // Each of these numbers leaves room for a different number of channel sets.
     let all_filter_sets = (1..=sets).filter(|&filters| filters == sets / (sets / filters));
     let mut all = Vec::new();
@@ -149,13 +149,13 @@ fn passes(
                 let images = (1..=layer.images).filter(|&images| {
                     images == layer.images.div_ceil(layer.images.div_ceil(images))
                 });
-                all.extend(images.map(|images| Mapping {
+                all.extend(images.map(|images| PassMapping {
                     strip,
                     filters,
                     channels,
                     filter_sets,
                     channel_sets,
-                    kept: 0,
+                    kept_filters: 0,
                     images,
                 }));
             }
@@ -165,7 +165,7 @@ fn passes(
 }
 
 /// The capacity of the buffer of inputs and sums.
-struct Room<'a> {
+struct BufferCapacity<'a> {
     accelerator: &'a Accelerator,
     bytes: u64,
     /// The number of inputs of a channel and an image, in the strip that has most.
@@ -174,9 +174,9 @@ struct Room<'a> {
     sums: u64,
 }
 
-impl<'a> Room<'a> {
-    fn of(accelerator: &'a Accelerator, array: &RowStationary, strips: &[Strip]) -> Self {
-        let most = |of: fn(&Strip) -> u64| strips.iter().map(of).max().unwrap_or_default();
+impl<'a> BufferCapacity<'a> {
+    fn of(accelerator: &'a Accelerator, array: &RowStationaryArray, strips: &[ComputedStrip]) -> Self {
+        let most = |of: fn(&ComputedStrip) -> u64| strips.iter().map(of).max().unwrap_or_default();
         Self {
             accelerator,
             bytes: array.buffer_bytes,
@@ -186,7 +186,7 @@ impl<'a> Room<'a> {
     }
 
     /// Returns the number of bytes for these channels, filters and images.
-    fn needed(&self, channels: u64, filters: u64, images: u64) -> u64 {
+    fn needed_bytes(&self, channels: u64, filters: u64, images: u64) -> u64 {
         images
             * (self.accelerator.value_bytes(channels * self.inputs)
                 + self.accelerator.sum_bytes(filters * self.sums))
@@ -194,18 +194,18 @@ impl<'a> Room<'a> {
 
     /// Returns the pass with as many kept filters as the buffer can hold; `None` if it cannot hold
     /// those of one pass.
-    fn fill(&self, pass: Mapping, products: &Products) -> Option<Mapping> {
+    fn with_most_kept(&self, pass: PassMapping, products: &ChannelGroups) -> Option<PassMapping> {
         let at_once = pass.filters * pass.filter_sets;
         let channels = pass.channels * pass.channel_sets;
-        let fits = |passes: u64| self.needed(channels, passes * at_once, pass.images) <= self.bytes;
+        let fits = |passes: u64| self.needed_bytes(channels, passes * at_once, pass.images) <= self.bytes;
         let all = products.outputs.div_ceil(at_once);
-        let inputs = self.needed(channels, 0, pass.images);
-        let one = self.needed(0, at_once, pass.images);
+        let inputs = self.needed_bytes(channels, 0, pass.images);
+        let one = self.needed_bytes(0, at_once, pass.images);
         // Rounding up to bytes can make the quotient one too large or too small.
         let near = (self.bytes.saturating_sub(inputs) / one).min(all);
         let passes = [near + 1, near, near.saturating_sub(1)]
             .into_iter()
             .find(|&passes| (1..=all).contains(&passes) && fits(passes))?;
-        Some(Mapping { kept: passes * at_once, ..pass })
+        Some(PassMapping { kept_filters: passes * at_once, ..pass })
     }
 }

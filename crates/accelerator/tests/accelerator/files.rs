@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Accelerators as files: presets are valid, and every mistake has a message of one clear line.
 
-use foveate_accelerator::{Accelerator, AcceleratorError, Layer, PRESETS, Shape, Window};
+use foveate_accelerator::{Accelerator, AcceleratorError, Layer, PRESETS, TensorShape, KernelWindow};
 
 #[test]
 fn every_preset_is_valid_and_found_by_its_name() {
     for preset in PRESETS {
-        let accelerator = Accelerator::preset(preset.name).unwrap();
+        let accelerator = Accelerator::from_preset(preset.name).unwrap();
         assert_eq!(accelerator, Accelerator::from_toml(preset.toml).unwrap(), "{}", preset.name);
     }
-    let message = Accelerator::preset("t\npu").unwrap_err().to_string();
+    let message = Accelerator::from_preset("t\npu").unwrap_err().to_string();
     assert_eq!(
         message,
         "unknown accelerator `t\\npu`; presets are systolic-ws, systolic-os, eyeriss"
@@ -81,8 +81,8 @@ fn every_mistake_has_one_line_that_names_it() {
 
 #[test]
 fn layers_that_contradict_themselves_are_refused() {
-    let shape = |channels, height, width| Shape { channels, height, width };
-    let window = [Window::of(3, 1, 1); 2];
+    let shape = |channels, height, width| TensorShape { channels, height, width };
+    let window = [KernelWindow::of(3, 1, 1); 2];
     let refused = |layer: Result<Layer, AcceleratorError>, expected: &str| {
         assert_eq!(layer.unwrap_err().to_string(), expected);
     };
@@ -113,8 +113,8 @@ fn layers_that_contradict_themselves_are_refused() {
 fn a_buffer_that_is_too_small_is_named_with_what_is_needed() {
     let text = PRESETS[2].toml.replace("buffer_bytes = 102400", "buffer_bytes = 20");
     let accelerator = Accelerator::from_toml(&text).unwrap();
-    let shape = Shape { channels: 1, height: 8, width: 8 };
-    let layer = Layer::convolution(shape, shape, [Window::of(3, 1, 1); 2], 1).unwrap();
+    let shape = TensorShape { channels: 1, height: 8, width: 8 };
+    let layer = Layer::convolution(shape, shape, [KernelWindow::of(3, 1, 1); 2], 1).unwrap();
     let message = accelerator.plan(layer).unwrap_err().to_string();
     // The smallest strip has one row: three rows of inputs and one of sums, with 16 bits each.
     assert_eq!(
@@ -125,7 +125,7 @@ fn a_buffer_that_is_too_small_is_named_with_what_is_needed() {
 
 #[test]
 fn an_accelerator_that_was_changed_is_checked_again() {
-    let accelerator = Accelerator { tile: [0, 1], ..Accelerator::preset("eyeriss").unwrap() };
+    let accelerator = Accelerator { tile: [0, 1], ..Accelerator::from_preset("eyeriss").unwrap() };
     let message = accelerator.plan(Layer::product(1, 1, 1).unwrap()).unwrap_err().to_string();
     assert_eq!(
         message,

@@ -5,7 +5,7 @@
 
 mod eyeriss;
 mod files;
-mod hand;
+mod by_hand;
 mod masked;
 mod oracle;
 mod properties;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// The counts of a simulated array.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Seen {
+pub(crate) struct SimulatedCounts {
     /// The number of clocks, counted from 1.
     pub(crate) clocks: u64,
     pub(crate) macs: u64,
@@ -23,8 +23,8 @@ pub(crate) fn weight_stationary(
     positions: u64,
     inner: u64,
     channels: u64,
-) -> Seen {
-    let mut seen = Seen::default();
+) -> SimulatedCounts {
+    let mut seen = SimulatedCounts::default();
     for first_channel in (0..channels).step_by(size(columns)) {
         for first_inner in (0..inner).step_by(size(rows)) {
             let mut last = 0;
@@ -57,8 +57,8 @@ pub(crate) fn output_stationary(
     positions: u64,
     inner: u64,
     channels: u64,
-) -> Seen {
-    let mut seen = Seen::default();
+) -> SimulatedCounts {
+    let mut seen = SimulatedCounts::default();
     for first_channel in (0..channels).step_by(size(columns)) {
         for first_position in (0..positions).step_by(size(rows)) {
             let (begin, mut last) = (seen.clocks, 0);
@@ -87,12 +87,12 @@ fn size(value: u64) -> usize {
 }
 
 /// The kernel, stride, dilation and padding of one axis.
-pub(crate) type Axis = [u64; 4];
+pub(crate) type AxisWindow = [u64; 4];
 
 /// Returns the inputs that computed outputs depend on, each once. A position is a row and a column.
 pub(crate) fn inputs_seen(
     computed: &BTreeSet<[u64; 2]>,
-    axes: [Axis; 2],
+    axes: [AxisWindow; 2],
     inputs: [u64; 2],
 ) -> BTreeSet<[u64; 2]> {
     let reach = |axis: usize, output: u64| -> Vec<u64> {
@@ -112,7 +112,7 @@ pub(crate) fn inputs_seen(
 }
 
 /// Returns the positions whose tile has a needed one.
-pub(crate) fn tiled(
+pub(crate) fn round_up_to_tiles(
     needed: &BTreeSet<[u64; 2]>,
     [height, width]: [u64; 2],
     tile: [u64; 2],

@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Properties that hold for every layer, accelerator and mask.
 
-use crate::hand;
-use crate::oracle::{Seen, inputs_seen, output_stationary, tiled, weight_stationary};
-use crate::random::{Case, accelerator, case, masks};
-use foveate_accelerator::{Accelerator, Cost, Dataflow, Traffic};
+use crate::by_hand;
+use crate::oracle::{SimulatedCounts, inputs_seen, output_stationary, round_up_to_tiles, weight_stationary};
+use crate::random::{LayerCase, accelerator, layer_case, masks};
+use foveate_accelerator::{Accelerator, LayerCost, Dataflow, MemoryAccesses};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-type Positions = BTreeSet<[u64; 2]>;
+type PositionSet = BTreeSet<[u64; 2]>;
 
-fn masked(accelerator: &Accelerator, case: &Case, mask: &Positions) -> Cost {
+fn masked(accelerator: &Accelerator, case: &LayerCase, mask: &PositionSet) -> LayerCost {
     let plan = accelerator.plan(case.layer()).unwrap();
-    plan.masked(|x, y| mask.contains(&[y as u64, x as u64]))
+    plan.masked_cost(|x, y| mask.contains(&[y as u64, x as u64]))
 }
 
 /// Returns the positions of the mask that are inside the output, rounded up to tiles.
-fn computed(accelerator: &Accelerator, case: &Case, mask: &Positions) -> Positions {
+fn computed(accelerator: &Accelerator, case: &LayerCase, mask: &PositionSet) -> PositionSet {
     let [height, width] = case.outputs;
     let inside = mask.iter().copied().filter(|&[y, x]| y < height && x < width).collect();
-    tiled(&inside, case.outputs, accelerator.tile.map(u64::from))
+    round_up_to_tiles(&inside, case.outputs, accelerator.tile.map(u64::from))
 }
 
 /// Returns all totals of a cost.
-fn totals(cost: &Cost) -> Vec<f64> {
+fn totals(cost: &LayerCost) -> Vec<f64> {
     #[allow(clippy::cast_precision_loss, reason = "small numbers")]
     let counts = [
         cost.cycles,
         cost.array_cycles,
         cost.dram_cycles,
         cost.macs,
-        cost.register.accesses(),
-        cost.array.accesses(),
-        cost.buffer.accesses(),
-        cost.dram.accesses(),
+        cost.register.access_count(),
+        cost.array.access_count(),
+        cost.buffer.access_count(),
+        cost.dram.access_count(),
     ]
     .map(|count| count as f64);
     let energy = &cost.energy;
@@ -45,14 +45,14 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_full_mask_costs_the_whole_and_an_empty_one_nothing(case in case(), accelerator in accelerator()) {
+    fn a_full_mask_costs_the_whole_and_an_empty_one_nothing(case in layer_case(), accelerator in accelerator()) {
         let plan = accelerator.plan(case.layer()).unwrap();
-        prop_assert_eq!(plan.masked(|_, _| true), plan.whole());
-        prop_assert_eq!(plan.masked(|_, _| false), Cost::default());
+        prop_assert_eq!(plan.masked_cost(|_, _| true), plan.whole_cost());
+        prop_assert_eq!(plan.masked_cost(|_, _| false), LayerCost::default());
     }
 
     #[test]
-    fn fewer_positions_never_cost_more(case in case(), accelerator in accelerator(), masks in masks()) {
+    fn fewer_positions_never_cost_more(case in layer_case(), accelerator in accelerator(), masks in masks()) {
         let [small, large] = masks.map(|mask| totals(&masked(&accelerator, &case, &mask)));
         for (small, large) in small.iter().zip(&large) {
             prop_assert!(small <= large, "{small} and {large}");
@@ -60,7 +60,7 @@ proptest! {
     }
 
     #[test]
-    fn counts_are_those_of_the_computed_positions(case in case(), accelerator in accelerator(), masks in masks()) {
+    fn counts_are_those_of_the_computed_positions(case in layer_case(), accelerator in accelerator(), masks in masks()) {
         let [mask, _] = masks;
         let cost = masked(&accelerator, &case, &mask);
         let computed = computed(&accelerator, &case, &mask);
@@ -79,15 +79,15 @@ proptest! {
     }
 
     #[test]
-    fn systolic_arrays_do_what_one_does_clock_by_clock(case in case(), masks in masks(), sides in [1..6_u64, 1..6_u64]) {
-        type Array = fn([u64; 2], u64, u64, u64) -> Seen;
-        let array = hand::systolic(sides[0], sides[1]);
-        let both: [(Dataflow, Array); 2] = [
+    fn systolic_arrays_do_what_one_does_clock_by_clock(case in layer_case(), masks in masks(), sides in [1..6_u64, 1..6_u64]) {
+        type ArrayOracle = fn([u64; 2], u64, u64, u64) -> SimulatedCounts;
+        let array = by_hand::systolic(sides[0], sides[1]);
+        let both: [(Dataflow, ArrayOracle); 2] = [
             (Dataflow::WeightStationary(array.clone()), weight_stationary),
             (Dataflow::OutputStationary(array), output_stationary),
         ];
         for (dataflow, run) in both {
-            let accelerator = hand::accelerator(dataflow);
+            let accelerator = by_hand::accelerator(dataflow);
             let computed = computed(&accelerator, &case, &masks[0]);
             let cost = masked(&accelerator, &case, &masks[0]);
             let positions = case.images * computed.len() as u64;
@@ -100,7 +100,7 @@ proptest! {
             // The buffer holds everything, so it is filled once.
             let inputs = case.images * case.groups * case.channels[0] * inputs_seen(&computed, case.axes, case.inputs).len() as u64;
             let weights = case.groups * case.channels[1] * case.inner();
-            prop_assert_eq!(cost.dram, Traffic { inputs, weights, sums: 0, outputs: positions * case.groups * case.channels[1] });
+            prop_assert_eq!(cost.dram, MemoryAccesses { inputs, weights, sums: 0, outputs: positions * case.groups * case.channels[1] });
             prop_assert_eq!(cost.buffer.inputs, inputs + case.groups * seen.inputs);
             prop_assert_eq!(cost.buffer.weights, weights + case.groups * seen.weights);
         }

@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random layers, accelerators and masks.
 
-use crate::hand;
-use crate::oracle::Axis;
+use crate::by_hand;
+use crate::oracle::AxisWindow;
 use foveate_accelerator::{
-    Accelerator, Dataflow, Layer, Objective, RowStationary, Shape, Systolic, Window,
+    Accelerator, Dataflow, Layer, MappingObjective, RowStationaryArray, TensorShape, SystolicArray, KernelWindow,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 /// A layer with the numbers that it was made from.
 #[derive(Clone, Debug)]
-pub(crate) struct Case {
+pub(crate) struct LayerCase {
     pub(crate) inputs: [u64; 2],
     pub(crate) outputs: [u64; 2],
-    pub(crate) axes: [Axis; 2],
+    pub(crate) axes: [AxisWindow; 2],
     pub(crate) groups: u64,
     /// The number of input and output channels of a group.
     pub(crate) channels: [u64; 2],
     pub(crate) images: u64,
 }
 
-impl Case {
+impl LayerCase {
     pub(crate) fn layer(&self) -> Layer {
-        let shape = |channels: u64, [height, width]: [u64; 2]| Shape {
+        let shape = |channels: u64, [height, width]: [u64; 2]| TensorShape {
             channels: channels * self.groups,
             height,
             width,
         };
-        let windows = self.axes.map(|[kernel, stride, dilation, before]| Window {
+        let windows = self.axes.map(|[kernel, stride, dilation, before]| KernelWindow {
             kernel,
             stride,
             dilation,
-            before,
+            padding_before: before,
         });
         let (inputs, outputs) =
             (shape(self.channels[0], self.inputs), shape(self.channels[1], self.outputs));
@@ -46,15 +46,15 @@ impl Case {
     }
 }
 
-fn axis() -> impl Strategy<Value = (u64, Axis)> {
+fn axis() -> impl Strategy<Value = (u64, AxisWindow)> {
     (1..10_u64, 1..4_u64, 1..3_u64, 1..3_u64, 0..3_u64).prop_map(
         |(outputs, kernel, stride, dilation, before)| (outputs, [kernel, stride, dilation, before]),
     )
 }
 
-pub(crate) fn case() -> impl Strategy<Value = Case> {
+pub(crate) fn layer_case() -> impl Strategy<Value = LayerCase> {
     ([axis(), axis()], [1..12_u64, 1..12_u64], 1..4_u64, [1..6_u64, 1..6_u64], 1..4_u64).prop_map(
-        |([down, across], inputs, groups, channels, images)| Case {
+        |([down, across], inputs, groups, channels, images)| LayerCase {
             inputs,
             outputs: [down.0, across.0],
             axes: [down.1, across.1],
@@ -74,9 +74,9 @@ pub(crate) fn masks() -> impl Strategy<Value = [BTreeSet<[u64; 2]>; 2]> {
     })
 }
 
-fn systolic() -> impl Strategy<Value = Systolic> {
+fn systolic() -> impl Strategy<Value = SystolicArray> {
     (1..6_u64, 1..6_u64, 1..400_u64, 1..200_u64, 1..200_u64).prop_map(
-        |(rows, columns, input_bytes, weight_bytes, output_bytes)| Systolic {
+        |(rows, columns, input_bytes, weight_bytes, output_bytes)| SystolicArray {
             rows,
             columns,
             input_bytes,
@@ -86,13 +86,13 @@ fn systolic() -> impl Strategy<Value = Systolic> {
     )
 }
 
-fn row_stationary() -> impl Strategy<Value = RowStationary> {
+fn row_stationary() -> impl Strategy<Value = RowStationaryArray> {
     let sides = [1..6_u64, 1..6_u64];
     let element = [1..7_u64, 7..20_u64, 1..5_u64];
     let rates = [1..4_u64, 1..4_u64, 1..4_u64];
-    let objective = prop_oneof![Just(Objective::LeastDram), Just(Objective::LeastEnergyDelay)];
+    let objective = prop_oneof![Just(MappingObjective::LeastDram), Just(MappingObjective::LeastEnergyDelay)];
     (sides, 1000..3000_u64, element, rates, objective).prop_map(
-        |([rows, columns], buffer_bytes, element, rates, mapping)| RowStationary {
+        |([rows, columns], buffer_bytes, element, rates, mapping)| RowStationaryArray {
             rows,
             columns,
             buffer_bytes,
@@ -117,6 +117,6 @@ pub(crate) fn accelerator() -> impl Strategy<Value = Accelerator> {
     (array, [1..4_u32, 1..4_u32], rate).prop_map(|(array, tile, rate)| Accelerator {
         tile,
         dram_bytes_per_cycle: rate,
-        ..hand::accelerator(array)
+        ..by_hand::accelerator(array)
     })
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Cycles that SCALE-Sim has printed.
 
-use crate::hand::{accelerator, systolic};
-use foveate_accelerator::{Dataflow, Layer, Shape, Window};
+use crate::by_hand::{accelerator, systolic};
+use foveate_accelerator::{Dataflow, Layer, TensorShape, KernelWindow};
 
 /// The first layer of AlexNet on 32 x 32 has 36 folds of 3,119 cycles. The last of them has number
 /// 112,283 in SCALE-Sim's trace.
 #[test]
 fn the_golden_trace_of_scale_sim() {
     let accelerator = accelerator(Dataflow::WeightStationary(systolic(32, 32)));
-    let inputs = Shape { channels: 3, height: 227, width: 227 };
-    let outputs = Shape { channels: 96, height: 55, width: 55 };
-    let layer = Layer::convolution(inputs, outputs, [Window::of(11, 4, 0); 2], 1).unwrap();
-    let cost = accelerator.plan(layer).unwrap().whole();
+    let inputs = TensorShape { channels: 3, height: 227, width: 227 };
+    let outputs = TensorShape { channels: 96, height: 55, width: 55 };
+    let layer = Layer::convolution(inputs, outputs, [KernelWindow::of(11, 4, 0); 2], 1).unwrap();
+    let cost = accelerator.plan(layer).unwrap().whole_cost();
     assert_eq!(cost.array_cycles, 36 * 3119);
     assert_eq!(cost.array_cycles - 1, 112_283);
     assert_eq!(cost.macs, 105_415_200);
@@ -35,14 +35,14 @@ const SCALE_SIM: &[(u64, u64, u64, u64, u64, u64, u64)] = &[
 #[test]
 fn the_cycles_of_scale_sim() {
     for &(side, kernel, channels, filters, groups, ws, os) in SCALE_SIM {
-        let inputs = Shape { channels, height: side, width: side };
+        let inputs = TensorShape { channels, height: side, width: side };
         let places = side - kernel + 1;
-        let outputs = Shape { channels: filters, height: places, width: places };
-        let windows = [Window::of(kernel, 1, 0); 2];
+        let outputs = TensorShape { channels: filters, height: places, width: places };
+        let windows = [KernelWindow::of(kernel, 1, 0); 2];
         let layer = Layer::convolution(inputs, outputs, windows, groups).unwrap();
         let last = |dataflow: Dataflow| {
             let accelerator = accelerator(dataflow);
-            accelerator.plan(layer.clone()).unwrap().whole().array_cycles - groups
+            accelerator.plan(layer.clone()).unwrap().whole_cost().array_cycles - groups
         };
         assert_eq!(last(Dataflow::WeightStationary(systolic(32, 32))), ws, "{side} {channels}");
         assert_eq!(last(Dataflow::OutputStationary(systolic(32, 32))), os, "{side} {channels}");

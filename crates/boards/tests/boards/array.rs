@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command as Process;
 use std::sync::OnceLock;
 
-use crate::common::{array_on, compiled, verilog};
-use foveate_boards::{Board, Project};
-use foveate_design::{Action, Camera, Irrelevant, Reference};
+use crate::common::{array_on, compile, verilog};
+use foveate_boards::{Board, BoardProject};
+use foveate_design::{RegionAction, Camera, IrrelevantRendering, ReferencePolicy};
 use foveate_emit::{Register, array_table};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_packets::{Command, Found, Packet, Splitter};
+use foveate_packets::{RegisterCommand, StreamItem, Packet, PacketSplitter};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Source, Tool};
 
@@ -23,10 +23,10 @@ const VCU118: &str = include_str!("../../boards/vcu118.toml");
 const RIGHT: &str = "4";
 const WRONG: &str = "2";
 /// The address at which the values of a capture begin.
-const VALUES: u16 = 0x800;
+const VALUES_ADDRESS: u16 = 0x800;
 
 /// Returns an array on a VCU118, with the fastest possible serial line.
-fn fast(keys: &[&str]) -> Project {
+fn fast_array(keys: &[&str]) -> BoardProject {
     let toml = VCU118.replace("baud = 921_600", "baud = 31_250_000");
     array_on(Board::from_toml("vcu118", &toml).unwrap(), keys).unwrap()
 }
@@ -82,7 +82,7 @@ fn frame(camera: &Camera, t: u32) -> Frame {
 
 /// A compiled board, and its registers.
 #[derive(Clone)]
-struct Bench {
+struct ArrayBench {
     program: PathBuf,
     table: Vec<Register>,
     fault: Option<usize>,
@@ -90,12 +90,12 @@ struct Bench {
 
 /// A fault that can be switched on: the module, the place in it, the text at `@`, and the text that
 /// replaces it.
-type Switch = (&'static str, &'static str, &'static str, &'static str);
+type SwitchedFault = (&'static str, &'static str, &'static str, &'static str);
 
-impl Bench {
+impl ArrayBench {
     /// Compiles a project with faults that are present, each at its place, but act only when they
     /// are switched on. So one program has all of them.
-    fn new(project: &Project, faults: &[Switch]) -> Self {
+    fn new(project: &BoardProject, faults: &[SwitchedFault]) -> Self {
         let constants = "#define DIVISOR 4\n#define LIMIT 20000000\n";
         let mut sources = verilog(project, None);
         for (number, (module, place, from, to)) in faults.iter().enumerate() {
@@ -107,13 +107,13 @@ impl Bench {
             source.1 = source.1.replace(&from_text, &place.replace('@', &either));
         }
         sources.push(Source::from(("array_bench.v".to_owned(), WRAPPER.to_owned())));
-        let program = compiled(sources, "array_bench", constants, BENCH);
-        let table = array_table(project.design.pipelined().unwrap());
+        let program = compile(sources, "array_bench", constants, BENCH);
+        let table = array_table(project.design.as_pipelined().unwrap());
         Self { program, table, fault: None }
     }
 
     /// Returns the bench with one fault switched on.
-    fn with(&self, fault: usize) -> Self {
+    fn with_fault(&self, fault: usize) -> Self {
         let (program, table) = (self.program.clone(), self.table.clone());
         Self { program, table, fault: Some(fault) }
     }
@@ -123,17 +123,17 @@ impl Bench {
         u16::try_from(register.address).unwrap()
     }
 
-    fn read(&self, name: &str) -> Said {
-        Said { until: false, command: Command::read(self.address(name)) }
+    fn read(&self, name: &str) -> HostCommand {
+        HostCommand { until: false, command: RegisterCommand::read(self.address(name)) }
     }
 
-    fn write(&self, name: &str, value: u32) -> Said {
-        Said { until: false, command: Command::write(self.address(name), value) }
+    fn write(&self, name: &str, value: u32) -> HostCommand {
+        HostCommand { until: false, command: RegisterCommand::write(self.address(name), value) }
     }
 
-    fn play(&self, host: &[Said]) -> Run {
+    fn play(&self, host: &[HostCommand]) -> ArrayRun {
         let dir = tempfile::tempdir().unwrap();
-        let bytes: Vec<u8> = host.iter().flat_map(Said::bytes).collect();
+        let bytes: Vec<u8> = host.iter().flat_map(HostCommand::bytes).collect();
         fs::write(dir.path().join("host"), bytes).unwrap();
         let run = Process::new(&self.program)
             .arg(dir.path())
@@ -150,7 +150,7 @@ impl Bench {
         let [lights, clocks, from] = said.split_whitespace().collect::<Vec<_>>()[..] else {
             panic!("{said}")
         };
-        Run {
+        ArrayRun {
             lights: lights.to_owned(),
             clocks: clocks.parse().unwrap(),
             from: from.parse().unwrap(),
@@ -160,8 +160,8 @@ impl Bench {
     }
 
     /// Returns the commands by which a host captures the results of a region in a frame.
-    fn capture(&self, (column, row): (u32, u32), frame: u32, camera: &Camera) -> Vec<Said> {
-        let wait = Said { until: true, command: Command::read(self.address("capture")) };
+    fn capture(&self, (column, row): (u32, u32), frame: u32, camera: &Camera) -> Vec<HostCommand> {
+        let wait = HostCommand { until: true, command: RegisterCommand::read(self.address("capture")) };
         let mut host = vec![
             self.write("capture_region", row << 16 | column),
             self.write("capture_frame", frame),
@@ -173,7 +173,7 @@ impl Bench {
         let rest = self.table.iter().filter(|register| (0x54..0x100).contains(&register.address));
         host.extend(rest.map(|register| self.read(&register.name)));
         let words = u16::try_from(camera.region_pixels().div_ceil(4)).unwrap();
-        let value = |word| Said { until: false, command: Command::read(VALUES + 4 * word) };
+        let value = |word| HostCommand { until: false, command: RegisterCommand::read(VALUES_ADDRESS + 4 * word) };
         host.extend((0..words).map(value));
         host
     }
@@ -181,7 +181,7 @@ impl Bench {
 
 /// The results of a run: the lights, the clocks until a light was on, the frame at which the last
 /// write took effect, the answers, and the sum behind each frame.
-struct Run {
+struct ArrayRun {
     lights: String,
     clocks: u64,
     from: u32,
@@ -190,25 +190,25 @@ struct Run {
 }
 
 /// A command. With `until` it is sent again until the answer reports a capture.
-struct Said {
+struct HostCommand {
     until: bool,
-    command: Command,
+    command: RegisterCommand,
 }
 
-impl Said {
+impl HostCommand {
     fn bytes(&self) -> Vec<u8> {
         [vec![u8::from(self.until)], self.command.bytes().to_vec()].concat()
     }
 }
 
 fn answers(path: &Path) -> Vec<u32> {
-    let mut splitter = Splitter::default();
+    let mut splitter = PacketSplitter::default();
     splitter.feed(&fs::read(path).unwrap());
     let mut values = Vec::new();
     loop {
         match splitter.next(None) {
-            Found::Packet { packet: Packet::Register(answer), .. } => values.push(answer.value),
-            Found::Nothing => return values,
+            StreamItem::Packet { packet: Packet::Register(answer), .. } => values.push(answer.value),
+            StreamItem::Pending => return values,
             _ => panic!("no answer"),
         }
     }
@@ -216,16 +216,16 @@ fn answers(path: &Path) -> Vec<u32> {
 
 /// The results of a region in a frame: decision bits, count and scores, and the values that leave.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Says {
+struct RegionResult {
     frame: u32,
     decision: u32,
     scores: Vec<u64>,
     values: Vec<u16>,
 }
 
-impl Says {
+impl RegionResult {
     /// Reads the results from the answers to [`Bench::capture`].
-    fn read(answers: &[u32], camera: &Camera) -> Self {
+    fn from_answers(answers: &[u32], camera: &Camera) -> Self {
         let [frame, decision, rest @ ..] = &answers[4..] else { panic!("{answers:?}") };
         let mut rest = rest.iter().copied();
         let mut next = |bits: u32| {
@@ -246,17 +246,17 @@ impl Says {
     }
 
     /// Returns the model's results.
-    fn of(outcome: &FunctionalOutcome, camera: &Camera, frame: u32, place: (u32, u32)) -> Self {
+    fn from_outcome(outcome: &FunctionalOutcome, camera: &Camera, frame: u32, place: (u32, u32)) -> Self {
         let at = (place.1 * camera.columns() + place.0) as usize;
         let action = outcome.actions[at];
         let bits =
-            [outcome.srs[at], outcome.trs[at], action == Action::Summarize, outcome.active[at]];
+            [outcome.srs[at], outcome.trs[at], action == RegionAction::Summarize, outcome.active[at]];
         let count = u64::from(outcome.temporal_count[at]);
         let scores = outcome.scores.iter().map(|scores| scores[at]);
         let values = match action {
-            Action::Forward => region(outcome.payload(camera), camera, place),
-            Action::Summarize => outcome.means[at].clone(),
-            Action::Hold | Action::Blank => Vec::new(),
+            RegionAction::Forward => region(outcome.payload(camera), camera, place),
+            RegionAction::Summarize => outcome.means[at].clone(),
+            RegionAction::Hold | RegionAction::Blank => Vec::new(),
         };
         Self {
             frame,
@@ -274,7 +274,7 @@ fn region(frame: &Frame, camera: &Camera, (column, row): (u32, u32)) -> Vec<u16>
     places.map(|(x, y)| frame.pixels()[(y * camera.width() + x) as usize]).collect()
 }
 
-impl Says {
+impl RegionResult {
     /// Returns the CRC of the results, as the page defines it.
     fn crc(&self, region: u32, camera: &Camera) -> u32 {
         let widths = camera.features().iter().map(|feature| feature.score_bits());
@@ -295,19 +295,19 @@ fn places(camera: &Camera) -> Vec<(u32, u32)> {
 }
 
 /// Returns the model's results of all regions in each of the first `frames` frames.
-fn model(camera: &Camera, frames: u32) -> Vec<Vec<Says>> {
+fn model_results(camera: &Camera, frames: u32) -> Vec<Vec<RegionResult>> {
     let mut functional = FunctionalCamera::new(camera);
     let places = places(camera);
     let all = |t| {
         let outcome = functional.step(&frame(camera, t)).unwrap();
-        places.iter().map(|place| Says::of(outcome, camera, t, *place)).collect()
+        places.iter().map(|place| RegionResult::from_outcome(outcome, camera, t, *place)).collect()
     };
     (0..frames).map(all).collect()
 }
 
 /// Returns the model's results if the second camera replaces the first from frame `at` on. The
 /// temporal reference goes on as the contract defines it. The cameras must have no summaries.
-fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
+fn model_with_change(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<RegionResult>> {
     let mut functional = cameras.map(FunctionalCamera::new);
     let places = places(cameras[0]);
     let mut references: Vec<Option<Vec<u16>>> = vec![None; places.len()];
@@ -318,7 +318,7 @@ fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
         let [old, new] = &mut functional;
         let outcomes = [old.step(&given).unwrap(), new.step(&given).unwrap()];
         let one = |(place, reference): (&(u32, u32), &mut Option<Vec<u16>>)| {
-            let mut says = Says::of(outcomes[own], camera, t, *place);
+            let mut says = RegionResult::from_outcome(outcomes[own], camera, t, *place);
             let seen = region(&outcomes[own].denoised, camera, *place);
             let level = camera.temporal().level;
             let differs = |(a, b): (&u16, &u16)| u32::from(a.abs_diff(*b)) > level;
@@ -338,12 +338,12 @@ fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
                 says.values = region(outcomes[own].payload(camera), camera, *place);
             }
             match camera.temporal().reference {
-                Reference::Previous => *reference = Some(seen),
-                Reference::LastSent if active => *reference = Some(seen),
-                Reference::LastSent if !srs && camera.irrelevant() == Irrelevant::Zero => {
+                ReferencePolicy::Previous => *reference = Some(seen),
+                ReferencePolicy::LastSent if active => *reference = Some(seen),
+                ReferencePolicy::LastSent if !srs && camera.irrelevant() == IrrelevantRendering::Zero => {
                     *reference = None;
                 }
-                Reference::LastSent => {}
+                ReferencePolicy::LastSent => {}
             }
             says
         };
@@ -353,7 +353,7 @@ fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
 }
 
 /// Returns the sum behind each frame.
-fn sums(camera: &Camera, frames: &[Vec<Says>]) -> Vec<u32> {
+fn frame_sums(camera: &Camera, frames: &[Vec<RegionResult>]) -> Vec<u32> {
     let mut sum = 0_u32;
     let each = frames.iter().map(|regions| {
         for (region, says) in (0..).zip(regions) {
@@ -365,12 +365,12 @@ fn sums(camera: &Camera, frames: &[Vec<Says>]) -> Vec<u32> {
 }
 
 /// Makes a host capture these regions of these frames.
-fn captures(bench: &Bench, camera: &Camera, wanted: &[((u32, u32), u32)]) -> (Run, Vec<Says>) {
+fn captures(bench: &ArrayBench, camera: &Camera, wanted: &[((u32, u32), u32)]) -> (ArrayRun, Vec<RegionResult>) {
     let each = wanted.iter().map(|(place, frame)| bench.capture(*place, *frame, camera));
-    let host: Vec<Vec<Said>> = each.collect();
+    let host: Vec<Vec<HostCommand>> = each.collect();
     let length = host[0].len();
     let run = bench.play(&host.into_iter().flatten().collect::<Vec<_>>());
-    let captured = run.answers.chunks(length).map(|part| Says::read(part, camera)).collect();
+    let captured = run.answers.chunks(length).map(|part| RegionResult::from_answers(part, camera)).collect();
     (run, captured)
 }
 
@@ -379,10 +379,10 @@ fn an_array_on_a_board_says_what_the_model_says() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    for (keys, thresholds) in [(SMALL, OF_SMALL), (LARGE, OF_LARGE), (DEEP, &[])] {
-        let project = fast(keys);
+    for (keys, thresholds) in [(SMALL, SMALL_THRESHOLDS), (LARGE, LARGE_THRESHOLDS), (DEEP, &[])] {
+        let project = fast_array(keys);
         let camera = project.design.camera();
-        let bench = if keys == SMALL { small().clone() } else { Bench::new(&project, &[]) };
+        let bench = if keys == SMALL { small_bench().clone() } else { ArrayBench::new(&project, &[]) };
         // The captured frames have a square and none. Small regions have many more frames in the
         // same time.
         let (right, low) = (camera.columns() - 1, camera.rows() - 1);
@@ -393,8 +393,8 @@ fn an_array_on_a_board_says_what_the_model_says() {
         let (run, captured) = captures(&bench, camera, &wanted);
         assert_eq!(run.lights, RIGHT, "{keys:?}");
         let frames = u32::try_from(run.sums.len()).unwrap() + 1;
-        let said = model(camera, frames);
-        let expected = sums(camera, &said);
+        let said = model_results(camera, frames);
+        let expected = frame_sums(camera, &said);
         let first = run.sums.iter().zip(&expected).position(|(sum, expected)| sum != expected);
         assert_eq!(first, None, "the frame whose sum is wrong; {keys:?}");
         for (((column, row), frame), captured) in wanted.iter().zip(&captured) {
@@ -405,15 +405,15 @@ fn an_array_on_a_board_says_what_the_model_says() {
         assert!(captured.iter().any(|captured| !captured.values.is_empty()), "{keys:?}");
         assert!(captured.iter().any(|captured| captured.decision & 8 == 0), "{keys:?}");
         for threshold in thresholds {
-            assert_eq!(written(&bench, keys, *threshold), None, "{keys:?}");
+            assert_eq!(write_fault(&bench, keys, *threshold), None, "{keys:?}");
         }
     }
 }
 
 /// Makes a host write a threshold. Returns the fault, if the frames around the write are not each
 /// computed with all thresholds of one set.
-fn written(bench: &Bench, keys: &[&str], (name, value, key): (&str, u32, &str)) -> Option<String> {
-    let (project, other) = (fast(keys), fast(&[keys, &[key]].concat()));
+fn write_fault(bench: &ArrayBench, keys: &[&str], (name, value, key): (&str, u32, &str)) -> Option<String> {
+    let (project, other) = (fast_array(keys), fast_array(&[keys, &[key]].concat()));
     let cameras = [project.design.camera(), other.design.camera()];
     // Reads of another register let time pass.
     let mut host = vec![bench.read("frames"), bench.write(name, value), bench.read(name)];
@@ -423,7 +423,7 @@ fn written(bench: &Bench, keys: &[&str], (name, value, key): (&str, u32, &str)) 
     assert_eq!(run.answers[2], value);
     let frames = u32::try_from(run.sums.len()).unwrap();
     let differ = |at: u32| {
-        let expected = sums(cameras[0], &changed(cameras, at, frames));
+        let expected = frame_sums(cameras[0], &model_with_change(cameras, at, frames));
         run.sums.iter().zip(&expected).position(|(sum, expected)| sum != expected)
     };
     assert!(run.from > run.answers[0], "{name}: frame {}", run.from);
@@ -434,16 +434,16 @@ fn written(bench: &Bench, keys: &[&str], (name, value, key): (&str, u32, &str)) 
 
 const LEVEL: (&str, u32, &str) =
     ("edge_level", 0, "spatial=[{feature='edge',level=0,min_score=3}]");
-const LEAST: (&str, u32, &str) = ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
+const MINIMUM: (&str, u32, &str) = ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
 
 /// Thresholds that a host writes, and the same values as keys.
-const OF_SMALL: &[(&str, u32, &str)] = &[
+const SMALL_THRESHOLDS: &[(&str, u32, &str)] = &[
     LEVEL,
-    LEAST,
+    MINIMUM,
     ("temporal_level", 0, "temporal.level=0"),
     ("temporal_min", 9, "temporal.min_count=9"),
 ];
-const OF_LARGE: &[(&str, u32, &str)] = &[
+const LARGE_THRESHOLDS: &[(&str, u32, &str)] = &[
     (
         "corner_level",
         0,
@@ -460,7 +460,7 @@ const OF_LARGE: &[(&str, u32, &str)] = &[
 ];
 
 /// Faults that light the wrong LED.
-const LIT: &[Switch] = &[
+const SIGNATURE_FAULTS: &[SwitchedFault] = &[
     // Two regions get each other's pixels, and each sends those of its neighbor.
     ("board", ".pixel_i(@),", "pixel", "{pixel[REGIONS*8-1:16], pixel[7:0], pixel[15:8]}"),
     (
@@ -473,12 +473,12 @@ const LIT: &[Switch] = &[
     ("array_signature", "left_q <= @;", "COLUMNS[LEFT_BITS-1:0]", "COLUMNS[LEFT_BITS-1:0] - 1'b1"),
 ];
 /// Faults that a capture shows.
-const CAPTURED: &[Switch] = &[
+const CAPTURE_FAULTS: &[SwitchedFault] = &[
     ("array_snapshot", "waits_q && @;", "next_q[6:0] == frame_i", "next_q[5:0] == frame_i[5:0]"),
     ("array_registers", "place_o = @;", "asked[8:0]", "~asked[8:0]"),
 ];
 /// Faults by which a threshold changes a clock too early or too late.
-const TURNED: &[Switch] = &[
+const TURN_FAULTS: &[SwitchedFault] = &[
     ("board", "if (@ || rst) edge_level_q", "level_turn", "minimum_turn"),
     (
         "array_turn",
@@ -491,9 +491,9 @@ const TURNED: &[Switch] = &[
 
 /// Returns the array of 4 x 3 regions with all of these faults, which can be switched on. The tests
 /// share its program.
-fn small() -> &'static Bench {
-    static BENCH: OnceLock<Bench> = OnceLock::new();
-    BENCH.get_or_init(|| Bench::new(&fast(SMALL), &[LIT, CAPTURED, TURNED].concat()))
+fn small_bench() -> &'static ArrayBench {
+    static BENCH: OnceLock<ArrayBench> = OnceLock::new();
+    BENCH.get_or_init(|| ArrayBench::new(&fast_array(SMALL), &[SIGNATURE_FAULTS, CAPTURE_FAULTS, TURN_FAULTS].concat()))
 }
 
 #[test]
@@ -501,26 +501,26 @@ fn an_array_that_is_wrong_is_seen() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let project = fast(SMALL);
+    let project = fast_array(SMALL);
     let camera = project.design.camera();
-    let bench = small();
-    for (number, fault) in LIT.iter().enumerate() {
-        assert_eq!(bench.with(number).play(&[]).lights, WRONG, "{fault:?}");
+    let bench = small_bench();
+    for (number, fault) in SIGNATURE_FAULTS.iter().enumerate() {
+        assert_eq!(bench.with_fault(number).play(&[]).lights, WRONG, "{fault:?}");
     }
-    for (number, fault) in (LIT.len()..).zip(CAPTURED) {
+    for (number, fault) in (SIGNATURE_FAULTS.len()..).zip(CAPTURE_FAULTS) {
         let wanted = [((1, 0), 67), ((0, 0), 1)];
-        let (run, captured) = captures(&bench.with(number), camera, &wanted);
+        let (run, captured) = captures(&bench.with_fault(number), camera, &wanted);
         assert_eq!(run.lights, RIGHT);
-        let said = model(camera, u32::try_from(run.sums.len()).unwrap() + 1);
-        let right = |(says, ((column, _), frame)): (&Says, ((u32, u32), u32))| {
+        let said = model_results(camera, u32::try_from(run.sums.len()).unwrap() + 1);
+        let right = |(says, ((column, _), frame)): (&RegionResult, ((u32, u32), u32))| {
             says.frame % 128 == frame && *says == said[says.frame as usize][column as usize]
         };
         assert!(!captured.iter().zip(wanted).all(right), "{fault:?}");
     }
-    let turned = LIT.len() + CAPTURED.len();
-    for (number, threshold) in (turned..).zip([LEVEL, LEVEL, LEAST]) {
-        let seen = written(&bench.with(number), SMALL, threshold);
-        assert!(seen.is_some(), "{:?}", TURNED[number - turned]);
+    let turned = SIGNATURE_FAULTS.len() + CAPTURE_FAULTS.len();
+    for (number, threshold) in (turned..).zip([LEVEL, LEVEL, MINIMUM]) {
+        let seen = write_fault(&bench.with_fault(number), SMALL, threshold);
+        assert!(seen.is_some(), "{:?}", TURN_FAULTS[number - turned]);
     }
 }
 
@@ -529,13 +529,13 @@ fn an_array_that_is_wrong_is_seen() {
 #[test]
 #[ignore = "takes minutes and gigabytes"]
 fn the_array_of_the_paper_says_what_the_model_says() {
-    let project = fast(&[]);
-    let (camera, bench) = (project.design.camera(), Bench::new(&project, &[]));
+    let project = fast_array(&[]);
+    let (camera, bench) = (project.design.camera(), ArrayBench::new(&project, &[]));
     let wanted = [((0, 0), 1), ((27, 27), 60), ((13, 5), 9)];
     let (run, captured) = captures(&bench, camera, &wanted);
     assert_eq!(run.lights, RIGHT);
-    let said = model(camera, u32::try_from(run.sums.len()).unwrap() + 1);
-    assert_eq!(run.sums[..], sums(camera, &said)[..run.sums.len()]);
+    let said = model_results(camera, u32::try_from(run.sums.len()).unwrap() + 1);
+    assert_eq!(run.sums[..], frame_sums(camera, &said)[..run.sums.len()]);
     for (((column, row), _), captured) in wanted.iter().zip(&captured) {
         assert_eq!(*captured, said[captured.frame as usize][(row * 28 + column) as usize]);
     }

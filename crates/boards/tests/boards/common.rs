@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use foveate_boards::{Board, BoardError, Project};
-use foveate_design::{Config, Preset};
-use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
+use foveate_boards::{Board, BoardError, BoardProject};
+use foveate_design::{DesignConfig, Preset};
+use foveate_toolchain::verilator::{self, LintMode, VerilatorJob};
 use foveate_toolchain::{Cache, Source, Toolchain};
 
 const BENCH: &str = include_str!("board_bench.v");
@@ -15,10 +15,10 @@ const SENSOR: &str = include_str!("sensor.cpp");
 const SERIAL: &str = include_str!("serial.h");
 pub(crate) const CORE_MHZ: u32 = 24;
 /// The number of clocks without a byte after which a run ends.
-const QUIET: u32 = 30_000;
+const QUIET_CLOCKS: u32 = 30_000;
 
 /// Returns a board with this sensor, before a core for small frames.
-pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
+pub(crate) fn project(sensor: &str, keys: &[&str]) -> BoardProject {
     let lines = if sensor == "hm01b0-4" { 4 } else { 8 };
     let data: Vec<_> = (0..lines).map(|line| format!("\"d{line}\"")).collect();
     let toml = format!(
@@ -34,18 +34,18 @@ pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
     );
     let board = Board::from_toml("bench", &toml).unwrap();
     let design = board.config().unwrap().validate().unwrap();
-    Project::new(board, design).unwrap()
+    BoardProject::new(board, design).unwrap()
 }
 
 /// Returns the array of the paper on a VCU118, with changed keys.
-pub(crate) fn array(keys: &[&str]) -> Result<Project, BoardError> {
+pub(crate) fn array(keys: &[&str]) -> Result<BoardProject, BoardError> {
     array_on(Board::find("vcu118").unwrap(), keys)
 }
 
 /// Returns the array of the paper on a board, with changed keys.
-pub(crate) fn array_on(board: Board, keys: &[&str]) -> Result<Project, BoardError> {
+pub(crate) fn array_on(board: Board, keys: &[&str]) -> Result<BoardProject, BoardError> {
     let paper = Preset::find("paper").unwrap().toml;
-    Project::new(board, Config::from_toml_with(paper, keys).unwrap().validate().unwrap())
+    BoardProject::new(board, DesignConfig::from_toml_with(paper, keys).unwrap().validate().unwrap())
 }
 
 /// Returns true if there is an interpreter of Tcl. Panics if there is none although all tools are
@@ -61,11 +61,11 @@ pub(crate) fn has_tclsh() -> bool {
 }
 
 /// A planted fault: the module, a text in it, and the text that replaces it.
-pub(crate) type Fault<'a> = Option<(&'a str, &'a str, &'a str)>;
+pub(crate) type PlantedFault<'a> = Option<(&'a str, &'a str, &'a str)>;
 
 /// Returns the Verilog of a project with the clock for simulations in place of its PLL. A fault may
 /// be planted in it.
-pub(crate) fn verilog(project: &Project, fault: Fault<'_>) -> Vec<Source> {
+pub(crate) fn verilog(project: &BoardProject, fault: PlantedFault<'_>) -> Vec<Source> {
     let mut files = project.files();
     if let Some((name, from, to)) = fault {
         let path = format!("rtl/{name}.v");
@@ -83,25 +83,25 @@ pub(crate) fn verilog(project: &Project, fault: Fault<'_>) -> Vec<Source> {
 
 /// Compiles a program that simulates these modules, with constants, the host's end of the serial
 /// line, and a main function.
-pub(crate) fn compiled(sources: Vec<Source>, top: &str, constants: &str, main: &str) -> PathBuf {
+pub(crate) fn compile(sources: Vec<Source>, top: &str, constants: &str, main: &str) -> PathBuf {
     let (top, cpp_main) = (top.to_owned(), format!("{constants}{SERIAL}{main}"));
     let job =
-        VerilatorJob { sources, top, cpp_main, lint: Lint::Lenient, ..VerilatorJob::default() };
+        VerilatorJob { sources, top, cpp_main, lint: LintMode::Lenient, ..VerilatorJob::default() };
     verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
 }
 
 /// Compiles a project with a sensor for Verilator.
-pub(crate) fn simulated(project: &Project, fault: Fault<'_>) -> PathBuf {
+pub(crate) fn compile_with_sensor(project: &BoardProject, fault: PlantedFault<'_>) -> PathBuf {
     let mut sources = verilog(project, fault);
-    let (sensor, _) = project.board.eye().unwrap().unwrap();
-    let bench = format!("`define DATA {}\n{BENCH}", sensor.format.lines());
+    let (sensor, _) = project.board.sensor_with_pins().unwrap().unwrap();
+    let bench = format!("`define DATA {}\n{BENCH}", sensor.format.data_lines());
     sources.push(Source::from(("board_bench.v".to_owned(), bench)));
-    let constants = format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET}\n");
-    compiled(sources, "board_bench", &constants, SENSOR)
+    let constants = format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET_CLOCKS}\n");
+    compile(sources, "board_bench", &constants, SENSOR)
 }
 
 /// The results of a run.
-pub(crate) struct Heard {
+pub(crate) struct SerialRun {
     pub(crate) bytes: Vec<u8>,
     /// True if a byte had no stop bit.
     pub(crate) has_broken_bytes: bool,
@@ -111,13 +111,13 @@ pub(crate) struct Heard {
 
 /// Runs a board. `host` has the bytes that the host sends, each with its earliest time in
 /// microseconds.
-pub(crate) fn play(
+pub(crate) fn run_board(
     program: &Path,
     wires: &[u8],
     host: &[(u32, u8)],
     pclk_ps: u32,
     nacks: u32,
-) -> Heard {
+) -> SerialRun {
     let dir = tempfile::tempdir().unwrap();
     let host: Vec<u8> =
         host.iter().flat_map(|(at, byte)| at.to_le_bytes().into_iter().chain([*byte])).collect();
@@ -130,5 +130,5 @@ pub(crate) fn play(
         .unwrap();
     let setup = fs::read_to_string(dir.path().join("setup")).unwrap();
     let bytes = fs::read(dir.path().join("heard")).unwrap();
-    Heard { bytes, has_broken_bytes: !run.success(), setup }
+    SerialRun { bytes, has_broken_bytes: !run.success(), setup }
 }

@@ -4,7 +4,7 @@
 
 use foveate_emit::Prefix;
 
-use crate::hostile::texts;
+use crate::hostile_texts::texts;
 
 #[test]
 fn a_prefix_is_a_plain_name() {

@@ -5,8 +5,8 @@
 mod array;
 mod common;
 mod cores;
-mod film;
-mod hostile;
+mod sensor_signals;
+mod hostile_texts;
 mod pattern;
 mod projects;
 mod simulation;

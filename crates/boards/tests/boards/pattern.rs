@@ -5,31 +5,31 @@
 use std::fs;
 use std::process::Command as Process;
 
-use crate::common::{Fault, compiled, verilog};
-use foveate_boards::{Board, Project};
-use foveate_design::Config;
-use foveate_packets::{Command, Found, Layout, Packet, Splitter};
+use crate::common::{PlantedFault, compile, verilog};
+use foveate_boards::{Board, BoardProject};
+use foveate_design::DesignConfig;
+use foveate_packets::{RegisterCommand, StreamItem, PacketLayout, Packet, PacketSplitter};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
 const BENCH: &str = include_str!("pattern.cpp");
 /// The number of clocks with the serial line, after an LED is on.
-const AFTER: u32 = 400_000;
-const LIMIT: u64 = 60_000_000;
+const SERIAL_CLOCKS: u32 = 400_000;
+const CLOCK_LIMIT: u64 = 60_000_000;
 const RIGHT: &str = "4";
 const WRONG: &str = "2";
 
-fn vcu118(keys: &[&str]) -> Project {
+fn vcu118(keys: &[&str]) -> BoardProject {
     let board = Board::find("vcu118").unwrap();
     let toml = board.config().unwrap().to_toml();
-    let design = Config::from_toml_with(&toml, keys).unwrap().validate().unwrap();
-    Project::new(board, design).unwrap()
+    let design = DesignConfig::from_toml_with(&toml, keys).unwrap().validate().unwrap();
+    BoardProject::new(board, design).unwrap()
 }
 
 /// Returns the LEDs of a run, and the bytes that came after that.
-fn play(project: &Project, fault: Fault<'_>, host: &[u8]) -> (String, Vec<u8>) {
-    let constants = format!("#define DIVISOR 136\n#define AFTER {AFTER}\n#define LIMIT {LIMIT}\n");
-    let program = compiled(verilog(project, fault), "board", &constants, BENCH);
+fn play(project: &BoardProject, fault: PlantedFault<'_>, host: &[u8]) -> (String, Vec<u8>) {
+    let constants = format!("#define DIVISOR 136\n#define AFTER {SERIAL_CLOCKS}\n#define LIMIT {CLOCK_LIMIT}\n");
+    let program = compile(verilog(project, fault), "board", &constants, BENCH);
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("host"), host).unwrap();
     let run = Process::new(program).arg(dir.path()).output().unwrap();
@@ -49,21 +49,21 @@ fn sums_on_the_board_are_those_of_the_model() {
         &["frame={width=200,height=76}", "hardware.pixels_per_clock=4", "denoise.filter='none'"];
     for (keys, address) in [(SMALL, 0x1000), (four, 0)] {
         let project = vcu118(keys);
-        let (lights, heard) = play(&project, None, &Command::read(address).bytes());
+        let (lights, heard) = play(&project, None, &RegisterCommand::read(address).bytes());
         assert_eq!(lights, RIGHT, "{keys:?}");
-        let mut splitter = Splitter::default();
+        let mut splitter = PacketSplitter::default();
         splitter.feed(&heard);
-        let layout = Layout::new(&project.design, false, 125_000_000).unwrap();
+        let layout = PacketLayout::new(&project.design, false, 125_000_000).unwrap();
         let (mut answers, mut others) = (Vec::new(), 0);
         loop {
             match splitter.next(Some(&layout)) {
-                Found::Nothing => break,
+                StreamItem::Pending => break,
                 // Only the end of the first packet was received.
-                Found::Skipped { bytes, .. } => assert!(others == 0 && bytes < 200, "{bytes}"),
-                Found::Packet { packet: Packet::Register(answer), .. } => {
+                StreamItem::Skipped { bytes, .. } => assert!(others == 0 && bytes < 200, "{bytes}"),
+                StreamItem::Packet { packet: Packet::Register(answer), .. } => {
                     answers.push(answer.value);
                 }
-                Found::Packet { .. } => others += 1,
+                StreamItem::Packet { .. } => others += 1,
             }
         }
         let [answer] = answers[..] else { panic!("{} answers", answers.len()) };

@@ -9,22 +9,22 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{array, has_tclsh, verilog};
-use foveate_boards::{Board, BoardError, Project, build, write_project};
-use foveate_design::Config;
+use foveate_boards::{Board, BoardError, BoardProject, build, write_project};
+use foveate_design::DesignConfig;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain, verilator};
 
 /// Returns a board with changed keys of its design.
-fn project(name: &str, keys: &[&str]) -> Result<Project, BoardError> {
+fn project(name: &str, keys: &[&str]) -> Result<BoardProject, BoardError> {
     let board = Board::find(name).unwrap();
     let toml = board.config().unwrap().to_toml();
-    Project::new(board, Config::from_toml_with(&toml, keys).unwrap().validate().unwrap())
+    BoardProject::new(board, DesignConfig::from_toml_with(&toml, keys).unwrap().validate().unwrap())
 }
 
 /// Each pin is used once, every port has a pin, and every module around a core occurs in some
 /// project.
 #[test]
-fn projects_are_whole() {
+fn projects_are_complete() {
     let mut used = BTreeSet::new();
     let boards = Board::all().map(|board| project(&board.name, &[]).unwrap());
     for project in boards.chain([array(&[]).unwrap()]) {
@@ -221,7 +221,7 @@ fn designs_that_fit_no_board_are_refused() {
     }
     // No sensor sends a pixel of each region at a time.
     let design = array(&[]).unwrap().design;
-    let error = Project::new(Board::find("icebreaker").unwrap(), design).unwrap_err().to_string();
+    let error = BoardProject::new(Board::find("icebreaker").unwrap(), design).unwrap_err().to_string();
     assert!(error.contains("vcu118") && error.contains("hardware.interface='axi'"), "{error}");
 }
 
@@ -255,13 +255,13 @@ fn scripts_for_vivado_execute() {
     let axi = project("vcu118", &["frame={width=64,height=48}"]).unwrap();
     let array = array(&["frame={width=16,height=16}"]).unwrap();
     for (project, module) in [(&axi, "rtl/rcm_axi.v"), (&array, "rtl/array_signature.v")] {
-        executes(project, module);
+        assert_executes(project, module);
     }
 }
 
 /// Executes the scripts of a project with stubs in place of Vivado's commands. `module` is one of
 /// the project's Verilog files.
-fn executes(project: &Project, module: &str) {
+fn assert_executes(project: &BoardProject, module: &str) {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("out");
     write_project(project, &folder, false).unwrap();

@@ -2,16 +2,16 @@
 //! Tests that the serial line of a board sends what the model computes from the frames before its
 //! sensor.
 
-use crate::common::{CORE_MHZ, Heard, play, project, simulated};
-use crate::film::{Damage, Wires, frames, seen};
-use foveate_boards::{Project, Sensor};
+use crate::common::{CORE_MHZ, SerialRun, run_board, project, compile_with_sensor};
+use crate::sensor_signals::{Damage, SensorWires, frames, expected_frames};
+use foveate_boards::{BoardProject, Sensor};
 use foveate_design::Design;
-use foveate_emit::registers;
+use foveate_emit::axi_registers;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
-use foveate_packets::{Command, Found, Layout, Packet, Region, Register, Row, Splitter};
+use foveate_packets::{RegisterCommand, StreamItem, PacketLayout, Packet, RegionPacket, RegisterPacket, RowPacket, PacketSplitter};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{every, require_tools};
+use foveate_toolchain::testing::{sampling_step, require_tools};
 use std::path::Path;
 
 /// The period of the pixel clock in picoseconds at which all regions of a frame can leave.
@@ -20,28 +20,28 @@ const SLOW_PS: u32 = 3_000_003;
 const FAST_PS: u32 = 33_337;
 
 /// The received frames: the screens, and the rows of regions.
-struct Received {
+struct ReceivedFrames {
     screens: Vec<Vec<u16>>,
-    rows: Vec<Vec<Row>>,
+    rows: Vec<Vec<RowPacket>>,
     dropped: u32,
-    answers: Vec<Register>,
+    answers: Vec<RegisterPacket>,
 }
 
-fn receive(design: &Design, bytes: &[u8]) -> Result<Received, String> {
-    let layout = Layout::new(design, false, CORE_MHZ * 1_000_000).unwrap();
-    let mut splitter = Splitter::default();
+fn receive(design: &Design, bytes: &[u8]) -> Result<ReceivedFrames, String> {
+    let layout = PacketLayout::new(design, false, CORE_MHZ * 1_000_000).unwrap();
+    let mut splitter = PacketSplitter::default();
     splitter.feed(bytes);
-    splitter.complete();
+    splitter.mark_complete();
     let mut screen = vec![0; (design.width() * design.height()) as usize];
     let mut received =
-        Received { screens: Vec::new(), rows: Vec::new(), dropped: 0, answers: Vec::new() };
+        ReceivedFrames { screens: Vec::new(), rows: Vec::new(), dropped: 0, answers: Vec::new() };
     let mut rows = Vec::new();
     loop {
         match splitter.next(Some(&layout)) {
-            Found::Nothing => return Ok(received),
-            Found::Skipped { bytes, .. } => return Err(format!("{bytes} bytes are no packet")),
-            Found::Packet { packet, .. } => match packet {
-                Packet::Region(region) => paint(design, &mut screen, &region),
+            StreamItem::Pending => return Ok(received),
+            StreamItem::Skipped { bytes, .. } => return Err(format!("{bytes} bytes are no packet")),
+            StreamItem::Packet { packet, .. } => match packet {
+                Packet::Region(region) => draw_region(design, &mut screen, &region),
                 Packet::Row(row) => rows.push(row),
                 Packet::End(end) => {
                     received.dropped += end.regions_dropped + end.rows_dropped;
@@ -63,7 +63,7 @@ fn receive(design: &Design, bytes: &[u8]) -> Result<Received, String> {
 }
 
 /// Draws the pixels or means of a region, as packets.md defines them.
-fn paint(design: &Design, screen: &mut [u16], region: &Region) {
+fn draw_region(design: &Design, screen: &mut [u16], region: &RegionPacket) {
     let (side, width) = (design.region_size(), design.width());
     let blocks = if region.flags.summary { design.periphery().unwrap().blocks } else { side };
     for y in 0..side {
@@ -79,7 +79,7 @@ fn paint(design: &Design, screen: &mut [u16], region: &Region) {
 
 /// Returns the wires of a project's sensor for these frames.
 fn wires(sensor: &Sensor, film: &[Frame], damage: Damage, gap: usize) -> Vec<u8> {
-    let mut wires = Wires::new(sensor);
+    let mut wires = SensorWires::new(sensor);
     for (number, frame) in film.iter().enumerate() {
         wires.frame(frame, if number == 1 { damage } else { Damage::None }, gap);
     }
@@ -87,7 +87,7 @@ fn wires(sensor: &Sensor, film: &[Frame], damage: Damage, gap: usize) -> Vec<u8>
 }
 
 /// Compares screens and decisions with the model's.
-fn compare(design: &Design, received: &Received, film: &[Frame]) -> Result<(), String> {
+fn compare(design: &Design, received: &ReceivedFrames, film: &[Frame]) -> Result<(), String> {
     let count = received.screens.len();
     if count != film.len() {
         return Err(format!("{count} frames came, expected {}", film.len()));
@@ -110,17 +110,17 @@ fn compare(design: &Design, received: &Received, film: &[Frame]) -> Result<(), S
     Ok(())
 }
 
-fn check(project: &Project, program: &Path, damage: Damage) -> Result<Heard, String> {
+fn check_board(project: &BoardProject, program: &Path, damage: Damage) -> Result<SerialRun, String> {
     let film = frames(64, 48, 4);
-    let sensor = project.board.eye().unwrap().unwrap().0;
+    let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, damage, 600);
     let place = address(project, "frame");
     // Answers come between packets, whenever a command is sent.
     let host =
-        said(&(1..=30).map(|turn| (700 * turn, Command::read(place).bytes())).collect::<Vec<_>>());
-    let heard = play(program, &wires, &host, SLOW_PS, 0);
+        timed_bytes(&(1..=30).map(|turn| (700 * turn, RegisterCommand::read(place).bytes())).collect::<Vec<_>>());
+    let heard = run_board(program, &wires, &host, SLOW_PS, 0);
     let received = receive(&project.design, &heard.bytes)?;
-    let answer = Register { address: place, written: false, value: 48 << 16 | 64 };
+    let answer = RegisterPacket { address: place, is_write: false, value: 48 << 16 | 64 };
     if heard.has_broken_bytes || received.answers != [answer; 30] {
         return Err(format!("{} answers came", received.answers.len()));
     }
@@ -128,7 +128,7 @@ fn check(project: &Project, program: &Path, damage: Damage) -> Result<Heard, Str
     if received.dropped != 0 && damage != Damage::EarlyVsync {
         return Err(format!("{} rows and regions were dropped", received.dropped));
     }
-    compare(&project.design, &received, &seen(&film, damage)).map(|()| heard)
+    compare(&project.design, &received, &expected_frames(&film, damage)).map(|()| heard)
 }
 
 const ALL: [Damage; 7] = [
@@ -148,11 +148,11 @@ fn what_leaves_a_board_is_what_the_model_says_of_what_its_sensor_saw() {
     }
     for sensor in ["hm01b0-4", "hm01b0-8", "ov7670-qvga"] {
         let project = project(sensor, &[]);
-        let program = simulated(&project, None);
+        let program = compile_with_sensor(&project, None);
         // One of the sensors is tested with every kind of damage.
         let all = if sensor == "ov7670-qvga" { &ALL[..] } else { &ALL[..1] };
         for &damage in all {
-            let heard = check(&project, &program, damage);
+            let heard = check_board(&project, &program, damage);
             let heard = heard.unwrap_or_else(|error| panic!("{sensor}, {damage:?}: {error}"));
             assert!(
                 heard.setup.ends_with("lights 0\n") || heard.setup.ends_with("lights 1\n"),
@@ -169,25 +169,25 @@ fn a_sensor_that_is_faster_than_its_serial_line_costs_whole_regions_and_no_decis
         return;
     }
     let project = project("hm01b0-4", &[]);
-    let program = simulated(&project, None);
+    let program = compile_with_sensor(&project, None);
     let film = frames(64, 48, 4);
-    let sensor = project.board.eye().unwrap().unwrap().0;
-    let heard = play(&program, &wires(&sensor, &film, Damage::None, 400_000), &[], FAST_PS, 0);
+    let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
+    let heard = run_board(&program, &wires(&sensor, &film, Damage::None, 400_000), &[], FAST_PS, 0);
     let received = receive(&project.design, &heard.bytes).unwrap();
     assert!(received.dropped > 0);
     compare(&project.design, &received, &film).unwrap();
 }
 
 /// Returns the bytes of commands, each with its time in microseconds.
-fn said(commands: &[(u32, Vec<u8>)]) -> Vec<(u32, u8)> {
+fn timed_bytes(commands: &[(u32, Vec<u8>)]) -> Vec<(u32, u8)> {
     let timed =
         |(at, bytes): &(u32, Vec<u8>)| bytes.iter().map(|&byte| (*at, byte)).collect::<Vec<_>>();
     commands.iter().flat_map(timed).collect()
 }
 
-fn address(project: &Project, name: &str) -> u16 {
-    let registers = registers(project.design.raster().unwrap());
-    let found = registers.iter().find(|register| register.name == name);
+fn address(project: &BoardProject, name: &str) -> u16 {
+    let registers = axi_registers(project.design.as_raster().unwrap());
+    let found = axi_registers.iter().find(|register| register.name == name);
     u16::try_from(found.unwrap_or_else(|| panic!("no register {name}")).address).unwrap()
 }
 
@@ -199,34 +199,34 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
         return;
     }
     let project = project("ov7670-qvga", &[]);
-    let program = simulated(&project, None);
+    let program = compile_with_sensor(&project, None);
     let film = frames(64, 48, 4);
-    let sensor = project.board.eye().unwrap().unwrap().0;
+    let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, Damage::None, 60_000);
     // The write comes between the second and the third frame.
     let frame_us =
         u32::try_from(wires.len() as u64 / 2 / 4 * u64::from(SLOW_PS) / 1_000_000).unwrap();
     let change = 2 * frame_us - frame_us / 8;
     let level = address(&project, "temporal_level");
-    let mut broken = Command::read(0).bytes();
+    let mut broken = RegisterCommand::read(0).bytes();
     broken[9] ^= 4;
-    let cut = Command::read(4).bytes()[..20].to_vec();
-    let host = said(&[
-        (100, Command::read(0).bytes()),
+    let cut = RegisterCommand::read(4).bytes()[..20].to_vec();
+    let host = timed_bytes(&[
+        (100, RegisterCommand::read(0).bytes()),
         (400, broken),
         (700, cut),
-        (1000, Command::read(0x1000).bytes()),
-        (1300, Command::write(level, 77).bytes()),
-        (1600, Command::read(level).bytes()),
-        (1900, Command::read(0x1004).bytes()),
-        (2200, Command::write(level, 8).bytes()),
-        (change, Command::write(level, 250).bytes()),
-        (4 * frame_us, Command::read(0x1000).bytes()),
-        (4 * frame_us + 300, Command::read(address(&project, "frames")).bytes()),
+        (1000, RegisterCommand::read(0x1000).bytes()),
+        (1300, RegisterCommand::write(level, 77).bytes()),
+        (1600, RegisterCommand::read(level).bytes()),
+        (1900, RegisterCommand::read(0x1004).bytes()),
+        (2200, RegisterCommand::write(level, 8).bytes()),
+        (change, RegisterCommand::write(level, 250).bytes()),
+        (4 * frame_us, RegisterCommand::read(0x1000).bytes()),
+        (4 * frame_us + 300, RegisterCommand::read(address(&project, "frames")).bytes()),
     ]);
-    let heard = play(&program, &wires, &host, SLOW_PS, 0);
+    let heard = run_board(&program, &wires, &host, SLOW_PS, 0);
     let received = receive(&project.design, &heard.bytes).unwrap();
-    let answer = |address, written, value| Register { address, written, value };
+    let answer = |address, written, value| RegisterPacket { address, is_write: written, value };
     let expected = [
         answer(0, false, u32::from_le_bytes(*b"FOVE")),
         answer(0x1000, false, 0),
@@ -256,9 +256,9 @@ fn a_sensor_is_set_up() {
     }
     for sensor in ["hm01b0-8", "ov7670-qvga"] {
         let project = project(sensor, &[]);
-        let program = simulated(&project, None);
-        let host = said(&[(60_000, Command::read(0x1000).bytes())]);
-        let sensor = project.board.eye().unwrap().unwrap().0;
+        let program = compile_with_sensor(&project, None);
+        let host = timed_bytes(&[(60_000, RegisterCommand::read(0x1000).bytes())]);
+        let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
         let bytes = sensor.i2c.address_bytes as usize;
         let line = |address: u16, value: u8| {
             let address = &address.to_be_bytes()[2 - bytes..];
@@ -268,7 +268,7 @@ fn a_sensor_is_set_up() {
         let expected: Vec<_> =
             sensor.writes().map(|(address, value)| line(address, value)).collect();
         for (nacks, failed) in [(0, false), (2, false), (3, true)] {
-            let heard = play(&program, &[], &host, SLOW_PS, nacks);
+            let heard = run_board(&program, &[], &host, SLOW_PS, nacks);
             let mut lines: Vec<_> = heard.setup.lines().collect();
             let lights = if failed { "lights 2" } else { "lights 0" };
             assert_eq!(lines.pop(), Some(lights));
@@ -277,7 +277,7 @@ fn a_sensor_is_set_up() {
             assert_eq!(lines, expected, "{nacks} bytes were not acknowledged");
             let received = receive(&project.design, &heard.bytes).unwrap();
             let value = 1 | u32::from(failed) << 1;
-            assert_eq!(received.answers, [Register { address: 0x1000, written: false, value }]);
+            assert_eq!(received.answers, [RegisterPacket { address: 0x1000, is_write: false, value }]);
         }
     }
 }
@@ -303,9 +303,9 @@ fn faults_between_sensor_and_line_are_found() {
         ("board", "wire rst = !awake_q[7];", "wire rst = 1'b0;"),
         ("board", ".m_araddr_o(araddr)", ".m_araddr_o()"),
     ];
-    for fault in faults.into_iter().step_by(every(3)) {
-        let program = simulated(&project, Some(fault));
-        let found = check(&project, &program, Damage::None);
+    for fault in faults.into_iter().step_by(sampling_step(3)) {
+        let program = compile_with_sensor(&project, Some(fault));
+        let found = check_board(&project, &program, Damage::None);
         assert!(found.is_err(), "not seen: {fault:?}");
     }
 }

@@ -9,13 +9,13 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use foveate_boards::{Board, BoardError, Project, write_project};
+use foveate_boards::{Board, BoardError, BoardProject, write_project};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use toml::{Table, Value};
 
 use crate::common::has_tclsh;
-use crate::hostile::{CANARY, Schema, Step, key, texts};
+use crate::hostile_texts::{CANARY, TextPlaces, PathStep, key_name, texts};
 use crate::projects::STUBS;
 
 const SHIPPED: &str = env!("CARGO_MANIFEST_DIR");
@@ -36,13 +36,13 @@ fn boards() -> [(&'static str, Table); 4] {
     })
 }
 
-fn project(name: &str, board: &Table) -> Result<Project, BoardError> {
+fn project(name: &str, board: &Table) -> Result<BoardProject, BoardError> {
     let board = Board::from_toml(name, &board.to_string())?;
     let design = board.config()?.validate()?;
-    Project::new(board, design)
+    BoardProject::new(board, design)
 }
 
-fn files(project: &Project) -> BTreeMap<String, String> {
+fn files(project: &BoardProject) -> BTreeMap<String, String> {
     project.files().into_iter().map(|file| (file.path, file.contents)).collect()
 }
 
@@ -59,7 +59,7 @@ fn code(verilog: &str) -> String {
 }
 
 /// Returns the comments that are commands to a tool.
-fn orders(verilog: &str) -> Vec<&str> {
+fn tool_comments(verilog: &str) -> Vec<&str> {
     let words = ["synopsys", "synthesis", "verilator", "pragma"];
     let comments = verilog.lines().filter_map(|line| Some((line, line.split_once("//")?.1)));
     let orders =
@@ -73,17 +73,17 @@ fn commands(script: &str) -> Vec<&str> {
 }
 
 /// The folders of projects with hostile texts. The first is that of the benign project.
-struct Written {
+struct WrittenProjects {
     root: tempfile::TempDir,
     folders: Vec<PathBuf>,
 }
 
-impl Written {
+impl WrittenProjects {
     fn new() -> Self {
         Self { root: tempfile::tempdir().unwrap(), folders: Vec::new() }
     }
 
-    fn write(&mut self, project: &Project) {
+    fn write(&mut self, project: &BoardProject) {
         let folder = self.root.path().join(format!("out{}", self.folders.len()));
         write_project(project, &folder, false).unwrap();
         self.folders.push(folder);
@@ -141,7 +141,7 @@ impl Written {
 
 /// Checks that a project and one whose file has a hostile text differ only in comments and in the
 /// page of the project.
-fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, data: &str) {
+fn assert_differs_in_comments_only(project: &BoardProject, benign: &BTreeMap<String, String>, data: &str) {
     let files = files(project);
     assert!(files.keys().eq(benign.keys()));
     for (path, contents) in &files {
@@ -154,7 +154,7 @@ fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, 
             }
             "v" => {
                 assert_eq!(code(contents), code(like), "{path}");
-                assert_eq!(orders(contents), orders(like), "{path}");
+                assert_eq!(tool_comments(contents), tool_comments(like), "{path}");
             }
             "md" => {
                 assert_eq!(lines(contents), lines(like), "{path}");
@@ -178,10 +178,10 @@ fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, 
 }
 
 /// A text at a place of a file.
-type Tried = (Vec<Step>, String);
+type TextAtPlace = (Vec<PathStep>, String);
 
 /// Returns every text at every place of a file.
-fn all_of(schema: &Schema<'_>) -> Vec<Tried> {
+fn texts_at_places(schema: &TextPlaces<'_>) -> Vec<TextAtPlace> {
     let places = schema.places();
     places
         .iter()
@@ -192,27 +192,27 @@ fn all_of(schema: &Schema<'_>) -> Vec<Tried> {
 /// Tries texts in a file. Texts that are accepted although they are no plain words are written as
 /// projects, and returned.
 fn try_all(
-    schema: &Schema<'_>,
-    tried: Vec<Tried>,
-    make: &dyn Fn(&Table) -> Result<Project, BoardError>,
-    written: &mut Written,
-) -> Vec<Tried> {
+    schema: &TextPlaces<'_>,
+    tried: Vec<TextAtPlace>,
+    make: &dyn Fn(&Table) -> Result<BoardProject, BoardError>,
+    written: &mut WrittenProjects,
+) -> Vec<TextAtPlace> {
     let benign = make(&schema.base).unwrap();
     written.write(&benign);
     let benign = files(&benign);
     let mut taken = Vec::new();
     for (place, text) in tried {
-        let table = schema.with(&place, Value::String(text.clone()));
+        let table = schema.with_value(&place, Value::String(text.clone()));
         let shown: String = text.chars().take(40).collect();
         match make(&table) {
             _ if is_plain(&text) => {}
             Err(error) => {
                 let said = error.to_string();
-                assert!(said.contains(key(&place)), "{place:?} = {shown:?}: {said:.300}");
+                assert!(said.contains(key_name(&place)), "{place:?} = {shown:?}: {said:.300}");
                 assert!(said.len() < 1000, "{place:?} = {shown:?}: {} bytes", said.len());
             }
             Ok(project) => {
-                differs_in_words_alone(&project, &benign, &table.to_string());
+                assert_differs_in_comments_only(&project, &benign, &table.to_string());
                 written.write(&project);
                 taken.push((place, text));
             }
@@ -233,7 +233,7 @@ fn stubs(folder: &Path) -> PathBuf {
     stub
 }
 
-fn built_by_shell(written: &Written) {
+fn assert_shell_runs_no_text(written: &WrittenProjects) {
     let stub = stubs(written.root.path());
     let shell = |_: &Path| {
         let mut command = Command::new("sh");
@@ -247,7 +247,7 @@ fn built_by_shell(written: &Written) {
     written.run(5, shell, "called");
 }
 
-fn read_by_tcl(written: &Written) {
+fn assert_tcl_runs_no_text(written: &WrittenProjects) {
     let stubs = written.root.path().join("stubs.tcl");
     fs::write(&stubs, STUBS).unwrap();
     for script in ["build.tcl", "program.tcl"] {
@@ -268,29 +268,29 @@ fn no_text_of_a_board_is_run() {
     for (name, base) in boards() {
         let make = |table: &Table| project(name, table);
         let complaint = |table: &Table| make(table).err().map(|error| error.to_string());
-        let schema = Schema { base, complaint: &complaint };
-        let keys: Vec<_> = schema.places().iter().map(|place| key(place).to_owned()).collect();
+        let schema = TextPlaces { base, complaint: &complaint };
+        let keys: Vec<_> = schema.places().iter().map(|place| key_name(place).to_owned()).collect();
         for known in ["title", "flash", "part", "standard", "tx", "pins", "set", "reset_n"] {
             assert!(keys.iter().any(|key| key == known), "{known} is not found: {keys:?}");
         }
-        is_on_the_page(&schema);
-        let mut written = Written::new();
-        let tried = taken.unwrap_or_else(|| all_of(&schema));
+        assert_keys_are_on_the_page(&schema);
+        let mut written = WrittenProjects::new();
+        let tried = taken.unwrap_or_else(|| texts_at_places(&schema));
         taken = Some(try_all(&schema, tried, &make, &mut written));
         assert!(written.folders.len() > 10, "titles are free");
         written.read_by_yosys();
         if name == "vcu118" && !has_tclsh() {
             eprintln!("skipped: tclsh is missing");
         } else if name == "vcu118" {
-            read_by_tcl(&written);
+            assert_tcl_runs_no_text(&written);
         } else {
-            built_by_shell(&written);
+            assert_shell_runs_no_text(&written);
         }
     }
 }
 
 /// Checks that the page has a row for every key of a file.
-fn is_on_the_page(schema: &Schema<'_>) {
+fn assert_keys_are_on_the_page(schema: &TextPlaces<'_>) {
     let page = include_str!("../../../../docs/boards.md");
     let (_, rows) = page.split_once("## Files of boards and sensors").unwrap();
     for key in schema.keys() {
@@ -325,16 +325,16 @@ fn no_text_of_a_sensor_is_run() {
         fs::write(dir.path().join("mine.toml"), sensor.to_string()).unwrap();
         let board = Board::find(path.to_str().unwrap())?;
         let design = board.config()?.validate()?;
-        Project::new(board, design)
+        BoardProject::new(board, design)
     };
     let complaint = |table: &Table| make(table).err().map(|error| error.to_string());
-    let schema = Schema { base: shipped("sensors", "ov7670-qvga"), complaint: &complaint };
-    assert!(schema.places().contains(&vec![Step::Key("title".to_owned())]), "{name}");
-    is_on_the_page(&schema);
-    let mut written = Written::new();
-    try_all(&schema, all_of(&schema), &make, &mut written);
+    let schema = TextPlaces { base: shipped("sensors", "ov7670-qvga"), complaint: &complaint };
+    assert!(schema.places().contains(&vec![PathStep::Key("title".to_owned())]), "{name}");
+    assert_keys_are_on_the_page(&schema);
+    let mut written = WrittenProjects::new();
+    try_all(&schema, texts_at_places(&schema), &make, &mut written);
     written.read_by_yosys();
-    built_by_shell(&written);
+    assert_shell_runs_no_text(&written);
 }
 
 /// The name of a file becomes the name of a bitstream in scripts.

@@ -21,13 +21,13 @@ pub(crate) struct CheckArgs {
     pub(crate) design: DesignArgs,
     /// Clock of the design, for example 100MHz or 1.5GHz, for frame rates. Without it, the clock
     /// that a frame rate needs is printed; `foveate estimate` says what clock to expect
-    #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
-    pub(crate) clock: Option<Clock>,
+    #[arg(long, value_name = "FREQUENCY", value_parser = ClockFrequency::parse)]
+    pub(crate) clock: Option<ClockFrequency>,
     /// With --clock, check that the design reaches this many frames per second; the exit code is 1
     /// if it does not. For a serial design, also propose the largest fold that reaches it. Without
     /// --clock, print the clock that this rate needs
-    #[arg(long, value_name = "RATE", value_parser = Rate::parse)]
-    pub(crate) min_fps: Option<Rate>,
+    #[arg(long, value_name = "RATE", value_parser = FramesPerSecond::parse)]
+    pub(crate) min_fps: Option<FramesPerSecond>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -39,13 +39,13 @@ pub(crate) struct CheckArgs {
 
 /// The frequency of a clock in Hz, 1..=10^12.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Clock(pub(crate) u64);
+pub(crate) struct ClockFrequency(pub(crate) u64);
 
 /// The names of the units, largest first, with their values in Hz.
-const UNITS: [(&str, u64); 4] =
+const FREQUENCY_UNITS: [(&str, u64); 4] =
     [("GHz", 1_000_000_000), ("MHz", 1_000_000), ("kHz", 1000), ("Hz", 1)];
 
-impl Clock {
+impl ClockFrequency {
     const MAX: u64 = 1_000_000_000_000;
 
     pub(super) fn parse(text: &str) -> Result<Self, String> {
@@ -53,9 +53,9 @@ impl Clock {
         let (number, unit) = text.split_at(split);
         let unit = match unit {
             "" => Some(1),
-            unit => UNITS.iter().find(|(name, _)| unit.eq_ignore_ascii_case(name)).map(|u| u.1),
+            unit => FREQUENCY_UNITS.iter().find(|(name, _)| unit.eq_ignore_ascii_case(name)).map(|u| u.1),
         };
-        let hertz = unit.and_then(|unit| Some(decimal(number)?.ceil_times(unit)));
+        let hertz = unit.and_then(|unit| Some(parse_decimal_or_none(number)?.ceil_times(unit)));
         hertz
             .and_then(|hertz| u64::try_from(hertz).ok())
             .filter(|hertz| (1..=Self::MAX).contains(hertz))
@@ -64,9 +64,9 @@ impl Clock {
     }
 }
 
-impl fmt::Display for Clock {
+impl fmt::Display for ClockFrequency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (name, unit) = UNITS.iter().find(|(_, unit)| self.0 >= *unit).unwrap_or(&("Hz", 1));
+        let (name, unit) = FREQUENCY_UNITS.iter().find(|(_, unit)| self.0 >= *unit).unwrap_or(&("Hz", 1));
         let fraction = format!("{:09}", self.0 % unit * (1_000_000_000 / unit));
         let fraction = fraction.trim_end_matches('0');
         let point = if fraction.is_empty() { "" } else { "." };
@@ -76,13 +76,13 @@ impl fmt::Display for Clock {
 
 /// A frame rate in frames per second, above 0 and at most 10^9.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rate(pub(crate) Decimal);
+pub(crate) struct FramesPerSecond(pub(crate) Decimal);
 
-impl Rate {
+impl FramesPerSecond {
     const NANO: u64 = 1_000_000_000;
 
     pub(super) fn parse(text: &str) -> Result<Self, String> {
-        decimal(text)
+        parse_decimal_or_none(text)
             .filter(|rate| (1..=1_000_000_000).contains(&rate.ceil_times(1)))
             .map(Self)
             .ok_or_else(|| "expected frames per second above 0, for example 1000".to_owned())
@@ -94,18 +94,18 @@ impl Rate {
     }
 
     /// Returns the slowest clock at which frames of `clocks` clocks each reach this rate.
-    pub(crate) fn needs(self, clocks: u64) -> Clock {
-        Clock(u64::try_from(self.0.ceil_times(clocks)).unwrap_or(u64::MAX))
+    pub(crate) fn required_clock(self, clocks: u64) -> ClockFrequency {
+        ClockFrequency(u64::try_from(self.0.ceil_times(clocks)).unwrap_or(u64::MAX))
     }
 
     /// Returns the largest number of clocks that a frame may take.
-    pub(crate) fn max_clocks(self, clock: Clock) -> u64 {
+    pub(crate) fn max_clocks(self, clock: ClockFrequency) -> u64 {
         let clocks = u128::from(clock.0) * u128::from(Self::NANO) / self.0.ceil_times(Self::NANO);
         u64::try_from(clocks).unwrap_or(u64::MAX)
     }
 }
 
-pub(super) fn decimal(text: &str) -> Option<Decimal> {
+pub(super) fn parse_decimal_or_none(text: &str) -> Option<Decimal> {
     text.trim().parse().ok().and_then(Decimal::from_f64)
 }
 
@@ -123,11 +123,11 @@ mod tests {
             ("33.333333mhz", 33_333_333, "33.333333 MHz"),
             ("7Hz", 7, "7 Hz"),
         ] {
-            let clock = Clock::parse(text).unwrap();
+            let clock = ClockFrequency::parse(text).unwrap();
             assert_eq!((clock.0, clock.to_string().as_str()), (hertz, shown));
         }
         for text in ["", "MHz", "0", "-1MHz", "5 megahertz", "nan", "1e30", "2000GHz"] {
-            assert!(Clock::parse(text).is_err(), "{text}");
+            assert!(ClockFrequency::parse(text).is_err(), "{text}");
         }
     }
 
@@ -136,22 +136,22 @@ mod tests {
         for (rate, clocks, needed) in
             [("1000", 64, 64_000), ("29.97", 7905, 236_913), ("0.001", 7, 1), ("3", 1, 3)]
         {
-            let rate = Rate::parse(rate).unwrap();
-            assert_eq!(rate.needs(clocks).0, needed);
-            assert!(rate.max_clocks(rate.needs(clocks)) >= clocks);
-            assert!(rate.max_clocks(Clock(needed - 1)) < clocks);
+            let rate = FramesPerSecond::parse(rate).unwrap();
+            assert_eq!(rate.required_clock(clocks).0, needed);
+            assert!(rate.max_clocks(rate.required_clock(clocks)) >= clocks);
+            assert!(rate.max_clocks(ClockFrequency(needed - 1)) < clocks);
         }
     }
 
     #[test]
     fn a_rate_allows_whole_clocks() {
-        let clocks = |rate| Rate::parse(rate).unwrap().max_clocks(Clock(250_000_000));
+        let clocks = |rate| FramesPerSecond::parse(rate).unwrap().max_clocks(ClockFrequency(250_000_000));
         assert_eq!(
             (clocks("1000"), clocks("3"), clocks("29.97")),
             (250_000, 83_333_333, 8_341_675)
         );
         for text in ["0", "-1", "inf", "many", "1e10"] {
-            assert!(Rate::parse(text).is_err(), "{text}");
+            assert!(FramesPerSecond::parse(text).is_err(), "{text}");
         }
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::DesignArgs;
-use super::outputs::ViewArgs;
+use super::outputs::ReceiverOutputArgs;
 
 /// Decode a recorded stream of region packets into the outputs that `simulate` makes of decisions
 /// and pixels
@@ -34,5 +34,5 @@ pub(crate) struct DecodeArgs {
     pub(crate) quiet: bool,
     // The flattened group is last, because clap lists later options under its heading.
     #[command(flatten)]
-    pub(crate) view: ViewArgs,
+    pub(crate) view: ReceiverOutputArgs,
 }

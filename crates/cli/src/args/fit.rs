@@ -4,13 +4,13 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_explore::{Cheapest, Constraints, NetworkGoal};
-use foveate_inference::Viewing;
+use foveate_explore::{CostObjective, Constraints, NetworkGoal};
+use foveate_inference::VisionOptions;
 
-use super::check::{Clock, Rate};
+use super::check::{ClockFrequency, FramesPerSecond};
 use super::input::InputArgs;
 use super::threads::ThreadArgs;
-use super::viewing::ViewingArgs;
+use super::network_framing::NetworkFramingArgs;
 use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips
@@ -78,30 +78,30 @@ pub(crate) struct NetworkArgs {
     pub(crate) min_agreement: f64,
     /// Cost that the search minimizes: bytes that leave the camera, or area
     #[arg(long, value_enum, value_name = "WHAT", default_value = "bytes", requires = "network")]
-    pub(crate) cheapest: CheapestIn,
+    pub(crate) cheapest: DesignCost,
     /// Number of frames, spread evenly over all clips, on which the network runs in each of three
     /// parts: the first two thirds of the first halves, for the search; the rest of the first
     /// halves, to confirm its result; and the second halves, for the report
     #[arg(long, value_name = "FRAMES", default_value_t = 48, value_parser = at_least_one(), requires = "network")]
     pub(crate) look_at: u32,
     #[command(flatten)]
-    pub(crate) viewing: ViewingArgs,
+    pub(crate) viewing: NetworkFramingArgs,
 }
 
 /// The cost by which designs are compared.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum CheapestIn {
+pub(crate) enum DesignCost {
     Bytes,
     Area,
 }
 
 impl NetworkArgs {
     /// Returns the goal of the search with a network, if a network is given.
-    pub(crate) fn goal<'a>(&'a self, viewing: &'a Viewing) -> Option<NetworkGoal<'a>> {
+    pub(crate) fn goal<'a>(&'a self, viewing: &'a VisionOptions) -> Option<NetworkGoal<'a>> {
         let path = self.network.as_deref()?;
         let cheapest = match self.cheapest {
-            CheapestIn::Bytes => Cheapest::Bytes,
-            CheapestIn::Area => Cheapest::Area,
+            DesignCost::Bytes => CostObjective::Bytes,
+            DesignCost::Area => CostObjective::Area,
         };
         let (min_agreement, frames) = (self.min_agreement, self.look_at.into());
         Some(NetworkGoal { path, viewing, min_agreement, cheapest, frames })
@@ -114,11 +114,11 @@ impl NetworkArgs {
 pub(crate) struct ConstraintArgs {
     /// Frames per second that the array must reach, at --clock or at the low end of its estimated
     /// clock
-    #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
-    pub(crate) min_fps: Rate,
+    #[arg(long, value_name = "RATE", default_value = "30", value_parser = FramesPerSecond::parse)]
+    pub(crate) min_fps: FramesPerSecond,
     /// Clock of the array; without it, the clock of each design is estimated from its netlist
-    #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
-    pub(crate) clock: Option<Clock>,
+    #[arg(long, value_name = "FREQUENCY", value_parser = ClockFrequency::parse)]
+    pub(crate) clock: Option<ClockFrequency>,
     /// First set the thresholds so that this share of the regions is active
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) target_active: Option<f64>,

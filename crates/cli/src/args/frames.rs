@@ -6,7 +6,7 @@ use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_simulator::SimulatorError;
 
-use super::{DesignArgs, warn_of};
+use super::{DesignArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::interrupt;
 
@@ -21,14 +21,14 @@ impl DesignArgs {
         if inputs.is_empty() {
             return Ok((self.design()?, Vec::new()));
         }
-        let config = self.read()?;
-        let (frames, interrupt) = (Some(at_most), interrupt::request());
+        let config = self.config()?;
+        let (frames, interrupt) = (Some(at_most), interrupt::stop_request());
         let options = InputOptions { frames, interrupt, ..InputOptions::default() };
-        warn_of(inputs, &options);
+        warn_about_inputs(inputs, &options);
         // The inputs are opened only once, because standard input and cameras cannot be read again.
         let mut source = open(inputs, &config.camera, &options)?;
         let (width, height) = source.size();
-        let design = config.for_frames(width, height)?;
+        let design = config.validate_for_frames(width, height)?;
         let mut frames = Vec::new();
         while let Some(next) = source.next_frame()? {
             frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);

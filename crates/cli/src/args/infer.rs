@@ -7,14 +7,14 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use foveate_accelerator::Accelerator;
 use foveate_inference::{
-    Computed, Goal, NOISE_LEVELS, Record, parse_goal, parse_mode, parse_noise, read_accelerator,
+    Computation, TuningGoal, NOISE_LEVELS, RecordOptions, parse_goal, parse_mode, parse_noise, read_accelerator,
 };
-use foveate_network::Mode;
+use foveate_network::ExecutionMode;
 
 use super::DesignArgs;
 use super::input::InputArgs;
 use super::threads::ThreadArgs;
-use super::viewing::ViewingArgs;
+use super::network_framing::NetworkFramingArgs;
 use crate::error::CliError;
 
 /// Run a network on what a camera sends, and count what its masks save, layer by layer
@@ -54,14 +54,14 @@ pub(crate) struct InferArgs {
     /// compare, as exact, but without values that come out equal; truncate=T, as exact, but without
     /// changes of at most T; fixed, all that lies under changed regions
     #[arg(long, value_name = "MODE", default_value = "exact", value_parser = parse_mode)]
-    pub(crate) mode: Mode,
+    pub(crate) mode: ExecutionMode,
     /// Choose a limit for every layer so that the outputs stay close to those of a whole
     /// computation, on the first half of the clips, rounded up, or on the first half of the frames
     /// of a single clip; then report the second half. The goal is agreement=P%, the same largest
     /// output in P % of the frames; cosine=C, between all outputs; psnr=D, in decibels; or
     /// variation=P%, an error of at most P % of the variation of the outputs over the frames
     #[arg(long, value_name = "GOAL", conflicts_with = "mode", value_parser = parse_goal)]
-    pub(crate) tune: Option<Goal>,
+    pub(crate) tune: Option<TuningGoal>,
     /// Compute every frame whole, too, and print how far the outputs are from this computation.
     /// Always on with truncate, fixed and --tune
     #[arg(long)]
@@ -102,7 +102,7 @@ pub(crate) struct InferArgs {
     #[arg(long, short)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) viewing: ViewingArgs,
+    pub(crate) viewing: NetworkFramingArgs,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
     /// The options for reading the inputs. They are last, because clap lists later options under
@@ -130,14 +130,14 @@ impl NoiseLevels {
 
 impl InferArgs {
     /// Returns the file formats in which the outputs are written.
-    pub(crate) fn record(&self) -> Record {
+    pub(crate) fn record_options(&self) -> RecordOptions {
         let has = |format| self.outputs.contains(&format);
-        Record { arrays: has(OutputFormat::Npy), pictures: has(OutputFormat::Png) }
+        RecordOptions { arrays: has(OutputFormat::Npy), pictures: has(OutputFormat::Png) }
     }
 
     /// Returns the computation that is done for a frame.
-    pub(crate) fn computed(&self) -> Computed {
-        self.tune.map_or(Computed::Mode(self.mode), Computed::Tuned)
+    pub(crate) fn computation(&self) -> Computation {
+        self.tune.map_or(Computation::Mode(self.mode), Computation::Tuned)
     }
 
     /// Returns the accelerator and its name, if one is given.
@@ -146,18 +146,18 @@ impl InferArgs {
     }
 
     /// Returns true if the network runs on whole frames, too.
-    pub(crate) fn sight(&self) -> bool {
+    pub(crate) fn runs_on_whole_frames(&self) -> bool {
         self.whole_frames || self.noise.is_some() || self.viewing.detect.is_some()
     }
 
     /// Returns the standard deviations of the noise on whole frames, in grey levels of 8 bits.
-    pub(crate) fn noise(&self) -> Vec<f64> {
+    pub(crate) fn noise_levels(&self) -> Vec<f64> {
         let own = self.noise.as_ref().map(|levels| levels.0.clone());
         own.unwrap_or_else(|| NOISE_LEVELS.to_vec())
     }
 
     /// Returns true if every frame is also computed whole.
     pub(crate) fn has_reference(&self) -> bool {
-        self.reference || matches!(self.mode, Mode::Truncate(_) | Mode::Fixed)
+        self.reference || matches!(self.mode, ExecutionMode::Truncate(_) | ExecutionMode::Fixed)
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foveate_footage::{
-    Crop, FrameRate, ImagesAs, InputOptions, MAX_SIDE, Selection, advice, parse_time,
+    CropRect, FrameRate, ImageRelation, InputOptions, MAX_SIDE, FrameSelection, advice, parse_time,
 };
 
 use super::at_least_one;
@@ -32,7 +32,7 @@ pub(crate) struct InputArgs {
     pub(crate) end: Option<u64>,
     /// Take this part of every frame
     #[arg(long, value_name = "WxH+X+Y", value_parser = parse_crop)]
-    pub(crate) crop: Option<Crop>,
+    pub(crate) crop: Option<CropRect>,
     /// Scale every frame by area, after cropping
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) resize: Option<(u32, u32)>,
@@ -53,31 +53,31 @@ pub(crate) enum ImagesChoice {
 }
 
 /// Warns the user about inputs that can be read, but perhaps not as they were meant.
-pub(crate) fn warn_of<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) {
-    for sentence in advice(inputs, options) {
-        notice::warn(&sentence);
+pub(crate) fn warn_about_inputs<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) {
+    for sentence in input_warnings(inputs, options) {
+        notice::print_warning(&sentence);
     }
 }
 
 impl InputArgs {
     /// Returns the options for reading inputs. `images` is the meaning of image files if `--images`
     /// is not given.
-    pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
+    pub(crate) fn options(&self, images: ImageRelation) -> InputOptions {
         InputOptions {
             frames: self.max_frames,
             frame_rate: self.rate,
-            selection: Selection { start_us: self.start, end_us: self.end, rate: self.input_fps },
+            selection: FrameSelection { start_us: self.start, end_us: self.end, rate: self.input_fps },
             crop: self.crop,
             resize: self.resize,
             images: match self.images {
                 None => images,
-                Some(ImagesChoice::Clip) => ImagesAs::Clip,
-                Some(ImagesChoice::Set) => ImagesAs::Set,
-                Some(ImagesChoice::CifarSheet) => ImagesAs::CifarSheet,
+                Some(ImagesChoice::Clip) => ImageRelation::Clip,
+                Some(ImagesChoice::Set) => ImageRelation::Set,
+                Some(ImagesChoice::CifarSheet) => ImageRelation::CifarSheet,
             },
             labels: self.labels.clone(),
             numbered: false,
-            interrupt: interrupt::request(),
+            interrupt: interrupt::stop_request(),
         }
     }
 }
@@ -89,11 +89,11 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| format!("expected WIDTHxHEIGHT, each 1 to {MAX_SIDE}, for example 640x360"))
 }
 
-fn parse_crop(text: &str) -> Result<Crop, String> {
+fn parse_crop(text: &str) -> Result<CropRect, String> {
     let wrong = || "expected WIDTHxHEIGHT+X+Y, for example 320x240+16+0".to_owned();
     let mut parts = text.split('+');
     let size = parts.next().and_then(|size| parse_size(size).ok()).ok_or_else(wrong)?;
     let mut next = || parts.next().and_then(|part| part.parse().ok());
     let at = next().zip(next()).ok_or_else(wrong)?;
-    if parts.next().is_some() { Err(wrong()) } else { Ok(Crop { size, at }) }
+    if parts.next().is_some() { Err(wrong()) } else { Ok(CropRect { size, origin: at }) }
 }

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use foveate_link::{Codec, Effort};
+use foveate_link::{Codec, EncoderPreset};
 
-use super::check::decimal;
+use super::check::parse_decimal_or_none;
 use super::input::InputArgs;
-use super::{Clock, DesignArgs};
+use super::{ClockFrequency, DesignArgs};
 
 /// Compare what a camera sends over a link with pixel events, raw frames, MJPEG, H.264 and H.265 at
 /// equal quality
@@ -35,8 +35,8 @@ pub(crate) struct LinkArgs {
     pub(crate) link: LinkRate,
     /// Clock of the array, for example 50MHz; `foveate estimate` says what clock to expect. Without
     /// it, times leave out the array's clocks, whose number is printed
-    #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
-    pub(crate) clock: Option<Clock>,
+    #[arg(long, value_name = "FREQUENCY", value_parser = ClockFrequency::parse)]
+    pub(crate) clock: Option<ClockFrequency>,
     /// Codecs to compare with
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',', default_values = ["mjpeg", "h264-intra", "h264", "h265-intra", "h265"])]
     pub(crate) codecs: Vec<CodecChoice>,
@@ -92,10 +92,10 @@ pub(crate) enum EffortChoice {
 }
 
 impl EffortChoice {
-    pub(crate) fn effort(self) -> Effort {
+    pub(crate) fn effort(self) -> EncoderPreset {
         match self {
-            Self::Veryfast => Effort::Veryfast,
-            Self::Medium => Effort::Medium,
+            Self::Veryfast => EncoderPreset::Veryfast,
+            Self::Medium => EncoderPreset::Medium,
         }
     }
 }
@@ -118,7 +118,7 @@ impl LinkRate {
             "gbit" => Some(1_000_000_000),
             _ => None,
         };
-        let rate = unit.and_then(|unit| Some(decimal(number)?.ceil_times(unit)));
+        let rate = unit.and_then(|unit| Some(parse_decimal_or_none(number)?.ceil_times(unit)));
         rate.and_then(|rate| u64::try_from(rate).ok())
             .filter(|rate| (1..=Self::MAX).contains(rate))
             .map(Self)

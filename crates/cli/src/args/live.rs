@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
-use foveate_footage::ImagesAs;
+use foveate_footage::ImageRelation;
 use foveate_view::PlayerOptions;
 
 use super::{DesignArgs, InputArgs};
@@ -37,14 +37,14 @@ pub(crate) struct LiveArgs {
 
 impl LiveArgs {
     pub(crate) fn options(&self) -> Result<PlayerOptions, CliError> {
-        let config = self.design.read()?;
+        let config = self.design.config()?;
         // An invalid configuration is refused here, with the name of its key, and not on the page.
         config.camera.validate()?;
         let DesignArgs { config: file, preset, overrides } = &self.design;
         let is_own = file.is_some() || preset.is_some() || !overrides.is_empty();
         Ok(PlayerOptions {
             inputs: self.inputs.clone(),
-            input: self.input.options(ImagesAs::Clip),
+            input: self.input.options(ImageRelation::Clip),
             preset: preset.clone(),
             camera: is_own.then_some(config.camera),
             address: self.address,

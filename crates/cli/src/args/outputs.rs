@@ -3,33 +3,33 @@
 
 use clap::{Args, ValueEnum};
 use foveate_design::Decimal;
-use foveate_simulator::{EventTables, Medium, Packets, PixelEvents, RunOptions};
+use foveate_simulator::{EventTableOptions, PictureFormat, PacketContent, PixelEventOptions, RunOptions};
 
 /// The options for what `simulate` and `decode` write in addition to arrays, frames.csv and
 /// summary.json.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Outputs")]
-pub(crate) struct ViewArgs {
+pub(crate) struct ReceiverOutputArgs {
     /// Format of the rendered frames, which the receiver's screen shows: numbered pictures, a
     /// lossless video (FFV1), or a video for any player (H.264); video needs ffmpeg
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
-    pub(crate) rendered: Rendered,
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = RenderedFormat::Png)]
+    pub(crate) rendered: RenderedFormat,
     /// The same as --rendered none
     #[arg(long, conflicts_with = "rendered")]
     pub(crate) no_rendered: bool,
     /// Write the original frames with the decisions in colour; `decode` has no original frames and
     /// uses the rendered ones
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
-    pub(crate) overlay: Option<Pictures>,
+    pub(crate) overlay: Option<PictureFormat>,
     /// Write a map of every score
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
-    pub(crate) heatmap: Option<Pictures>,
+    pub(crate) heatmap: Option<PictureFormat>,
     /// Write a table with one row per region and frame; separate several formats with commas
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',')]
     pub(crate) events: Vec<EventFormat>,
     /// Rows of the table to keep
     #[arg(long, value_enum, value_name = "WHICH", requires = "events")]
-    pub(crate) only: Option<Only>,
+    pub(crate) only: Option<EventFilter>,
 }
 
 /// The options for what only `simulate` writes.
@@ -37,7 +37,7 @@ pub(crate) struct ViewArgs {
 #[command(next_help_heading = "Outputs")]
 pub(crate) struct OutputArgs {
     #[command(flatten)]
-    pub(crate) view: ViewArgs,
+    pub(crate) view: ReceiverOutputArgs,
     /// Write what the camera sends as a stream of packets, packets.bin, which `foveate decode`
     /// reads; on request with the scores of all regions
     #[arg(long, value_enum, value_name = "CONTENT", num_args = 0..=1, require_equals = true, default_missing_value = "plain")]
@@ -55,7 +55,7 @@ pub(crate) struct OutputArgs {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Rendered {
+pub(crate) enum RenderedFormat {
     Png,
     /// Lossless video
     #[value(alias = "video")]
@@ -66,7 +66,7 @@ pub(crate) enum Rendered {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Pictures {
+pub(crate) enum PictureFormat {
     Png,
     /// Lossless video
     #[value(alias = "video")]
@@ -82,7 +82,7 @@ pub(crate) enum EventFormat {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Only {
+pub(crate) enum EventFilter {
     /// Only active regions
     Active,
 }
@@ -105,44 +105,44 @@ impl OutputArgs {
     /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         RunOptions {
-            pixel_events: PixelEvents {
+            pixel_events: PixelEventOptions {
                 npz: self.pixel_events.contains(&PixelEventFormat::Npz),
                 csv: self.pixel_events.contains(&PixelEventFormat::Csv),
                 contrast: self.contrast,
-                log: self.log,
+                is_logarithmic: self.log,
             },
             packets: self.packets.map(|content| match content {
-                PacketContent::Plain => Packets::Plain,
-                PacketContent::Scores => Packets::WithScores,
+                PacketContent::Plain => PacketContent::Plain,
+                PacketContent::Scores => PacketContent::WithScores,
             }),
             ..self.view.options()
         }
     }
 }
 
-impl ViewArgs {
+impl ReceiverOutputArgs {
     /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         let medium = |pictures| match pictures {
-            Pictures::Png => Medium::Png,
-            Pictures::Mkv => Medium::Mkv,
-            Pictures::Mp4 => Medium::Mp4,
+            PictureFormat::Png => PictureFormat::Png,
+            PictureFormat::Mkv => PictureFormat::Mkv,
+            PictureFormat::Mp4 => PictureFormat::Mp4,
         };
         let rendered = match self.rendered {
             _ if self.no_rendered => None,
-            Rendered::None => None,
-            Rendered::Png => Some(Medium::Png),
-            Rendered::Mkv => Some(Medium::Mkv),
-            Rendered::Mp4 => Some(Medium::Mp4),
+            RenderedFormat::None => None,
+            RenderedFormat::Png => Some(PictureFormat::Png),
+            RenderedFormat::Mkv => Some(PictureFormat::Mkv),
+            RenderedFormat::Mp4 => Some(PictureFormat::Mp4),
         };
         RunOptions {
             rendered,
             overlay: self.overlay.map(medium),
             heatmap: self.heatmap.map(medium),
-            events: EventTables {
+            events: EventTableOptions {
                 csv: self.events.contains(&EventFormat::Csv),
                 parquet: self.events.contains(&EventFormat::Parquet),
-                only_active: self.only == Some(Only::Active),
+                only_active: self.only == Some(EventFilter::Active),
             },
             ..RunOptions::default()
         }

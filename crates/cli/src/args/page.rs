@@ -11,7 +11,7 @@ use std::{env, fs, path::Path};
 
 /// The number of commands from which on an option that they share, word for word, is listed once at
 /// the end of the page.
-const SHARED: usize = 4;
+const SHARED_FROM: usize = 4;
 const SHARED_TITLE: &str = "Options of several commands";
 
 #[test]
@@ -37,7 +37,7 @@ fn page() -> String {
         cli.get_subcommands().filter(|command| command.get_name() != "help").collect();
     let mut uses: HashMap<String, usize> = HashMap::new();
     for arg in commands.iter().flat_map(|command| options(command)) {
-        *uses.entry(row(arg)).or_default() += 1;
+        *uses.entry(option_row(arg)).or_default() += 1;
     }
 
     let mut page = String::from(
@@ -52,26 +52,26 @@ fn page() -> String {
         writeln!(page, "| [`{name}`](#{name}) | {} |", about(command)).unwrap();
     }
     for command in &commands {
-        section(&mut page, command, &uses);
+        write_section(&mut page, command, &uses);
     }
 
     writeln!(page, "\n## {SHARED_TITLE}\n").unwrap();
     let mut rows: Vec<String> = Vec::new();
-    for row in commands.iter().flat_map(|command| options(command)).map(row) {
-        if uses[&row] >= SHARED && !rows.contains(&row) {
+    for row in commands.iter().flat_map(|command| options(command)).map(option_row) {
+        if uses[&row] >= SHARED_FROM && !rows.contains(&row) {
             rows.push(row);
         }
     }
-    table(&mut page, &rows);
+    write_table(&mut page, &rows);
     page
 }
 
-fn section(page: &mut String, command: &Command, uses: &HashMap<String, usize>) {
+fn write_section(page: &mut String, command: &Command, uses: &HashMap<String, usize>) {
     let usage = command.clone().render_usage().to_string().replace("Usage: ", "");
     let long = command.get_long_about().map_or_else(|| about(command), ToString::to_string);
     writeln!(page, "\n## {}\n\n{long}\n\n```text\n{usage}\n```", command.get_name()).unwrap();
 
-    let own = |arg: &&Arg| uses.get(&row(arg)).is_none_or(|count| *count < SHARED);
+    let own = |arg: &&Arg| uses.get(&option_row(arg)).is_none_or(|count| *count < SHARED_FROM);
     let mut headings: Vec<Option<&str>> = vec![None];
     for heading in options(command).filter(own).map(Arg::get_help_heading) {
         if !headings.contains(&heading) {
@@ -82,7 +82,7 @@ fn section(page: &mut String, command: &Command, uses: &HashMap<String, usize>) 
         let positional = command.get_positionals().filter(|_| heading.is_none());
         let rows: Vec<String> = positional
             .chain(options(command).filter(own).filter(|arg| arg.get_help_heading() == heading))
-            .map(row)
+            .map(option_row)
             .collect();
         if rows.is_empty() {
             continue;
@@ -91,7 +91,7 @@ fn section(page: &mut String, command: &Command, uses: &HashMap<String, usize>) 
         if let Some(heading) = heading {
             writeln!(page, "**{heading}**\n").unwrap();
         }
-        table(page, &rows);
+        write_table(page, &rows);
     }
 
     let shared: Vec<String> = options(command)
@@ -118,14 +118,14 @@ fn options(command: &Command) -> impl Iterator<Item = &Arg> {
         .filter(|arg| !arg.is_positional() && !arg.is_hide_set() && arg.get_id() != "help")
 }
 
-fn table(page: &mut String, rows: &[String]) {
+fn write_table(page: &mut String, rows: &[String]) {
     *page += "| option | |\n| --- | --- |\n";
     for row in rows {
         writeln!(page, "{row}").unwrap();
     }
 }
 
-fn row(arg: &Arg) -> String {
+fn option_row(arg: &Arg) -> String {
     let short = arg.get_short().map(|short| format!("-{short}, ")).unwrap_or_default();
     let help = arg.get_long_help().or_else(|| arg.get_help());
     let mut text = help.map(ToString::to_string).unwrap_or_default().replace('\n', " ");

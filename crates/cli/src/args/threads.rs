@@ -12,14 +12,14 @@ use crate::error::CliError;
 
 /// The environment variable with the number of threads if `--threads` is not given. Rayon reads it,
 /// too.
-const VARIABLE: &str = "RAYON_NUM_THREADS";
+const THREADS_VARIABLE: &str = "RAYON_NUM_THREADS";
 
 /// The option for the number of threads.
 #[derive(Args, Debug)]
 pub(crate) struct ThreadArgs {
     /// Number of threads that share the work, up to 256; 0 takes one per processor. It changes no
     /// result. The default is the value of RAYON_NUM_THREADS, or else one per processor
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
 }
 
@@ -29,7 +29,7 @@ impl ThreadArgs {
     /// # Errors
     /// Fails if the variable has no valid number, or if the system starts no threads.
     pub(crate) fn start(&self) -> Result<(), CliError> {
-        let Some(threads) = self.threads.map_or_else(variable, |threads| Ok(Some(threads)))? else {
+        let Some(threads) = self.threads.map_or_else(threads_from_environment, |threads| Ok(Some(threads)))? else {
             return Ok(());
         };
         let threads = match threads {
@@ -75,15 +75,15 @@ impl Command {
 }
 
 /// Returns the number of threads in the environment variable, if it is set.
-fn variable() -> Result<Option<usize>, CliError> {
-    let Some(text) = env::var_os(VARIABLE).filter(|text| !text.is_empty()) else {
+fn threads_from_environment() -> Result<Option<usize>, CliError> {
+    let Some(text) = env::var_os(THREADS_VARIABLE).filter(|text| !text.is_empty()) else {
         return Ok(None);
     };
-    let wrong = |right| CliError::Usage(format!("{VARIABLE} is `{}`: {right}", text.display()));
-    number(&text.to_string_lossy()).map(Some).map_err(wrong)
+    let wrong = |right| CliError::Usage(format!("{THREADS_VARIABLE} is `{}`: {right}", text.display()));
+    parse_threads(&text.to_string_lossy()).map(Some).map_err(wrong)
 }
 
-fn number(text: &str) -> Result<usize, String> {
+fn parse_threads(text: &str) -> Result<usize, String> {
     let threads = text.parse().ok().filter(|threads| *threads <= MAX_THREADS);
     threads
         .ok_or_else(|| format!("expected 1 to {MAX_THREADS}, or 0, which takes one per processor"))

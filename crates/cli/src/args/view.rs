@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_view::{Play, ViewOptions};
+use foveate_view::{PlayMode, ViewOptions};
 
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;
@@ -48,11 +48,11 @@ pub(crate) enum PlayChoice {
 impl ViewArgs {
     pub(crate) fn options(&self) -> Result<ViewOptions, CliError> {
         let play = self.play.map(|play| match play {
-            PlayChoice::Timed => Play::Timed,
-            PlayChoice::AtOnce => Play::AtOnce,
-            PlayChoice::Looped => Play::Looped,
+            PlayChoice::Timed => PlayMode::Timed,
+            PlayChoice::AtOnce => PlayMode::AtOnce,
+            PlayChoice::Looped => PlayMode::Looped,
         });
-        let (input, config) = (self.input.clone(), self.design.read()?);
+        let (input, config) = (self.input.clone(), self.design.config()?);
         Ok(ViewOptions { input, config, baud: self.baud, address: self.address, play })
     }
 }

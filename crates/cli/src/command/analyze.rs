@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate analyze`: the paper's studies as tables and charts.
 
-use foveate_footage::ImagesAs;
+use foveate_footage::ImageRelation;
 use foveate_staging::StagedFolder;
-use foveate_studies::{Request, STUDY, Study, StudyReport, analyze};
+use foveate_studies::{StudyRequest, STUDY_FOLDER, Study, StudyReport, analyze};
 
-use super::simulate::Terminal;
-use crate::args::{AnalyzeArgs, warn_of};
+use super::simulate::ClipTerminal;
+use crate::args::{AnalyzeArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 
@@ -17,10 +17,10 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
             "--boxes belongs to the study recall, not to {study}; leave it out"
         )));
     }
-    StagedFolder::check(&args.output, STUDY, args.force)?;
-    let config = args.design.read()?;
-    let input = args.input.options(ImagesAs::Clip);
-    let request = Request {
+    StagedFolder::check(&args.output, STUDY_FOLDER, args.force)?;
+    let config = args.design.config()?;
+    let input = args.input.options(ImageRelation::Clip);
+    let request = StudyRequest {
         study: args.study.0,
         inputs: &args.inputs,
         input: &input,
@@ -29,15 +29,15 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
         sensor_start_us: args.sensor_start,
         boxes: &args.boxes,
     };
-    warn_of(&args.inputs, &input);
-    let hooks = Terminal::new(args.quiet)?;
+    warn_about_inputs(&args.inputs, &input);
+    let hooks = ClipTerminal::new(args.quiet)?;
     let report = analyze(&request, &args.output, args.force, &hooks);
-    hooks.shown.finish();
+    hooks.progress.finish();
     let report = report?;
     if args.json {
-        output::json(&report)?;
+        output::print_json(&report)?;
     } else if !args.quiet {
-        output::text(&text(args, &report))?;
+        output::print_text(&text(args, &report))?;
     }
     if report.problems.is_empty() {
         return Ok(());

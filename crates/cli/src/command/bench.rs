@@ -6,7 +6,7 @@ mod table;
 
 use std::time::Duration;
 
-use foveate_bench::{Bench, BenchReport, Tools, random_frames};
+use foveate_bench::{Benchmark, BenchmarkReport, ExternalTools, random_frames};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_simulator::SimulatorError;
@@ -20,20 +20,20 @@ use crate::{interrupt, output};
 pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let (design, frames) = design_and_frames(args)?;
     let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
-    let bench = Bench {
+    let bench = Benchmark {
         design,
         frames,
         seed: args.seed,
-        at_least: Duration::from_secs_f64(args.seconds),
-        netlist: args.netlist,
+        min_time: Duration::from_secs_f64(args.seconds),
+        runs_netlist: args.netlist,
     };
     let progress = Progress::new(args.quiet);
-    let tools = Tools { toolchain: &toolchain, cache: &cache };
-    let report = bench.run(tools, &mut |level| progress.work(level));
+    let tools = ExternalTools { toolchain: &toolchain, cache: &cache };
+    let report = bench.run(tools, &mut |level| progress.report_work(level));
     progress.finish();
     let report = report?;
-    tell(args, &report)?;
-    match report.differing() {
+    print_report(args, &report)?;
+    match report.differing_values() {
         0 => Ok(()),
         differing => Err(CliError::Failed(format!("levels differ in {differing} values"))),
     }
@@ -48,12 +48,12 @@ fn design_and_frames(args: &BenchArgs) -> Result<(Design, Vec<Frame>), CliError>
     Ok((design, frames))
 }
 
-fn tell(args: &BenchArgs, report: &BenchReport) -> Result<(), CliError> {
+fn print_report(args: &BenchArgs, report: &BenchmarkReport) -> Result<(), CliError> {
     if args.json {
-        output::json(report)
+        output::print_json(report)
     } else if args.markdown {
-        output::text(&table::markdown(report))
+        output::print_text(&table::markdown(report))
     } else {
-        output::text(&table::text(report, output::width()))
+        output::print_text(&table::text(report, output::text_width()))
     }
 }

@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_boards::{Board, Built, PROJECT, Project, build, write_project};
-use foveate_design::{Config, Preset};
+use foveate_boards::{Board, BuildResult, PROJECT_FOLDER, BoardProject, build, write_project};
+use foveate_design::{DesignConfig, Preset};
 use foveate_staging::StagedFolder;
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ use crate::progress::Progress;
 use crate::{interrupt, output};
 
 #[derive(Serialize)]
-struct Listed<'a> {
+struct BoardListing<'a> {
     name: &'a str,
     title: &'a str,
     page: &'a str,
@@ -26,27 +26,27 @@ struct Listed<'a> {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct BuildReport<'a> {
     format_version: u32,
     board: &'a str,
     fingerprint: String,
     folder: String,
     files: Vec<String>,
     #[serde(flatten)]
-    built: Option<Built>,
+    built: Option<BuildResult>,
 }
 
 pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let (Some(name), Some(folder)) = (&args.board, &args.output) else {
-        return list(args.json);
+        return list_boards(args.json);
     };
-    StagedFolder::check(folder, PROJECT, args.force)?;
+    StagedFolder::check(folder, PROJECT_FOLDER, args.force)?;
     let board = Board::find(name)?;
     let design = configuration(&board, args)?.validate()?;
-    let project = Project::new(board, design)?;
+    let project = BoardProject::new(board, design)?;
     let files = write_project(&project, folder, args.force)?;
     let built =
-        if args.project || !project.is_open() { None } else { Some(make(&project, folder, args)?) };
+        if args.project || !project.is_open() { None } else { Some(build_bitstream(&project, folder, args)?) };
     let complaint = built.as_ref().filter(|built| !built.is_fast_enough()).map(|built| {
         format!(
             "too slow: `{}` may not work; try more --seeds",
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
         )
     });
     if args.json {
-        output::json(&Report {
+        output::print_json(&BuildReport {
             format_version: 1,
             board: &project.board.name,
             fingerprint: project.design.fingerprint(),
@@ -63,34 +63,34 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
             built,
         })?;
     } else if !args.quiet {
-        output::text(&text(&project, folder, files.len(), built.as_ref()))?;
+        output::print_text(&text(&project, folder, files.len(), built.as_ref()))?;
     }
     complaint.map_or(Ok(()), |complaint| Err(CliError::Failed(complaint)))
 }
 
 /// Returns the configuration of the file, of the preset or of the board, with the changes of
 /// `--set`.
-fn configuration(board: &Board, args: &BuildArgs) -> Result<Config, CliError> {
+fn configuration(board: &Board, args: &BuildArgs) -> Result<DesignConfig, CliError> {
     let text = match (&args.config, &args.preset) {
         (Some(file), _) => {
-            foveate_reading::settings(file).map_err(CliError::io("read the configuration", file))?
+            foveate_reading::read_settings(file).map_err(CliError::io("read the configuration", file))?
         }
         (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
         (None, None) => board.config()?.to_toml(),
     };
-    Ok(Config::from_toml_with(&text, &args.overrides)?)
+    Ok(DesignConfig::from_toml_with(&text, &args.overrides)?)
 }
 
-fn make(project: &Project, folder: &Path, args: &BuildArgs) -> Result<Built, CliError> {
+fn build_bitstream(project: &BoardProject, folder: &Path, args: &BuildArgs) -> Result<BuildResult, CliError> {
     let toolchain = interrupt::toolchain()?;
     let progress = Progress::new(args.quiet);
-    progress.work("synthesizing, placing and packing");
+    progress.report_work("synthesizing, placing and packing");
     let built = build(project, folder, args.seeds, &toolchain);
     progress.finish();
     Ok(built?)
 }
 
-fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -> String {
+fn text(project: &BoardProject, folder: &Path, files: usize, built: Option<&BuildResult>) -> String {
     let (board, design) = (&project.board, &project.design);
     let mut text = format!(
         "{}: {files} files for {}, {} x {} pixels, design {}; start with README.md\n",
@@ -125,7 +125,7 @@ fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -
     let _ = writeln!(
         text,
         "frames  {:.0} in a second come, {:.0} could",
-        project.fps(),
+        project.incoming_fps(),
         project.core_fps(f64::from(built.core_mhz))
     );
     let _ = writeln!(
@@ -134,20 +134,20 @@ fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -
         folder.display(),
         built.bitstream,
         built.bytes,
-        project.flash()
+        project.load_command()
     );
     text
 }
 
-fn list(json: bool) -> Result<(), CliError> {
+fn list_boards(json: bool) -> Result<(), CliError> {
     let boards = Board::all().map(|board| {
         let design = board.config()?.validate()?;
-        Ok(Project::new(board, design)?)
+        Ok(BoardProject::new(board, design)?)
     });
     let projects = boards.collect::<Result<Vec<_>, CliError>>()?;
-    let listed: Vec<_> = projects.iter().map(listed).collect();
+    let listed: Vec<_> = projects.iter().map(board_listing).collect();
     if json {
-        return output::json(&listed);
+        return output::print_json(&listed);
     }
     let mut text = String::new();
     for board in &listed {
@@ -159,18 +159,18 @@ fn list(json: bool) -> Result<(), CliError> {
         );
     }
     text += "\nEach is simulated whole by the project. All but vcu118, which needs Vivado, are also placed, routed and packed. None has been run on a board.\n";
-    output::text(&text)
+    output::print_text(&text)
 }
 
-fn listed(project: &Project) -> Listed<'_> {
-    let Project { board, design, .. } = project;
-    Listed {
+fn board_listing(project: &BoardProject) -> BoardListing<'_> {
+    let BoardProject { board, design, .. } = project;
+    BoardListing {
         name: &board.name,
         title: &board.title,
         page: &board.page,
         part: &board.device.part,
         sensor: project.sensor_title(),
         frame: (design.width(), design.height()),
-        fps: project.fps(),
+        fps: project.incoming_fps(),
     }
 }

@@ -10,5 +10,5 @@ use crate::output;
 pub(crate) fn run(args: &CompletionsArgs) -> Result<(), CliError> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "foveate", &mut script);
-    output::text(&String::from_utf8_lossy(&script))
+    output::print_text(&String::from_utf8_lossy(&script))
 }

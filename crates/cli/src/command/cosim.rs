@@ -6,8 +6,8 @@ mod plan;
 mod text;
 
 use foveate_cosim::{
-    CosimError, CosimReport, Left, Level, Progress, REPLAY, Simulator, Summary, Verdict,
-    junit_error, junit_xml, not_elaborated, not_simulated,
+    CosimError, CosimReport, UnreachedVerilog, CosimLevel, CosimProgress, REPLAY, Simulator, CosimSummary, CosimVerdict,
+    junit_error, junit_xml, unelaborated_variants, unsimulated_modules,
 };
 use foveate_emit::AXI_TOP;
 use foveate_staging::{StagedFolder, check_file, write_file};
@@ -18,52 +18,52 @@ use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, notice, output};
-use end_to_end::{EndToEnd, EndToEndFolder};
-use plan::{Plan, Work};
+use end_to_end::{EndToEndReport, EndToEndFolder};
+use plan::{CosimPlan, CosimJob};
 
 /// All results that the command prints.
 #[derive(Serialize)]
-struct Told<'a> {
+struct CosimOutput<'a> {
     #[serde(flatten)]
-    summary: &'a Summary,
+    summary: &'a CosimSummary,
     #[serde(skip_serializing_if = "Option::is_none")]
-    end_to_end: Option<EndToEnd>,
+    end_to_end: Option<EndToEndReport>,
 }
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
-    check_places(args)?;
+    check_output_paths(args)?;
     let mut plan = plan::plan(args)?;
-    let trip = args.end_to_end.as_deref().map(EndToEndFolder::begin).transpose()?;
+    let trip = args.end_to_end.as_deref().map(EndToEndFolder::create).transpose()?;
     if let Some(trip) = &trip {
         plan.keep_packets(&trip.packets());
     }
     let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
-    let summary = all(args, plan, &toolchain, &cache).map_err(|error| match &trip {
-        Some(trip) => trip.named(error),
+    let summary = run_all(args, plan, &toolchain, &cache).map_err(|error| match &trip {
+        Some(trip) => trip.with_final_path(error),
         None => error,
     })?;
     let written = write_junit(args, &junit_xml(&summary));
-    let passed = summary.verdict() == Verdict::Passed;
+    let passed = summary.verdict() == CosimVerdict::Passed;
     let compared = trip.as_ref().filter(|_| passed);
     let compared = compared.map(|trip| end_to_end::compare(args, trip)).transpose();
-    trip.map_or(Ok(()), EndToEndFolder::end)?;
+    trip.map_or(Ok(()), EndToEndFolder::commit)?;
     let end_to_end = compared?;
-    let is_received = end_to_end.as_ref().is_none_or(EndToEnd::agrees);
-    tell(args, &Told { summary: &summary, end_to_end })?;
+    let is_received = end_to_end.as_ref().is_none_or(EndToEndReport::agrees);
+    print_output(args, &CosimOutput { summary: &summary, end_to_end })?;
     let complaint = match summary.verdict() {
-        Verdict::Passed if is_received => return written,
-        Verdict::Passed => "a receiver does not see what `simulate` says".to_owned(),
-        Verdict::Mismatch => "model and RTL do not agree".to_owned(),
-        Verdict::Incomplete => incomplete(&summary),
+        CosimVerdict::Passed if is_received => return written,
+        CosimVerdict::Passed => "a receiver does not see what `simulate` says".to_owned(),
+        CosimVerdict::Mismatch => "model and RTL do not agree".to_owned(),
+        CosimVerdict::Incomplete => incompleteness_message(&summary),
     };
     if let Err(error) = written {
-        notice::say(&error);
+        notice::print_notice(&error);
     }
     Err(CliError::Failed(complaint))
 }
 
 /// Fails if a file or folder cannot be written. This is checked before inputs are read.
-fn check_places(args: &CosimArgs) -> Result<(), CliError> {
+fn check_output_paths(args: &CosimArgs) -> Result<(), CliError> {
     for file in [&args.junit, &args.packets].into_iter().flatten() {
         check_file(file)?;
     }
@@ -72,7 +72,7 @@ fn check_places(args: &CosimArgs) -> Result<(), CliError> {
 }
 
 /// Returns the message about what was not simulated, and the options that help.
-fn incomplete(summary: &Summary) -> String {
+fn incompleteness_message(summary: &CosimSummary) -> String {
     let missing = summary.situations.missing();
     if !missing.is_empty() {
         return format!(
@@ -82,7 +82,7 @@ fn incomplete(summary: &Summary) -> String {
         );
     }
     let mut text =
-        format!("no mismatch, but not all of the Verilog was simulated: {}.", summary.left_out());
+        format!("no mismatch, but not all of the Verilog was simulated: {}.", summary.describe_unreached());
     if !summary.not_simulated.is_empty() {
         text.push_str(
             " Foveate simulates `rpu`, `rcm` and, in Verilator, `rcm_axi` with the modules that they instantiate; remove \
@@ -98,18 +98,18 @@ fn incomplete(summary: &Summary) -> String {
 }
 
 /// Runs the co-simulations one after the other, up to the first with a mismatch.
-fn all(
+fn run_all(
     args: &CosimArgs,
-    mut plan: Plan,
+    mut plan: CosimPlan,
     toolchain: &Toolchain,
     cache: &Cache,
-) -> Result<Summary, CliError> {
-    let works = std::mem::take(&mut plan.works);
-    let (levels, has_axi) = reached(&works);
+) -> Result<CosimSummary, CliError> {
+    let works = std::mem::take(&mut plan.jobs);
+    let (levels, has_axi) = simulated_levels(&works);
     let (mut reports, mut left) = (Vec::new(), works.into_iter());
     for mut work in left.by_ref() {
-        let report = one(args, &mut work, toolchain, cache);
-        let report = told_to_ci(args, &work.name(), report)?;
+        let report = run_one(args, &mut work, toolchain, cache);
+        let report = report_error_to_ci(args, &work.name(), report)?;
         let passed = report.passed();
         reports.push(report);
         if !passed {
@@ -121,92 +121,92 @@ fn all(
     reports.iter_mut().take(earlier).for_each(|report| report.waves = None);
     let names = left.map(|work| work.name()).collect();
     let agree = reports.iter().all(CosimReport::passed);
-    let left_out = left_out(args, &plan, (&levels, has_axi), agree, toolchain);
-    let left_out = told_to_ci(args, "what is left out", left_out)?;
-    Ok(Summary::new(plan.design.fingerprint(), reports, names, left_out, plan::is_whole(args)))
+    let left_out = left_out_parts(args, &plan, (&levels, has_axi), agree, toolchain);
+    let left_out = report_error_to_ci(args, "what is left out", left_out)?;
+    Ok(CosimSummary::new(plan.design.fingerprint(), reports, names, left_out, plan::is_whole_folder(args)))
 }
 
 /// Returns the levels at which arrays are simulated, and true if the core on AXI is simulated.
-fn reached(works: &[Work]) -> (Vec<Level>, bool) {
+fn simulated_levels(works: &[CosimJob]) -> (Vec<CosimLevel>, bool) {
     let levels = works.iter().filter_map(|work| match work {
-        Work::Array(job) => Some(job.stimulus.level),
-        Work::Axi(_) => None,
+        CosimJob::Array(job) => Some(job.stimulus.level),
+        CosimJob::Axi(_) => None,
     });
-    (levels.collect(), works.iter().any(|work| matches!(work, Work::Axi(_))))
+    (levels.collect(), works.iter().any(|work| matches!(work, CosimJob::Axi(_))))
 }
 
 /// Returns `result`. An error is also written as JUnit XML, because a tool that failed leaves no
 /// other result for the CI server.
-fn told_to_ci<T>(
+fn report_error_to_ci<T>(
     args: &CosimArgs,
     name: &str,
     result: Result<T, CosimError>,
 ) -> Result<T, CosimError> {
     result.inspect_err(|error| {
         if let Err(second) = write_junit(args, &junit_error(name, &error.to_string())) {
-            notice::say(&second);
+            notice::print_notice(&second);
         }
     })
 }
 
 /// Returns the parts of the given Verilog that runs at these levels leave out. `agree` is true if
 /// there is no mismatch; only then are variants of modules looked for.
-fn left_out(
+fn left_out_parts(
     args: &CosimArgs,
-    plan: &Plan,
-    (levels, has_axi): (&[Level], bool),
+    plan: &CosimPlan,
+    (levels, has_axi): (&[CosimLevel], bool),
     agree: bool,
     toolchain: &Toolchain,
-) -> Result<Left, CosimError> {
-    let Plan { design, rtl: Some(sources), prefix, .. } = plan else {
-        return Ok(Left::default());
+) -> Result<UnreachedVerilog, CosimError> {
+    let CosimPlan { design, rtl: Some(sources), prefix, .. } = plan else {
+        return Ok(UnreachedVerilog::default());
     };
     let mut tops: Vec<String> =
-        levels.iter().map(|level| prefix.name(level.top().module())).collect();
-    tops.extend(has_axi.then(|| prefix.name(AXI_TOP)));
+        levels.iter().map(|level| prefix.prefixed_name(level.top().module())).collect();
+    tops.extend(has_axi.then(|| prefix.prefixed_name(AXI_TOP)));
     let tops: Vec<&str> = tops.iter().map(String::as_str).collect();
-    let modules = not_simulated(sources, &tops);
+    let modules = unsimulated_modules(sources, &tops);
     // A user who chooses a part knows that the rest is left out.
-    let variants = if agree && plan::is_whole(args) {
-        not_elaborated(design, sources, prefix, levels, toolchain)?
+    let variants = if agree && plan::is_whole_folder(args) {
+        unelaborated_variants(design, sources, prefix, levels, toolchain)?
     } else {
         Vec::new()
     };
-    Ok(Left { modules, variants })
+    Ok(UnreachedVerilog { modules, variants })
 }
 
-fn one(
+fn run_one(
     args: &CosimArgs,
-    work: &mut Work,
+    work: &mut CosimJob,
     toolchain: &Toolchain,
     cache: &Cache,
 ) -> Result<CosimReport, CosimError> {
     let shown = Shown::new(args.quiet);
-    let progress = &mut |step| show(&shown, step);
+    let progress = &mut |step| show_progress(&shown, step);
     let report = match work {
-        Work::Array(job) => {
+        CosimJob::Array(job) => {
             if args.netlist {
-                shown.work("synthesizing with Yosys");
+                shown.report_work("synthesizing with Yosys");
                 job.netlist = Some(job.synthesize(toolchain, cache)?);
                 job.simulator = Simulator::Iverilog;
             }
             job.run(toolchain, cache, progress)
         }
-        Work::Axi(job) => job.run(toolchain, cache, progress),
+        CosimJob::Axi(job) => job.run(toolchain, cache, progress),
     };
     shown.finish();
     report
 }
 
-fn tell(args: &CosimArgs, told: &Told<'_>) -> Result<(), CliError> {
-    let passed = told.summary.verdict() == Verdict::Passed
-        && told.end_to_end.as_ref().is_none_or(EndToEnd::agrees);
+fn print_output(args: &CosimArgs, told: &CosimOutput<'_>) -> Result<(), CliError> {
+    let passed = told.summary.verdict() == CosimVerdict::Passed
+        && told.end_to_end.as_ref().is_none_or(EndToEndReport::agrees);
     if args.json {
-        output::json(told)
+        output::print_json(told)
     } else if args.quiet && passed {
         Ok(())
     } else {
-        output::text(&text::of(told, output::width()))
+        output::print_text(&text::summary_text(told, output::text_width()))
     }
 }
 
@@ -214,11 +214,11 @@ fn write_junit(args: &CosimArgs, xml: &str) -> Result<(), CliError> {
     args.junit.as_ref().map_or(Ok(()), |file| Ok(write_file(file, xml.as_bytes())?))
 }
 
-fn show(shown: &Shown, step: Progress) {
+fn show_progress(shown: &Shown, step: CosimProgress) {
     match step {
-        Progress::Vectors { done, total } => shown.steps("vectors", done, total),
-        Progress::Simulation { clocks } => {
-            shown.work(&format!("building and simulating {clocks} clocks"));
+        CosimProgress::Vectors { done, total } => shown.report_steps("vectors", done, total),
+        CosimProgress::Simulation { clocks } => {
+            shown.report_work(&format!("building and simulating {clocks} clocks"));
         }
     }
 }

@@ -2,19 +2,19 @@
 //! `foveate dataset`: a set of images in, the set of their active regions out. The command is a
 //! simulation that writes the set instead of pictures.
 
-use foveate_footage::ImagesAs;
+use foveate_footage::ImageRelation;
 use foveate_simulator::RunOptions;
 
-use super::simulate::{Job, run_job};
+use super::simulate::{SimulationJob, run_job};
 use crate::args::DatasetArgs;
 use crate::error::CliError;
 
 pub(crate) fn run(args: &DatasetArgs) -> Result<(), CliError> {
-    run_job(&Job {
+    run_job(&SimulationJob {
         inputs: &args.inputs,
-        config: args.design.read()?,
+        config: args.design.config()?,
         // Images are a set by default, because this command is for sets.
-        input: args.input.options(ImagesAs::Set),
+        input: args.input.options(ImageRelation::Set),
         output: &args.output,
         options: RunOptions {
             rendered: None,

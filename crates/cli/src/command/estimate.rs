@@ -3,7 +3,7 @@
 //! a placed design.
 
 mod compare;
-mod flow;
+mod synthesis;
 mod route;
 
 use foveate_estimate::{render_markdown, render_text};
@@ -13,31 +13,31 @@ use crate::args::EstimateArgs;
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::{interrupt, output};
-use flow::Flow;
+use synthesis::SynthesisTools;
 
 pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
-    let flow = Flow { toolchain: interrupt::toolchain()?, cache: Cache::from_env()? };
+    let flow = SynthesisTools { toolchain: interrupt::toolchain()?, cache: Cache::from_env()? };
     if args.compare {
         compare::run(args, &flow)
     } else if args.place_and_route.is_empty() {
-        one(args, &flow)
+        estimate_one(args, &flow)
     } else {
         route::run(args, &flow)
     }
 }
 
-fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
+fn estimate_one(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliError> {
     let design = args.design.design()?;
     let progress = Progress::new(args.quiet);
-    progress.work("synthesizing with Yosys");
+    progress.report_work("synthesizing with Yosys");
     let report = flow.estimate(&design, true);
     progress.finish();
-    let report = report?.at(args.clock.map(f64::from));
+    let report = report?.with_clock(args.clock.map(f64::from));
     if args.json {
-        output::json(&report)
+        output::print_json(&report)
     } else if args.markdown {
-        output::text(&render_markdown(&report))
+        output::print_text(&render_markdown(&report))
     } else {
-        output::text(&render_text(&report, output::width()))
+        output::print_text(&render_text(&report, output::text_width()))
     }
 }

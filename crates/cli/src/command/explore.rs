@@ -9,13 +9,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_explore::{
-    BUILT_IN, Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer,
+    BUILT_IN_SPACES, Exploration, ExploreError, ExploreHooks, ExploreProgress, ExploreRequest, DesignSpace, Synthesizer,
     check_folder, explore,
 };
-use foveate_footage::ImagesAs;
+use foveate_footage::ImageRelation;
 use foveate_toolchain::{Cache, Toolchain};
 
-use crate::args::{ExploreArgs, warn_of};
+use crate::args::{ExploreArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
@@ -23,8 +23,8 @@ use crate::{interrupt, output};
 pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     if args.list {
         let line =
-            |space: &foveate_explore::BuiltIn| format!("{:16}{}\n", space.name, space.summary);
-        return output::text(&BUILT_IN.iter().map(line).collect::<String>());
+            |space: &foveate_explore::BuiltInSpace| format!("{:16}{}\n", space.name, space.summary);
+        return output::print_text(&BUILT_IN_SPACES.iter().map(line).collect::<String>());
     }
     let (Some(file), output) = (&args.space, args.output.as_deref()) else {
         return Err(CliError::Usage(
@@ -34,31 +34,31 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     if let Some(folder) = output.filter(|_| !args.print) {
         check_folder(folder)?;
     }
-    let text = read(file)?;
-    let space = Space::from_toml(&text).map_err(|error| blame(file, &error))?;
-    let Some(folder) = output.filter(|_| !args.print) else { return output::text(&text) };
-    let input = args.input.options(ImagesAs::Clip);
-    warn_of(&args.inputs, &input);
-    let terminal = Terminal::new(args.quiet)?;
+    let text = read_space(file)?;
+    let space = DesignSpace::from_toml(&text).map_err(|error| file_error(file, &error))?;
+    let Some(folder) = output.filter(|_| !args.print) else { return output::print_text(&text) };
+    let input = args.input.options(ImageRelation::Clip);
+    warn_about_inputs(&args.inputs, &input);
+    let terminal = ExploreTerminal::new(args.quiet)?;
     let mut request =
-        Request { space: &space, inputs: &args.inputs, input: &input, synthesizer: None };
+        ExploreRequest { space: &space, inputs: &args.inputs, input: &input, synthesizer: None };
     if args.plan {
         return units::print_plan(&request, folder, &terminal);
     }
     if let Some(unit) = &args.only {
-        return units::measure(args, &request, unit, folder, &terminal);
+        return units::run_unit(args, &request, unit, folder, &terminal);
     }
     let synthesizer = if args.no_area { None } else { Some(terminal.synthesizer()?) };
     request.synthesizer = synthesizer.as_ref();
     let found = explore(&request, folder, &terminal);
-    terminal.shown.finish();
+    terminal.progress.finish();
     let found = match found {
         Err(ExploreError::Cancelled) => {
             return Err(CliError::Interrupted { path: folder.to_owned() });
         }
         other => other?,
     };
-    tell(args, folder, &found)?;
+    print_exploration(args, folder, &found)?;
     if found.problems.is_empty() {
         return Ok(());
     }
@@ -66,28 +66,28 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     Err(CliError::Failed(format!("`{place}` is not complete: {}", found.problems.join("; "))))
 }
 
-fn tell(args: &ExploreArgs, folder: &Path, found: &Exploration) -> Result<(), CliError> {
+fn print_exploration(args: &ExploreArgs, folder: &Path, found: &Exploration) -> Result<(), CliError> {
     if args.json {
-        output::json(found)
+        output::print_json(found)
     } else if args.markdown {
-        output::text(&table::markdown(found))
+        output::print_text(&table::markdown(found))
     } else if args.quiet {
         Ok(())
     } else {
-        output::text(&table::text(folder, found, output::width()))
+        output::print_text(&table::text(folder, found, output::text_width()))
     }
 }
 
 /// Reads the file. If it does not exist, the built-in space of that name is returned.
-fn read(file: &Path) -> Result<String, CliError> {
-    let built_in = BUILT_IN.iter().find(|space| Path::new(space.name) == file);
+fn read_space(file: &Path) -> Result<String, CliError> {
+    let built_in = BUILT_IN_SPACES.iter().find(|space| Path::new(space.name) == file);
     match built_in.filter(|_| !file.exists()) {
         Some(space) => Ok(space.toml.to_owned()),
         None if file.exists() => {
-            foveate_reading::settings(file).map_err(CliError::io("read", file))
+            foveate_reading::read_settings(file).map_err(CliError::io("read", file))
         }
         None => {
-            let names: Vec<&str> = BUILT_IN.iter().map(|space| space.name).collect();
+            let names: Vec<&str> = BUILT_IN_SPACES.iter().map(|space| space.name).collect();
             Err(CliError::Usage(format!(
                 "there is no file `{}` and no built-in space of that name; the built-in spaces are {}",
                 file.display(),
@@ -97,43 +97,43 @@ fn read(file: &Path) -> Result<String, CliError> {
     }
 }
 
-fn blame(file: &Path, error: &ExploreError) -> CliError {
+fn file_error(file: &Path, error: &ExploreError) -> CliError {
     CliError::Usage(format!("{}: {error}", file.display()))
 }
 
 /// The progress of the command on the terminal, and the flag that Ctrl-C sets.
-pub(super) struct Terminal {
-    pub(super) shown: Shown,
+pub(super) struct ExploreTerminal {
+    pub(super) progress: Shown,
     interrupted: Arc<AtomicBool>,
 }
 
-impl Terminal {
+impl ExploreTerminal {
     pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        Ok(Self { shown: Shown::new(quiet), interrupted: interrupt::flag()? })
+        Ok(Self { progress: Shown::new(quiet), interrupted: interrupt::stop_flag()? })
     }
 
     /// Returns the tools of this machine. The same Ctrl-C stops them.
     pub(super) fn synthesizer(&self) -> Result<Synthesizer, CliError> {
-        let toolchain = Toolchain::system().cancelled_by(Arc::clone(&self.interrupted));
+        let toolchain = Toolchain::system().with_cancel_flag(Arc::clone(&self.interrupted));
         // A missing Yosys is reported before hours of measurements.
         toolchain.find(foveate_toolchain::Tool::Yosys)?;
         Ok(Synthesizer { toolchain, cache: Cache::from_env()? })
     }
 }
 
-impl Hooks for Terminal {
-    fn progress(&self, progress: Progress) {
+impl ExploreHooks for ExploreTerminal {
+    fn progress(&self, progress: ExploreProgress) {
         let (what, done, all) = match progress {
-            Progress::Reading { frames } => {
-                return self.shown.frames(frames, None, "reading the clips");
+            ExploreProgress::Reading { frames } => {
+                return self.progress.report_frames(frames, None, "reading the clips");
             }
-            Progress::Asking { cameras } => {
-                return self.shown.work(&format!("the network looks at cameras, {cameras} so far"));
+            ExploreProgress::RunningNetwork { cameras } => {
+                return self.progress.report_work(&format!("the network looks at cameras, {cameras} so far"));
             }
-            Progress::Measuring { done, all } => ("designs over clips", done, all),
-            Progress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
+            ExploreProgress::Measuring { done_pairs: done, all } => ("designs over clips", done, all),
+            ExploreProgress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
         };
-        self.shown.steps(what, done as u64, all as u64);
+        self.progress.report_steps(what, done as u64, all as u64);
     }
 
     fn cancelled(&self) -> bool {

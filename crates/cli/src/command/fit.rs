@@ -5,15 +5,15 @@ use std::fmt::Write as _;
 
 use foveate_estimate::ramb36;
 use foveate_explore::{
-    Agreed, ExploreError, Figures, Fit, FitRequest, FittedDesign, FittedNetwork, Held, fit,
+    AgreementEstimate, ExploreError, FidelityFigures, FitResult, FitRequest, FittedDesign, FittedNetwork, ConstraintCheck, fit,
 };
-use foveate_footage::ImagesAs;
+use foveate_footage::ImageRelation;
 use foveate_inference::NoiseAgreement;
 use foveate_staging::{check_file, write_file};
 
-use super::explore::Terminal;
-use crate::agreement_text::{confidence, grey_levels, noisy_shares};
-use crate::args::{FitArgs, warn_of};
+use super::explore::ExploreTerminal;
+use crate::agreement_text::{interval_text, grey_levels, noise_text};
+use crate::args::{FitArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 
@@ -21,10 +21,10 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     if let Some(file) = &args.output {
         check_file(file)?;
     }
-    let task = args.design.read()?;
-    let input = args.input.options(ImagesAs::Clip);
-    warn_of(&args.inputs, &input);
-    let terminal = Terminal::new(args.quiet)?;
+    let task = args.design.config()?;
+    let input = args.input.options(ImageRelation::Clip);
+    warn_about_inputs(&args.inputs, &input);
+    let terminal = ExploreTerminal::new(args.quiet)?;
     let synthesizer = terminal.synthesizer()?;
     let viewing = args.network.viewing.viewing();
     let network = args.network.goal(&viewing);
@@ -38,10 +38,10 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         boxes: &args.boxes,
         network,
         synthesizer: &synthesizer,
-        most: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
+        max_designs: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
     };
     let found = fit(&request, &terminal);
-    terminal.shown.finish();
+    terminal.progress.finish();
     let found = match found {
         Err(ExploreError::Cancelled) => {
             return Err(CliError::Stopped { done: "some of the designs".to_owned() });
@@ -52,16 +52,16 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         write_file(file, found.design.toml.as_bytes())?;
     }
     if args.json {
-        output::json(&found)?;
+        output::print_json(&found)?;
     } else {
-        output::text(&text(args, &found, output::width()))?;
+        output::print_text(&text(args, &found, output::text_width()))?;
     }
-    verdict(&found)
+    check_result(&found)
 }
 
 /// Fails, with exit code 1, if the input was not read completely, if no design meets all limits, or
 /// if the second half of the clips does not confirm the design.
-fn verdict(found: &Fit) -> Result<(), CliError> {
+fn check_result(found: &FitResult) -> Result<(), CliError> {
     if !found.problems.is_empty() {
         return Err(CliError::Failed(format!(
             "not all of the input was read: {}",
@@ -73,7 +73,7 @@ fn verdict(found: &Fit) -> Result<(), CliError> {
     }
     if !found.borne_out {
         let broken = found.design.held_out_held.iter().filter(|held| !held.holds);
-        let broken: Vec<String> = broken.map(Held::text).collect();
+        let broken: Vec<String> = broken.map(ConstraintCheck::text).collect();
         return Err(CliError::Failed(format!(
             "the second half of the clips does not confirm the design: {}",
             broken.join(", ")
@@ -82,7 +82,7 @@ fn verdict(found: &Fit) -> Result<(), CliError> {
     Ok(())
 }
 
-fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
+fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     let mut text = String::new();
     let design = &found.design;
     let (looks, designs, left_out) = found.considered;
@@ -106,7 +106,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     let silicon = format!(
         "{} of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
          {} clocks per frame, {}",
-        units(design),
+        unit_count_text(design),
         unit.lut_total_packed,
         unit.lut_memory_packed,
         unit.ff,
@@ -131,7 +131,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     }
     if let Some(network) = &found.network {
         text.push('\n');
-        for line in sighted(network, design) {
+        for line in agreement_lines(network, design) {
             paragraph(&mut text, &line, width, "  ");
         }
     }
@@ -165,14 +165,14 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
 }
 
 /// Returns the lines about the agreement of the network's outputs.
-fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
+fn agreement_lines(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
     let (fitted, held_out) = design.bytes_per_frame;
     let parts = [
         ("fitted", network.fitted, Some(fitted)),
         ("confirmed later in this half", network.confirmed, None),
         ("held out", network.held_out, Some(held_out)),
     ];
-    let part = |(name, agreed, bytes): (&str, Agreed, Option<f64>)| {
+    let part = |(name, agreed, bytes): (&str, AgreementEstimate, Option<f64>)| {
         let found = agreed.detections.map_or_else(String::new, |found| {
             format!(
                 ": {:.1} % of {} detections kept, {:.1} % of {} right",
@@ -187,12 +187,12 @@ fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
             format!("; {bytes:.0} bytes per frame, {share:.1} % of a whole one")
         });
         let (model, frames, share) = (&network.network, agreed.frames, 100.0 * agreed.share);
-        let interval = confidence(&agreed.intervals);
+        let interval = interval_text(&agreed.intervals);
         format!("{model} ({name}, {frames} frames): agreement {share:.1} %{interval}{found}{bytes}")
     };
     let noisy = |noisy: &NoiseAgreement| {
         let (model, level) = (&network.network, grey_levels(noisy.levels));
-        let (frames, shares) = (noisy.frames, noisy_shares(noisy));
+        let (frames, shares) = (noisy.frames, noise_text(noisy));
         format!(
             "{model}, noise of {level} on the whole frames (held out, {frames} frames): {shares}"
         )
@@ -201,13 +201,13 @@ fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
 }
 
 /// Returns the number of RPUs or lanes, with their name.
-fn units(design: &FittedDesign) -> String {
+fn unit_count_text(design: &FittedDesign) -> String {
     let name = design.config.hardware.organization.unit_name();
     let plural = if design.silicon.units == 1 { "" } else { "s" };
     format!("{} {name}{plural}", design.silicon.units)
 }
 
-fn figures_text(figures: &Figures) -> String {
+fn figures_text(figures: &FidelityFigures) -> String {
     let psnr =
         figures.psnr_ideal.map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.1} dB"));
     format!(

@@ -12,7 +12,7 @@ use crate::error::CliError;
 use crate::{interrupt, notice, output};
 
 #[derive(Serialize)]
-struct Listing<'a> {
+struct CoreListing<'a> {
     format_version: u32,
     fingerprint: String,
     folder: &'a str,
@@ -44,19 +44,19 @@ struct BenchListing<'a> {
 pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     StagedFolder::check(&args.output, CORE, args.force)?;
     let design = args.design.design()?;
-    let prefix = Prefix::asked(args.prefix.as_deref(), &design)?;
-    let cancel = interrupt::flag()?;
+    let prefix = Prefix::from_request(args.prefix.as_deref(), &design)?;
+    let cancel = interrupt::stop_flag()?;
     let core = write_core(&design, &prefix, &args.output, args.force, &cancel)?;
-    core.warnings().for_each(|warning| notice::warn(&warning));
+    core.warnings().for_each(|warning| notice::print_warning(&warning));
     let shown = args.output.display().to_string();
     if args.json {
-        return output::json(&Listing {
+        return output::print_json(&CoreListing {
             format_version: 1,
             fingerprint: design.fingerprint(),
             folder: &shown,
             prefix: prefix.text(),
             files: core.files.iter().map(String::as_str).collect(),
-            benches: core.benches.iter().map(|bench| listing(&design, bench)).collect(),
+            benches: core.benches.iter().map(|bench| bench_listing(&design, bench)).collect(),
         });
     }
     if args.quiet {
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
         "" => String::new(),
         text => format!(", prefix {text}"),
     };
-    output::text(&format!(
+    output::print_text(&format!(
         "{shown}: {} files for {} regions of {size}x{size} pixels, design {}{named}; start with README.md\n",
         core.files.len(),
         design.regions(),
@@ -75,7 +75,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     ))
 }
 
-fn listing<'a>(design: &Design, bench: &'a ShippedBench) -> BenchListing<'a> {
+fn bench_listing<'a>(design: &Design, bench: &'a ShippedBench) -> BenchListing<'a> {
     let tally = &bench.tally;
     BenchListing {
         top: bench.top.module(),

@@ -7,63 +7,63 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_footage::{ImagesAs, shown_input};
+use foveate_footage::{ImageRelation, input_without_secrets};
 use foveate_inference::{
-    Clip, Found, INFERENCE, Inference, Options, Sight, Summary, Tuning, is_array,
+    ClipSummary, DetectionCounts, INFERENCE_FOLDER, Inference, InferenceOptions, WholeFrameAgreement, InferenceSummary, TuningSummary, is_array,
 };
 use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
-use super::simulate::Terminal;
-use crate::agreement_text::{confidence, grey_levels, noisy_shares};
-use crate::args::{InferArgs, warn_of};
+use super::simulate::ClipTerminal;
+use crate::agreement_text::{interval_text, grey_levels, noise_text};
+use crate::args::{InferArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::{notice, output};
 
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
     match &args.output {
-        None => network::check(args, words),
+        None => network::run_check(args, words),
         Some(output) if args.inputs.iter().any(|input| is_array(input)) => {
-            network::arrays(args, words, output)
+            network::run_arrays(args, words, output)
         }
-        Some(output) => clip(args, words, output),
+        Some(output) => run_clips(args, words, output),
     }
 }
 
-fn clip(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
-    StagedFolder::check(folder, INFERENCE, args.force)?;
-    let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
-    warn_of(&args.inputs, &input);
+fn run_clips(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
+    StagedFolder::check(folder, INFERENCE_FOLDER, args.force)?;
+    let (config, input) = (args.design.config()?, args.input.options(ImageRelation::Clip));
+    warn_about_inputs(&args.inputs, &input);
     let footage = (&args.inputs[..], &args.boxes[..]);
     let inference =
         Inference::new(&config, &args.network, args.viewing.viewing(), footage, &input)?;
-    let options = Options {
-        computed: args.computed(),
+    let options = InferenceOptions {
+        computation: args.computation(),
         accelerator: args.accelerator()?,
-        reference: args.has_reference(),
-        sight: args.sight(),
-        noise: args.noise(),
-        every: args.every,
-        record: args.record(),
-        command: command(words),
+        with_whole_computation: args.has_reference(),
+        with_whole_frames: args.runs_on_whole_frames(),
+        noise: args.noise_levels(),
+        frame_interval: args.every,
+        record: args.record_options(),
+        command: command_words(words),
         overwrite: args.force,
     };
-    let mut hooks = Terminal::new(args.quiet)?;
+    let mut hooks = ClipTerminal::new(args.quiet)?;
     let summary = inference.run(folder, &options, &mut hooks);
-    hooks.shown.finish();
+    hooks.progress.finish();
     let summary = summary?;
-    summary.warnings.iter().for_each(|warning| notice::warn(warning));
+    summary.warnings.iter().for_each(|warning| notice::print_warning(warning));
     match (args.json, args.quiet) {
-        (true, _) => output::json(&summary)?,
-        (false, false) => output::text(&text(folder, &summary))?,
+        (true, _) => output::print_json(&summary)?,
+        (false, false) => output::print_text(&text(folder, &summary))?,
         (false, true) => {}
     }
-    hooks.verdict(folder, summary.problem)
+    hooks.check_complete(folder, summary.problem)
 }
 
 /// Returns the words of the command line, for the page.
-fn command(words: &[OsString]) -> Vec<String> {
-    let words = words.iter().skip(1).map(|word| shown_input(Path::new(word)));
+fn command_words(words: &[OsString]) -> Vec<String> {
+    let words = words.iter().skip(1).map(|word| input_without_secrets(Path::new(word)));
     std::iter::once("foveate".to_owned()).chain(words).collect()
 }
 
@@ -76,11 +76,11 @@ fn frames(count: u64, kind: &str) -> String {
 }
 
 /// Returns a line for each clip if there are several clips.
-fn clips(summary: &Summary) -> String {
+fn clip_lines(summary: &InferenceSummary) -> String {
     if summary.clips.len() == 1 {
         return String::new();
     }
-    let line = |clip: &Clip| {
+    let line = |clip: &ClipSummary| {
         let result = if clip.counted_frames == 0 {
             "none of them counted".to_owned()
         } else {
@@ -103,7 +103,7 @@ fn clips(summary: &Summary) -> String {
 }
 
 /// Returns the lines about the choice of limits, with the statement whether they hold.
-fn tuned(tuning: &Tuning, summary: &Summary) -> String {
+fn tuning_lines(tuning: &TuningSummary, summary: &InferenceSummary) -> String {
     let (of, these) = if summary.is_tuned_on_clips() {
         let reported: Vec<&str> = summary.clips.iter().map(|clip| &clip.name[..]).collect();
         (format!("of {}", tuning.clips.join(", ")), reported.join(", "))
@@ -116,7 +116,7 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
         format!("is missed on {these}")
     };
     let frozen = if tuning.frozen.holds {
-        format!("           {}; try variation=10%\n", Tuning::SAYS_LITTLE)
+        format!("           {}; try variation=10%\n", TuningSummary::FROZEN_OUTPUTS_NOTE)
     } else {
         String::new()
     };
@@ -131,7 +131,7 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
     )
 }
 
-fn text(folder: &Path, summary: &Summary) -> String {
+fn text(folder: &Path, summary: &InferenceSummary) -> String {
     let mut text = format!(
         "{}: {}{} of {} x {} pixels, mode {}{}\n",
         folder.display(),
@@ -152,11 +152,11 @@ fn text(folder: &Path, summary: &Summary) -> String {
         }
     );
     if summary.counted_frames == 0 {
-        return text + Summary::ONLY_FRAME + "\n";
+        return text + InferenceSummary::ONLY_FRAME_NOTE + "\n";
     }
-    text.push_str(&clips(summary));
+    text.push_str(&clip_lines(summary));
     if let Some(tuning) = &summary.tuning {
-        text.push_str(&tuned(tuning, summary));
+        text.push_str(&tuning_lines(tuning, summary));
     }
     let _ = writeln!(
         text,
@@ -167,7 +167,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
     let _ = writeln!(
         text,
         "MACs       {:.1} M per frame; needed {}, computed {} (of a whole frame {})",
-        summary.macs.dense / 1e6,
+        summary.macs.whole_frame / 1e6,
         percent(summary.macs.needed_share()),
         percent(summary.macs.scheduled_share()),
         percent(summary.macs.whole_share())
@@ -230,13 +230,13 @@ fn text(folder: &Path, summary: &Summary) -> String {
         text.push('\n');
     }
     if let Some(sight) = &summary.sight {
-        text.push_str(&sighted(sight));
+        text.push_str(&loss_lines(sight));
     }
     text
 }
 
 /// Returns the lines about what the network loses behind the camera.
-fn sighted(sight: &Sight) -> String {
+fn loss_lines(sight: &WholeFrameAgreement) -> String {
     let psnr = sight.picture_psnr.map_or("infinite".to_owned(), |psnr| format!("{psnr:.1} dB"));
     let mut text = format!(
         "sent       {:.0} bytes per frame, {} of whole frames; PSNR of what the receiver sees {psnr}\n",
@@ -244,10 +244,10 @@ fn sighted(sight: &Sight) -> String {
         percent(sight.sent_share)
     );
     if let Some(kept) = &sight.detections {
-        let Found { whole, kept: same, seen, added } = kept.all;
+        let DetectionCounts { whole, kept: same, seen, added } = kept.all;
         let sizes = [("small", kept.small), ("medium", kept.medium), ("large", kept.large)];
         let size =
-            |(name, found): &(&str, Found)| format!("{name} {} of {}", found.kept, found.whole);
+            |(name, found): &(&str, DetectionCounts)| format!("{name} {} of {}", found.kept, found.whole);
         let sizes = sizes.iter().filter(|(_, found)| found.whole > 0).map(size);
         let _ = writeln!(
             text,
@@ -284,7 +284,7 @@ fn sighted(sight: &Sight) -> String {
         text,
         "agreement  {} with whole frames{}; relative RMS error of the outputs {:.2e}",
         percent(sight.agreement),
-        confidence(&sight.intervals),
+        interval_text(&sight.intervals),
         sight.relative_rms
     );
     for noisy in &sight.noise {
@@ -293,7 +293,7 @@ fn sighted(sight: &Sight) -> String {
             "noise      of {} on the whole frames ({}): {}",
             grey_levels(noisy.levels),
             frames(noisy.frames, ""),
-            noisy_shares(noisy)
+            noise_text(noisy)
         );
     }
     text

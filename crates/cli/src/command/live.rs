@@ -4,17 +4,17 @@
 use foveate_staging::write_file;
 use foveate_view::{Player, camera_page};
 
-use crate::args::{LiveArgs, warn_of};
+use crate::args::{LiveArgs, warn_about_inputs};
 use crate::error::CliError;
-use crate::serving::Serving;
+use crate::serving::ServingCommand;
 
 pub(crate) fn run(args: &LiveArgs) -> Result<(), CliError> {
     if let Some(file) = &args.page {
         return Ok(write_file(file, camera_page(None).as_bytes())?);
     }
-    let serving = Serving::begin()?;
+    let serving = ServingCommand::new()?;
     let options = args.options()?;
-    warn_of(&options.inputs, &options.input);
+    warn_about_inputs(&options.inputs, &options.input);
     let player = Player::open(options)?;
-    serving.until_stopped(&player.link(), || player.news(), || player.frames())
+    serving.run_until_stopped(&player.link(), || player.take_messages(), || player.frames_decoded())
 }

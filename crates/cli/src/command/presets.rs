@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate presets`: the presets and scenes to start from.
 
-use foveate_design::{Config, PRESETS, Preset};
+use foveate_design::{DesignConfig, PRESETS, Preset};
 use foveate_scenes::Scene;
 use serde::Serialize;
 
@@ -10,14 +10,14 @@ use crate::error::CliError;
 use crate::output;
 
 #[derive(Serialize)]
-struct List {
+struct CatalogListing {
     format_version: u32,
-    entries: Vec<Entry>,
+    entries: Vec<CatalogEntry>,
 }
 
 /// The name of a preset or scene, and a line about it.
 #[derive(Serialize)]
-struct Entry {
+struct CatalogEntry {
     name: &'static str,
     summary: &'static str,
 }
@@ -27,24 +27,24 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
         // The file has every key except the size of the frame, which simulations take from their
         // input. A preset for frames of one size has that size, too.
         let own = Preset::find(name)?.config()?;
-        let mut config = own.validate()?.spelled_out();
+        let mut config = own.validate()?.complete_config();
         (config.camera.frame.width, config.camera.frame.height) =
             (own.camera.frame.width, own.camera.frame.height);
-        return if args.json { output::json(&config) } else { output::text(&file(name, &config)) };
+        return if args.json { output::print_json(&config) } else { output::print_text(&preset_file(name, &config)) };
     }
-    let entries: Vec<Entry> = if args.scenes {
-        Scene::ALL.iter().map(|s| Entry { name: s.name(), summary: s.summary() }).collect()
+    let entries: Vec<CatalogEntry> = if args.scenes {
+        Scene::ALL.iter().map(|s| CatalogEntry { name: s.name(), summary: s.summary() }).collect()
     } else {
-        PRESETS.iter().map(|p| Entry { name: p.name, summary: p.summary }).collect()
+        PRESETS.iter().map(|p| CatalogEntry { name: p.name, summary: p.summary }).collect()
     };
     if args.json {
-        output::json(&List { format_version: 1, entries })
+        output::print_json(&CatalogListing { format_version: 1, entries })
     } else {
-        output::text(&list(&entries))
+        output::print_text(&catalog_text(&entries))
     }
 }
 
-fn file(name: &str, config: &Config) -> String {
+fn preset_file(name: &str, config: &DesignConfig) -> String {
     let size = match (config.camera.frame.width, config.camera.frame.height) {
         (None, None) => {
             "Without frame.width and frame.height, which are 224 then, `foveate simulate` and\n\
@@ -65,7 +65,7 @@ fn file(name: &str, config: &Config) -> String {
     format!("# Preset `{name}`. {size}\n\n{}", config.to_toml())
 }
 
-fn list(entries: &[Entry]) -> String {
+fn catalog_text(entries: &[CatalogEntry]) -> String {
     let width = entries.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
     entries.iter().map(|entry| format!("{:width$}  {}\n", entry.name, entry.summary)).collect()
 }

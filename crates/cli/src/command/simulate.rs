@@ -5,25 +5,25 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foveate_design::Config;
-use foveate_footage::{ClipPlan, ImagesAs, InputOptions, open, plan};
+use foveate_design::DesignConfig;
+use foveate_footage::{ClipPlan, ImageRelation, InputOptions, open, plan};
 use foveate_simulator::{
-    Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, Progress, RunOptions,
-    SIMULATION, Simulation, Summary, Traffic, run_batch,
+    BandwidthComparison, BatchHooks, BatchProgress, BatchSummary, DataSetPaths, RunHooks, RunProgress, RunOptions,
+    SIMULATION_FOLDER, Simulation, RunSummary, CameraTraffic, run_batch,
 };
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
 
-use crate::args::{SimulateArgs, warn_of};
+use crate::args::{SimulateArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
-    run_job(&Job {
+    run_job(&SimulationJob {
         inputs: &args.inputs,
-        config: args.design.read()?,
-        input: args.input.options(ImagesAs::Clip),
+        config: args.design.config()?,
+        input: args.input.options(ImageRelation::Clip),
         output: &args.output,
         options: RunOptions { overwrite: args.force, ..args.outputs.options() },
         json: args.json,
@@ -32,9 +32,9 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
 }
 
 /// A run of one clip or many, as `simulate` and `dataset` start it.
-pub(super) struct Job<'a> {
+pub(super) struct SimulationJob<'a> {
     pub(super) inputs: &'a [String],
-    pub(super) config: Config,
+    pub(super) config: DesignConfig,
     pub(super) input: InputOptions,
     pub(super) output: &'a Path,
     pub(super) options: RunOptions,
@@ -43,59 +43,59 @@ pub(super) struct Job<'a> {
 }
 
 /// Runs the job with progress and prints its summary. Fails if the result is not complete.
-pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
-    let Job { inputs, config, input, output: folder, options, quiet, .. } = job;
-    StagedFolder::check(folder, SIMULATION, options.overwrite)?;
+pub(super) fn run_job(job: &SimulationJob<'_>) -> Result<(), CliError> {
+    let SimulationJob { inputs, config, input, output: folder, options, quiet, .. } = job;
+    StagedFolder::check(folder, SIMULATION_FOLDER, options.overwrite)?;
     let plan = plan(inputs, input)?;
-    warn_of(inputs, input);
-    let mut hooks = Terminal::new(*quiet)?;
+    warn_about_inputs(inputs, input);
+    let mut hooks = ClipTerminal::new(*quiet)?;
     match plan {
         ClipPlan::One => {
             let source = open(inputs, &config.camera, input)?;
             let simulation = Simulation::new(config, source)?;
             let summary = simulation.run(folder, options, &mut hooks);
-            hooks.shown.finish();
+            hooks.progress.finish();
             let summary = summary?;
-            tell(job, &summary, || text(folder, &summary))?;
-            hooks.verdict(folder, summary.problem)
+            print_summary(job, &summary, || text(folder, &summary))?;
+            hooks.check_complete(folder, summary.problem)
         }
         ClipPlan::Batch(clips) => {
             let summary = run_batch(&clips, config, input, folder, options, &hooks);
-            hooks.shown.finish();
+            hooks.progress.finish();
             let summary = summary?;
-            tell(job, &summary, || batch_text(folder, &summary))?;
-            hooks.verdict(folder, summary.problem)
+            print_summary(job, &summary, || batch_text(folder, &summary))?;
+            hooks.check_complete(folder, summary.problem)
         }
     }
 }
 
 /// Prints the summary: as JSON if JSON was asked for, and otherwise as text unless the command is
 /// quiet.
-fn tell(
-    job: &Job<'_>,
+fn print_summary(
+    job: &SimulationJob<'_>,
     summary: &impl serde::Serialize,
     text: impl Fn() -> String,
 ) -> Result<(), CliError> {
     match (job.json, job.quiet) {
-        (true, _) => output::json(summary),
+        (true, _) => output::print_json(summary),
         (false, true) => Ok(()),
-        (false, false) => output::text(&text()),
+        (false, false) => output::print_text(&text()),
     }
 }
 
 /// The progress of the command on the terminal, and the flag that Ctrl-C sets.
-pub(super) struct Terminal {
-    pub(super) shown: Shown,
+pub(super) struct ClipTerminal {
+    pub(super) progress: Shown,
     interrupted: Arc<AtomicBool>,
 }
 
-impl Terminal {
+impl ClipTerminal {
     pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        Ok(Self { shown: Shown::new(quiet), interrupted: interrupt::flag()? })
+        Ok(Self { progress: Shown::new(quiet), interrupted: interrupt::stop_flag()? })
     }
 
     /// Fails if there is a result that is not complete. The error sets the exit code.
-    pub(super) fn verdict(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
+    pub(super) fn check_complete(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
         let Some(problem) = problem else { return Ok(()) };
         if self.interrupted.load(Ordering::Relaxed) {
             return Err(CliError::Interrupted { path: folder.to_owned() });
@@ -105,27 +105,27 @@ impl Terminal {
     }
 }
 
-impl Hooks for Terminal {
-    fn progress(&mut self, progress: Progress) {
-        self.shown.frames(progress.done, progress.total, "");
+impl RunHooks for ClipTerminal {
+    fn progress(&mut self, progress: RunProgress) {
+        self.progress.report_frames(progress.done, progress.total, "");
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
 
     fn interrupt(&self) -> Interrupt {
-        interrupt::request()
+        interrupt::stop_request()
     }
 }
 
-impl BatchHooks for Terminal {
+impl BatchHooks for ClipTerminal {
     fn progress(&self, progress: BatchProgress) {
-        let clips = format!("{}/{} clips", progress.clips, progress.all);
-        self.shown.frames(progress.frames, None, &clips);
+        let clips = format!("{}/{} clips", progress.clips, progress.total_clips);
+        self.progress.report_frames(progress.frames, None, &clips);
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
 }
@@ -145,7 +145,7 @@ fn batch_text(folder: &Path, summary: &BatchSummary) -> String {
     text
 }
 
-pub(super) fn text(folder: &Path, summary: &Summary) -> String {
+pub(super) fn text(folder: &Path, summary: &RunSummary) -> String {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     format!(
         "{}: {} frames of {} x {} pixels, {} regions\n\
@@ -162,14 +162,14 @@ pub(super) fn text(folder: &Path, summary: &Summary) -> String {
         percent(summary.trs_share),
         summary.pixels_in,
         summary.pixels_forwarded,
-        means(summary),
-        traffic(&summary.bandwidth),
-        summary.data_set.as_ref().map_or(String::new(), |made| data_set(folder, made)),
+        means_text(summary),
+        traffic_lines(&summary.bandwidth),
+        summary.data_set.as_ref().map_or(String::new(), |made| data_set_line(folder, made)),
     )
 }
 
 /// Returns the text about the means that irrelevant regions have sent, if they send means.
-fn means(summary: &Summary) -> String {
+fn means_text(summary: &RunSummary) -> String {
     match (summary.means_sent, summary.summaries_sent) {
         (Some(means), Some(regions)) => format!(", {means} means of {regions} irrelevant regions"),
         _ => String::new(),
@@ -177,7 +177,7 @@ fn means(summary: &Summary) -> String {
 }
 
 /// Returns the line about the folder of a data set.
-fn data_set(folder: &Path, made: &DataSet) -> String {
+fn data_set_line(folder: &Path, made: &DataSetPaths) -> String {
     let labels = match (&made.labels, made.classes.len()) {
         (Some(labels), _) => format!(", labels in {}", folder.join(labels).display()),
         (None, 0) => String::new(),
@@ -187,10 +187,10 @@ fn data_set(folder: &Path, made: &DataSet) -> String {
 }
 
 /// Returns a line with bytes and events for each camera.
-fn traffic(bandwidth: &Bandwidth) -> String {
+fn traffic_lines(bandwidth: &BandwidthComparison) -> String {
     let per_second =
         |rate: Option<f64>| rate.map_or(String::new(), |rate| format!(" ({rate:.0}/s)"));
-    let line = |name: &str, traffic: &Traffic| {
+    let line = |name: &str, traffic: &CameraTraffic| {
         let events = traffic.events.map_or(String::new(), |events| {
             format!(", {events} events{}", per_second(traffic.events_per_second))
         });

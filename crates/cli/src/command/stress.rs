@@ -3,7 +3,7 @@
 
 use std::sync::atomic::Ordering;
 
-use foveate_stress::{CaseRow, Depth};
+use foveate_stress::{CaseRow, RunDepth};
 use serde::Serialize;
 
 use crate::args::StressArgs;
@@ -19,20 +19,20 @@ struct StressReport<'a> {
 }
 
 pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
-    let interrupted = interrupt::flag()?;
+    let interrupted = interrupt::stop_flag()?;
     let progress = Progress::new(args.quiet);
-    let done = |done: usize, all: usize| progress.steps("cases", done as u64, all as u64);
-    let depth = if args.short { Depth::Short } else { Depth::Full };
-    let rows = foveate_stress::run(depth, &done, &|| interrupted.load(Ordering::Relaxed));
+    let done = |done: usize, all: usize| progress.report_steps("cases", done as u64, all as u64);
+    let depth = if args.short { RunDepth::Short } else { RunDepth::Full };
+    let rows = foveate_stress::run_cases(depth, &done, &|| interrupted.load(Ordering::Relaxed));
     progress.finish();
-    let broken = rows.iter().filter(|row| !row.holds).count();
+    let broken = rows.iter().filter(|row| !row.is_as_expected).count();
     let holds = broken == 0 && !interrupted.load(Ordering::Relaxed);
     if args.json {
-        output::json(&StressReport { format_version: 1, holds, rows: &rows })?;
+        output::print_json(&StressReport { format_version: 1, holds, rows: &rows })?;
     } else if args.markdown {
-        output::text(&markdown(&rows))?;
+        output::print_text(&markdown(&rows))?;
     } else {
-        output::text(&text(&rows))?;
+        output::print_text(&text(&rows))?;
     }
     match (interrupted.load(Ordering::Relaxed), broken) {
         (true, _) => Err(CliError::Stopped { done: format!("{} rows", rows.len()) }),
@@ -42,12 +42,12 @@ pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
 }
 
 fn verdict(row: &CaseRow) -> &'static str {
-    if row.holds { "ok" } else { "FAILED" }
+    if row.is_as_expected { "ok" } else { "FAILED" }
 }
 
 /// Returns two paragraphs per row, so that each row fits into a narrow terminal.
 fn text(rows: &[CaseRow]) -> String {
-    let width = output::width();
+    let width = output::text_width();
     let mut text = String::new();
     for row in rows {
         let CaseRow { case, designs, expected, observed, worst, .. } = row;
@@ -59,7 +59,7 @@ fn text(rows: &[CaseRow]) -> String {
         text += &textwrap::fill(&second, indented.initial_indent("       "));
         text.push('\n');
     }
-    let held = rows.iter().filter(|row| row.holds).count();
+    let held = rows.iter().filter(|row| row.is_as_expected).count();
     text + &format!("{held} of {} hold\n", rows.len())
 }
 

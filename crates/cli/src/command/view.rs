@@ -5,10 +5,10 @@ use foveate_view::View;
 
 use crate::args::ViewArgs;
 use crate::error::CliError;
-use crate::serving::Serving;
+use crate::serving::ServingCommand;
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), CliError> {
-    let serving = Serving::begin()?;
+    let serving = ServingCommand::new()?;
     let view = View::open(args.options()?)?;
-    serving.until_stopped(view.link(), || view.news(), || view.frames())
+    serving.run_until_stopped(view.link(), || view.take_messages(), || view.frames_shown())
 }

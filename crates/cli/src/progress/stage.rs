@@ -10,13 +10,13 @@ use std::time::{Duration, Instant};
 const PACE_AFTER: Duration = Duration::from_secs(2);
 /// The longest time that is shown as it is. A longer time is shown as more than this, because no
 /// meaningful run takes so long.
-pub(super) const LONGEST: Duration = Duration::from_secs(7 * 24 * 3600);
+pub(super) const LONGEST_REMAINING: Duration = Duration::from_secs(7 * 24 * 3600);
 
 /// The unit in which a stage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StageUnit {
     /// No unit: one run of a tool.
-    Work,
+    Uncounted,
     /// Steps, with a name.
     Steps,
     /// Frames, with a note beside the count.
@@ -27,40 +27,40 @@ pub(super) enum StageUnit {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct StageAmount {
     pub(super) done: u64,
-    pub(super) all: Option<u64>,
+    pub(super) total: Option<u64>,
 }
 
 impl StageAmount {
     /// Makes an amount. A total of 0 is unknown. A total is at least `done`, because a damaged
     /// video may promise fewer frames than it has.
     pub(super) fn new(done: u64, all: Option<u64>) -> Self {
-        Self { done, all: all.filter(|&all| all > 0).map(|all| all.max(done)) }
+        Self { done, total: all.filter(|&all| all > 0).map(|all| all.max(done)) }
     }
 }
 
 /// The present stage of a command.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stage {
+pub(super) struct ProgressStage {
     /// The unit of the count; `None` before the command has reported a stage.
-    pub(super) counted: Option<StageUnit>,
-    pub(super) what: String,
+    pub(super) unit: Option<StageUnit>,
+    pub(super) label: String,
     pub(super) amount: StageAmount,
     /// The time at which the stage began. `first` is the count that was done by then.
-    began: Instant,
-    first: u64,
+    start: Instant,
+    count_at_start: u64,
 }
 
 /// The time that the rest takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Left {
+pub(super) enum RemainingTime {
     About(Duration),
     MoreThan(Duration),
 }
 
-impl Stage {
+impl ProgressStage {
     pub(super) fn new(now: Instant) -> Self {
         let (amount, what) = (StageAmount::default(), String::new());
-        Self { counted: None, what, amount, began: now, first: 0 }
+        Self { unit: None, label: what, amount, start: now, count_at_start: 0 }
     }
 
     /// Enters the next stage, or updates the present one. Steps with another name begin a stage
@@ -72,21 +72,21 @@ impl Stage {
         amount: StageAmount,
         now: Instant,
     ) {
-        let same = self.counted == Some(counted)
-            && self.amount.all.is_some() == amount.all.is_some()
-            && (counted != StageUnit::Steps || self.what == what);
-        if !same || amount.done < self.first {
-            (self.began, self.first) = (now, amount.done);
+        let same = self.unit == Some(counted)
+            && self.amount.total.is_some() == amount.total.is_some()
+            && (counted != StageUnit::Steps || self.label == what);
+        if !same || amount.done < self.count_at_start {
+            (self.start, self.count_at_start) = (now, amount.done);
         }
-        (self.counted, self.amount) = (Some(counted), amount);
-        what.clone_into(&mut self.what);
+        (self.unit, self.amount) = (Some(counted), amount);
+        what.clone_into(&mut self.label);
     }
 
     /// Returns the count since the stage began, and the time that it took; `None` until they give a
     /// rate.
     fn pace(&self, now: Instant) -> Option<(u64, Duration)> {
-        let elapsed = now.saturating_duration_since(self.began);
-        let fresh = self.amount.done.saturating_sub(self.first);
+        let elapsed = now.saturating_duration_since(self.start);
+        let fresh = self.amount.done.saturating_sub(self.count_at_start);
         (fresh > 0 && elapsed >= PACE_AFTER).then_some((fresh, elapsed))
     }
 
@@ -100,22 +100,22 @@ impl Stage {
     /// Returns the time that the rest takes at the rate since the stage began; `None` until
     /// something is done, and when nothing is left. During a long step the result grows little by
     /// little.
-    pub(super) fn left(&self, now: Instant) -> Option<Left> {
+    pub(super) fn remaining_time(&self, now: Instant) -> Option<RemainingTime> {
         let (fresh, elapsed) = self.pace(now)?;
-        let rest = self.amount.all?.saturating_sub(self.amount.done);
+        let rest = self.amount.total?.saturating_sub(self.amount.done);
         if rest == 0 {
             return None;
         }
         let millis = elapsed.as_millis() * u128::from(rest) / u128::from(fresh);
         Some(match u64::try_from(millis).map(Duration::from_millis) {
-            Ok(left) if left <= LONGEST => Left::About(left),
-            _ => Left::MoreThan(LONGEST),
+            Ok(left) if left <= LONGEST_REMAINING => RemainingTime::About(left),
+            _ => RemainingTime::MoreThan(LONGEST_REMAINING),
         })
     }
 }
 
 /// Locks the stage. Its value is valid even if a thread panicked while it held the lock.
-pub(super) fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
+pub(super) fn lock_stage(stage: &Mutex<ProgressStage>) -> MutexGuard<'_, ProgressStage> {
     stage.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -126,7 +126,7 @@ mod tests {
 
     const SECOND: Duration = Duration::from_secs(1);
 
-    fn of(done: u64, all: u64) -> StageAmount {
+    fn amount(done: u64, all: u64) -> StageAmount {
         StageAmount::new(done, Some(all))
     }
 
@@ -134,63 +134,63 @@ mod tests {
     fn the_rest_takes_as_long_as_what_is_done() {
         let start = Instant::now();
         let left = |done, seconds: u32| {
-            let mut stage = Stage::new(start);
-            stage.enter(Steps, "designs", of(0, 31), start);
-            stage.enter(Steps, "designs", of(done, 31), start + seconds * SECOND);
-            stage.left(start + seconds * SECOND)
+            let mut stage = ProgressStage::new(start);
+            stage.enter(Steps, "designs", amount(0, 31), start);
+            stage.enter(Steps, "designs", amount(done, 31), start + seconds * SECOND);
+            stage.remaining_time(start + seconds * SECOND)
         };
         assert_eq!(left(0, 100), None, "nothing is done");
         assert_eq!(left(10, 1), None, "too early");
         assert_eq!(left(31, 100), None, "nothing is left");
-        assert_eq!(left(10, 100), Some(Left::About(210 * SECOND)));
+        assert_eq!(left(10, 100), Some(RemainingTime::About(210 * SECOND)));
         // After ten minutes without a step, and after a day, the time has grown only in proportion.
-        assert_eq!(left(10, 700), Some(Left::About(1470 * SECOND)));
-        assert_eq!(left(10, 86_500), Some(Left::About(181_650 * SECOND)));
+        assert_eq!(left(10, 700), Some(RemainingTime::About(1470 * SECOND)));
+        assert_eq!(left(10, 86_500), Some(RemainingTime::About(181_650 * SECOND)));
     }
 
     #[test]
     fn no_time_is_longer_than_a_week() {
         let start = Instant::now();
-        let mut stage = Stage::new(start);
-        stage.enter(Frames, "", of(0, u64::MAX), start);
-        stage.enter(Frames, "", of(1, u64::MAX), start);
-        assert_eq!(stage.left(start + 60 * SECOND), Some(Left::MoreThan(LONGEST)));
+        let mut stage = ProgressStage::new(start);
+        stage.enter(Frames, "", amount(0, u64::MAX), start);
+        stage.enter(Frames, "", amount(1, u64::MAX), start);
+        assert_eq!(stage.remaining_time(start + 60 * SECOND), Some(RemainingTime::MoreThan(LONGEST_REMAINING)));
     }
 
     #[test]
     fn other_steps_have_a_pace_of_their_own_and_other_notes_have_not() {
         let start = Instant::now();
-        let mut stage = Stage::new(start);
-        stage.enter(Steps, "fast", of(0, 100), start);
-        stage.enter(Steps, "fast", of(90, 100), start + 10 * SECOND);
+        let mut stage = ProgressStage::new(start);
+        stage.enter(Steps, "fast", amount(0, 100), start);
+        stage.enter(Steps, "fast", amount(90, 100), start + 10 * SECOND);
         let then = start + 100 * SECOND;
-        stage.enter(Steps, "slow", of(4, 10), then);
-        assert_eq!(stage.left(then + 50 * SECOND), None);
-        stage.enter(Steps, "slow", of(5, 10), then + 50 * SECOND);
-        assert_eq!(stage.left(then + 50 * SECOND), Some(Left::About(250 * SECOND)));
-        stage.enter(Frames, "1/2 clips", of(0, 60), then);
-        stage.enter(Frames, "2/2 clips", of(50, 60), then + 50 * SECOND);
-        assert_eq!(stage.left(then + 50 * SECOND), Some(Left::About(10 * SECOND)));
+        stage.enter(Steps, "slow", amount(4, 10), then);
+        assert_eq!(stage.remaining_time(then + 50 * SECOND), None);
+        stage.enter(Steps, "slow", amount(5, 10), then + 50 * SECOND);
+        assert_eq!(stage.remaining_time(then + 50 * SECOND), Some(RemainingTime::About(250 * SECOND)));
+        stage.enter(Frames, "1/2 clips", amount(0, 60), then);
+        stage.enter(Frames, "2/2 clips", amount(50, 60), then + 50 * SECOND);
+        assert_eq!(stage.remaining_time(then + 50 * SECOND), Some(RemainingTime::About(10 * SECOND)));
     }
 
     #[test]
     fn a_rate_is_what_was_done_in_the_time_that_it_took() {
         let start = Instant::now();
-        let mut stage = Stage::new(start);
+        let mut stage = ProgressStage::new(start);
         // A count from before the stage is left out, and a length that becomes known begins a new
         // stage.
         stage.enter(Frames, "", StageAmount::new(100, None), start);
         stage.enter(Frames, "", StageAmount::new(149, None), start + 5 * SECOND);
         assert_eq!(stage.rate(start + 5 * SECOND), Some(9.8));
         assert_eq!(stage.rate(start + SECOND), None, "too early");
-        assert_eq!(stage.left(start + 5 * SECOND), None, "the length is not known");
-        stage.enter(Frames, "", of(150, 200), start + 6 * SECOND);
+        assert_eq!(stage.remaining_time(start + 5 * SECOND), None, "the length is not known");
+        stage.enter(Frames, "", amount(150, 200), start + 6 * SECOND);
         assert_eq!(stage.rate(start + 9 * SECOND), None, "nothing is done since");
     }
 
     #[test]
     fn nothing_has_no_length() {
         assert_eq!(StageAmount::new(0, Some(0)), StageAmount::new(0, None));
-        assert_eq!(StageAmount::new(5, Some(3)), of(5, 5));
+        assert_eq!(StageAmount::new(5, Some(3)), amount(5, 5));
     }
 }

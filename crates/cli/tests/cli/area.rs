@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{run_in, succeed_in};
+use crate::common::{run_in, run_successfully};
 use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
@@ -38,7 +38,7 @@ fn run(core: &Path, mut command: Command) -> String {
 
 /// Returns the cells of a module of a generated core, as Yosys alone finds them with the commands
 /// that the report names. Modules that were kept separate are added up.
-fn synthesized(core: &Path, top: &str) -> Cells {
+fn synthesized_cells(core: &Path, top: &str) -> Cells {
     let files = fs::read_to_string(core.join(format!("{top}.f"))).unwrap();
     let script = format!(
         "read_verilog {}\n\
@@ -79,7 +79,7 @@ fn count(cells: &Cells, kinds: &[&str]) -> u64 {
 
 /// Returns the LUTs of logic, flip-flops, carry blocks and halves of block RAM, as in the report of
 /// an area.
-fn figures(cells: &Cells) -> [u64; 4] {
+fn area_figures(cells: &Cells) -> [u64; 4] {
     let luts = (1..=6).map(|inputs| cells.get(&format!("LUT{inputs}")).unwrap_or(&0)).sum::<u64>();
     [
         luts + count(cells, &["INV"]),
@@ -89,7 +89,7 @@ fn figures(cells: &Cells) -> [u64; 4] {
     ]
 }
 
-fn reported(area: &Value) -> [u64; 4] {
+fn reported_figures(area: &Value) -> [u64; 4] {
     ["lut_logic_high", "ff", "carry", "bram18"].map(|name| area[name].as_u64().unwrap())
 }
 
@@ -99,31 +99,31 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &[&["generate", "-o", "core"], &DESIGN[..]].concat());
+    run_successfully(dir.path(), &[&["generate", "-o", "core"], &DESIGN[..]].concat());
     let outcome = run_in(dir.path(), &[&["estimate", "--json"], &DESIGN[..]].concat());
     assert!(outcome.code == 0 && !outcome.stderr.contains("warning"), "{}", outcome.stderr);
     let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
     let core = dir.path().join("core");
-    let whole = reported(&report["bus"]["whole"]);
+    let whole = reported_figures(&report["bus"]["whole"]);
     // `estimate` reads fewer cells than Yosys alone, with the same names; without those names this
     // core has two LUTs fewer.
-    assert_eq!(whole, figures(&synthesized(&core, "rcm_axi")));
+    assert_eq!(whole, area_figures(&synthesized_cells(&core, "rcm_axi")));
     // The array has another number, which is smaller.
-    let array = reported(&report["rcm"]);
+    let array = reported_figures(&report["rcm"]);
     if takes_whole_lists() {
-        assert_eq!(array, figures(&synthesized(&core, "rcm")));
+        assert_eq!(array, area_figures(&synthesized_cells(&core, "rcm")));
     }
     assert!(array[0] < whole[0] && array[1] < whole[1], "{array:?} of {whole:?}");
     // Each part takes some LUTs. Together with the array the parts take a little more than the
     // whole core, which shares logic.
     let parts = report["bus"]["parts"].as_array().unwrap();
-    let luts = parts.iter().map(|part| reported(&part["area"])[0]).collect::<Vec<_>>();
+    let luts = parts.iter().map(|part| reported_figures(&part["area"])[0]).collect::<Vec<_>>();
     assert!(luts.len() == 5 && luts.iter().all(|&luts| luts > 0), "{parts:?}");
     let sum = array[0] + luts.iter().sum::<u64>();
     assert!(sum.abs_diff(whole[0]) * 5 < whole[0], "{sum} beside {}", whole[0]);
 
     // The text output has the same area, which was synthesized before.
-    let text = succeed_in(dir.path(), &[&["estimate"], &DESIGN[..]].concat());
+    let text = run_successfully(dir.path(), &[&["estimate"], &DESIGN[..]].concat());
     for row in [
         "core ",
         "RCM ",
@@ -147,13 +147,13 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
     let less = sound.replace("64'd0 : time_q + 1'b1", "64'd0 : {32'd0, time_q[31:0] + 1'b1}");
     assert_ne!(less, sound);
     fs::write(path, less).unwrap();
-    let fewer = figures(&synthesized(&core, "rcm_axi"));
+    let fewer = area_figures(&synthesized_cells(&core, "rcm_axi"));
     assert!(fewer[1] + 64 <= whole[1], "{fewer:?} of {whole:?}: 32 bits of the time, twice");
 }
 
 /// Returns the cells of the netlist that a script of a core has left, without the registers at its
 /// ports.
-fn placed(folder: &Path) -> Cells {
+fn placed_cells(folder: &Path) -> Cells {
     let netlist: Value =
         serde_json::from_slice(&fs::read(folder.join("netlist.json")).unwrap()).unwrap();
     let modules = netlist["modules"].as_object().unwrap();
@@ -175,7 +175,7 @@ fn the_script_of_a_core_on_axi_places_what_the_estimate_counts() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(
+    run_successfully(
         dir.path(),
         &[&["generate", "-o", "core", "--prefix", "cam0"], &DESIGN[..]].concat(),
     );
@@ -195,10 +195,10 @@ fn same_when_placed(dir: &Path, (word, top): (&str, &str), estimates: &[&[&str]]
     command.args(["synth/ice40.sh", word, "hx8k", "1"]).env("KEEP", &kept);
     command.env("YOSYS", program(Tool::Yosys)).env("NEXTPNR", program(Tool::NextpnrIce40));
     run(&core, command);
-    let cells = placed(&core.join(kept));
+    let cells = placed_cells(&core.join(kept));
     for more in estimates {
         let estimate = ["estimate", "--place-and-route", "hx8k", "--seeds", "1", "--json"];
-        let text = succeed_in(dir, &[&estimate[..], more, &DESIGN[..]].concat());
+        let text = run_successfully(dir, &[&estimate[..], more, &DESIGN[..]].concat());
         let report: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(report["top"], top);
         let taken = |what: &str| report["devices"][0]["placed"][what]["used"].as_u64().unwrap();

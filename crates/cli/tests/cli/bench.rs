@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of `bench`, end to end, with the tools and without.
 
-use crate::common::{fail_in, foveate, succeed_in};
+use crate::common::{expect_failure, foveate, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
@@ -12,7 +12,7 @@ const TINY: [&str; 5] = ["bench", "--set", "frame={width=16,height=16}", "--seco
 fn rows(extra: &[&str]) -> Vec<Value> {
     let dir = tempfile::tempdir().unwrap();
     let args = [&TINY[..], &["--json"], extra].concat();
-    let report: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let report: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();
     assert_eq!(report["format_version"], 2);
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is left");
     report["rows"].as_array().unwrap().clone()
@@ -79,7 +79,7 @@ fn a_level_without_its_tool_says_so() {
 #[test]
 fn what_cannot_be_run_is_refused() {
     let dir = tempfile::tempdir().unwrap();
-    fail_in(dir.path(), 2, &["bench", "missing.png"], &["missing.png"]);
+    expect_failure(dir.path(), 2, &["bench", "missing.png"], &["missing.png"]);
     let seconds = foveate(&["bench", "--seconds", "-1"]).output().unwrap();
     assert_eq!(seconds.status.code(), Some(2));
 }
@@ -89,7 +89,7 @@ fn what_cannot_be_run_is_refused() {
 #[test]
 fn ctrl_c_stops_it() {
     let dir = tempfile::tempdir().unwrap();
-    let mut child = crate::common::listening()
+    let mut child = crate::common::foveate_with_signals()
         .args(["bench", "--frames", "2", "--seconds", "600"])
         .env("FOVEATE_CACHE", "off")
         .env("TMPDIR", dir.path())

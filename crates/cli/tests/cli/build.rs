@@ -6,16 +6,16 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::common::{fail_in, foveate, run_in, succeed_in};
+use crate::common::{expect_failure, foveate, run_in, run_successfully};
 
 #[test]
 fn boards_are_listed() {
     let dir = tempfile::tempdir().unwrap();
-    let text = succeed_in(dir.path(), &["build", "--list"]);
+    let text = run_successfully(dir.path(), &["build", "--list"]);
     for name in ["icebreaker", "icesugar", "upduino", "ulx3s", "tang-nano-20k", "vcu118"] {
         assert!(text.contains(name), "{text}");
     }
-    let json = succeed_in(dir.path(), &["build", "--list", "--json"]);
+    let json = run_successfully(dir.path(), &["build", "--list", "--json"]);
     let boards: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(boards.as_array().unwrap().len(), 6);
     assert_eq!(boards[0]["frame"], serde_json::json!([320, 240]));
@@ -27,11 +27,11 @@ fn boards_are_listed() {
 fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
     let dir = tempfile::tempdir().unwrap();
     let made = ["build", "--board", "icesugar", "--project", "-o", "out"];
-    let text = succeed_in(dir.path(), &[&made[..], &["--set", "periphery.level=9"]].concat());
+    let text = run_successfully(dir.path(), &[&made[..], &["--set", "periphery.level=9"]].concat());
     assert!(text.contains("start with README.md") && text.contains("sh build.sh"), "{text}");
     let toml = fs::read_to_string(dir.path().join("out/design.toml")).unwrap();
     assert!(toml.contains("level = 9"), "{toml}");
-    fail_in(dir.path(), 2, &made, &["`out`"]);
+    expect_failure(dir.path(), 2, &made, &["`out`"]);
 
     // The files of the project are a start for another board with another sensor.
     let board = fs::read_to_string(dir.path().join("out/board.toml")).unwrap();
@@ -42,7 +42,7 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
         .unwrap();
     fs::write(dir.path().join("own/mine.toml"), sensor.replace("4-high", "4-low")).unwrap();
     let own = ["build", "--board", "own/here.toml", "--project", "-o", "out", "--force"];
-    let text = succeed_in(dir.path(), &own);
+    let text = run_successfully(dir.path(), &own);
     assert!(text.contains("for here,"), "{text}");
     let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
     assert!(read("board.pcf").contains("set_io sensor_data_i[0] 32"));
@@ -52,7 +52,7 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
 
     let json =
         ["build", "--board", "vcu118", "--set", "frame={width=64,height=48}", "-o", "v", "--json"];
-    let report: Value = serde_json::from_str(&succeed_in(dir.path(), &json)).unwrap();
+    let report: Value = serde_json::from_str(&run_successfully(dir.path(), &json)).unwrap();
     assert_eq!((&report["board"], report.get("bitstream")), (&"vcu118".into(), None));
     assert!(dir.path().join("v/build.tcl").is_file());
 
@@ -68,7 +68,7 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
         "-o",
         "array",
     ];
-    let text = succeed_in(dir.path(), &array);
+    let text = run_successfully(dir.path(), &array);
     assert!(text.contains("32 x 16 pixels") && text.contains("vivado -mode batch"), "{text}");
     let top = fs::read_to_string(dir.path().join("array/rtl/board.v")).unwrap();
     assert!(top.contains("localparam COLUMNS = 4;"), "{top}");
@@ -91,7 +91,7 @@ fn what_is_wrong_with_a_board_or_its_design_is_said() {
         (&["--board", "vcu118", "--preset", "serial"], "stands on no board"),
         (&["--board", "ulx3s", "--config", "none.toml"], "none.toml"),
     ] {
-        fail_in(dir.path(), 2, &[&["build", "-o", "out", "--project"], args].concat(), &[said]);
+        expect_failure(dir.path(), 2, &[&["build", "-o", "out", "--project"], args].concat(), &[said]);
     }
     assert!(!dir.path().join("out").exists());
 }

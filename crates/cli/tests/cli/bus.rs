@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{fail_in, run_in, succeed_in};
+use crate::common::{expect_failure, run_in, run_successfully};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 
@@ -21,7 +21,7 @@ fn core(folder: &Path) {
     ];
     let mut args = vec!["generate", "--preset", "raster", "--prefix", "cam0", "-o", "core"];
     settings.iter().for_each(|setting| args.extend(["--set", setting]));
-    succeed_in(folder, &args);
+    run_successfully(folder, &args);
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
     core(dir.path());
     let cosim = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl"];
     let clip = ["scene:street", "--frames", "5"];
-    let text = succeed_in(dir.path(), &[&cosim[..], &clip, &["--end-to-end", "out"]].concat());
+    let text = run_successfully(dir.path(), &[&cosim[..], &clip, &["--end-to-end", "out"]].concat());
     assert!(
         text.contains("axi verilator:") && text.matches("values compared").count() == 3,
         "{text}"
@@ -42,9 +42,9 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
     assert!(text.contains("end to end: 5 frames, 9 files"), "{text}");
 
     let design = ["--config", "core/design.toml"];
-    succeed_in(dir.path(), &[&["decode", "out/packets.bin", "-o", "seen"][..], &design].concat());
+    run_successfully(dir.path(), &[&["decode", "out/packets.bin", "-o", "seen"][..], &design].concat());
     let simulate = [&["simulate", "-o", "sim"][..], &clip, &design].concat();
-    succeed_in(dir.path(), &simulate);
+    run_successfully(dir.path(), &simulate);
     let names = ["active.npy", "srs.npy", "trs.npy"].map(str::to_owned);
     let pictures = (0..5).map(|frame| format!("rendered/{frame:06}.png"));
     for name in names.into_iter().chain(pictures) {
@@ -80,7 +80,7 @@ fn edited_verilog_around_an_array_is_caught_and_replayed() {
     assert_eq!(replay.status.code(), Some(1), "it shows the same");
 
     fs::write(&path, sound).unwrap();
-    succeed_in(dir.path(), &cosim);
+    run_successfully(dir.path(), &cosim);
     assert!(!folder.exists(), "what an earlier run has left is gone");
     fs::remove_file(dir.path().join("core/rtl/cam0_rcm_axi.v")).unwrap();
     let missing = run_in(dir.path(), &cosim);
@@ -91,17 +91,17 @@ fn edited_verilog_around_an_array_is_caught_and_replayed() {
 fn options_of_cores_on_axi_are_refused_elsewhere() {
     let dir = tempfile::tempdir().unwrap();
     let ports = ["hardware.interface", "\"ports\"", "\"axi\""];
-    fail_in(dir.path(), 2, &["cosim", "--preset", "raster", "--level", "axi"], &ports);
+    expect_failure(dir.path(), 2, &["cosim", "--preset", "raster", "--level", "axi"], &ports);
     let place = ["estimate", "--preset", "raster", "--place-and-route", "hx8k", "--level", "axi"];
-    fail_in(dir.path(), 2, &place, &ports);
+    expect_failure(dir.path(), 2, &place, &ports);
     let packets = ["cosim", "--preset", "raster", "scene:street", "--packets", "p.bin"];
-    fail_in(dir.path(), 2, &packets, &ports);
+    expect_failure(dir.path(), 2, &packets, &ports);
     let whole = ["cosim", "--preset", "raster", "scene:street", "--end-to-end", "out"];
-    fail_in(dir.path(), 2, &whole, &["--end-to-end", "\"axi\""]);
+    expect_failure(dir.path(), 2, &whole, &["--end-to-end", "\"axi\""]);
     assert!(!dir.path().join("out").exists());
     core(dir.path());
     let part = ["cosim", "--config", "core/design.toml", "--level", "axi", "--netlist"];
-    fail_in(dir.path(), 2, &part, &["--level axi", "--netlist"]);
+    expect_failure(dir.path(), 2, &part, &["--level axi", "--netlist"]);
     let nothing = run_in(dir.path(), &["cosim", "--packets", "p.bin"]);
     assert!(nothing.code == 2 && nothing.stderr.contains("<INPUT>"), "{}", nothing.stderr);
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::succeed_in;
+use crate::common::run_successfully;
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
@@ -27,7 +27,7 @@ fn core(folder: &Path, settings: &[&str]) {
     for setting in settings {
         args.extend(["--set", setting]);
     }
-    succeed_in(folder, &args);
+    run_successfully(folder, &args);
 }
 
 fn edit(file: &Path, from: &str, to: &str) {

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, succeed_in};
+use crate::common::{expect_failure, files_below, run_successfully};
 use serde_json::Value;
 
 fn names(folder: &Path) -> Vec<String> {
@@ -25,17 +25,17 @@ fn idx_files_become_data_sets() {
     idx(dir.path(), "test-images");
     fs::write(dir.path().join("train-labels"), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
     let args = ["dataset", "train-images", "-o", "out", "--preset", "steady"];
-    let text = succeed_in(dir.path(), &args);
+    let text = run_successfully(dir.path(), &args);
     assert!(text.contains("data set in out/train-images, labels in out/train-labels"), "{text}");
     assert_eq!(fs::read(dir.path().join("out/train-labels")).unwrap()[8..], [7, 1]);
     assert_eq!(fs::read(dir.path().join("out/train-images")).unwrap().len(), 16 + 512);
     assert!(names(&dir.path().join("out")).iter().all(|name| !name.ends_with(".png")));
-    fail_in(dir.path(), 2, &args, &["out", "not empty"]);
-    let json = succeed_in(dir.path(), &[&args[..], &["--force", "--json", "--quiet"]].concat());
+    expect_failure(dir.path(), 2, &args, &["out", "not empty"]);
+    let json = run_successfully(dir.path(), &[&args[..], &["--force", "--json", "--quiet"]].concat());
     let summary: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(summary["data_set"]["labels"], "train-labels");
     let both = ["dataset", "train-images", "test-images", "-o", "both", "--max-frames", "1"];
-    succeed_in(dir.path(), &both);
+    run_successfully(dir.path(), &both);
     for name in ["train-images", "test-images"] {
         let file = dir.path().join("both").join(name).join(name);
         assert_eq!(fs::read(file).unwrap().len(), 16 + 256);
@@ -51,18 +51,18 @@ fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
         fs::write(path, [b"P5 8 8 255\n".to_vec(), (0..64).map(|p| p * 4).collect()].concat())
             .unwrap();
     }
-    let text = succeed_in(dir.path(), &["dataset", "pets", "-o", "out"]);
+    let text = run_successfully(dir.path(), &["dataset", "pets", "-o", "out"]);
     assert!(text.contains("data set in out/images, 2 classes"), "{text}");
     assert_eq!(names(&dir.path().join("out/images")), ["cat/1.png", "cat/2.png", "dog/1.png"]);
     let clip = ["dataset", "pets/cat", "-o", "no", "--images", "clip"];
-    fail_in(dir.path(), 2, &clip, &["pets/cat is a clip", "--images set", "foveate simulate"]);
-    fail_in(dir.path(), 2, &["dataset", "scene:street", "-o", "no"], &["scene:street is a clip"]);
+    expect_failure(dir.path(), 2, &clip, &["pets/cat is a clip", "--images set", "foveate simulate"]);
+    expect_failure(dir.path(), 2, &["dataset", "scene:street", "-o", "no"], &["scene:street is a clip"]);
     fs::create_dir(dir.path().join("clips")).unwrap();
     fs::write(dir.path().join("clips/a.y4m"), "").unwrap();
     let clips = ["`clips` holds clips but no images", "foveate simulate"];
-    fail_in(dir.path(), 2, &["dataset", "clips", "-o", "no"], &clips);
+    expect_failure(dir.path(), 2, &["dataset", "clips", "-o", "no"], &clips);
     let timed = ["dataset", "pets", "-o", "no", "--input-fps", "5"];
-    fail_in(dir.path(), 2, &timed, &["images of a set have no times"]);
+    expect_failure(dir.path(), 2, &timed, &["images of a set have no times"]);
     assert!(!dir.path().join("no").exists());
 }
 
@@ -76,7 +76,7 @@ fn ctrl_c_leaves_a_set_that_can_be_read() {
     let file = fs::File::create(dir.path().join("long-images")).unwrap();
     std::io::Write::write_all(&mut &file, &header).unwrap();
     file.set_len(16 + 256 * u64::from(count)).unwrap();
-    let child = crate::common::listening()
+    let child = crate::common::foveate_with_signals()
         .args(["dataset", "long-images", "-o", "out"])
         .current_dir(dir.path())
         .stdout(std::process::Stdio::null())

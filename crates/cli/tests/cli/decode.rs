@@ -5,20 +5,20 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{fail_in, foveate, listening, run_in, succeed_in};
+use crate::common::{expect_failure, foveate, foveate_with_signals, run_in, run_successfully};
 use serde_json::Value;
 
-const SENT: [&str; 9] =
+const SENDING_COMMAND: [&str; 9] =
     ["simulate", "scene:street", "-o", "sent", "--frames", "4", "--preset", "steady", "--quiet"];
 
 #[test]
 fn a_stream_becomes_what_was_simulated() {
     let dir = tempfile::tempdir().unwrap();
     let events = ["--packets=scores", "--events", "csv"];
-    succeed_in(dir.path(), &[&SENT[..], &events].concat());
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &events].concat());
     let seen =
         ["decode", "sent/packets.bin", "-o", "seen", "--preset", "steady", "--events", "csv"];
-    let told = succeed_in(dir.path(), &[&seen[..], &["--overlay"]].concat());
+    let told = run_successfully(dir.path(), &[&seen[..], &["--overlay"]].concat());
     assert!(told.starts_with("seen: 4 frames of 224 x 224 pixels"), "{told}");
     for name in ["events.csv", "t_count.npy", "active.npy", "rendered/000003.png"] {
         let of = |folder: &str| fs::read(dir.path().join(folder).join(name)).unwrap();
@@ -26,7 +26,7 @@ fn a_stream_becomes_what_was_simulated() {
     }
     assert!(dir.path().join("seen/overlay/000003.png").exists());
     assert!(!dir.path().join("seen/losses.csv").exists());
-    fail_in(dir.path(), 2, &seen, &["seen", "not empty"]);
+    expect_failure(dir.path(), 2, &seen, &["seen", "not empty"]);
 
     // The stream comes from a pipe and ends in the middle of the last frame.
     let bytes = fs::read(dir.path().join("sent/packets.bin")).unwrap();
@@ -50,7 +50,7 @@ fn a_stream_becomes_what_was_simulated() {
 fn a_stream_that_sends_nothing_is_left_at_once() {
     let dir = tempfile::tempdir().unwrap();
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
-        let mut decode = listening()
+        let mut decode = foveate_with_signals()
             .args(["decode", "-", "-o", "out"])
             .current_dir(dir.path())
             .stdin(Stdio::piped())
@@ -84,7 +84,7 @@ fn a_stream_that_sends_nothing_is_left_at_once() {
 #[test]
 fn many_losses_are_counted_and_kept() {
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &[&SENT[..], &["--packets"]].concat());
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &["--packets"]].concat());
     let mut bytes = fs::read(dir.path().join("sent/packets.bin")).unwrap();
     let length = bytes.len();
     bytes.iter_mut().take(length / 2).skip(100).step_by(301).for_each(|byte| *byte ^= 0x10);
@@ -99,9 +99,9 @@ fn many_losses_are_counted_and_kept() {
 #[test]
 fn what_is_no_stream_of_the_camera_is_refused() {
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &[&SENT[..], &["--packets"]].concat());
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &["--packets"]].concat());
     let refused = |stream: &str, more: &[&str], parts: &[&str]| {
-        fail_in(dir.path(), 2, &[&["decode", stream, "-o", "out"], more].concat(), parts);
+        expect_failure(dir.path(), 2, &[&["decode", stream, "-o", "out"], more].concat(), parts);
         assert!(!dir.path().join("out").exists());
     };
     let summary = fs::read(dir.path().join("sent/summary.json")).unwrap();

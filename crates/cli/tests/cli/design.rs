@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, run_in, succeed_in};
+use crate::common::{expect_failure, files_below, run_in, run_successfully};
 use serde_json::Value;
 
 fn repository() -> &'static Path {
@@ -15,11 +15,11 @@ fn repository() -> &'static Path {
 fn check_prints_the_card_as_text_and_json() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("camera.toml"), "[region]\nsize = 16\n").unwrap();
-    let text = succeed_in(dir.path(), &["check", "camera.toml"]);
+    let text = run_successfully(dir.path(), &["check", "camera.toml"]);
     for part in ["14 x 14 = 196 regions of 16x16", "cycles per frame  256", "edge_score_o"] {
         assert!(text.contains(part), "{text}");
     }
-    let json = succeed_in(dir.path(), &["check", "--config", "camera.toml", "--json"]);
+    let json = run_successfully(dir.path(), &["check", "--config", "camera.toml", "--json"]);
     let card: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(card["format_version"], 2);
     assert_eq!(card["grid"]["regions"], 196);
@@ -32,33 +32,33 @@ fn check_prints_the_card_as_text_and_json() {
 fn a_periphery_is_checked_and_generated() {
     let dir = tempfile::tempdir().unwrap();
     let fovea = ["--preset", "fovea", "--set", "frame={width=32,height=24}"];
-    let text = succeed_in(dir.path(), &[&["check"], &fovea[..]].concat());
+    let text = run_successfully(dir.path(), &[&["check"], &fovea[..]].concat());
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let line = "periphery the means of 2x2 blocks of 4x4 pixels where SRS is 0, sent again when one differs by more than 4";
     assert!(words.contains(line), "{text}");
-    assert!(!succeed_in(dir.path(), &["check"]).contains("periphery"));
+    assert!(!run_successfully(dir.path(), &["check"]).contains("periphery"));
 
     let json = [&["generate", "--json", "-o", "core"], &fovea[..]].concat();
-    let core: Value = serde_json::from_str(&succeed_in(dir.path(), &json)).unwrap();
+    let core: Value = serde_json::from_str(&run_successfully(dir.path(), &json)).unwrap();
     for bench in core["benches"].as_array().unwrap() {
         let count = |key: &str| bench[key].as_u64().unwrap();
         assert!(0 < count("summaries") && count("summaries") < count("blank"), "{bench}");
     }
     let plain = ["generate", "--json", "-o", "plain", "--set", "frame={width=32,height=24}"];
-    let core: Value = serde_json::from_str(&succeed_in(dir.path(), &plain)).unwrap();
+    let core: Value = serde_json::from_str(&run_successfully(dir.path(), &plain)).unwrap();
     assert!(core["benches"][0].get("summaries").is_none());
 
     for organization in ["serial", "raster"] {
         let key = format!("hardware.organization=\"{organization}\"");
         let asked = [&["check", "--set", &key], &fovea[..]].concat();
-        assert!(succeed_in(dir.path(), &asked).contains("periphery"), "{organization}");
+        assert!(run_successfully(dir.path(), &asked).contains("periphery"), "{organization}");
     }
 }
 
 #[test]
 fn check_tells_how_fast_each_organization_is() {
     let dir = tempfile::tempdir().unwrap();
-    let check = |args: &[&str]| succeed_in(dir.path(), &[&["check"], args].concat());
+    let check = |args: &[&str]| run_successfully(dir.path(), &[&["check"], args].concat());
     let json = |args: &[&str]| -> Value {
         serde_json::from_str(&check(&[args, &["--json"]].concat())).unwrap()
     };
@@ -104,7 +104,7 @@ fn check_tells_how_fast_each_organization_is() {
 #[test]
 fn check_without_a_clock_says_which_one_a_rate_needs() {
     let dir = tempfile::tempdir().unwrap();
-    let check = |args: &[&str]| succeed_in(dir.path(), &[&["check"], args].concat());
+    let check = |args: &[&str]| run_successfully(dir.path(), &[&["check"], args].concat());
     let text = check(&["--preset", "serial"]);
     assert!(text.contains("7905 clocks per frame; 1000 frames/s need a clock of 7.905 MHz\n"));
     assert!(!text.contains("frames/s at") && !text.contains("proposal"), "{text}");
@@ -118,9 +118,9 @@ fn check_without_a_clock_says_which_one_a_rate_needs() {
     assert_eq!(card["needs"], serde_json::json!({"frames_per_second": 29.97, "clock_hz": 1919}));
     assert!(card.get("rate").is_none() && card.get("proposal").is_none());
     // The exit code alone would have no meaning.
-    fail_in(dir.path(), 2, &[&["check", "--quiet"], &asked[..]].concat(), &["give --clock"]);
+    expect_failure(dir.path(), 2, &[&["check", "--quiet"], &asked[..]].concat(), &["give --clock"]);
     let given = [&["check", "--quiet", "--clock", "2kHz"], &asked[..]].concat();
-    assert_eq!(succeed_in(dir.path(), &given), "");
+    assert_eq!(run_successfully(dir.path(), &given), "");
 }
 
 #[test]
@@ -128,23 +128,23 @@ fn check_proposes_the_largest_fold_that_reaches_a_rate() {
     let dir = tempfile::tempdir().unwrap();
     let ask =
         |fps| ["check", "--preset", "serial", "--min-fps", fps, "--clock", "250MHz", "--json"];
-    let card: Value = serde_json::from_str(&succeed_in(dir.path(), &ask("1000"))).unwrap();
+    let card: Value = serde_json::from_str(&run_successfully(dir.path(), &ask("1000"))).unwrap();
     let proposal = &card["proposal"];
     assert_eq!((&proposal["reached"], &proposal["lanes"]), (&true.into(), &21.into()));
     assert_eq!((&proposal["fold"], &proposal["cycles_per_frame"]), (&38.into(), &244797.into()));
-    let text = succeed_in(dir.path(), &ask("1000")[..7]);
+    let text = run_successfully(dir.path(), &ask("1000")[..7]);
     assert!(text.contains("fold 38 for 1000 frames/s: 21 lanes"), "{text}");
     // The design itself reaches 250 MHz / 7905 = 31,625.5 frames per second, and no fold is faster.
     let none = ["no fold reaches 31626 frames/s", "fold 1 is the fastest", "7905 clocks per frame"];
-    fail_in(dir.path(), 1, &ask("31626")[..7], &none);
-    succeed_in(dir.path(), &ask("31625.5"));
+    expect_failure(dir.path(), 1, &ask("31626")[..7], &none);
+    run_successfully(dir.path(), &ask("31625.5"));
     // A pipelined design reaches 250 MHz / 64 = 3,906,250 frames per second.
     let pipelined = |rate| ["check", "--preset", "bare", "--clock", "250MHz", "--min-fps", rate];
-    let text = succeed_in(dir.path(), &pipelined("3906250"));
+    let text = run_successfully(dir.path(), &pipelined("3906250"));
     assert!(text.contains("3906250 frames/s are reached: 64 clocks per frame"), "{text}");
     let slow = ["3906251 frames/s are not reached", "3906250 frames/s at 250 MHz", "faster clock"];
-    fail_in(dir.path(), 1, &pipelined("3906251"), &slow);
-    let json = succeed_in(dir.path(), &[&pipelined("1000")[..], &["--json"]].concat());
+    expect_failure(dir.path(), 1, &pipelined("3906251"), &slow);
+    let json = run_successfully(dir.path(), &[&pipelined("1000")[..], &["--json"]].concat());
     let card: Value = serde_json::from_str(&json).unwrap();
     let proposal = &card["proposal"];
     assert_eq!((&proposal["reached"], &proposal["fold"]), (&true.into(), &1.into()));
@@ -179,7 +179,7 @@ fn wrong_configurations_end_with_2_and_one_line() {
     write("range.toml", "[region]\nsize = 65\n");
     write("syntax.toml", "[region\n");
     write("clash.toml", "[[spatial]]\nfeature = \"mad\"\nlevel = 3\n");
-    let fail = |args: &[&str], parts: &[&str]| fail_in(dir.path(), 2, args, parts);
+    let fail = |args: &[&str], parts: &[&str]| expect_failure(dir.path(), 2, args, parts);
     fail(&["check", "unknown.toml"], &["unknown.toml", "`region.siez`", "`region.size`"]);
     fail(&["check", "type.toml"], &["type.toml", "`region.size`", "a whole number, 2..=64"]);
     fail(&["check", "range.toml"], &["`region.size` = 65", "2..=64"]);
@@ -199,21 +199,21 @@ fn usage_errors_end_with_2() {
     for args in [&["frobnicate"][..], &["generate"], &["cosim", "--grid", "0x3"], &["simulate"]] {
         assert_eq!(run_in(dir.path(), args).code, 2, "{args:?}");
     }
-    fail_in(dir.path(), 2, &["cosim", "--grid", "2x2"], &["--level rcm"]);
+    expect_failure(dir.path(), 2, &["cosim", "--grid", "2x2"], &["--level rcm"]);
 }
 
 #[test]
 fn every_preset_is_a_file_that_check_takes() {
     let dir = tempfile::tempdir().unwrap();
     let list: Value =
-        serde_json::from_str(&succeed_in(dir.path(), &["presets", "--json"])).unwrap();
+        serde_json::from_str(&run_successfully(dir.path(), &["presets", "--json"])).unwrap();
     for preset in list["entries"].as_array().unwrap() {
         let name = preset["name"].as_str().unwrap();
-        fs::write(dir.path().join("p.toml"), succeed_in(dir.path(), &["presets", name])).unwrap();
-        let from_file = succeed_in(dir.path(), &["check", "p.toml"]);
-        assert_eq!(from_file, succeed_in(dir.path(), &["check", "--preset", name]), "{name}");
+        fs::write(dir.path().join("p.toml"), run_successfully(dir.path(), &["presets", name])).unwrap();
+        let from_file = run_successfully(dir.path(), &["check", "p.toml"]);
+        assert_eq!(from_file, run_successfully(dir.path(), &["check", "--preset", name]), "{name}");
     }
-    assert!(succeed_in(dir.path(), &["presets", "--scenes"]).contains("street"));
+    assert!(run_successfully(dir.path(), &["presets", "--scenes"]).contains("street"));
 }
 
 /// A preset as a file has every key that a user can change, and the size of its frames if it has
@@ -233,7 +233,7 @@ fn every_preset_has_every_key_and_the_right_size() {
     ];
     for preset in foveate_design::PRESETS {
         let name = preset.name;
-        let text = succeed_in(dir.path(), &["presets", name]);
+        let text = run_successfully(dir.path(), &["presets", name]);
         for (key, value) in values {
             let set = format!("{key}={value}");
             let is_taken = run_in(dir.path(), &["check", "-p", name, "--set", &set]).code == 0;
@@ -255,7 +255,7 @@ fn check_names_the_organization() {
         ("serial", "organization      serial, parallel feed, fold 1\n"),
         ("raster", "organization      raster, 1 pixel per clock, plain pipelining, block store,\n"),
     ] {
-        let text = succeed_in(dir.path(), &["check", "--preset", preset]);
+        let text = run_successfully(dir.path(), &["check", "--preset", preset]);
         assert!(text.contains(words), "{text}");
     }
 }
@@ -264,14 +264,14 @@ fn check_names_the_organization() {
 fn completions_name_the_commands() {
     let dir = tempfile::tempdir().unwrap();
     for shell in ["bash", "zsh", "fish"] {
-        assert!(succeed_in(dir.path(), &["completions", shell]).contains("cosim"));
+        assert!(run_successfully(dir.path(), &["completions", shell]).contains("cosim"));
     }
 }
 
 #[test]
 fn there_is_a_manual_page_for_each_command() {
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &["man", "-o", "man/man1"]);
+    run_successfully(dir.path(), &["man", "-o", "man/man1"]);
     let page = |name: &str| fs::read_to_string(dir.path().join("man/man1").join(name)).unwrap();
     let main = page("foveate.1");
     let names: Vec<&str> = main
@@ -284,7 +284,7 @@ fn there_is_a_manual_page_for_each_command() {
     }
     assert_eq!(fs::read_dir(dir.path().join("man/man1")).unwrap().count(), names.len() + 1);
     fs::write(dir.path().join("file"), "").unwrap();
-    fail_in(dir.path(), 2, &["man", "-o", "file"], &["cannot make the folder `file`"]);
+    expect_failure(dir.path(), 2, &["man", "-o", "file"], &["cannot make the folder `file`"]);
 }
 
 /// The cores are regenerated with the commands in CONTRIBUTING.md under "Change what is generated".
@@ -303,7 +303,7 @@ fn the_committed_cores_are_not_stale() {
         let command = format!("generate {} -o rtl/generated/{folder} --force", options.join(" "));
         assert!(contributing.contains(&command), "{command}");
         let dir = tempfile::tempdir().unwrap();
-        succeed_in(dir.path(), &[&["generate", "-o", "core"], options].concat());
+        run_successfully(dir.path(), &[&["generate", "-o", "core"], options].concat());
         let fresh = files_below(&dir.path().join("core"));
         let committed = files_below(&repository().join("rtl/generated").join(folder));
         assert_eq!(names(&fresh), names(&committed), "{folder}");
@@ -317,19 +317,19 @@ fn the_committed_cores_are_not_stale() {
 #[test]
 fn generated_folders_are_whole_or_absent() {
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &["generate", "-o", "a/core"]);
-    succeed_in(dir.path(), &["generate", "-o", "b"]);
+    run_successfully(dir.path(), &["generate", "-o", "a/core"]);
+    run_successfully(dir.path(), &["generate", "-o", "b"]);
     assert_eq!(files_below(&dir.path().join("a/core")), files_below(&dir.path().join("b")));
 
-    fail_in(dir.path(), 2, &["generate", "-o", "b"], &["`b`", "--force"]);
-    succeed_in(dir.path(), &["generate", "-o", "b", "--force", "--set", "region.size=16"]);
+    expect_failure(dir.path(), 2, &["generate", "-o", "b"], &["`b`", "--force"]);
+    run_successfully(dir.path(), &["generate", "-o", "b", "--force", "--set", "region.size=16"]);
     assert!(fs::read_to_string(dir.path().join("b/design.toml")).unwrap().contains("size = 16"));
 
     fs::create_dir(dir.path().join("mine")).unwrap();
     fs::write(dir.path().join("mine/thesis.tex"), "years of work").unwrap();
-    fail_in(dir.path(), 2, &["generate", "-o", "mine", "--force"], &["`mine`"]);
+    expect_failure(dir.path(), 2, &["generate", "-o", "mine", "--force"], &["`mine`"]);
     assert_eq!(files_below(&dir.path().join("mine")).len(), 1);
-    fail_in(dir.path(), 2, &["generate", "-o", "mine/thesis.tex/core"], &["mine/thesis.tex"]);
+    expect_failure(dir.path(), 2, &["generate", "-o", "mine/thesis.tex/core"], &["mine/thesis.tex"]);
     let left: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(left.len(), 3, "nothing half-written is left: {left:?}");
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, run_in, succeed_in};
+use crate::common::{expect_failure, files_below, run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
@@ -24,7 +24,7 @@ fn folder_with_space() -> tempfile::TempDir {
 #[test]
 fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     let dir = folder_with_space();
-    let printed = succeed_in(dir.path(), &RUN);
+    let printed = run_successfully(dir.path(), &RUN);
     assert!(printed.starts_with("4 points, "), "{printed}");
     assert!(printed.contains("1 combinations are no design"), "{printed}");
     let before = files_below(&dir.path().join("out"));
@@ -35,15 +35,15 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     {
         assert!(names.iter().any(|path| path.ends_with(name)), "{name} in {names:?}");
     }
-    succeed_in(dir.path(), &RUN);
+    run_successfully(dir.path(), &RUN);
     assert_eq!(files_below(&dir.path().join("out")), before);
-    let json = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
+    let json = run_successfully(dir.path(), &[&RUN[..], &["--json"]].concat());
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["rows"][3]["figures"]["action_flips"], 0.0);
     // Nothing is synthesized, so that no clock is known unless the space gives one.
     assert!(json["rows"][3]["speed"].is_null() && json["clock_mhz"].is_null(), "{json}");
     fs::write(dir.path().join("space.toml"), format!("clock_mhz = 50\n{SPACE}")).unwrap();
-    let given = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
+    let given = run_successfully(dir.path(), &[&RUN[..], &["--json"]].concat());
     let given: serde_json::Value = serde_json::from_str(&given).unwrap();
     let row = &given["rows"][0];
     let rate = 50e6 / row["clocks_per_frame"].as_f64().unwrap();
@@ -52,15 +52,15 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
         (&rate.into(), &false.into())
     );
     fs::write(dir.path().join("space.toml"), SPACE).unwrap();
-    let markdown = succeed_in(dir.path(), &[&RUN[..], &["--markdown"]].concat());
+    let markdown = run_successfully(dir.path(), &[&RUN[..], &["--markdown"]].concat());
     assert!(markdown.contains("| frame.pixel_bits = 6 |"), "{markdown}");
-    succeed_in(dir.path(), &["check", "out/designs/2.toml"]);
+    run_successfully(dir.path(), &["check", "out/designs/2.toml"]);
 }
 
 #[test]
 fn the_page_carries_every_configuration_and_loads_nothing() {
     let dir = folder_with_space();
-    succeed_in(dir.path(), &RUN);
+    run_successfully(dir.path(), &RUN);
     let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
     assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<svg"));
     assert!(page.matches("pixel_bits = 4").count() > 0);
@@ -76,14 +76,14 @@ fn quiet_is_quiet() {
     let run = run_in(dir.path(), &quiet);
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
     assert!(dir.path().join("out/report.html").exists());
-    let json = succeed_in(dir.path(), &[&quiet[..], &["--json"]].concat());
+    let json = run_successfully(dir.path(), &[&quiet[..], &["--json"]].concat());
     assert!(json.starts_with('{'), "{json}");
 }
 
 #[test]
 fn mistakes_are_one_line() {
     let dir = folder_with_space();
-    let wrong = |args: &[&str], parts: &[&str]| fail_in(dir.path(), 2, args, parts);
+    let wrong = |args: &[&str], parts: &[&str]| expect_failure(dir.path(), 2, args, parts);
     wrong(
         &["explore", "spaces", "scene:street", "-o", "x"],
         &["`spaces`", "approximations and designs"],
@@ -125,9 +125,9 @@ fn mistakes_are_one_line() {
 #[test]
 fn spaces_are_listed_and_printed() {
     let dir = tempfile::tempdir().unwrap();
-    let list = succeed_in(dir.path(), &["explore", "--list"]);
+    let list = run_successfully(dir.path(), &["explore", "--list"]);
     assert_eq!(list.lines().count(), 3, "{list}");
-    let file = succeed_in(dir.path(), &["explore", "designs", "--print"]);
+    let file = run_successfully(dir.path(), &["explore", "designs", "--print"]);
     assert!(file.contains("[vary]"), "{file}");
 }
 
@@ -153,7 +153,7 @@ fn what_fit_finds_can_be_generated() {
     for part in ["fitted: ", "held out: ", "Why:", "found.toml. To build it: "] {
         assert!(found.stdout.contains(part), "{part} in {}", found.stdout);
     }
-    succeed_in(dir.path(), &["generate", "--config", "found.toml", "-o", "core"]);
+    run_successfully(dir.path(), &["generate", "--config", "found.toml", "-o", "core"]);
     assert!(Path::new(&dir.path().join("core/rtl/rcm.v")).exists());
     let limits = ["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz", "--max-lut", "2"];
     let none = fit(&limits);

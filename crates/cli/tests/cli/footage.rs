@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{fail_in, foveate, run_in};
+use crate::common::{expect_failure, foveate, run_in};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{data_folder, require_tools};
 
@@ -18,7 +18,7 @@ fn ffmpeg(folder: &Path, args: &str) {
 }
 
 /// Returns the messages on standard error of a run that succeeds.
-fn said(folder: &Path, args: &[&str]) -> String {
+fn messages(folder: &Path, args: &[&str]) -> String {
     let _ = fs::remove_dir_all(folder.join("out"));
     let outcome = run_in(folder, &[args, &["-o", "out", "--quiet"]].concat());
     assert_eq!(outcome.code, 0, "{args:?}: {}", outcome.stderr);
@@ -59,13 +59,13 @@ fn what_is_no_video_is_not_to_be_played() {
         ("rtmp://camera/1", &["`rtmp://camera/1` is a URL", "RTSP"]),
         ("missing.mp4", &["`missing.mp4` does not exist"]),
     ] {
-        fail_in(dir.path(), 2, &["simulate", input, "-o", "out"], parts);
+        expect_failure(dir.path(), 2, &["simulate", input, "-o", "out"], parts);
         let outcome = run_in(dir.path(), &["simulate", input, "-o", "out"]);
         assert!(!outcome.stderr.contains("play it"), "{}", outcome.stderr);
         assert!(!outcome.stderr.contains("secret"), "{}", outcome.stderr);
     }
     // An input that claims to be a video may be a damaged one.
-    fail_in(dir.path(), 2, &["simulate", "broken.mp4", "-o", "out"], &["broken.mp4", "play it"]);
+    expect_failure(dir.path(), 2, &["simulate", "broken.mp4", "-o", "out"], &["broken.mp4", "play it"]);
 }
 
 #[test]
@@ -96,25 +96,25 @@ fn images_and_videos_side_by_side_are_a_question() {
     for command in ["simulate", "analyze temporal"] {
         let command: Vec<&str> = command.split(' ').collect();
         let args = [&command[..], &["mixed", "-o", "out"]].concat();
-        fail_in(dir.path(), 2, &args, &[&parts[..], &["`mixed` holds images and videos"]].concat());
+        expect_failure(dir.path(), 2, &args, &[&parts[..], &["`mixed` holds images and videos"]].concat());
     }
     let pattern = [&parts[..], &["`mixed/*` holds images and videos"]].concat();
-    fail_in(dir.path(), 2, &["simulate", "mixed/*", "-o", "out"], &pattern);
+    expect_failure(dir.path(), 2, &["simulate", "mixed/*", "-o", "out"], &pattern);
     let videos = ["`mixed/*.mp4` matches videos", "leave the quotation marks out"];
-    fail_in(dir.path(), 2, &["simulate", "mixed/*.mp4", "-o", "out"], &videos);
-    assert_eq!(said(dir.path(), &["simulate", "mixed/*.png"]), "");
-    let set = said(dir.path(), &["dataset", "mixed"]);
+    expect_failure(dir.path(), 2, &["simulate", "mixed/*.mp4", "-o", "out"], &videos);
+    assert_eq!(messages(dir.path(), &["simulate", "mixed/*.png"]), "");
+    let set = messages(dir.path(), &["dataset", "mixed"]);
     assert!(
         set.contains("warning: a set consists of images: videos in `mixed`, 1 in all"),
         "{set}"
     );
     fs::remove_file(dir.path().join("mixed/clip.mp4")).unwrap();
-    let clip = said(dir.path(), &["simulate", "mixed"]);
+    let clip = messages(dir.path(), &["simulate", "mixed"]);
     assert!(
         clip.contains("warning: images and videos in folders below `mixed`, such as `mixed/cat`"),
         "{clip}"
     );
-    assert_eq!(said(dir.path(), &["dataset", "mixed"]), "");
+    assert_eq!(messages(dir.path(), &["dataset", "mixed"]), "");
 }
 
 #[test]
@@ -127,25 +127,25 @@ fn an_animated_png_is_a_clip() {
     ffmpeg(dir.path(), "-f lavfi -i testsrc2=size=64x48:rate=10:duration=0.5 frames/%d.png");
     ffmpeg(dir.path(), "-framerate 10 -i frames/%d.png -f apng moving.png");
     let scores = |input: &str| {
-        assert_eq!(said(dir.path(), &["simulate", input, "--rate", "10"]), "");
+        assert_eq!(messages(dir.path(), &["simulate", input, "--rate", "10"]), "");
         fs::read(dir.path().join("out/score_edge.npy")).unwrap()
     };
     // The clip has all five frames, with the same pixels as the pictures.
     assert_eq!(scores("moving.png"), scores("frames"));
     fs::copy(dir.path().join("moving.png"), dir.path().join("frames/6.png")).unwrap();
     let parts = ["`frames/6.png` is an animated PNG", "on its own"];
-    fail_in(dir.path(), 2, &["simulate", "frames", "-o", "no"], &parts);
-    fail_in(dir.path(), 2, &["dataset", "frames", "-o", "no"], &parts);
+    expect_failure(dir.path(), 2, &["simulate", "frames", "-o", "no"], &parts);
+    expect_failure(dir.path(), 2, &["dataset", "frames", "-o", "no"], &parts);
 }
 
 #[test]
-fn images_without_their_labels_are_told() {
+fn images_without_labels_are_reported() {
     let dir = tempfile::tempdir().unwrap();
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let images: Vec<u8> = header.into_iter().chain(vec![9; 512]).collect();
     fs::write(dir.path().join("t10k-images-idx3-ubyte"), images).unwrap();
     for command in ["simulate", "dataset"] {
-        let said = said(dir.path(), &[command, "t10k-images-idx3-ubyte"]);
+        let said = messages(dir.path(), &[command, "t10k-images-idx3-ubyte"]);
         for part in
             ["warning: ", "no file of labels beside it (t10k-labels-idx1-ubyte)", "--labels"]
         {
@@ -154,12 +154,12 @@ fn images_without_their_labels_are_told() {
     }
     let labels = "t10k-labels-idx1-ubyte";
     fs::write(dir.path().join(labels), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
-    assert_eq!(said(dir.path(), &["dataset", "t10k-images-idx3-ubyte"]), "");
+    assert_eq!(messages(dir.path(), &["dataset", "t10k-images-idx3-ubyte"]), "");
     // Labels for inputs that cannot have labels used to be ignored.
     pgm(&dir.path().join("a.pgm"), (16, 16), |x, _| x.to_le_bytes()[0]);
     for input in ["a.pgm", "scene:street"] {
         let args = ["simulate", input, "--labels", labels, "-o", "no"];
-        fail_in(dir.path(), 2, &args, &["--labels", labels, "IDX"]);
+        expect_failure(dir.path(), 2, &args, &["--labels", labels, "IDX"]);
     }
 }
 
@@ -179,7 +179,7 @@ fn every_command_that_reads_clips_says_what_it_leaves_out() {
         &["analyze", "temporal", "clip"],
         &["explore", "space.toml", "clip", "--no-area"],
     ] {
-        let said = said(dir.path(), args);
+        let said = messages(dir.path(), args);
         assert!(said.starts_with(warning) && said.lines().count() == 1, "{args:?}: {said}");
     }
     // The warning comes before the search for tools.
@@ -200,28 +200,28 @@ fn a_sheet_is_told_from_a_photograph() {
             [0]
     });
     pgm(&dir.path().join("photo.pgm"), (1024, 40), |x, y| ((x / 5 + y * 2) % 256).to_le_bytes()[0]);
-    let warned = said(dir.path(), &["simulate", "sheet.pgm"]);
+    let warned = messages(dir.path(), &["simulate", "sheet.pgm"]);
     assert!(warned.contains("`sheet.pgm` looks like a CIFAR sheet"), "{warned}");
-    assert_eq!(said(dir.path(), &["simulate", "photo.pgm"]), "");
+    assert_eq!(messages(dir.path(), &["simulate", "photo.pgm"]), "");
     let sheet = ["--images", "cifar-sheet"];
-    assert_eq!(said(dir.path(), &[&["simulate", "sheet.pgm"], &sheet[..]].concat()), "");
-    let warned = said(dir.path(), &[&["simulate", "photo.pgm"], &sheet[..]].concat());
+    assert_eq!(messages(dir.path(), &[&["simulate", "sheet.pgm"], &sheet[..]].concat()), "");
+    let warned = messages(dir.path(), &[&["simulate", "photo.pgm"], &sheet[..]].concat());
     assert!(warned.contains("`photo.pgm` looks like a photograph"), "{warned}");
 }
 
 /// This test uses real sheets, if the environment variable FOVEATE_DATA names their folder.
 #[test]
-fn a_real_sheet_is_told() {
+fn a_real_sheet_is_recognized() {
     let Some(data) = data_folder() else { return };
     let dir = tempfile::tempdir().unwrap();
     let sheet = data.join("cifar10/cifar10_batch_0.png");
     let sheet = sheet.to_str().unwrap();
-    assert!(said(dir.path(), &["simulate", sheet]).contains("looks like a CIFAR sheet"));
+    assert!(messages(dir.path(), &["simulate", sheet]).contains("looks like a CIFAR sheet"));
     assert_eq!(
-        said(dir.path(), &["simulate", sheet, "--images", "cifar-sheet", "--frames", "9"]),
+        messages(dir.path(), &["simulate", sheet, "--images", "cifar-sheet", "--frames", "9"]),
         ""
     );
     let photo = data.join("mosquito/aedes");
     let args = ["simulate", photo.to_str().unwrap(), "--frames", "1", "--resize", "64x64"];
-    assert_eq!(said(dir.path(), &args), "");
+    assert_eq!(messages(dir.path(), &args), "");
 }

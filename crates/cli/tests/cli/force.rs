@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::common::{fail_in, files_below, succeed_in};
+use crate::common::{expect_failure, files_below, run_successfully};
 
 #[test]
 fn a_folder_with_files_of_others_is_not_replaced() {
@@ -19,22 +19,22 @@ fn a_folder_with_files_of_others_is_not_replaced() {
     ] {
         let again = [command, &["--force", "--quiet"]].concat();
         let out = dir.path().join("out");
-        assert_ne!(succeed_in(dir.path(), command), "");
-        fail_in(dir.path(), 2, command, &["`out` is not empty"]);
+        assert_ne!(run_successfully(dir.path(), command), "");
+        expect_failure(dir.path(), 2, command, &["`out` is not empty"]);
         // Quiet commands print nothing.
-        assert_eq!(succeed_in(dir.path(), &again), "", "{command:?}");
+        assert_eq!(run_successfully(dir.path(), &again), "", "{command:?}");
         fs::create_dir_all(out.join("rendered")).unwrap();
         for name in ["notes.txt", "rendered/cover.png"] {
             fs::write(out.join(name), "mine").unwrap();
         }
         let before = files_below(&out);
-        fail_in(dir.path(), 2, &again, &["`out`", "notes.txt, rendered/cover.png", "move them"]);
+        expect_failure(dir.path(), 2, &again, &["`out`", "notes.txt, rendered/cover.png", "move them"]);
         assert_eq!(files_below(&out), before, "{command:?}");
         for name in ["notes.txt", "rendered/cover.png", ".foveate"] {
             fs::remove_file(out.join(name)).unwrap();
         }
         // A folder without a list of its files looks as older versions wrote it.
-        fail_in(dir.path(), 2, &again, &["`out`", "no list", "move what is in it"]);
+        expect_failure(dir.path(), 2, &again, &["`out`", "no list", "move what is in it"]);
         fs::remove_dir_all(&out).unwrap();
     }
 }

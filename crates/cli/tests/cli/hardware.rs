@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{fail_in, foveate, run_in, succeed_in};
+use crate::common::{expect_failure, foveate, run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{data_folder, require_tools};
 use serde_json::Value;
@@ -27,14 +27,14 @@ fn model_and_rtl_agree_in_both_simulators() {
     for simulator in ["verilator", "iverilog"] {
         let args =
             ["cosim", "scene:street", "--preset", "bare", "--simulator", simulator, "--json"];
-        let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+        let summary: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();
         assert_eq!((&summary["format_version"], &summary["passed"]), (&2.into(), &true.into()));
         let report = &summary["runs"][0];
         assert!(report["mismatch"].is_null());
         assert!(report["comparisons"].as_u64().unwrap() > 100_000);
         assert_eq!(report["rtl_sha256"].as_str().unwrap().len(), 64);
     }
-    let text = succeed_in(
+    let text = run_successfully(
         dir.path(),
         &["cosim", "--level", "rcm", "--grid", "3x2", "--simulator", "iverilog"],
     );
@@ -53,7 +53,7 @@ fn real_images_agree() {
     let dir = tempfile::tempdir().unwrap();
     let folder = data.join("mosquito/culex");
     let args = ["cosim", folder.to_str().unwrap(), "--rounds", "0", "--json"];
-    let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let summary: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();
     let report = &summary["runs"][0];
     assert!(report["mismatch"].is_null());
     assert_eq!((&report["sequences"], &report["frames"]), (&784.into(), &(2 * 784).into()));
@@ -66,7 +66,7 @@ fn edited_verilog_is_caught_and_replayed() {
     }
     let dir = tempfile::tempdir().unwrap();
     let args = ["generate", "--preset", "bare", "-o", "core"];
-    succeed_in(dir.path(), &args);
+    run_successfully(dir.path(), &args);
     let cosim = |extra: &[&str]| {
         let args = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl"];
         run_in(dir.path(), &[&args[..], extra].concat())
@@ -108,7 +108,7 @@ fn the_whole_folder_is_simulated() {
         let frame = "frame={width=20,height=16}";
         let design =
             ["--preset", "bare", "--set", "region.size=4", "--set", frame, "--set", &organization];
-        succeed_in(dir.path(), &[&["generate", "-o", &core][..], &design].concat());
+        run_successfully(dir.path(), &[&["generate", "-o", &core][..], &design].concat());
         let (toml, rtl) = (format!("{core}/design.toml"), format!("{core}/rtl"));
         let cosim = |extra: &[&str]| {
             let args = ["cosim", "--config", &toml, "--rtl", &rtl, "--simulator", "iverilog"];
@@ -164,9 +164,9 @@ fn verilog_that_does_not_fit_is_refused() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &["generate", "--preset", "bare", "-o", "core"]);
+    run_successfully(dir.path(), &["generate", "--preset", "bare", "-o", "core"]);
     let other = ["cosim", "--preset", "mad", "--rtl", "core/rtl", "--simulator", "iverilog"];
-    fail_in(dir.path(), 2, &other, &["mad_min_i"]);
+    expect_failure(dir.path(), 2, &other, &["mad_min_i"]);
     edit(&dir.path().join("core/rtl/vote.v"), "assign vote_o", "asign vote_o");
     let same = ["cosim", "--preset", "bare", "--rtl", "core/rtl"];
     let outcome = run_in(dir.path(), &same);
@@ -175,10 +175,10 @@ fn verilog_that_does_not_fit_is_refused() {
     assert_eq!(run_in(dir.path(), &[&same[..], &["--junit", "cosim.xml"]].concat()).code, 3);
     let junit = fs::read_to_string(dir.path().join("cosim.xml")).unwrap();
     assert!(junit.contains("<error") && junit.contains("vote.v"), "{junit}");
-    fail_in(dir.path(), 2, &["cosim", "--junit", "no/cosim.xml"], &["`no/cosim.xml`"]);
+    expect_failure(dir.path(), 2, &["cosim", "--junit", "no/cosim.xml"], &["`no/cosim.xml`"]);
     fs::create_dir(dir.path().join("empty")).unwrap();
-    fail_in(dir.path(), 2, &["cosim", "--rtl", "empty"], &["`empty`", "no .v file"]);
-    fail_in(dir.path(), 2, &["cosim", "--rtl", "missing"], &["`missing`"]);
+    expect_failure(dir.path(), 2, &["cosim", "--rtl", "empty"], &["`empty`", "no .v file"]);
+    expect_failure(dir.path(), 2, &["cosim", "--rtl", "missing"], &["`missing`"]);
 }
 
 /// File names appear in scripts of Yosys, which runs the text behind a `;` or a `!`.
@@ -186,7 +186,7 @@ fn verilog_that_does_not_fit_is_refused() {
 fn names_of_verilog_that_a_script_would_run_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     let canary = dir.path().join("canary");
-    succeed_in(dir.path(), &["generate", "--preset", "bare", "-o", "core"]);
+    run_successfully(dir.path(), &["generate", "--preset", "bare", "-o", "core"]);
     let rtl = dir.path().join("core/rtl");
     fs::write(rtl.join("a.v"), "module a; endmodule\n").unwrap();
     for name in [
@@ -223,7 +223,7 @@ fn a_replay_folder_that_is_not_one_is_refused_before_anything_runs() {
     let dir = tempfile::tempdir().unwrap();
     fs::create_dir(dir.path().join("mine")).unwrap();
     fs::write(dir.path().join("mine/thesis.tex"), "years of work").unwrap();
-    fail_in(dir.path(), 2, &["cosim", "--replay", "mine"], &["`mine`", "replay"]);
+    expect_failure(dir.path(), 2, &["cosim", "--replay", "mine"], &["`mine`", "replay"]);
 }
 
 /// An interrupt stops the compiler, too, and leaves no folder behind.
@@ -236,7 +236,7 @@ fn ctrl_c_stops_a_build() {
     let dir = tempfile::tempdir().unwrap();
     let temporary = dir.path().join("tmp");
     fs::create_dir(&temporary).unwrap();
-    let mut child = crate::common::listening()
+    let mut child = crate::common::foveate_with_signals()
         .args(["cosim", "--full", "--rounds", "0", "scene:street"])
         .current_dir(dir.path())
         .env("FOVEATE_CACHE", "off")
@@ -257,12 +257,12 @@ fn the_area_is_beside_the_papers() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let text = succeed_in(dir.path(), &["estimate", "--preset", "bare"]);
+    let text = run_successfully(dir.path(), &["estimate", "--preset", "bare"]);
     assert!(text.lines().all(|line| line.len() <= 80), "{text}");
     for part in ["Yosys estimate (Yosys ", "RCM, paper", "143,472", "edge_detector"] {
         assert!(text.contains(part), "{text}");
     }
-    let json = succeed_in(dir.path(), &["estimate", "--preset", "bare", "--json"]);
+    let json = run_successfully(dir.path(), &["estimate", "--preset", "bare", "--json"]);
     let report: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((&report["format_version"], &report["regions"]), (&1.into(), &784.into()));
     // The paper has 183 LUTs, of which 16 are memory, and 90 flip-flops. A pair of SRL16 shares a
@@ -283,7 +283,7 @@ fn the_area_of_a_raster_core_is_no_rpus() {
     let dir = tempfile::tempdir().unwrap();
     let frame = "frame={width=128,height=72}";
     let design = ["--preset", "bare", "--set", "hardware.organization='raster'", "--set", frame];
-    let text = succeed_in(dir.path(), &[&["estimate"], &design[..]].concat());
+    let text = run_successfully(dir.path(), &[&["estimate"], &design[..]].concat());
     for (part, is_there) in [
         ("Area of 144 regions, one core for all", true),
         ("\ncore ", true),
@@ -295,7 +295,7 @@ fn the_area_of_a_raster_core_is_no_rpus() {
     ] {
         assert_eq!(text.contains(part), is_there, "{part}: {text}");
     }
-    let json = succeed_in(dir.path(), &[&["estimate", "--json"], &design[..]].concat());
+    let json = run_successfully(dir.path(), &[&["estimate", "--json"], &design[..]].concat());
     let report: Value = serde_json::from_str(&json).unwrap();
     let leaves = report["leaves"].as_array().unwrap();
     let has = |leaf: &Value, parameter: &str| {
@@ -320,7 +320,7 @@ fn estimate_and_cosim_are_about_the_same_rtl() {
         let design =
             ["--preset", "bare", "--set", "region.size=4", "--set", "frame={width=8,height=4}"];
         let args = [command, &design[..], &["--json"]].concat();
-        serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap()
+        serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap()
     };
     let area = json(&["estimate"]);
     let rpu = &json(&["cosim", "--rounds", "1", "--netlist"])["runs"][0];
@@ -345,9 +345,9 @@ fn a_small_core_is_placed_and_routed() {
     let dir = tempfile::tempdir().unwrap();
     let small = ["--preset", "bare", "--set", "region.size=4", "--set", "frame={width=8,height=4}"];
     let place = ["estimate", "--place-and-route", "ecp5-25k,hx8k", "--seeds", "2"];
-    let text = succeed_in(dir.path(), &[&place[..], &small[..]].concat());
+    let text = run_successfully(dir.path(), &[&place[..], &small[..]].concat());
     assert!(text.lines().all(|line| line.len() <= 80), "{text}");
-    let json = succeed_in(dir.path(), &[&place[..], &small[..], &["--json"]].concat());
+    let json = run_successfully(dir.path(), &[&place[..], &small[..], &["--json"]].concat());
     let report: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(report["top"], "rpu");
     for (device, available) in [(0, 24_288), (1, 7_680)] {

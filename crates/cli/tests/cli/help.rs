@@ -7,13 +7,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{run_in, succeed_in};
+use crate::common::{run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
 /// The examples that are not run here. They take minutes or need what is not shipped, other tests
 /// cover them, and `examples` in the sources checks that the command line accepts them.
-const LONG: [&str; 18] = [
+const NOT_RUN: [&str; 18] = [
     "foveate build --board icebreaker",
     "foveate build --board ulx3s",
     "foveate cosim",
@@ -52,7 +52,7 @@ fn ffmpeg(folder: &Path, args: &str) {
 }
 
 /// Writes small files with the names that the examples use.
-fn furnish(folder: &Path) {
+fn write_example_inputs(folder: &Path) {
     for name in ["frames", "clips", "photos", "core"] {
         fs::create_dir(folder.join(name)).unwrap();
     }
@@ -65,11 +65,11 @@ fn furnish(folder: &Path) {
         fs::copy(folder.join(format!("frames/{from}.png")), folder.join(to)).unwrap();
     }
     fs::write(folder.join("gt.txt"), "2,1,9,9,64,64,1,1,1\n").unwrap();
-    succeed_in(folder, &["generate", "-o", "core", "--quiet"]);
+    run_successfully(folder, &["generate", "-o", "core", "--quiet"]);
     fs::copy(folder.join("core/design.toml"), folder.join("camera.toml")).unwrap();
     let sent =
         ["simulate", "street.mp4", "--packets", "--preset", "steady", "-o", "sent", "--quiet"];
-    succeed_in(folder, &sent);
+    run_successfully(folder, &sent);
     fs::rename(folder.join("sent/packets.bin"), folder.join("packets.bin")).unwrap();
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let idx: Vec<u8> = header.into_iter().chain((0..512_u32).map(|p| p.to_le_bytes()[0])).collect();
@@ -90,11 +90,11 @@ fn examples_run_as_they_stand() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    furnish(dir.path());
+    write_example_inputs(dir.path());
     let program = Path::new(env!("CARGO_BIN_EXE_foveate"));
     let path = std::env::var("PATH").unwrap();
     let path = format!("{}:{path}", program.parent().unwrap().display());
-    let help = succeed_in(dir.path(), &["--help"]);
+    let help = run_successfully(dir.path(), &["--help"]);
     let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let commands: Vec<&str> = commands
         .take_while(|line| !line.is_empty())
@@ -109,7 +109,7 @@ fn examples_run_as_they_stand() {
     for command in commands {
         let help = run_in(dir.path(), &[command, "--help"]).stdout;
         for example in examples(&help) {
-            if let Some(long) = LONG.iter().find(|long| example.starts_with(**long)) {
+            if let Some(long) = NOT_RUN.iter().find(|long| example.starts_with(**long)) {
                 left_out.insert(*long);
                 continue;
             }
@@ -129,5 +129,5 @@ fn examples_run_as_they_stand() {
         }
     }
     assert!(ran >= 17, "only {ran} examples were run");
-    assert_eq!(left_out, BTreeSet::from(LONG), "what is left out must be an example");
+    assert_eq!(left_out, BTreeSet::from(NOT_RUN), "what is left out must be an example");
 }

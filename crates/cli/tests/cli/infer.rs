@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, run_in, succeed_in};
+use crate::common::{expect_failure, files_below, run_in, run_successfully};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
@@ -30,7 +30,7 @@ fn run(folder: &Path, network: &str, frames: &str, more: &[&str]) -> Value {
         "--json",
         "--force",
     ];
-    serde_json::from_str(&succeed_in(folder, &[&args[..], more].concat())).unwrap()
+    serde_json::from_str(&run_successfully(folder, &[&args[..], more].concat())).unwrap()
 }
 
 #[test]
@@ -171,13 +171,13 @@ fn tuned_limits_keep_the_goal_where_they_were_chosen_and_save_more() {
 fn goals_that_say_nothing_are_named() {
     let dir = tempfile::tempdir().unwrap();
     let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--tune"];
-    let text = succeed_in(dir.path(), &[&args[..], &["cosine=0.9", "--max-frames", "4"]].concat());
+    let text = run_successfully(dir.path(), &[&args[..], &["cosine=0.9", "--max-frames", "4"]].concat());
     assert!(
         text.contains("outputs that never change after the first frame reach it as well"),
         "{text}"
     );
     let few = [&args[..], &["psnr=40", "--max-frames", "3", "--force"]].concat();
-    fail_in(dir.path(), 2, &few, &["it needs 4 frames; there are 3"]);
+    expect_failure(dir.path(), 2, &few, &["it needs 4 frames; there are 3"]);
 }
 
 #[test]
@@ -192,9 +192,9 @@ fn images_of_a_set_begin_with_black() {
     )
     .unwrap();
     let args = ["infer", DENOISER, "train-images", "-o", "out", "--force", "--reference"];
-    let tuned = succeed_in(dir.path(), &[&args[..6], &["--tune", "psnr=40"]].concat());
+    let tuned = run_successfully(dir.path(), &[&args[..6], &["--tune", "psnr=40"]].concat());
     assert!(tuned.contains("tuned      on 1 counted frame before these"), "{tuned}");
-    let text = succeed_in(dir.path(), &args);
+    let text = run_successfully(dir.path(), &args);
     assert!(text.contains("0 of 2 differ"), "{text}");
     let frames = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
     let needed: Vec<f64> = frames
@@ -211,7 +211,7 @@ fn what_does_not_fit_is_refused_with_what_would() {
     fs::write(dir.path().join("text.onnx"), "no network").unwrap();
     let infer = |network: &str, more: &[&str], parts: &[&str]| {
         let args = ["infer", network, "scene:zero", "-o", "out", "--max-frames", "2"];
-        fail_in(dir.path(), 2, &[&args[..], more].concat(), parts);
+        expect_failure(dir.path(), 2, &[&args[..], more].concat(), parts);
     };
     infer("text.onnx", &[], &["`text.onnx` is not an ONNX model"]);
     infer("none.onnx", &[], &["cannot read `none.onnx`"]);
@@ -253,7 +253,7 @@ fn accelerators_count_what_the_masks_save() {
     }
     let args = ["infer", DENOISER, "scene:street", "-o", "out", "--force", "--accelerator"];
     let infer =
-        |name: &str, parts: &[&str]| fail_in(dir.path(), 2, &[&args[..], &[name]].concat(), parts);
+        |name: &str, parts: &[&str]| expect_failure(dir.path(), 2, &[&args[..], &[name]].concat(), parts);
     infer("tpu", &["unknown accelerator `tpu`", "eyeriss"]);
     infer("none.toml", &["cannot read `none.toml`"]);
     fs::write(dir.path().join("odd.toml"), "clock_mhz = 0").unwrap();
@@ -262,7 +262,7 @@ fn accelerators_count_what_the_masks_save() {
 
 /// A bias that is not a number is named, and so is the first node whose outputs are not numbers.
 #[test]
-fn what_is_no_number_is_told() {
+fn values_that_are_not_numbers_are_reported() {
     let dir = tempfile::tempdir().unwrap();
     let mut model = fs::read(DENOISER).unwrap();
     // The field `raw_data` of 48 bytes is the bias of twelve channels.
@@ -270,7 +270,7 @@ fn what_is_no_number_is_told() {
     model[bias..bias + 4].copy_from_slice(&f32::NAN.to_le_bytes());
     fs::write(dir.path().join("odd.onnx"), model).unwrap();
     let args = ["infer", "odd.onnx", "scene:street", "-o", "out", "--max-frames", "3", "--json"];
-    let found: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let found: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();
     let warnings: Vec<_> = found["warnings"]
         .as_array()
         .unwrap()
@@ -293,19 +293,19 @@ fn what_is_no_number_is_told() {
 fn quiet_is_quiet() {
     let dir = tempfile::tempdir().unwrap();
     let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--max-frames", "1"];
-    assert_eq!(succeed_in(dir.path(), &[&args[..], &["--quiet"]].concat()), "");
-    let text = succeed_in(dir.path(), &[&args[..], &["--force"]].concat());
+    assert_eq!(run_successfully(dir.path(), &[&args[..], &["--quiet"]].concat()), "");
+    let text = run_successfully(dir.path(), &[&args[..], &["--force"]].concat());
     assert!(text.contains("the only frame was computed whole"), "{text}");
 }
 
 /// The loss of the network is printed, written and drawn. Options that do not fit are refused by
 /// name.
 #[test]
-fn what_the_network_loses_behind_the_camera_is_told() {
+fn the_loss_behind_the_camera_is_reported() {
     let dir = tempfile::tempdir().unwrap();
     let infer = ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "4", "--force"];
     let with = |more: &[&'static str]| [&infer[..], more].concat();
-    let text = succeed_in(dir.path(), &with(&["--whole-frames", "--preset", "fovea"]));
+    let text = run_successfully(dir.path(), &with(&["--whole-frames", "--preset", "fovea"]));
     for part in ["sent  ", " bytes per frame, ", "PSNR of what the receiver sees", "agreement  "] {
         assert!(text.contains(part), "{part} in {text}");
     }

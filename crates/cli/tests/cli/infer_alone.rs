@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, run_in, succeed_in};
+use crate::common::{expect_failure, run_in, run_successfully};
 use foveate_network::onnx::{
     AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, OperatorSetIdProto,
     TensorShapeProto, TensorTypeProto, TypeProto, ValueInfoProto,
@@ -70,7 +70,7 @@ fn output(path: &Path, count: usize) -> Vec<f32> {
 #[test]
 fn a_network_that_can_be_run_is_described() {
     let dir = tempfile::tempdir().unwrap();
-    let text = succeed_in(dir.path(), &["infer", DENOISER, "--check"]);
+    let text = run_successfully(dir.path(), &["infer", DENOISER, "--check"]);
     for line in [
         "denoiser.onnx: all 8 nodes can be run",
         "input      [1, 1, 224, 224], layout nchw",
@@ -80,7 +80,7 @@ fn a_network_that_can_be_run_is_described() {
     ] {
         assert!(text.contains(line), "{line} in {text}");
     }
-    let json = succeed_in(dir.path(), &["infer", DENOISER, "--check", "--json", "--resize", "8x6"]);
+    let json = run_successfully(dir.path(), &["infer", DENOISER, "--check", "--json", "--resize", "8x6"]);
     let json: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["network"]["input"], serde_json::json!([1, 1, 6, 8]));
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is written");
@@ -122,7 +122,7 @@ fn all_nodes_that_cannot_be_run_are_named_at_once() {
     assert!(text.contains("operators that can be run: Abs, Add, "), "{text}");
     assert!(done.stderr.contains("3 of the 5 nodes of `m.onnx` cannot be run"), "{}", done.stderr);
     let args = ["infer", "m.onnx", "scene:street", "-o", "out", "--resize", "4x4"];
-    fail_in(dir.path(), 2, &args, &["`foveate infer --check MODEL` lists all"]);
+    expect_failure(dir.path(), 2, &args, &["`foveate infer --check MODEL` lists all"]);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn arrays_take_the_place_of_a_clip() {
     let dir = tempfile::tempdir().unwrap();
     let picture: Vec<f32> = (0u8..48).map(|at| f32::from(at) / 48.0).collect();
     npy(&dir.path().join("x.npy"), "<f4", "1, 1, 6, 8", &floats(&picture));
-    let text = succeed_in(dir.path(), &["infer", DENOISER, "x.npy", "-o", "out"]);
+    let text = run_successfully(dir.path(), &["infer", DENOISER, "x.npy", "-o", "out"]);
     assert!(text.contains("output     clean float32 [1, 1, 6, 8] in outputs/clean.npy"), "{text}");
     let clean = output(&dir.path().join("out/outputs/clean.npy"), 48);
     assert!(
@@ -140,8 +140,8 @@ fn arrays_take_the_place_of_a_clip() {
     let summary = fs::read_to_string(dir.path().join("out/inference.json")).unwrap();
     let summary: Value = serde_json::from_str(&summary).unwrap();
     assert_eq!(summary["outputs"][0]["name"], "clean");
-    fail_in(dir.path(), 2, &["infer", DENOISER, "x.npy", "-o", "out"], &["out"]);
-    succeed_in(dir.path(), &["infer", DENOISER, "x.npy", "-o", "out", "--force", "--quiet"]);
+    expect_failure(dir.path(), 2, &["infer", DENOISER, "x.npy", "-o", "out"], &["out"]);
+    run_successfully(dir.path(), &["infer", DENOISER, "x.npy", "-o", "out", "--force", "--quiet"]);
 }
 
 /// The outputs have the types that the model declares, and the expected values are calculated by
@@ -163,7 +163,7 @@ fn every_input_has_its_array() {
     let many = [3i64, -(1 << 40)].map(i64::to_le_bytes).concat();
     npy(&dir.path().join("n.npy"), "<i8", "2,", &many);
     let args = ["infer", "m.onnx", "a.npy", "b.npy", "n.npy", "-o", "out"];
-    let text = succeed_in(dir.path(), &args);
+    let text = run_successfully(dir.path(), &args);
     assert!(text.contains("output     is_more bool [2, 3] in outputs/is_more.npy"), "{text}");
     let folder = dir.path().join("out/outputs");
     assert_eq!(output(&folder.join("product.npy"), 6), [2.0, 4.0, 1.5, 8.0, 10.0, 3.0]);
@@ -171,7 +171,7 @@ fn every_input_has_its_array() {
     let twice = [6i64, -(1 << 41)].map(i64::to_le_bytes).concat();
     assert!(fs::read(folder.join("twice.npy")).unwrap().ends_with(&twice));
     let few = [&args[..4], &["-o", "two"]].concat();
-    fail_in(dir.path(), 2, &few, &["it has 3 inputs (a, b, n), but 2 arrays are given"]);
+    expect_failure(dir.path(), 2, &few, &["it has 3 inputs (a, b, n), but 2 arrays are given"]);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn arrays_that_do_not_fit_are_refused() {
     };
     let says = |more: &[&str], text: &str| {
         let args = [&["infer", "m.onnx"], more, &["-o", "out"]].concat();
-        fail_in(dir.path(), 2, &args, &[text]);
+        expect_failure(dir.path(), 2, &args, &[text]);
         assert!(!dir.path().join("out").exists());
     };
     array("<f4", "1, 1, 2, 3", 24);
@@ -202,5 +202,5 @@ fn arrays_that_do_not_fit_are_refused() {
     says(&["x.npy", "--preset", "fovea"], "--preset has no meaning with arrays");
     says(&["x.npy", "--mode", "dense"], "--mode has no meaning with arrays");
     let odd = ["infer", "m.onnx", "--check", "--mode", "dense"];
-    fail_in(dir.path(), 2, &odd, &["--mode has no meaning with --check"]);
+    expect_failure(dir.path(), 2, &odd, &["--mode has no meaning with --check"]);
 }

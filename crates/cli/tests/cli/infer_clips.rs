@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::common::{fail_in, run_in, succeed_in};
+use crate::common::{expect_failure, run_in, run_successfully};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
@@ -21,7 +21,7 @@ fn stream(width: usize, height: usize, frames: usize) -> Vec<u8> {
 }
 
 #[test]
-fn clips_are_told_one_by_one_and_together() {
+fn each_clip_and_all_clips_are_reported() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("a.y4m"), stream(64, 48, 4)).unwrap();
     let mut cut = stream(64, 48, 6);
@@ -43,7 +43,7 @@ fn clips_are_told_one_by_one_and_together() {
     assert_eq!(found["configuration"]["frame"]["width"], 64);
     assert_eq!(found["design"].as_str().unwrap().len(), 16, "{}", found["design"]);
     assert_eq!((&found["clips"][1]["name"], &found["complete"]), (&"b".into(), &false.into()));
-    let tuned = succeed_in(
+    let tuned = run_successfully(
         dir.path(),
         &[
             "infer",
@@ -65,16 +65,16 @@ fn clips_are_told_one_by_one_and_together() {
 }
 
 #[test]
-fn clips_that_do_not_go_together_are_told_what_would() {
+fn clips_that_cannot_be_combined_are_refused_with_advice() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("a.y4m"), stream(64, 48, 3)).unwrap();
     fs::write(dir.path().join("b.y4m"), stream(48, 48, 3)).unwrap();
     let infer = |inputs: &[&str], parts: &[&str]| {
-        fail_in(dir.path(), 2, &[&["infer", DENOISER], inputs, &["-o", "out"]].concat(), parts);
+        expect_failure(dir.path(), 2, &[&["infer", DENOISER], inputs, &["-o", "out"]].concat(), parts);
     };
     infer(&["a.y4m", "b.y4m"], &["`a` has 64x48", "`b` has 48x48", "--resize", "--crop"]);
     infer(&["a.y4m", "-"], &["`-` can be read only once, so it must be the only input"]);
     infer(&["a.y4m", "none.mp4"], &["none.mp4"]);
     let args = ["infer", DENOISER, "a.y4m", "b.y4m", "-o", "out", "--resize", "32x32"];
-    assert!(succeed_in(dir.path(), &args).contains("6 frames of 32 x 32 pixels"));
+    assert!(run_successfully(dir.path(), &args).contains("6 frames of 32 x 32 pixels"));
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, succeed_in};
+use crate::common::{expect_failure, run_successfully};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
@@ -14,7 +14,7 @@ const SIDE: usize = 224;
 fn denoise(folder: &Path, frames: &str, more: &[&str]) -> Value {
     let args =
         ["infer", DENOISER, "scene:street", "-o", "out", "--json", "--force", "--max-frames"];
-    serde_json::from_str(&succeed_in(folder, &[&args[..], &[frames], more].concat())).unwrap()
+    serde_json::from_str(&run_successfully(folder, &[&args[..], &[frames], more].concat())).unwrap()
 }
 
 /// Returns the shape in the header of an array of 32-bit floating-point values, and the values.
@@ -160,7 +160,7 @@ fn channels_may_be_last() {
     let run = |name: &str| {
         let args = ["infer", name, "scene:street", "-o", "out", "--force", "--outputs", "npy"];
         let more = ["--max-frames", "3", "--set", "frame={width=64,height=48}"];
-        let text = succeed_in(dir.path(), &[&args[..], &more].concat());
+        let text = run_successfully(dir.path(), &[&args[..], &more].concat());
         let found = fs::read(dir.path().join("out/inference.json")).unwrap();
         let found: Value = serde_json::from_slice(&found).unwrap();
         (text, found["layout"].clone(), array(&dir.path().join("out/outputs/z.npy")))
@@ -175,7 +175,7 @@ fn channels_may_be_last() {
     fs::write(dir.path().join("relu.onnx"), relu).unwrap();
     let args = ["infer", "relu.onnx", "scene:street", "-o", "out", "--force"];
     let parts = ["`node z` (Relu) takes it so", "--inputs-as-nchw x"];
-    fail_in(dir.path(), 2, &args, &parts);
+    expect_failure(dir.path(), 2, &args, &parts);
 }
 
 /// A network whose output is its input costs nothing.
@@ -186,9 +186,9 @@ fn a_network_without_nodes_costs_nothing() {
     fs::write(dir.path().join("none.onnx"), model(&[], shape, ("x", shape))).unwrap();
     let args = ["infer", "none.onnx", "scene:street", "--resize", "32x32", "-o", "out"];
     let args = [&args[..], &["--accelerator", "eyeriss", "--max-frames"]].concat();
-    let text = succeed_in(dir.path(), &[&args[..], &["3"]].concat());
+    let text = run_successfully(dir.path(), &[&args[..], &["3"]].concat());
     assert!(text.contains("MACs       0.0 M per frame; needed 0.0 %"), "{text}");
-    let alone = succeed_in(dir.path(), &[&args[..], &["1", "--force"]].concat());
+    let alone = run_successfully(dir.path(), &[&args[..], &["1", "--force"]].concat());
     assert!(alone.starts_with("out: 1 frame of 32 x 32 pixels"), "{alone}");
     for file in ["inference.json", "report.html", "frames.csv"] {
         let text = fs::read_to_string(dir.path().join("out").join(file)).unwrap();
@@ -212,7 +212,7 @@ fn names_of_a_model_are_safe_in_files_and_text_on_the_page() {
         "-o",
         "out",
     ];
-    succeed_in(dir.path(), &[&args[..], &["--outputs", "npy"]].concat());
+    run_successfully(dir.path(), &[&args[..], &["--outputs", "npy"]].concat());
     let (shape, values) = array(&dir.path().join("out/outputs/____b___out_.npy"));
     assert_eq!((shape.as_str(), values.len()), ("3, 1, 1, 1, 1", 3));
     let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
@@ -225,7 +225,7 @@ fn names_of_a_model_are_safe_in_files_and_text_on_the_page() {
     );
     // A single mean is no picture.
     let png = [&args[..], &["--outputs", "png", "--force"]].concat();
-    fail_in(dir.path(), 2, &png, &["no output is a picture", "1x1x1x1", "leave out png"]);
+    expect_failure(dir.path(), 2, &png, &["no output is a picture", "1x1x1x1", "leave out png"]);
     assert!(dir.path().join("out/outputs/____b___out_.npy").is_file(), "what was there stays");
 }
 
@@ -268,7 +268,7 @@ fn the_page_shows_the_figures_of_the_tables() {
     denoise(dir.path(), "2", &["--outputs", "png"]);
     fs::write(dir.path().join("out/outputs/mine.txt"), "mine").unwrap();
     let args = ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "2", "--force"];
-    fail_in(dir.path(), 2, &args, &["`out`", "outputs/mine.txt"]);
+    expect_failure(dir.path(), 2, &args, &["`out`", "outputs/mine.txt"]);
 }
 
 /// The files that remain after Ctrl-C are complete.
@@ -288,7 +288,7 @@ fn an_interrupted_run_leaves_whole_outputs_and_a_page_that_says_so() {
         "--outputs",
         "npy,png",
     ];
-    let child = crate::common::listening()
+    let child = crate::common::foveate_with_signals()
         .args(args)
         .current_dir(dir.path())
         .env("FOVEATE_PROGRESS", "0")

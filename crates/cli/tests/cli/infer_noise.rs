@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{run_in, succeed_in};
+use crate::common::{run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
@@ -14,7 +14,7 @@ const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/deno
 
 fn infer(folder: &Path, more: &[&str]) -> String {
     let args = ["infer", DENOISER, "scene:street", "-o", "out", "--force", "--whole-frames"];
-    succeed_in(folder, &[&args[..], more].concat())
+    run_successfully(folder, &[&args[..], more].concat())
 }
 
 fn json(folder: &Path, more: &[&str]) -> Value {
@@ -30,7 +30,7 @@ fn shares(noise: &Value) -> Vec<(f64, f64)> {
 /// More noise gives a smaller agreement with the outputs for whole frames. The first frame does not
 /// count and is left out.
 #[test]
-fn whole_frames_are_told_under_noise() {
+fn agreement_under_noise_is_reported() {
     let dir = tempfile::tempdir().unwrap();
     let text = infer(dir.path(), &["--frames", "4"]);
     for level in ["1 grey level ", "2 grey levels ", "4 grey levels "] {
@@ -106,7 +106,7 @@ fn the_network_sees_one_of_several_frames() {
 
 /// The agreement under noise is also printed for frames that the search has not seen.
 #[test]
-fn a_fit_tells_noise_on_the_second_half() {
+fn a_fit_reports_noise_on_the_second_half() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
@@ -114,7 +114,7 @@ fn a_fit_tells_noise_on_the_second_half() {
     let args = "fit scene:street --frames 12 --look-at 3 --preset fovea --max-syntheses 1 --clock 10MHz --min-fps 1 --min-agreement 50% \
                 --set frame={width=48,height=32} --network";
     let args: Vec<&str> = args.split_whitespace().chain([DENOISER]).collect();
-    let text = succeed_in(dir.path(), &args);
+    let text = run_successfully(dir.path(), &args);
     for part in [
         "noise of 1 grey level on the whole frames (held out, 3 frames): agreement",
         "noise of 4 grey levels",
@@ -122,7 +122,7 @@ fn a_fit_tells_noise_on_the_second_half() {
         assert!(text.replace("\n  ", " ").contains(part), "{part} in {text}");
     }
     let found: Value =
-        serde_json::from_str(&succeed_in(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
+        serde_json::from_str(&run_successfully(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
     let levels = shares(&found["network"]["noise"]);
     assert_eq!(levels.iter().map(|level| level.0).collect::<Vec<_>>(), [1.0, 2.0, 4.0]);
     assert!(levels.is_sorted_by(|one, next| one.1 > next.1), "{levels:?}");

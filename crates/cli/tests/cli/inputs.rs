@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{fail_in, foveate, run_in, succeed_in};
+use crate::common::{expect_failure, foveate, run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
@@ -74,7 +74,7 @@ fn a_folder_of_clips_is_a_batch() {
     fs::create_dir_all(dir.path().join("clips/cars")).unwrap();
     fs::write(dir.path().join("clips/a.y4m"), y4m(3)).unwrap();
     fs::write(dir.path().join("clips/cars/b.y4m"), y4m(4)).unwrap();
-    let text = succeed_in(dir.path(), &["simulate", "clips", "-o", "out"]);
+    let text = run_successfully(dir.path(), &["simulate", "clips", "-o", "out"]);
     assert!(text.contains("2 clips, 7 frames"), "{text}");
     assert_eq!(json(&dir.path().join("out/cars/b/summary.json"))["frames"], 4);
     fs::write(dir.path().join("clips/c.y4m"), "YUV4MPEG2 broken").unwrap();
@@ -98,12 +98,12 @@ fn a_video_runs_and_a_cut_one_ends_with_1() {
         .arg(dir.path().join("a.avi"))
         .status();
     assert!(made.unwrap().success());
-    let text = succeed_in(dir.path(), &["simulate", "a.avi", "-o", "out"]);
+    let text = run_successfully(dir.path(), &["simulate", "a.avi", "-o", "out"]);
     assert!(text.contains("50 frames of 64 x 48 pixels"), "{text}");
     let whole = fs::read(dir.path().join("a.avi")).unwrap();
     fs::write(dir.path().join("cut.avi"), &whole[..whole.len() / 2]).unwrap();
     let parts = ["`cut` is not complete: the file is truncated", "bytes are missing"];
-    fail_in(dir.path(), 1, &["simulate", "cut.avi", "-o", "cut"], &parts);
+    expect_failure(dir.path(), 1, &["simulate", "cut.avi", "-o", "cut"], &parts);
     assert_eq!(json(&dir.path().join("cut/summary.json"))["complete"], false);
 }
 

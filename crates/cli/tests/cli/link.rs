@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, run_in, succeed_in};
+use crate::common::{expect_failure, files_below, run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
@@ -17,7 +17,7 @@ const ALL: [&str; 2] = ["--set", "spatial.0.min_score=0"];
 fn report(folder: &Path, more: &[&str]) -> Value {
     let args = ["link", "scene:street", "-o", "out", "--max-frames", "6", "--json", "--force"];
     let args = [&args[..], &["--set", FRAME], &ALL, more].concat();
-    serde_json::from_str(&succeed_in(folder, &args)).unwrap()
+    serde_json::from_str(&run_successfully(folder, &args)).unwrap()
 }
 
 fn senders<'a>(report: &'a Value, name: &str) -> Vec<&'a Value> {
@@ -55,7 +55,7 @@ fn a_codec_is_the_coarsest_that_is_as_good() {
     // The bytes that the camera sends are those that `simulate` counts.
     let args = ["simulate", "scene:street", "-o", "sim", "--max-frames", "6", "--json"];
     let more = ["--pixel-events=csv", "--set", FRAME];
-    let simulated = succeed_in(dir.path(), &[&args[..], &more, &ALL].concat());
+    let simulated = run_successfully(dir.path(), &[&args[..], &more, &ALL].concat());
     let simulated: Value = serde_json::from_str(&simulated).unwrap();
     for (sender, camera) in [
         ("region by rows", "region"),
@@ -131,14 +131,14 @@ fn tables_are_markdown_and_quiet_is_quiet() {
     let dir = tempfile::tempdir().unwrap();
     let args = ["link", "scene:street", "scene:fade", "-o", "out", "--max-frames", "3"];
     let args = [&args[..], &["--codecs", "mjpeg", "--set", FRAME]].concat();
-    let text = succeed_in(dir.path(), &args);
+    let text = run_successfully(dir.path(), &args);
     assert!(text.starts_with("street: 3 frames of 160 x 120 pixels in 100 ms, "), "{text}");
     assert_eq!(text.matches("| region array | - |").count(), 2, "{text}");
     assert_eq!(text.matches("| mjpeg | PSNR |").count(), 2, "{text}");
     assert!(dir.path().join("out/rate-distortion-1.svg").is_file());
     let quiet = ["link", "scene:fade", "-o", "quiet", "--max-frames", "2", "--codecs", "mjpeg"];
     let quiet = [&quiet[..], &["--set", FRAME, "--quiet"]].concat();
-    assert_eq!(succeed_in(dir.path(), &quiet), "");
+    assert_eq!(run_successfully(dir.path(), &quiet), "");
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let link = |inputs: &[&str], more: &[&str], parts: &[&str]| {
         let args = [&["link"], inputs, &["-o", "out"], more].concat();
-        fail_in(dir.path(), 2, &args, parts);
+        expect_failure(dir.path(), 2, &args, parts);
         assert!(!dir.path().join("out").exists());
     };
     link(&["scene:street"], &["--max-frames", "1"], &["`street` has 1 frame", "at least 2"]);
@@ -173,7 +173,7 @@ fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
     fs::create_dir(dir.path().join("mine")).unwrap();
     fs::write(dir.path().join("mine/file"), "mine").unwrap();
     let args = ["link", "scene:street", "-o", "mine", "--force"];
-    fail_in(dir.path(), 2, &args, &["mine"]);
+    expect_failure(dir.path(), 2, &args, &["mine"]);
     assert_eq!(fs::read_to_string(dir.path().join("mine/file")).unwrap(), "mine");
 }
 
@@ -188,7 +188,7 @@ fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
         [&b"YUV4MPEG2 W64 H48 F25:1 Cmono\n"[..], &frame(9), &frame(99), &frame(30)].concat();
     fs::write(dir.path().join("cut.y4m"), &whole[..whole.len() - 100]).unwrap();
     let args = ["link", "cut.y4m", "-o", "out", "--codecs", "mjpeg"];
-    let cut = fail_in(dir.path(), 1, &args, &["`out` is not complete: cut: "]);
+    let cut = expect_failure(dir.path(), 1, &args, &["`out` is not complete: cut: "]);
     assert!(cut.stdout.contains("kB/s, NOT COMPLETE\n"), "{}", cut.stdout);
     let report = fs::read_to_string(dir.path().join("out/link.json")).unwrap();
     let report: Value = serde_json::from_str(&report).unwrap();

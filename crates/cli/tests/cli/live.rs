@@ -3,8 +3,8 @@
 //! can be written as a file. The crate `view` tests what is served, and Chromium runs the page.
 #![cfg(unix)]
 
-use crate::common::{fail_in, run_in, succeed_in};
-use crate::served::Served;
+use crate::common::{expect_failure, run_in, run_successfully};
+use crate::served::ServedCommand;
 
 #[test]
 fn frames_are_served_until_it_is_told_to_stop() {
@@ -12,11 +12,11 @@ fn frames_are_served_until_it_is_told_to_stop() {
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
         let frames = ["live", "scene:street", "--frames", "2"];
         let design = ["--preset", "fovea", "--set", "region.size=16"];
-        let live = Served::start(dir.path(), &[&frames[..], &design].concat());
+        let live = ServedCommand::start(dir.path(), &[&frames[..], &design].concat());
         let (_, settings) = live.link.split_once('#').unwrap();
         assert_eq!(settings, "preset=fovea&region.size=16");
-        live.gives("frames?after=-1");
-        let (stopped, told) = live.stopped_by(signal);
+        live.assert_serves("frames?after=-1");
+        let (stopped, told) = live.stop_with(signal);
         assert_eq!(stopped, Some(code));
         assert_eq!(told, "foveate: interrupted after 1 frames\n");
     }
@@ -25,11 +25,11 @@ fn frames_are_served_until_it_is_told_to_stop() {
 #[test]
 fn the_page_is_one_file() {
     let dir = tempfile::tempdir().unwrap();
-    assert_eq!(succeed_in(dir.path(), &["live", "--page", "page.html"]), "");
+    assert_eq!(run_successfully(dir.path(), &["live", "--page", "page.html"]), "");
     let page = std::fs::read_to_string(dir.path().join("page.html")).unwrap();
     assert!(page.starts_with("<!doctype html>") && page.contains("Foveate, live"));
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
-    fail_in(dir.path(), 2, &["live", "--page", "no/page.html"], &["no/page.html"]);
+    expect_failure(dir.path(), 2, &["live", "--page", "no/page.html"], &["no/page.html"]);
     let both = run_in(dir.path(), &["live", "x.mp4", "--page", "page.html"]);
     assert!(both.code == 2 && both.stderr.contains("cannot be used with"), "{}", both.stderr);
 }
@@ -38,7 +38,7 @@ fn the_page_is_one_file() {
 fn what_cannot_be_played_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     let refused = |args: &[&str], parts: &[&str]| {
-        fail_in(dir.path(), 2, &[&["live"], args].concat(), parts);
+        expect_failure(dir.path(), 2, &[&["live"], args].concat(), parts);
     };
     refused(&["missing.mp4"], &["`missing.mp4` does not exist"]);
     refused(&["--set", "region.size=65"], &["region.size", "65"]);

@@ -7,7 +7,7 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 
-use crate::common::{fail_in, foveate};
+use crate::common::{expect_failure, foveate};
 use crate::own_files::options_of;
 
 /// The commands that write the folder `out`, by the option that names it. Except for `clip.mp4`,
@@ -39,7 +39,7 @@ const FILES: [&str; 4] = [
 ];
 
 /// Writes programs `ffprobe` and `ffmpeg` that record each call, and fail.
-fn witnesses(folder: &Path) {
+fn write_recording_tools(folder: &Path) {
     fs::create_dir(folder).unwrap();
     for name in ["ffprobe", "ffmpeg"] {
         let (program, called) = (folder.join(name), folder.join("called"));
@@ -51,7 +51,7 @@ fn witnesses(folder: &Path) {
 
 /// Runs a command with these programs first in the search path. Returns its exit code and its
 /// messages.
-fn run_with_witnesses(dir: &Path, command: &str) -> (Option<i32>, String) {
+fn run_with_recording_tools(dir: &Path, command: &str) -> (Option<i32>, String) {
     let path = format!("{}:{}", dir.join("tools").display(), std::env::var("PATH").unwrap());
     let words: Vec<&str> = command.split(' ').collect();
     let output = foveate(&words).current_dir(dir).env("PATH", path).output().unwrap();
@@ -60,7 +60,7 @@ fn run_with_witnesses(dir: &Path, command: &str) -> (Option<i32>, String) {
 
 /// Expects a command to refuse `place` and to call none of these programs.
 fn refuse_at_once(dir: &Path, command: &str, place: &str) {
-    let (code, said) = run_with_witnesses(dir, command);
+    let (code, said) = run_with_recording_tools(dir, command);
     assert_eq!(code, Some(2), "{command}: {said}");
     assert!(said.lines().count() == 1 && said.contains(place), "{command}: {said}");
     assert!(!dir.join("tools/called").exists(), "{command} looks at its inputs first");
@@ -71,7 +71,7 @@ fn a_folder_is_refused_before_inputs_are_looked_at() {
     let named = FOLDERS.iter().map(|(option, _)| *option).chain(NOT_REFUSED);
     assert_eq!(options_of("DIR"), named.map(str::to_owned).collect::<BTreeSet<_>>());
     let dir = tempfile::tempdir().unwrap();
-    witnesses(&dir.path().join("tools"));
+    write_recording_tools(&dir.path().join("tools"));
     fs::write(dir.path().join("clip.mp4"), "no video").unwrap();
     fs::create_dir(dir.path().join("out")).unwrap();
     fs::write(dir.path().join("out/thesis.tex"), "mine").unwrap();
@@ -79,19 +79,19 @@ fn a_folder_is_refused_before_inputs_are_looked_at() {
         refuse_at_once(dir.path(), command, "`out`");
         let missing = command.replace("clip.mp4", "missing.mp4");
         let missing: Vec<&str> = missing.split(' ').collect();
-        fail_in(dir.path(), 2, &missing, &["`out`"]);
+        expect_failure(dir.path(), 2, &missing, &["`out`"]);
     }
     assert_eq!(fs::read(dir.path().join("out/thesis.tex")).unwrap(), b"mine");
     // The programs do record a call.
     fs::remove_dir_all(dir.path().join("out")).unwrap();
-    assert_eq!(run_with_witnesses(dir.path(), FOLDERS[0].1).0, Some(3));
+    assert_eq!(run_with_recording_tools(dir.path(), FOLDERS[0].1).0, Some(3));
     assert!(dir.path().join("tools/called").exists());
 }
 
 #[test]
 fn a_file_is_refused_before_inputs_are_looked_at() {
     let dir = tempfile::tempdir().unwrap();
-    witnesses(&dir.path().join("tools"));
+    write_recording_tools(&dir.path().join("tools"));
     fs::write(dir.path().join("clip.mp4"), "no video").unwrap();
     for command in FILES {
         refuse_at_once(dir.path(), command, "`nowhere/");

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, foveate, succeed_in};
+use crate::common::{expect_failure, files_below, foveate, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
@@ -22,7 +22,7 @@ fn has(folder: &Path, name: &str) -> bool {
 #[test]
 fn every_option_writes_its_files_and_no_others() {
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &simulate(&[]));
+    run_successfully(dir.path(), &simulate(&[]));
     let plain = files_below(&dir.path().join("out")).len();
     for (options, files) in [
         (&["--events", "csv"][..], &["events.csv"][..]),
@@ -31,12 +31,12 @@ fn every_option_writes_its_files_and_no_others() {
         (&["--pixel-events=csv,npz", "--log"], &["pixel_events.csv", "pixel_events.npz"]),
         (&["--pixel-events=csv", "--contrast", "2.5"], &["pixel_events.csv"]),
     ] {
-        succeed_in(dir.path(), &[&simulate(options)[..], &["--force"]].concat());
+        run_successfully(dir.path(), &[&simulate(options)[..], &["--force"]].concat());
         assert_eq!(files_below(&dir.path().join("out")).len(), plain + files.len(), "{options:?}");
         assert!(files.iter().all(|name| has(dir.path(), name)), "{options:?}");
     }
     let pictures = ["--overlay", "--heatmap", "--rendered", "none", "--force"];
-    succeed_in(dir.path(), &simulate(&pictures));
+    run_successfully(dir.path(), &simulate(&pictures));
     assert!(!has(dir.path(), "rendered"));
     for name in ["overlay/000003.png", "heatmap_edge/000003.png", "heatmap_temporal/000000.png"] {
         assert!(has(dir.path(), name), "{name}");
@@ -46,7 +46,7 @@ fn every_option_writes_its_files_and_no_others() {
 #[test]
 fn the_summary_compares_the_cameras() {
     let dir = tempfile::tempdir().unwrap();
-    let text = succeed_in(dir.path(), &simulate(&["--pixel-events=csv"]));
+    let text = run_successfully(dir.path(), &simulate(&["--pixel-events=csv"]));
     let summary = fs::read_to_string(dir.path().join("out/summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&summary).unwrap();
     let csv = fs::read_to_string(dir.path().join("out/pixel_events.csv")).unwrap();
@@ -81,7 +81,7 @@ fn options_that_say_nothing_are_refused() {
         assert!(stderr.contains(part), "{options:?}: {stderr}");
     }
     let too_small = ["--pixel-events", "--contrast", "0.001"];
-    fail_in(dir.path(), 2, &simulate(&too_small), &["contrast of 0.001", "0.01"]);
+    expect_failure(dir.path(), 2, &simulate(&too_small), &["contrast of 0.001", "0.01"]);
     assert!(!dir.path().join("out").exists());
 }
 
@@ -138,7 +138,7 @@ fn video_is_one_file() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &simulate(&["--rendered", "video", "--overlay=mp4"]));
+    run_successfully(dir.path(), &simulate(&["--rendered", "video", "--overlay=mp4"]));
     assert!(has(dir.path(), "rendered.mkv") && has(dir.path(), "overlay.mp4"));
     assert!(!has(dir.path(), "rendered") && !has(dir.path(), "overlay"));
 }
@@ -148,15 +148,15 @@ fn explain_says_why_in_text_and_json() {
     let dir = tempfile::tempdir().unwrap();
     let args = ["explain", "scene:street", "--frame", "2", "--region", "3,4"];
     let args = [&args[..], &["--set", "frame={width=64,height=48}"]].concat();
-    let text = succeed_in(dir.path(), &args);
+    let text = run_successfully(dir.path(), &args);
     let told: Value =
-        serde_json::from_str(&succeed_in(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
+        serde_json::from_str(&run_successfully(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
     assert_eq!((&told["frame"], &told["region"]["x0"]), (&2.into(), &24.into()));
     assert_eq!(told["raw"].as_array().unwrap().len(), 8);
     let rule = told["rule"].as_str().unwrap().split(": ").next().unwrap().to_owned();
     assert!(text.contains(&format!("decision  {rule}")), "{text}");
     // The table of `simulate` has the same values for this region.
-    succeed_in(dir.path(), &simulate(&["--events", "csv"]));
+    run_successfully(dir.path(), &simulate(&["--events", "csv"]));
     let table = fs::read_to_string(dir.path().join("out/events.csv")).unwrap();
     let row = table.lines().find(|line| line.starts_with("2,66667,3,4,24,32,")).unwrap();
     let bit = |key: &str| u8::from(told[key].as_bool().unwrap());
@@ -175,6 +175,6 @@ fn explain_says_why_in_text_and_json() {
     ] {
         let bad = ["explain", "scene:street", "--frame", frame, "--region", region];
         let bad = [&bad[..], &["--set", "frame={width=64,height=48}"]].concat();
-        fail_in(dir.path(), 2, &bad, &parts);
+        expect_failure(dir.path(), 2, &bad, &parts);
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{foveate, run_in, succeed_in};
+use crate::common::{foveate, run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
@@ -33,7 +33,7 @@ pub(crate) fn options_of(value: &str) -> BTreeSet<String> {
 }
 
 /// A command that writes the folder `out`.
-struct Writer {
+struct FolderWriter {
     option: &'static str,
     command: &'static [&'static str],
     /// A file that the command writes and that a user may edit; `None` for pages that are replaced
@@ -42,57 +42,57 @@ struct Writer {
     tools: &'static [Tool],
 }
 
-const fn writer(
+const fn folder_writer(
     option: &'static str,
     command: &'static [&'static str],
     edited: &'static str,
-) -> Writer {
-    Writer { option, command, edited: Some(edited), tools: &[] }
+) -> FolderWriter {
+    FolderWriter { option, command, edited: Some(edited), tools: &[] }
 }
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
-const WRITERS: [Writer; 12] = [
-    writer("generate --output", &["generate", "-o", "out"], "rtl/vote.v"),
-    writer(
+const WRITERS: [FolderWriter; 12] = [
+    folder_writer("generate --output", &["generate", "-o", "out"], "rtl/vote.v"),
+    folder_writer(
         "build --output",
         &["build", "--board", "icebreaker", "--project", "-o", "out"],
         "board.pcf",
     ),
-    writer(
+    folder_writer(
         "simulate --output",
         &["simulate", "scene:street", "--frames", "2", "-o", "out"],
         "frames.csv",
     ),
-    writer("dataset --output", &["dataset", "pets", "-o", "out"], "images.csv"),
-    writer("decode --output", &["decode", "sent/packets.bin", "-o", "out"], "frames.csv"),
-    writer(
+    folder_writer("dataset --output", &["dataset", "pets", "-o", "out"], "images.csv"),
+    folder_writer("decode --output", &["decode", "sent/packets.bin", "-o", "out"], "frames.csv"),
+    folder_writer(
         "analyze --output",
         &["analyze", "temporal", "scene:street", "--frames", "3", "-o", "out"],
         "temporal.csv",
     ),
-    writer(
+    folder_writer(
         "explore --output",
         &["explore", "space.toml", "scene:street", "--max-frames", "3", "--no-area", "-o", "out"],
         "points.csv",
     ),
-    writer(
+    folder_writer(
         "infer --output",
         &["infer", DENOISER, "scene:street", "--max-frames", "2", "-o", "out"],
         "frames.csv",
     ),
-    Writer {
+    FolderWriter {
         tools: &[Tool::Ffmpeg],
-        ..writer(
+        ..folder_writer(
             "link --output",
             &["link", "scene:street", "--max-frames", "3", "--codecs", "mjpeg", "-o", "out"],
             "link.csv",
         )
     },
-    Writer { edited: None, ..writer("man --output", &["man", "-o", "out"], "") },
-    Writer {
+    FolderWriter { edited: None, ..folder_writer("man --output", &["man", "-o", "out"], "") },
+    FolderWriter {
         tools: &[Tool::Iverilog, Tool::Vvp],
-        ..writer(
+        ..folder_writer(
             "cosim --replay",
             &[
                 "cosim",
@@ -112,9 +112,9 @@ const WRITERS: [Writer; 12] = [
             "rtl/vote.v",
         )
     },
-    Writer {
+    FolderWriter {
         tools: &[Tool::Verilator, Tool::Cxx],
-        ..writer(
+        ..folder_writer(
             "cosim --end-to-end",
             &[
                 "cosim",
@@ -136,7 +136,7 @@ const WRITERS: [Writer; 12] = [
 ];
 
 /// The options with folders that are only read.
-const READ: [&str; 1] = ["cosim --rtl"];
+const READ_ONLY_FOLDERS: [&str; 1] = ["cosim --rtl"];
 
 /// Writes all files that the commands read.
 fn prepare(dir: &Path) {
@@ -145,11 +145,11 @@ fn prepare(dir: &Path) {
     fs::write(pets.join("1.pgm"), [b"P5 8 8 255\n".to_vec(), vec![9; 64]].concat()).unwrap();
     fs::write(dir.join("space.toml"), "[vary]\n\"region.size\" = [8, 16]\n").unwrap();
     let sent = ["simulate", "scene:street", "--frames", "2", "--packets", "-o", "sent"];
-    succeed_in(dir, &sent);
+    run_successfully(dir, &sent);
     let axi = "frame={width=64,height=48}\nhardware={organization='raster',sync=true,interface='axi'}\n\
                spatial=[{feature='variance'}]\ndenoise={filter='none'}\n";
     fs::write(dir.join("axi.toml"), axi).unwrap();
-    succeed_in(dir, &["generate", "--preset", "bare", "-o", "core"]);
+    run_successfully(dir, &["generate", "--preset", "bare", "-o", "core"]);
     let broken = dir.join("core/rtl/vote.v");
     let text = fs::read_to_string(&broken).unwrap();
     fs::write(&broken, text.replace("score_i >= minimum_i", "score_i > minimum_i")).unwrap();
@@ -157,7 +157,7 @@ fn prepare(dir: &Path) {
 
 #[test]
 fn every_command_that_writes_a_folder_is_looked_at() {
-    let known = WRITERS.iter().map(|writer| writer.option).chain(READ);
+    let known = WRITERS.iter().map(|writer| writer.option).chain(READ_ONLY_FOLDERS);
     assert_eq!(options_of("DIR"), known.map(str::to_owned).collect());
 }
 
@@ -168,7 +168,7 @@ fn files_of_others_survive_every_command() {
     let dir = tempfile::tempdir().unwrap();
     prepare(dir.path());
     let out = dir.path().join("out");
-    for Writer { option, command, edited, tools } in WRITERS {
+    for FolderWriter { option, command, edited, tools } in WRITERS {
         if !require_tools(tools) {
             continue;
         }
@@ -309,7 +309,7 @@ fn the_next_run_removes_what_a_killed_one_left() {
     fs::create_dir(dir.path().join(".mine.partial-1234567890")).unwrap();
     fs::write(dir.path().join(".mine.partial-1234567890/file"), "mine").unwrap();
     assert_eq!(names().len(), 3, "{:?}", names());
-    succeed_in(dir.path(), &["simulate", "scene:street", "--frames", "1", "-o", "other"]);
+    run_successfully(dir.path(), &["simulate", "scene:street", "--frames", "1", "-o", "other"]);
     let left = names();
     assert!(left.len() == 3 && !left.iter().any(|name| name.contains("killed")), "{left:?}");
     assert!(left.iter().any(|name| name.starts_with(".living.partial-")), "{left:?}");
@@ -352,7 +352,7 @@ fn a_cache_that_others_can_write_is_refused() {
     assert_eq!(run("FOVEATE_CACHE", &cache).status.code(), Some(0));
     assert!(fs::read_dir(&cache).unwrap().count() > 0);
     if std::os::unix::fs::chown(&cache, Some(54_321), None).is_err() {
-        return foveate_toolchain::testing::skip("only root can give a folder away");
+        return foveate_toolchain::testing::report_skip("only root can give a folder away");
     }
     let said = run("FOVEATE_CACHE", &cache);
     let text = String::from_utf8(said.stderr).unwrap();

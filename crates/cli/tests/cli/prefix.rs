@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{fail_in, run_in, succeed_in};
+use crate::common::{expect_failure, run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
@@ -15,7 +15,7 @@ fn core(folder: &Path, prefix: &str, settings: &[&str]) {
     for setting in ["region.size=4", "frame={width=16,height=8}"].iter().chain(settings) {
         args.extend(["--set", setting]);
     }
-    succeed_in(folder, &args);
+    run_successfully(folder, &args);
 }
 
 /// Returns the command that co-simulates a folder with one round in Icarus, with more options.
@@ -40,7 +40,7 @@ fn a_core_with_a_prefix_passes_its_benches_and_cosim_without_further_options() {
         let text = String::from_utf8(replay.stdout).unwrap();
         assert_eq!((replay.status.code(), text.matches(": PASS ").count()), (Some(0), 2), "{text}");
         let (config, rtl) = (format!("{prefix}/design.toml"), format!("{prefix}/rtl"));
-        let text = succeed_in(dir.path(), &cosim(&config, &rtl, &[]));
+        let text = run_successfully(dir.path(), &cosim(&config, &rtl, &[]));
         let runs = if prefix == "left" { 2 } else { 3 };
         assert_eq!(text.matches("no mismatch").count(), runs, "{text}");
         // A fault in a leaf is found, so that it is this Verilog that runs.
@@ -57,9 +57,9 @@ fn a_core_with_a_prefix_passes_its_benches_and_cosim_without_further_options() {
         fs::copy(&path, dir.path().join("left/rtl").join(path.file_name().unwrap())).unwrap();
     }
     let both = ["`left_rcm`", "`right_rcm`", "--prefix left"];
-    fail_in(dir.path(), 2, &cosim("left/design.toml", "left/rtl", &[]), &both);
+    expect_failure(dir.path(), 2, &cosim("left/design.toml", "left/rtl", &[]), &both);
     let chosen = cosim("left/design.toml", "left/rtl", &["--prefix", "left"]);
-    fail_in(dir.path(), 1, &chosen, &["not all of the Verilog", "right_rcm"]);
+    expect_failure(dir.path(), 1, &chosen, &["not all of the Verilog", "right_rcm"]);
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn a_prefix_that_is_none_says_what_is_right() {
         [("9x", "begin with a letter"), ("a-b", "`-`"), ("wire", "a word of Verilog")]
     {
         let args = ["generate", "--prefix", prefix, "-o", "core"];
-        fail_in(dir.path(), 2, &args, &[why, "such as `cam0`"]);
+        expect_failure(dir.path(), 2, &args, &[why, "such as `cam0`"]);
     }
     let outcome = run_in(dir.path(), &["cosim", "--prefix", "cam0"]);
     assert!(outcome.code == 2 && outcome.stderr.contains("--rtl"), "{}", outcome.stderr);

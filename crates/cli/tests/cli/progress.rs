@@ -7,7 +7,7 @@ use std::time::Duration;
 
 /// Returns the messages of a run over two frames, of which the second comes after more than a
 /// second.
-fn said(options: &[&str], every: &str) -> String {
+fn messages(options: &[&str], every: &str) -> String {
     let dir = tempfile::tempdir().unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_foveate"))
         .args(["simulate", "-", "-o", "out", "--no-rendered"])
@@ -36,7 +36,7 @@ fn said(options: &[&str], every: &str) -> String {
 
 #[test]
 fn a_log_gets_a_line_now_and_then() {
-    let said = said(&[], "1");
+    let said = messages(&[], "1");
     assert!(said.lines().count() >= 1, "no line");
     for line in said.lines() {
         assert!(line.starts_with("foveate: ") && line.contains("frames after"), "{said}");
@@ -45,9 +45,9 @@ fn a_log_gets_a_line_now_and_then() {
 
 #[test]
 fn quiet_runs_and_users_who_want_no_lines_get_none() {
-    assert_eq!(said(&["--quiet"], "1"), "");
-    assert_eq!(said(&[], "0"), "");
-    let wrong = said(&[], "often");
+    assert_eq!(messages(&["--quiet"], "1"), "");
+    assert_eq!(messages(&[], "0"), "");
+    let wrong = messages(&[], "often");
     assert!(wrong.contains("FOVEATE_PROGRESS is `often`; expected seconds"), "{wrong}");
     assert_eq!(wrong.lines().count(), 1, "{wrong}");
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{run_in, succeed_in};
+use crate::common::{run_in, run_successfully};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{data_folder, require_tools};
 use serde_json::Value;
@@ -21,7 +21,7 @@ fn write_config(folder: &Path, config: &str) {
 
 fn cosim(folder: &Path, extra: &[&str]) -> Value {
     let args = ["cosim", "--config", "camera.toml", "--json"];
-    let printed = succeed_in(folder, &[&args[..], extra].concat());
+    let printed = run_successfully(folder, &[&args[..], extra].concat());
     let summary: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(summary["passed"], true, "{summary}");
     summary["runs"][0].clone()
@@ -77,7 +77,7 @@ fn edited_serial_verilog_is_caught_and_replayed() {
     }
     let dir = tempfile::tempdir().unwrap();
     write_config(dir.path(), FOLDED);
-    succeed_in(dir.path(), &["generate", "--config", "camera.toml", "-o", "core"]);
+    run_successfully(dir.path(), &["generate", "--config", "camera.toml", "-o", "core"]);
     let file = dir.path().join("core/rtl/serial_decision.v");
     let text = fs::read_to_string(&file).unwrap();
     assert_eq!(text.matches("score_o >= minimum").count(), 1);

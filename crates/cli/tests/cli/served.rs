@@ -7,25 +7,25 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
 
-use crate::common::listening;
+use crate::common::foveate_with_signals;
 
 /// A command that has printed its link.
-pub(crate) struct Served {
+pub(crate) struct ServedCommand {
     child: Child,
     pub(crate) link: String,
     /// The standard error of the command.
     pub(crate) errors: BufReader<ChildStderr>,
 }
 
-impl Served {
+impl ServedCommand {
     /// Starts the command in `folder`.
     pub(crate) fn start(folder: &Path, args: &[&str]) -> Self {
-        Self::reading(folder, args, Stdio::null())
+        Self::start_with_input(folder, args, Stdio::null())
     }
 
     /// Starts the command in `folder` with `input` as its standard input.
-    pub(crate) fn reading(folder: &Path, args: &[&str], input: Stdio) -> Self {
-        let mut child = listening()
+    pub(crate) fn start_with_input(folder: &Path, args: &[&str], input: Stdio) -> Self {
+        let mut child = foveate_with_signals()
             .args(args)
             .current_dir(folder)
             .stdin(input)
@@ -40,7 +40,7 @@ impl Served {
     }
 
     /// Requests a path below the link, and expects the status 200.
-    pub(crate) fn gives(&self, what: &str) {
+    pub(crate) fn assert_serves(&self, what: &str) {
         let (page, _settings) = self.link.split_once('#').unwrap_or((&self.link, ""));
         let (host, token) = page.strip_prefix("http://").unwrap().split_once('/').unwrap();
         let mut browser = TcpStream::connect(host).unwrap();
@@ -58,7 +58,7 @@ impl Served {
     }
 
     /// Ends the command by a signal. Returns its exit code and its messages since the last read.
-    pub(crate) fn stopped_by(mut self, signal: &str) -> (Option<i32>, String) {
+    pub(crate) fn stop_with(mut self, signal: &str) -> (Option<i32>, String) {
         let id = self.child.id().to_string();
         let sent = Command::new("kill").args([&format!("-{signal}"), &id]).status().unwrap();
         assert!(sent.success());

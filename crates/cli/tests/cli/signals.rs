@@ -12,13 +12,13 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
-use crate::common::listening;
+use crate::common::foveate_with_signals;
 
 /// The signals and their exit codes, which are 128 plus the number of the signal.
 pub(crate) const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
 
 fn start(folder: &Path, args: &[&str]) -> Child {
-    listening()
+    foveate_with_signals()
         .args(args)
         .current_dir(folder)
         .env("FOVEATE_PROGRESS", "0")
@@ -49,7 +49,7 @@ pub(crate) fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
 }
 
 /// Returns true if a temporary folder below `folder` holds this file.
-pub(crate) fn has(folder: &Path, file: &str) -> bool {
+pub(crate) fn has_temporary_file(folder: &Path, file: &str) -> bool {
     let entries = fs::read_dir(folder).unwrap().flatten();
     entries.filter(|e| e.path().is_dir()).any(|entry| entry.path().join("work").join(file).exists())
 }
@@ -66,7 +66,7 @@ fn every_signal_leaves_what_was_done() {
         let dir = tempfile::tempdir().unwrap();
         let args = ["simulate", "scene:street", "-o", "out", "--frames", "100000"];
         let child = start(dir.path(), &args);
-        wait_for("picture", || has(dir.path(), "rendered/000001.png"));
+        wait_for("picture", || has_temporary_file(dir.path(), "rendered/000001.png"));
         let output = stop(child, signal);
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(code), "{signal}: {said}");
@@ -84,7 +84,7 @@ fn every_signal_leaves_what_was_done() {
 fn a_second_sigterm_changes_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let child = start(dir.path(), &["simulate", "scene:street", "-o", "out", "--frames", "100000"]);
-    wait_for("picture", || has(dir.path(), "rendered/000001.png"));
+    wait_for("picture", || has_temporary_file(dir.path(), "rendered/000001.png"));
     for _ in 0..3 {
         kill(child.id(), "TERM");
         std::thread::sleep(Duration::from_millis(1));
@@ -108,7 +108,7 @@ fn a_signal_that_is_ignored_stays_ignored() {
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
-    wait_for("table", || has(dir.path(), "frames.csv"));
+    wait_for("table", || has_temporary_file(dir.path(), "frames.csv"));
     assert_eq!(stop(child, "HUP").status.code(), Some(0));
 }
 
@@ -130,7 +130,7 @@ fn sigterm_stops_a_tool() {
     fs::write(&wrapper, script).unwrap();
     assert!(Command::new("chmod").arg("+x").arg(&wrapper).status().unwrap().success());
     let pids = dir.path().join("pids");
-    let child = listening()
+    let child = foveate_with_signals()
         .args(["estimate", "--preset", "bare"])
         .env("FOVEATE_YOSYS", &wrapper)
         .env("FOVEATE_CACHE", "off")
@@ -144,7 +144,7 @@ fn sigterm_stops_a_tool() {
     assert_eq!(output.status.code(), Some(143), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(fs::read_dir(&temporary).unwrap().count(), 0);
     let pid = fs::read_to_string(&pids).unwrap();
-    wait_for("end of the tool", || ended(pid.trim()));
+    wait_for("end of the tool", || has_ended(pid.trim()));
 }
 
 /// No part of a comparison is worth keeping; its temporary files are removed, too.
@@ -156,7 +156,7 @@ fn a_comparison_of_links_leaves_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let temporary = dir.path().join("tmp");
     fs::create_dir(&temporary).unwrap();
-    let child = listening()
+    let child = foveate_with_signals()
         .args(["link", "scene:street", "-o", "out", "--max-frames", "200", "--codecs", "h264"])
         .current_dir(dir.path())
         .env("TMPDIR", &temporary)
@@ -164,7 +164,7 @@ fn a_comparison_of_links_leaves_nothing() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    wait_for("stream", || has(&temporary, "clip.h264"));
+    wait_for("stream", || has_temporary_file(&temporary, "clip.h264"));
     let output = stop(child, "INT");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{said}");
@@ -174,7 +174,7 @@ fn a_comparison_of_links_leaves_nothing() {
 }
 
 /// Returns true if no process has this number, or if only its parent has not yet noticed its end.
-pub(crate) fn ended(pid: &str) -> bool {
+pub(crate) fn has_ended(pid: &str) -> bool {
     let state = Command::new("ps").args(["-o", "stat=", "-p", pid]).output();
     match state {
         Ok(output) => output.stdout.is_empty() || output.stdout.starts_with(b"Z"),

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, files_below, run_in, succeed_in};
+use crate::common::{expect_failure, files_below, run_in, run_successfully};
 use serde_json::Value;
 
 /// Writes a PGM of `size` x `size` pixels with one value.
@@ -18,7 +18,7 @@ fn pgm(path: &Path, size: usize, value: u8) {
 fn a_scene_becomes_arrays_pictures_and_a_summary() {
     let dir = tempfile::tempdir().unwrap();
     let args = ["simulate", "scene:street", "-o", "out", "--frames", "3", "--overlay", "--json"];
-    let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+    let summary: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();
     assert_eq!((&summary["frames"], &summary["regions"]), (&3.into(), &784.into()));
     let names: Vec<_> =
         files_below(&dir.path().join("out")).into_iter().map(|(name, _)| name).collect();
@@ -29,8 +29,8 @@ fn a_scene_becomes_arrays_pictures_and_a_summary() {
         assert!(names.iter().any(|path| path == Path::new(name)), "{name} of {names:?}");
     }
     let again = ["simulate", "scene:street", "-o", "out", "--frames", "3"];
-    fail_in(dir.path(), 2, &again, &["out", "not empty"]);
-    succeed_in(dir.path(), &[&again[..], &["--force", "--no-rendered"]].concat());
+    expect_failure(dir.path(), 2, &again, &["out", "not empty"]);
+    run_successfully(dir.path(), &[&again[..], &["--force", "--no-rendered"]].concat());
     assert!(!dir.path().join("out/rendered").exists());
 }
 
@@ -40,10 +40,10 @@ fn the_frame_size_comes_from_the_input() {
     for frame in 0..3 {
         pgm(&dir.path().join(format!("f{frame}.pgm")), 20, 10 * frame);
     }
-    let text = succeed_in(dir.path(), &["simulate", "f*.pgm", "-o", "out"]);
+    let text = run_successfully(dir.path(), &["simulate", "f*.pgm", "-o", "out"]);
     assert!(text.contains("3 frames of 20 x 20 pixels, 9 regions"), "{text}");
     let args = ["simulate", "f0.pgm", "-o", "no", "--set", "frame.width=32"];
-    fail_in(dir.path(), 2, &args, &["frame.width", "32", "20x20"]);
+    expect_failure(dir.path(), 2, &args, &["frame.width", "32", "20x20"]);
     assert!(!dir.path().join("no").exists());
 }
 
@@ -57,7 +57,7 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
     fs::write(at("text.png"), b"no picture").unwrap();
     fs::create_dir(at("empty")).unwrap();
     let fail = |inputs: &[&str], parts: &[&str]| {
-        fail_in(dir.path(), 2, &[&["simulate"], inputs, &["-o", "out"]].concat(), parts);
+        expect_failure(dir.path(), 2, &[&["simulate"], inputs, &["-o", "out"]].concat(), parts);
         assert!(!at("out").exists(), "{inputs:?}");
     };
     fail(&["small.pgm", "large.pgm"], &["small.pgm", "large.pgm", "16", "24"]);
@@ -68,7 +68,7 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
     fail(&["missing.png"], &["missing.png", "does not exist"]);
     fail(&["scene:stret"], &["stret", "street"]);
     fail(&["scene:street", "small.pgm"], &["scene:street"]);
-    fail_in(dir.path(), 2, &["simulate", "small.pgm", "-o", "small.pgm/out"], &["small.pgm"]);
+    expect_failure(dir.path(), 2, &["simulate", "small.pgm", "-o", "small.pgm/out"], &["small.pgm"]);
 }
 
 /// An interrupt ends a long run soon, with a message, and leaves the results so far.
@@ -76,7 +76,7 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
 #[test]
 fn ctrl_c_leaves_what_was_done() {
     let dir = tempfile::tempdir().unwrap();
-    let child = crate::common::listening()
+    let child = crate::common::foveate_with_signals()
         .args(["simulate", "scene:street", "-o", "out", "--frames", "100000"])
         .current_dir(dir.path())
         .stdout(std::process::Stdio::null())
@@ -126,13 +126,13 @@ fn real_images_run() {
 #[test]
 fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("camera.toml"), succeed_in(dir.path(), &["presets", "paper"]))
+    fs::write(dir.path().join("camera.toml"), run_successfully(dir.path(), &["presets", "paper"]))
         .unwrap();
     let active = |more: &[&str]| {
         let frame = ["--frames", "6", "--no-rendered", "--force", "--json"];
         let size = ["--set", "frame.width=128", "--set", "frame.height=96"];
         let args = [&["simulate", "scene:street", "-o", "out"], &frame[..], &size, more].concat();
-        let summary: Value = serde_json::from_str(&succeed_in(dir.path(), &args)).unwrap();
+        let summary: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();
         summary["active_share"].as_f64().unwrap()
     };
     let eight = active(&[]);
@@ -142,7 +142,7 @@ fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
         assert!((share / eight - 1.0).abs() < 0.1, "{share} of {eight}");
     }
     let args = ["check", "--set", "frame.pixel_bits=5", "--set", "temporal.level=40"];
-    fail_in(
+    expect_failure(
         dir.path(),
         2,
         &args,

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{fail_in, foveate, run_in};
+use crate::common::{expect_failure, foveate, run_in};
 use serde_json::Value;
 
 const TIFF: &[u8] = b"II*\0\x08\0\0\0\0\0\0\0\0\0";
@@ -34,10 +34,10 @@ fn warnings(folder: &Path, args: &[&str]) -> Vec<String> {
     let _ = fs::remove_dir_all(folder.join("out"));
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, 0, "{args:?}: {}", outcome.stderr);
-    told(&outcome.stderr)
+    warnings_in(&outcome.stderr)
 }
 
-fn told(said: &str) -> Vec<String> {
+fn warnings_in(said: &str) -> Vec<String> {
     said.lines()
         .filter_map(|line| line.strip_prefix("foveate: warning: "))
         .map(str::to_owned)
@@ -45,7 +45,7 @@ fn told(said: &str) -> Vec<String> {
 }
 
 /// Fails unless each warning begins with the text at its place in `starts`.
-fn assert_told(found: &[String], starts: &[&str]) {
+fn assert_warnings(found: &[String], starts: &[&str]) {
     let fit = found.len() == starts.len()
         && found.iter().zip(starts).all(|(found, start)| found.starts_with(start));
     assert!(fit, "{found:#?}");
@@ -58,7 +58,7 @@ fn link(target: &str, path: &Path) {
 
 /// Writes a folder with two images and many entries that are not images.
 #[cfg(unix)]
-fn mixed(folder: &Path) {
+fn write_mixed_folder(folder: &Path) {
     let (one, other) = (pgm(3), pgm(5));
     files(
         folder,
@@ -85,7 +85,7 @@ fn mixed(folder: &Path) {
 }
 
 #[cfg(unix)]
-const OF_MIXED: [&str; 5] = [
+const MIXED_FOLDER_WARNINGS: [&str; 5] = [
     "2 entries of `clip` are skipped, such as `clip/2.webp`: images of the type WebP are not read",
     "2 entries of `clip` are skipped, such as `clip/4`: it is an image or a video, but has the extension of neither",
     "`clip/7.pgm` is skipped: the target of the link does not exist",
@@ -97,7 +97,7 @@ const OF_MIXED: [&str; 5] = [
 #[test]
 fn every_command_says_what_it_leaves_out_of_a_folder() {
     let dir = tempfile::tempdir().unwrap();
-    mixed(dir.path());
+    write_mixed_folder(dir.path());
     files(dir.path(), &[("space.toml", b"[vary]\nregion.size = [8]\n")]);
     let few = ["--set", "frame={width=16,height=16}"];
     for args in [
@@ -116,7 +116,7 @@ fn every_command_says_what_it_leaves_out_of_a_folder() {
             "{}",
             outcome.stderr
         );
-        assert_told(&told(&outcome.stderr), &OF_MIXED);
+        assert_warnings(&warnings_in(&outcome.stderr), &MIXED_FOLDER_WARNINGS);
     }
     // The warning comes before the search for tools.
     for args in [&["fit", "clip"][..], &["link", "clip", "-o", "out"], &["cosim", "clip"]] {
@@ -128,16 +128,16 @@ fn every_command_says_what_it_leaves_out_of_a_folder() {
                     .map(|t| (format!("FOVEATE_{t}"), "gone")),
             )
             .output();
-        assert_told(&told(&String::from_utf8_lossy(&bare.unwrap().stderr)), &OF_MIXED);
+        assert_warnings(&warnings_in(&String::from_utf8_lossy(&bare.unwrap().stderr)), &MIXED_FOLDER_WARNINGS);
     }
     let summary = |args: &[&str]| -> Value {
         serde_json::from_str(&run_in(dir.path(), args).stdout).unwrap()
     };
     let out = summary(&["simulate", "clip", "-o", "out", "--json"]);
     assert_eq!(out["frames"], 2);
-    let of_pattern = OF_MIXED.map(|text| text.replace("of `clip`", "of `clip/*`"));
+    let of_pattern = MIXED_FOLDER_WARNINGS.map(|text| text.replace("of `clip`", "of `clip/*`"));
     let of_pattern: Vec<&str> = of_pattern.iter().map(String::as_str).collect();
-    assert_told(
+    assert_warnings(
         &warnings(dir.path(), &["simulate", "clip/*", "-o", "out", "--force"]),
         &of_pattern,
     );
@@ -166,8 +166,8 @@ fn a_set_says_what_it_leaves_out() {
         "a set consists of images: videos in `set`, 1 in all, such as `set/cat/film.y4m`",
         "`set/cat/more` is skipped: it lies deeper",
     ];
-    assert_told(&warnings(dir.path(), &["dataset", "set", "-o", "out"]), &expected);
-    assert_told(
+    assert_warnings(&warnings(dir.path(), &["dataset", "set", "-o", "out"]), &expected);
+    assert_warnings(
         &warnings(dir.path(), &["simulate", "set", "--images", "set", "-o", "out"]),
         &expected,
     );
@@ -197,7 +197,7 @@ fn a_tree_says_what_is_no_clip_and_takes_no_text_for_one() {
     link("..", &dir.path().join("clips/cars/up"));
     link("nowhere", &dir.path().join("clips/d.mp4"));
     let said = warnings(dir.path(), &["simulate", "clips", "-o", "out"]);
-    assert_told(
+    assert_warnings(
         &said,
         &[
             "`clips/1/2/3/4/5/6/7/8/9` is skipped: it lies deeper",
@@ -222,7 +222,7 @@ fn a_tree_says_what_is_no_clip_and_takes_no_text_for_one() {
     assert_eq!(inputs, ["clips/a.y4m", "clips/cars/frames"]);
     // A text file is not a clip of its own either.
     let parts = ["`clips/notes.txt` is not an image", "it is text"];
-    fail_in(dir.path(), 2, &["simulate", "clips/notes.txt", "-o", "no"], &parts);
+    expect_failure(dir.path(), 2, &["simulate", "clips/notes.txt", "-o", "no"], &parts);
     let outcome =
         run_in(dir.path(), &["simulate", "clips/a.y4m", "clips/notes.txt", "-o", "out", "--force"]);
     assert_eq!(outcome.code, 1);
@@ -263,24 +263,24 @@ fn images_of_a_type_that_is_not_read_are_refused_wherever_they_are() {
         ];
         for command in ["simulate", "dataset", "analyze temporal"] {
             let command: Vec<&str> = command.split(' ').collect();
-            fail_in(dir.path(), 2, &[&command[..], inputs, &["-o", "no"]].concat(), &parts);
+            expect_failure(dir.path(), 2, &[&command[..], inputs, &["-o", "no"]].concat(), &parts);
         }
         assert!(!dir.path().join("no").exists());
     }
 }
 
 #[test]
-fn frames_that_are_there_twice_or_differ_in_case_are_told() {
+fn frames_that_occur_twice_or_differ_in_case_are_reported() {
     let dir = tempfile::tempdir().unwrap();
     let one = pgm(3);
     files(dir.path(), &[("a/f1.pgm", &one), ("a/f01.pgm", &one), ("a/f2.pgm", &one)]);
     files(dir.path(), &[("b/f1.pgm", &one), ("b/f2.PGM", &one), ("b/f3.ppm", &one)]);
     let twice = ["`a/f01.pgm` and `a/f1.pgm` have the same number, and both are read"];
     for input in ["a", "a/*.pgm"] {
-        assert_told(&warnings(dir.path(), &["simulate", input, "-o", "out"]), &twice);
+        assert_warnings(&warnings(dir.path(), &["simulate", input, "-o", "out"]), &twice);
     }
-    assert_told(&warnings(dir.path(), &["simulate", "b", "-o", "out"]), &[]);
+    assert_warnings(&warnings(dir.path(), &["simulate", "b", "-o", "out"]), &[]);
     let case = ["`b/f2.PGM` is skipped: the pattern matches it only if"];
-    assert_told(&warnings(dir.path(), &["simulate", "b/*.pgm", "-o", "out"]), &case);
-    assert_told(&warnings(dir.path(), &["simulate", "b/f[123].p[pg]m", "-o", "out"]), &case);
+    assert_warnings(&warnings(dir.path(), &["simulate", "b/*.pgm", "-o", "out"]), &case);
+    assert_warnings(&warnings(dir.path(), &["simulate", "b/f[123].p[pg]m", "-o", "out"]), &case);
 }

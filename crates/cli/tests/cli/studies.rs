@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of `foveate analyze`, end to end.
 
-use crate::common::{fail_in, files_below, succeed_in};
+use crate::common::{expect_failure, files_below, run_successfully};
 
 const SCENES: [&str; 6] =
     ["scene:street", "scene:shake", "--frames", "4", "--set", "frame={width=64,height=48}"];
@@ -21,12 +21,12 @@ fn every_study_of_scenes_writes_tables_and_charts() {
         ("size", 3),
         ("threshold", 7),
     ] {
-        let printed = succeed_in(dir.path(), &analyze(study, &["--force"]));
+        let printed = run_successfully(dir.path(), &analyze(study, &["--force"]));
         assert!(printed.starts_with(&format!("out: {study}.csv, {study}")), "{printed}");
         // The additional file is the list of the files.
         assert_eq!(files_below(&dir.path().join("out")).len(), files + 1, "{study}");
     }
-    let json = succeed_in(dir.path(), &analyze("temporal", &["--force", "--json"]));
+    let json = run_successfully(dir.path(), &analyze("temporal", &["--force", "--json"]));
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["study"], "temporal");
     assert_eq!(json["rows"][1][0], "shake");
@@ -42,7 +42,7 @@ fn recall_prints_objects_and_writes_everything() {
         std::fs::write(dir.path().join(name), text).unwrap();
     }
     let boxes = ["--boxes", "a.txt", "--boxes", "b.txt"];
-    let printed = succeed_in(dir.path(), &analyze("recall", &boxes));
+    let printed = run_successfully(dir.path(), &analyze("recall", &boxes));
     assert!(printed.starts_with("out: recall.csv, recall-tracks.csv, recall.svg"), "{printed}");
     for row in ["| street | all | 3 |", "| shake | all | 1 |", "| all clips | all | 4 |"] {
         assert!(printed.contains(row), "{row}: {printed}");
@@ -51,16 +51,16 @@ fn recall_prints_objects_and_writes_everything() {
     let chart = std::fs::read_to_string(dir.path().join("out/recall-size.svg")).unwrap();
     assert!(chart.contains("\nsmall (n = 4)\n"), "{chart}");
     let json =
-        succeed_in(dir.path(), &analyze("recall", &[&boxes[..], &["--json", "--force"]].concat()));
+        run_successfully(dir.path(), &analyze("recall", &[&boxes[..], &["--json", "--force"]].concat()));
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["columns"][6], "objects");
     assert_eq!(json["rows"][0][6], "3");
     let known = [("recall", "--boxes"), ("temporal", "--boxes belongs to the study recall")];
     for ((study, part), boxes) in known.into_iter().zip([&[][..], &boxes]) {
-        fail_in(dir.path(), 2, &analyze(study, &[&["--force"], boxes].concat()), &[part]);
+        expect_failure(dir.path(), 2, &analyze(study, &[&["--force"], boxes].concat()), &[part]);
     }
     std::fs::write(dir.path().join("b.txt"), "2,1,9,9,8,8,1,1,1\n3,1,9,9,8\n").unwrap();
-    fail_in(
+    expect_failure(
         dir.path(),
         2,
         &analyze("recall", &[&boxes[..], &["--force"]].concat()),
@@ -71,12 +71,12 @@ fn recall_prints_objects_and_writes_everything() {
 #[test]
 fn mistakes_are_one_line_and_leave_what_is_there() {
     let dir = tempfile::tempdir().unwrap();
-    succeed_in(dir.path(), &analyze("temporal", &[]));
+    run_successfully(dir.path(), &analyze("temporal", &[]));
     let before = files_below(dir.path());
-    fail_in(dir.path(), 2, &analyze("size", &[]), &["out", "--force"]);
-    fail_in(dir.path(), 2, &analyze("sensor", &["--force"]), &["--sensor-events"]);
-    fail_in(dir.path(), 2, &["analyze", "size", "nowhere.mp4", "-o", "x"], &["nowhere.mp4"]);
-    fail_in(
+    expect_failure(dir.path(), 2, &analyze("size", &[]), &["out", "--force"]);
+    expect_failure(dir.path(), 2, &analyze("sensor", &["--force"]), &["--sensor-events"]);
+    expect_failure(dir.path(), 2, &["analyze", "size", "nowhere.mp4", "-o", "x"], &["nowhere.mp4"]);
+    expect_failure(
         dir.path(),
         2,
         &analyze("size", &["--force", "--set", "region.size=1"]),

@@ -5,13 +5,13 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::succeed_in;
+use crate::common::run_successfully;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
 /// Returns the slowest clock that a script prints for several seeds.
-fn worst(core: &Path, script: &str, words: &[&str], nextpnr: Tool) -> f64 {
+fn slowest_clock(core: &Path, script: &str, words: &[&str], nextpnr: Tool) -> f64 {
     let program = |tool| Toolchain::system().find(tool).unwrap().path;
     let mut command = Command::new("sh");
     command.arg(script).args(words).current_dir(core);
@@ -43,7 +43,7 @@ fn the_scripts_of_a_core_give_the_clock_of_the_estimate() {
         "--set",
         "denoise.filter='none'",
     ];
-    succeed_in(
+    run_successfully(
         dir.path(),
         &[&["generate", "-o", "core", "--prefix", "cam0"], &settings[..]].concat(),
     );
@@ -54,12 +54,12 @@ fn the_scripts_of_a_core_give_the_clock_of_the_estimate() {
         let estimate =
             ["estimate", "--level", "rcm", "--place-and-route", device, "--seeds", seeds, "--json"];
         let report: Value =
-            serde_json::from_str(&succeed_in(dir.path(), &[&estimate[..], &settings].concat()))
+            serde_json::from_str(&run_successfully(dir.path(), &[&estimate[..], &settings].concat()))
                 .unwrap();
         let fmax = &report["devices"][0]["placed"]["fmax"];
         let reached = fmax["seeds_mhz"].as_array().unwrap_or_else(|| panic!("{report}"));
         let expected = reached.iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
-        let found = worst(&dir.path().join("core"), script, &["rcm", device, seeds], nextpnr);
+        let found = slowest_clock(&dir.path().join("core"), script, &["rcm", device, seeds], nextpnr);
         assert!((found / expected - 1.0).abs() < TOLERANCE, "{device}: {found} and {expected} MHz");
     }
     for (words, part) in [

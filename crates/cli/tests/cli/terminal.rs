@@ -10,7 +10,7 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{Winsize, tcsetwinsize};
 
 /// Returns the lines that a command draws on a terminal of `columns` columns, one for each drawing.
-fn drawn(columns: u16, arguments: &[&str], feed: impl FnOnce(ChildStdin)) -> Vec<String> {
+fn drawn_lines(columns: u16, arguments: &[&str], feed: impl FnOnce(ChildStdin)) -> Vec<String> {
     let own = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&own).unwrap();
     unlockpt(&own).unwrap();
@@ -60,7 +60,7 @@ fn without_controls(text: &str) -> String {
 }
 
 /// Writes six frames, one every 0.7 seconds.
-fn slowly(mut input: ChildStdin) {
+fn write_slowly(mut input: ChildStdin) {
     input.write_all(b"YUV4MPEG2 W16 H16 F1:1 Cmono\n").unwrap();
     for _ in 0..6 {
         input.write_all(b"FRAME\n").unwrap();
@@ -80,7 +80,7 @@ fn rate(line: &str) -> Option<f64> {
 
 #[test]
 fn a_stream_shows_its_count_and_a_true_rate() {
-    let lines = drawn(80, STREAM, slowly);
+    let lines = drawn_lines(80, STREAM, write_slowly);
     assert!(lines.iter().any(|line| line.contains("5 frames")), "{lines:?}");
     let rates: Vec<f64> = lines.iter().filter_map(|line| rate(line)).collect();
     assert!(!rates.is_empty(), "{lines:?}");
@@ -97,7 +97,7 @@ fn a_stream_shows_its_count_and_a_true_rate() {
 #[test]
 fn no_line_is_wider_than_the_terminal() {
     for columns in [20, 40, 80] {
-        let runs = [drawn(columns, STREAM, slowly), drawn(columns, &["stress", "--short"], drop)];
+        let runs = [drawn_lines(columns, STREAM, write_slowly), drawn_lines(columns, &["stress", "--short"], drop)];
         for line in runs.iter().flatten() {
             assert!(line.chars().count() <= columns.into(), "{columns} columns: {line}");
         }
@@ -109,13 +109,13 @@ fn no_line_is_wider_than_the_terminal() {
 }
 
 #[test]
-fn nothing_is_shown_of_nothing() {
+fn progress_never_shows_zero_of_zero() {
     // A source of known length shows its length from the first line on, never 0 of 0.
     let scene: &[&str] = &["simulate", "scene:street", "-o", "out", "--max-frames", "40"];
     for arguments in [scene, STREAM] {
-        let lines = drawn(80, arguments, |input| {
+        let lines = drawn_lines(80, arguments, |input| {
             if arguments == STREAM {
-                slowly(input);
+                write_slowly(input);
             }
         });
         assert!(!lines.is_empty());
@@ -127,5 +127,5 @@ fn nothing_is_shown_of_nothing() {
 
 #[test]
 fn a_quiet_command_draws_nothing() {
-    assert_eq!(drawn(80, &[STREAM, &["--quiet"]].concat(), slowly), Vec::<String>::new());
+    assert_eq!(drawn_lines(80, &[STREAM, &["--quiet"]].concat(), write_slowly), Vec::<String>::new());
 }

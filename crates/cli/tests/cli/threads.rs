@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::common::{files_below, foveate, run_in, succeed_in};
+use crate::common::{files_below, foveate, run_in, run_successfully};
 
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 const RIGHT: &str = "expected 1 to 256, or 0, which takes one per processor";
@@ -56,7 +56,7 @@ fn every_command_that_shares_its_work_says_so() {
     let dir = tempfile::tempdir().unwrap();
     for command in ["simulate", "dataset", "analyze", "explore", "fit", "infer", "stress"] {
         assert!(
-            succeed_in(dir.path(), &[command, "--help"]).contains("--threads <N>"),
+            run_successfully(dir.path(), &[command, "--help"]).contains("--threads <N>"),
             "{command}"
         );
     }
@@ -64,7 +64,7 @@ fn every_command_that_shares_its_work_says_so() {
 
 /// Returns the number of threads of a running simulation.
 #[cfg(target_os = "linux")]
-fn threads(folder: &Path, asked: &str, variable: &str) -> usize {
+fn running_threads(folder: &Path, asked: &str, variable: &str) -> usize {
     use std::time::{Duration, Instant};
     let frames = ["--frames", "1000000", "--quiet", "--no-rendered"];
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_foveate"));
@@ -92,7 +92,7 @@ fn threads(folder: &Path, asked: &str, variable: &str) -> usize {
 #[cfg(target_os = "linux")]
 fn there_are_as_many_as_were_asked_for() {
     let dir = tempfile::tempdir().unwrap();
-    let one = threads(dir.path(), "1", "");
-    assert_eq!(threads(dir.path(), "40", ""), one + 39);
-    assert_eq!(threads(dir.path(), "1", "40"), one, "the option wins");
+    let one = running_threads(dir.path(), "1", "");
+    assert_eq!(running_threads(dir.path(), "40", ""), one + 39);
+    assert_eq!(running_threads(dir.path(), "1", "40"), one, "the option wins");
 }

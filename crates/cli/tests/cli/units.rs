@@ -8,7 +8,7 @@ use std::process::{Child, Stdio};
 
 use serde_json::Value;
 
-use crate::common::{fail_in, files_below, listening, run_in, succeed_in};
+use crate::common::{expect_failure, files_below, foveate_with_signals, run_in, run_successfully};
 use crate::full_disk::run_within;
 
 const SPACE: &str = "[design]\nframe.width = 64\nframe.height = 48\n[vary]\nspatial.0.level = [70, 80, 90, 100]\n\
@@ -38,7 +38,7 @@ fn folder_with_space() -> tempfile::TempDir {
 
 fn succeed(folder: &Path, more: &[&str]) -> String {
     let args = explore(more);
-    succeed_in(folder, &args.iter().map(String::as_str).collect::<Vec<_>>())
+    run_successfully(folder, &args.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 fn planned(folder: &Path) -> Vec<Value> {
@@ -83,7 +83,7 @@ fn mistakes_are_one_line() {
     let dir = folder_with_space();
     let wrong = |more: &[&str], parts: &[&str]| {
         let args = explore(more);
-        fail_in(dir.path(), 2, &args.iter().map(String::as_str).collect::<Vec<_>>(), parts);
+        expect_failure(dir.path(), 2, &args.iter().map(String::as_str).collect::<Vec<_>>(), parts);
     };
     wrong(&["--only", "17"], &["no unit `17`", "plan again"]);
     let unit = planned(dir.path()).remove(0);
@@ -102,16 +102,16 @@ fn mistakes_are_one_line() {
 fn a_clip_that_changed_since_the_plan_is_refused() {
     let dir = folder_with_space();
     let made = ["simulate", "scene:street", "-o", "made", "--frames", "4", "--quiet"];
-    succeed_in(dir.path(), &made);
+    run_successfully(dir.path(), &made);
     let run =
         ["explore", "space.toml", "made/rendered", "-o", "out", "--no-area", "--resize", "64x48"];
-    let plan = succeed_in(dir.path(), &[&run[..], &["--plan"]].concat());
+    let plan = run_successfully(dir.path(), &[&run[..], &["--plan"]].concat());
     let unit: Value = serde_json::from_str(plan.lines().next().unwrap()).unwrap();
     let only = [&run[..], &["--only", text(&unit["unit"])]].concat();
-    succeed_in(dir.path(), &only);
+    run_successfully(dir.path(), &only);
     fs::copy(dir.path().join("made/rendered/000001.png"), dir.path().join("made/rendered/9.png"))
         .unwrap();
-    fail_in(dir.path(), 2, &only, &["no unit", "the clips", "plan again"]);
+    expect_failure(dir.path(), 2, &only, &["no unit", "the clips", "plan again"]);
 }
 
 #[test]
@@ -123,10 +123,10 @@ fn a_unit_of_a_clip_that_breaks_off_is_not_done() {
     clip.truncate(clip.len() - 100);
     fs::write(dir.path().join("cut.y4m"), clip).unwrap();
     let run = ["explore", "space.toml", "cut.y4m", "-o", "out", "--no-area"];
-    let plan = succeed_in(dir.path(), &[&run[..], &["--plan"]].concat());
+    let plan = run_successfully(dir.path(), &[&run[..], &["--plan"]].concat());
     let line = plan.lines().next().unwrap();
     let only = [&run[..], &["--only", line]].concat();
-    fail_in(dir.path(), 1, &only, &["`cut` is not complete"]);
+    expect_failure(dir.path(), 1, &only, &["`cut` is not complete"]);
     let there = files_below(&dir.path().join("out"));
     assert_eq!(there.len(), 1, "only the mark of the folder: {there:?}");
 }
@@ -139,7 +139,7 @@ fn workers_that_are_killed_lose_only_what_they_were_at() {
     let units = planned(dir.path());
     let start = |unit: &Value| -> Child {
         let args = explore(&["--only", text(&unit["unit"]), "--quiet"]);
-        listening().args(args).current_dir(dir.path()).stdout(Stdio::null()).spawn().unwrap()
+        foveate_with_signals().args(args).current_dir(dir.path()).stdout(Stdio::null()).spawn().unwrap()
     };
     succeed(dir.path(), &["--only", text(&units[0]["unit"])]);
     let before = files_below(&dir.path().join("out"));

@@ -10,7 +10,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use roxmltree::{Document, ParsingOptions};
 
-use crate::common::{fail_in, files_below, foveate};
+use crate::common::{expect_failure, files_below, foveate};
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
@@ -64,7 +64,7 @@ fn run(dir: &Path, before: &[&str], clips: &[String], after: &[&str]) {
 
 /// Fails unless every page and chart of a folder is well-formed XML with only its own scripts and
 /// handlers, and tables have their columns.
-fn check(folder: &Path) {
+fn check_folder(folder: &Path) {
     for (path, bytes) in files_below(folder) {
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         match ending.as_str() {
@@ -105,7 +105,7 @@ fn check_markup(path: &Path, text: &str) {
 fn names_of_clips_are_text_on_the_page_of_a_network() {
     let (dir, clips) = clips();
     run(dir.path(), &["infer", DENOISER], &clips, &["-o", "out"]);
-    check(&dir.path().join("out"));
+    check_folder(&dir.path().join("out"));
     let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
     assert!(page.contains("&lt;svg onload") || page.contains("&#60;svg onload"));
     // A shell reads the same words from the command on the page.
@@ -128,7 +128,7 @@ fn names_of_clips_are_text_in_charts_and_reports() {
     let (dir, clips) = clips();
     for study in ["temporal", "activity"] {
         run(dir.path(), &["analyze", study, "-o", study], &clips, &[]);
-        check(&dir.path().join(study));
+        check_folder(&dir.path().join(study));
         let table =
             fs::read_to_string(dir.path().join(study).join(format!("{study}.csv"))).unwrap();
         let commas = |line: &str| line.matches(',').count();
@@ -137,7 +137,7 @@ fn names_of_clips_are_text_in_charts_and_reports() {
         assert!(rows.all(|row| row == first), "{table}");
     }
     run(dir.path(), &["explore", "space.toml"], &clips, &["-o", "explored", "--no-area"]);
-    check(&dir.path().join("explored"));
+    check_folder(&dir.path().join("explored"));
     let page = fs::read_to_string(dir.path().join("explored/report.html")).unwrap();
     assert!(
         page.contains("script&#62;alert(1)") || page.contains("script&gt;alert(1)"),
@@ -145,7 +145,7 @@ fn names_of_clips_are_text_in_charts_and_reports() {
     );
     if require_tools(&[Tool::Ffmpeg]) {
         run(dir.path(), &["link"], &clips, &["-o", "linked", "--codecs", "mjpeg"]);
-        check(&dir.path().join("linked"));
+        check_folder(&dir.path().join("linked"));
     }
 }
 
@@ -168,7 +168,7 @@ fn a_board_whose_file_has_a_hostile_name_is_refused() {
     ] {
         let file = format!("./{name}.toml");
         fs::write(dir.path().join(&file), &board).unwrap();
-        fail_in(dir.path(), 2, &["build", "--board", &file, "-o", "out"], &["rename the file"]);
+        expect_failure(dir.path(), 2, &["build", "--board", &file, "-o", "out"], &["rename the file"]);
     }
     let texts = [
         ("part = \"up5k\"", "part = \"up5k; touch canary; :\"", "device.part"),
@@ -180,7 +180,7 @@ fn a_board_whose_file_has_a_hostile_name_is_refused() {
     for (from, to, key) in texts {
         assert!(board.contains(from), "{from}");
         fs::write(dir.path().join("here.toml"), board.replace(from, to)).unwrap();
-        fail_in(dir.path(), 2, &["build", "--board", "here.toml", "-o", "out"], &[key]);
+        expect_failure(dir.path(), 2, &["build", "--board", "here.toml", "-o", "out"], &[key]);
     }
     assert!(!dir.path().join("canary").exists() && !dir.path().join("out").exists());
 }

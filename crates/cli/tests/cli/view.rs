@@ -9,30 +9,30 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{fail_in, succeed_in};
-use crate::served::Served;
+use crate::common::{expect_failure, run_successfully};
+use crate::served::ServedCommand;
 
 #[test]
 fn a_stream_is_shown_until_it_is_told_to_stop() {
     let dir = tempfile::tempdir().unwrap();
     let sent = ["simulate", "scene:street", "-o", "sent", "--frames", "3", "--packets", "--quiet"];
-    succeed_in(dir.path(), &sent);
+    run_successfully(dir.path(), &sent);
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
-        let mut view = Served::start(dir.path(), &["view", "sent/packets.bin"]);
+        let mut view = ServedCommand::start(dir.path(), &["view", "sent/packets.bin"]);
         let mut told = String::new();
         while !told.contains("the stream has ended; frames shown: 3") {
             assert_ne!(view.errors.read_line(&mut told).unwrap(), 0, "{told}");
         }
         // The page is served after the end of the stream, too.
-        view.gives("");
-        let (stopped, last) = view.stopped_by(signal);
+        view.assert_serves("");
+        let (stopped, last) = view.stop_with(signal);
         assert_eq!(stopped, Some(code));
         assert!(last.ends_with("foveate: interrupted after 3 frames\n"), "{told}{last}");
     }
 }
 
 /// The time within which a command must react to a signal.
-const PROMPT: Duration = Duration::from_secs(1);
+const REACTION_LIMIT: Duration = Duration::from_secs(1);
 
 fn fifo(folder: &Path) {
     assert!(Command::new("mkfifo").arg(folder.join("fifo")).status().unwrap().success());
@@ -52,14 +52,14 @@ fn a_source_that_sends_nothing_or_noise_without_end_is_left_at_once() {
             ("-", device("/dev/zero")),
             ("-", device("/dev/urandom")),
         ] {
-            let view = Served::reading(dir.path(), &["view", input], stdin);
-            view.gives("next?after=0");
+            let view = ServedCommand::start_with_input(dir.path(), &["view", input], stdin);
+            view.assert_serves("next?after=0");
             std::thread::sleep(Duration::from_millis(500));
             let memory = view.memory().unwrap_or(0);
             assert!(memory < 100 << 10, "{memory} KiB");
             let start = Instant::now();
-            let (code, told) = view.stopped_by(signal);
-            assert!(start.elapsed() < PROMPT, "{input}: {:?}", start.elapsed());
+            let (code, told) = view.stop_with(signal);
+            assert!(start.elapsed() < REACTION_LIMIT, "{input}: {:?}", start.elapsed());
             assert_eq!(code, Some(if signal == "INT" { 130 } else { 143 }));
             assert!(told.ends_with("foveate: interrupted after 0 frames\n"), "{told}");
         }
@@ -71,7 +71,7 @@ fn what_cannot_be_shown_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("packets.bin"), "").unwrap();
     let refused = |args: &[&str], parts: &[&str]| {
-        fail_in(dir.path(), 2, &[&["view"], args].concat(), parts);
+        expect_failure(dir.path(), 2, &[&["view"], args].concat(), parts);
     };
     refused(&["missing.bin"], &["missing.bin"]);
     refused(&["."], &["folder", "packets.bin"]);

@@ -15,19 +15,19 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
-use crate::common::listening;
-use crate::signals::{SIGNALS, ended, has, kill, wait_for};
+use crate::common::foveate_with_signals;
+use crate::signals::{SIGNALS, has_ended, has_temporary_file, kill, wait_for};
 
 /// The time limit for the end of the program, long enough for a busy machine.
-const PATIENCE: Duration = Duration::from_secs(4);
+const END_LIMIT: Duration = Duration::from_secs(4);
 
 /// A folder with a stub of ffmpeg: a script that records its process number, and then runs the
 /// test's commands in place of the real ffmpeg or after it.
-struct Stub {
+struct FfmpegStub {
     dir: tempfile::TempDir,
 }
 
-impl Stub {
+impl FfmpegStub {
     /// Makes the stub. `script` runs unless the version is asked for; `$REAL` is the real ffmpeg.
     fn new(script: &str) -> Self {
         let dir = tempfile::tempdir().unwrap();
@@ -57,22 +57,22 @@ impl Stub {
                     "testsrc=size=64x48:rate=10:duration=0.5",
                 ])
                 .args(["-c:v", "ffv1"])
-                .arg(self.at(name))
+                .arg(self.path_of(name))
                 .status();
             assert!(made.unwrap().success());
         }
     }
 
-    fn at(&self, name: &str) -> PathBuf {
+    fn path_of(&self, name: &str) -> PathBuf {
         self.dir.path().join(name)
     }
 
     fn command(&self, args: &[&str]) -> Command {
-        let mut command = listening();
+        let mut command = foveate_with_signals();
         command
             .args(args)
             .current_dir(self.dir.path())
-            .env("FOVEATE_FFMPEG", self.at("ffmpeg"))
+            .env("FOVEATE_FFMPEG", self.path_of("ffmpeg"))
             .env("FOVEATE_PROGRESS", "0")
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
@@ -85,25 +85,25 @@ impl Stub {
     }
 
     /// Returns the process numbers of all started stubs.
-    fn pids(&self) -> Vec<String> {
-        let text = fs::read_to_string(self.at("pids")).unwrap_or_default();
+    fn process_numbers(&self) -> Vec<String> {
+        let text = fs::read_to_string(self.path_of("pids")).unwrap_or_default();
         text.lines().map(str::to_owned).collect()
     }
 
     /// Waits until the stub runs, stops the program, and checks that it ends soon and that no stub
     /// remains. Returns its messages.
-    fn stopped(&self, child: Child, signal: &str, code: i32) -> String {
-        wait_for("ffmpeg", || !self.pids().is_empty());
+    fn stop_alone(&self, child: Child, signal: &str, code: i32) -> String {
+        wait_for("ffmpeg", || !self.process_numbers().is_empty());
         std::thread::sleep(Duration::from_millis(300));
-        let output = stopped(child, signal, code);
-        assert!(self.pids().iter().all(|pid| ended(pid)), "an ffmpeg remains");
-        let _ = fs::remove_file(self.at("pids"));
+        let output = stop_and_check(child, signal, code);
+        assert!(self.process_numbers().iter().all(|pid| has_ended(pid)), "an ffmpeg remains");
+        let _ = fs::remove_file(self.path_of("pids"));
         String::from_utf8_lossy(&output.stderr).into_owned()
     }
 }
 
 /// Sends a signal to a waiting program, and checks that it ends soon with this exit code.
-fn stopped(mut child: Child, signal: &str, code: i32) -> Output {
+fn stop_and_check(mut child: Child, signal: &str, code: i32) -> Output {
     assert!(child.try_wait().unwrap().is_none(), "it does not wait");
     let start = Instant::now();
     kill(child.id(), signal);
@@ -112,7 +112,7 @@ fn stopped(mut child: Child, signal: &str, code: i32) -> Output {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{signal}: {said}");
-    assert!(took < PATIENCE, "{signal}: {took:?}: {said}");
+    assert!(took < END_LIMIT, "{signal}: {took:?}: {said}");
     output
 }
 
@@ -141,7 +141,7 @@ fn stream(frames: usize) -> Vec<u8> {
 
 fn has_frames(folder: &Path, frames: usize) -> bool {
     let picture = format!("rendered/{:06}.png", frames - 1);
-    has(folder, &picture)
+    has_temporary_file(folder, &picture)
 }
 
 const STALLED: &str = "exec sleep 600";
@@ -153,7 +153,7 @@ fn an_ffmpeg_that_stalls_ends_with_every_command() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
     }
-    let stub = Stub::new(STALLED);
+    let stub = FfmpegStub::new(STALLED);
     stub.clips(&["a.mkv", "b.mkv"]);
     let activity = ["analyze", "activity", "a.mkv", "b.mkv", "-o", "out"];
     let commands: [&[&str]; 8] = [
@@ -168,9 +168,9 @@ fn an_ffmpeg_that_stalls_ends_with_every_command() {
     ];
     for (turn, args) in commands.into_iter().enumerate() {
         let (signal, code) = SIGNALS[turn % 3];
-        let said = stub.stopped(stub.start(args), signal, code);
+        let said = stub.stop_alone(stub.start(args), signal, code);
         assert!(said.contains("interrupted"), "{args:?}: {said}");
-        assert!(!stub.at("out").exists(), "{args:?}");
+        assert!(!stub.path_of("out").exists(), "{args:?}");
     }
 }
 
@@ -179,23 +179,23 @@ fn frames_before_an_ffmpeg_that_stalls_are_kept_and_so_are_finished_clips() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
     }
-    let stub = Stub::new(STALLED_LATER);
+    let stub = FfmpegStub::new(STALLED_LATER);
     stub.clips(&["a.mkv"]);
     for (signal, code) in SIGNALS {
         let child = stub.start(&["simulate", "a.mkv", "-o", "out"]);
         wait_for("frames", || has_frames(stub.dir.path(), 5));
-        stub.stopped(child, signal, code);
-        interrupted_after(&stub.at("out"), 5);
-        fs::remove_dir_all(stub.at("out")).unwrap();
+        stub.stop_alone(child, signal, code);
+        interrupted_after(&stub.path_of("out"), 5);
+        fs::remove_dir_all(stub.path_of("out")).unwrap();
     }
-    let batch = Stub::new("case \"$*\" in *b.mkv*) exec sleep 600;; esac\nexec $REAL \"$@\"");
+    let batch = FfmpegStub::new("case \"$*\" in *b.mkv*) exec sleep 600;; esac\nexec $REAL \"$@\"");
     batch.clips(&["a.mkv", "b.mkv", "c.mkv"]);
     let clips = ["simulate", "a.mkv", "b.mkv", "c.mkv", "-o", "out", "--threads", "2"];
     let child = batch.start(&clips);
-    let done = |name: &str| has(batch.dir.path(), &format!("{name}/summary.json"));
+    let done = |name: &str| has_temporary_file(batch.dir.path(), &format!("{name}/summary.json"));
     wait_for("clips", || done("a") && done("c"));
-    batch.stopped(child, "TERM", 143);
-    let whole = summary(&batch.at("out"));
+    batch.stop_alone(child, "TERM", 143);
+    let whole = summary(&batch.path_of("out"));
     assert_eq!((&whole["complete"], &whole["problem"]), (&false.into(), &"interrupted".into()));
     let clips = whole["clips"].as_array().unwrap();
     let complete: Vec<_> = clips.iter().map(|clip| clip["complete"].as_bool().unwrap()).collect();
@@ -209,7 +209,7 @@ fn pipes_that_stall_end_with_the_program() {
     let at = |name: &str| dir.path().join(name);
     fifo(&at("in"));
     let start = |args: &[&str], stdin: Stdio| {
-        let mut command = listening();
+        let mut command = foveate_with_signals();
         command.args(args).current_dir(dir.path()).stdin(stdin).stdout(Stdio::null());
         command.stderr(Stdio::piped()).spawn().unwrap()
     };
@@ -222,7 +222,7 @@ fn pipes_that_stall_end_with_the_program() {
         ] {
             let child = start(args, Stdio::null());
             std::thread::sleep(Duration::from_millis(300));
-            stopped(child, signal, code);
+            stop_and_check(child, signal, code);
         }
         for args in [
             &["simulate", "-", "-o", "out"][..],
@@ -233,7 +233,7 @@ fn pipes_that_stall_end_with_the_program() {
             let stdin = child.stdin.take();
             std::thread::sleep(Duration::from_millis(300));
             if child.try_wait().unwrap().is_none() {
-                stopped(child, signal, code);
+                stop_and_check(child, signal, code);
             } else {
                 assert_eq!(args[0], "check", "a configuration is a file");
             }
@@ -244,14 +244,14 @@ fn pipes_that_stall_end_with_the_program() {
         let mut stdin = child.stdin.take().unwrap();
         stdin.write_all(&stream(3)).unwrap();
         wait_for("frames", || has_frames(dir.path(), 3));
-        stopped(child, signal, code);
+        stop_and_check(child, signal, code);
         interrupted_after(&at("out"), 3);
         fs::remove_dir_all(at("out")).unwrap();
         let child = start(&["simulate", "in", "-o", "out"], Stdio::null());
         let mut writer = File::create(at("in")).unwrap();
         writer.write_all(&stream(4)[..3 * 3078 + 100]).unwrap();
         wait_for("frames", || has_frames(dir.path(), 3));
-        stopped(child, signal, code);
+        stop_and_check(child, signal, code);
         interrupted_after(&at("out"), 3);
         fs::remove_dir_all(at("out")).unwrap();
     }
@@ -264,7 +264,7 @@ fn a_camera_in_the_network_that_never_answers_is_left() {
     }
     let silent = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("rtsp://me:secret@{}/live?key=secret", silent.local_addr().unwrap());
-    let stub = Stub::new("exec $REAL \"$@\"");
+    let stub = FfmpegStub::new("exec $REAL \"$@\"");
     for (command, (signal, code)) in ["simulate", "analyze", "live"].into_iter().zip(SIGNALS) {
         let args: &[&str] = match command {
             "simulate" => &["simulate", &url, "-o", "out"],
@@ -273,9 +273,9 @@ fn a_camera_in_the_network_that_never_answers_is_left() {
         };
         let child = stub.start(args);
         let _connected = silent.accept().unwrap();
-        let said = stub.stopped(child, signal, code);
+        let said = stub.stop_alone(child, signal, code);
         assert!(!said.contains("secret"), "{said}");
-        assert!(!stub.at("out").exists());
+        assert!(!stub.path_of("out").exists());
     }
 }
 
@@ -285,13 +285,13 @@ fn a_second_ctrl_c_ends_everything_at_once() {
     if !require_tools(&[Tool::Ffmpeg]) {
         return;
     }
-    let stub = Stub::new("cat > /dev/null\nsleep 600");
+    let stub = FfmpegStub::new("cat > /dev/null\nsleep 600");
     let args = ["simulate", "scene:street", "-o", "out", "--frames", "100000", "--rendered", "mkv"];
     let child = stub.start(&args);
-    wait_for("encoder", || !stub.pids().is_empty());
+    wait_for("encoder", || !stub.process_numbers().is_empty());
     kill(child.id(), "INT");
     std::thread::sleep(Duration::from_millis(500));
-    stub.stopped(child, "INT", 130);
+    stub.stop_alone(child, "INT", 130);
 }
 
 /// This encoder takes nothing. The other results are kept, and the video is named.
@@ -300,12 +300,12 @@ fn an_encoder_that_stalls_is_given_up() {
     if !require_tools(&[Tool::Ffmpeg]) {
         return;
     }
-    let stub = Stub::new(STALLED);
+    let stub = FfmpegStub::new(STALLED);
     let set = ["--set", "frame.width=640", "--set", "frame.height=480"];
     let args = ["simulate", "scene:street", "-o", "out", "--frames", "100000", "--rendered", "mkv"];
     let child = stub.start(&[&args[..], &set].concat());
-    stub.stopped(child, "TERM", 143);
-    let problem = summary(&stub.at("out"))["problem"].as_str().unwrap().to_owned();
+    stub.stop_alone(child, "TERM", 143);
+    let problem = summary(&stub.path_of("out"))["problem"].as_str().unwrap().to_owned();
     assert!(problem.starts_with("interrupted"), "{problem}");
-    assert!(!stub.at("out/rendered.mkv").exists());
+    assert!(!stub.path_of("out/rendered.mkv").exists());
 }

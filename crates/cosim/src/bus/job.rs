@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A run of a core on its buses, from the scenes to the report.
 
-use super::check::{Agreed, Checker};
-use super::heard::Record;
+use super::checker::{BusAgreement, BusChecker};
+use super::port_record::BusRecord;
 use super::program::program;
-use super::replay::Replay;
-use super::scenes::{Scene, Stage, cameras};
-use super::thresholds::{Missed, sweep, with_other_thresholds};
+use super::replay::BusReplay;
+use super::scenes::{BusScene, SceneBuilder, cameras};
+use super::thresholds::{StaleThreshold, threshold_sweep, other_threshold_designs};
 use super::traffic::Traffic;
 use crate::error::CosimError;
-use crate::job::Progress;
-use crate::level::Level;
+use crate::job::CosimProgress;
+use crate::level::CosimLevel;
 use crate::mismatch::Mismatch;
 use crate::replay;
-use crate::report::{CosimReport, Seconds};
-use crate::simulate::{Simulator, UNKNOWN_START, WAVES_FILE};
-use crate::situations::{BusFacts, Occurrences};
+use crate::report::{CosimReport, StepSeconds};
+use crate::simulation::{Simulator, UNKNOWN_START, WAVES_FILE};
+use crate::situations::{BusSituationCounts, Occurrences};
 use foveate_design::{Design, RasterDesign};
-use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, on_bus, registers};
+use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, axi_modules, axi_registers};
 use foveate_frame::Frame;
 use foveate_staging::{ScratchFolder, write_file};
-use foveate_toolchain::verilator::{self, Lint, Optimize, VerilatorJob};
+use foveate_toolchain::verilator::{self, LintMode, OptimizationLevel, VerilatorJob};
 use foveate_toolchain::{Cache, Invocation, Source, Tool, Toolchain, sources_sha256};
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The name of the scene that plays the frames of the caller.
-const FRAMES: &str = "frames of the inputs";
+const FRAMES_SCENE: &str = "frames of the inputs";
 
 /// A core on AXI to run in Verilator.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ pub struct BusJob {
 }
 
 /// The built program of a job, and the sources that it was made from.
-struct Built {
+struct BuiltProgram {
     top: String,
     sources: Vec<Source>,
     program: String,
@@ -69,20 +69,20 @@ struct Built {
 
 /// The combined result of all scenes.
 #[derive(Default)]
-struct Outcome {
+struct BusOutcome {
     clocks: u64,
-    agreed: Agreed,
-    facts: BusFacts,
+    agreement: BusAgreement,
+    facts: BusSituationCounts,
     mismatch: Option<Mismatch>,
     /// The folder that replays the mismatch.
     replay: Option<PathBuf>,
 }
 
 /// The result of one scene.
-struct Played {
-    record: Record,
-    heard: PathBuf,
-    waves: Option<PathBuf>,
+struct PlayedScene {
+    record: BusRecord,
+    record_file: PathBuf,
+    wave_file: Option<PathBuf>,
 }
 
 impl BusJob {
@@ -91,7 +91,7 @@ impl BusJob {
     #[must_use]
     pub fn new(design: &Design, output: &Path) -> Option<Self> {
         Some(Self {
-            sources: on_bus(design)?,
+            sources: axi_modules(design)?,
             design: design.clone(),
             prefix: Prefix::default(),
             seed: 1,
@@ -113,7 +113,7 @@ impl BusJob {
     /// Returns the name of the simulated module.
     #[must_use]
     pub fn top(&self) -> String {
-        self.prefix.name(AXI_TOP)
+        self.prefix.prefixed_name(AXI_TOP)
     }
 
     /// Runs the job and returns its report. A mismatch is a result and not an error.
@@ -128,37 +128,37 @@ impl BusJob {
         &self,
         toolchain: &Toolchain,
         cache: &Cache,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(CosimProgress),
     ) -> Result<CosimReport, CosimError> {
-        let design = self.design.raster().expect("only a raster design is on a bus");
+        let design = self.design.as_raster().expect("only a raster design is on a bus");
         self.check_frames()?;
-        replay::check(&self.output)?;
+        replay::check_folder(&self.output)?;
         toolchain.find(Tool::Verilator)?;
-        replay::remove(&self.output)?;
+        replay::remove_earlier(&self.output)?;
 
         let start = Instant::now();
-        let mut others = with_other_thresholds(&self.design);
-        others.extend(sweep(&self.design));
+        let mut others = other_threshold_designs(&self.design);
+        others.extend(threshold_sweep(&self.design));
         let cameras = cameras(&self.design, &others);
         let all: Vec<Design> = std::iter::once(&self.design).chain(&others).cloned().collect();
-        let missed = Missed::all_of(&all);
-        let others: Vec<_> = others.iter().filter_map(Design::raster).map(registers).collect();
-        let registers = registers(design);
-        let scenes = self.scenes(design, &registers, &others);
+        let missed = StaleThreshold::all_of(&all);
+        let others: Vec<_> = others.iter().filter_map(Design::as_raster).map(axi_registers).collect();
+        let registers = axi_registers(design);
+        let scenes = self.scenes(design, &axi_registers, &others);
         let vectors = start.elapsed();
         if scenes.is_empty() {
-            return Err(CosimError::Nothing);
+            return Err(CosimError::NothingToSimulate);
         }
 
         let clocks = scenes.iter().map(|(_, traffic)| traffic.text().lines().count() as u64).sum();
-        progress(Progress::Simulation { clocks });
+        progress(CosimProgress::Simulation { clocks });
         let start = Instant::now();
         let built = self.build(design, toolchain, cache)?;
         let build = start.elapsed();
 
         let start = Instant::now();
-        let checker = Checker::new(design, &cameras, &registers, &missed);
-        let Outcome { clocks, agreed, facts, mismatch, replay } =
+        let checker = BusChecker::new(design, &cameras, &axi_registers, &missed);
+        let BusOutcome { clocks, agreement: agreed, facts, mismatch, replay } =
             self.play_all(&built, &scenes, &checker, toolchain)?;
         // A caller that asks for frames alone does not ask for situations.
         let situations = match self.rounds {
@@ -173,7 +173,7 @@ impl BusJob {
             situations,
             name: self.name(),
             design: self.design.fingerprint(),
-            level: Level::Full,
+            level: CosimLevel::Full,
             grid: (design.columns(), design.rows()),
             simulator: Simulator::Verilator,
             simulator_version: built.version,
@@ -187,7 +187,7 @@ impl BusJob {
             mismatch,
             replay,
             waves: None,
-            seconds: Seconds {
+            seconds: StepSeconds {
                 vectors: vectors.as_secs_f64(),
                 build: build.as_secs_f64(),
                 run: start.elapsed().as_secs_f64(),
@@ -200,15 +200,15 @@ impl BusJob {
         design: RasterDesign<'a>,
         registers: &'a [Register],
         others: &'a [Vec<Register>],
-    ) -> Vec<Scene<'a>> {
+    ) -> Vec<BusScene<'a>> {
         let mut scenes = Vec::new();
         for round in 0..u64::from(self.rounds) {
             let seed = self.seed.wrapping_add(round << 32);
-            scenes.extend(Stage::new(design, registers, others, seed).scenes());
+            scenes.extend(SceneBuilder::new(design, axi_registers, others, seed).scenes());
         }
         if !self.frames.is_empty() {
-            let mut stage = Stage::new(design, registers, others, self.seed);
-            scenes.push((FRAMES, stage.frames(&self.frames)));
+            let mut stage = SceneBuilder::new(design, axi_registers, others, self.seed);
+            scenes.push((FRAMES_SCENE, stage.caller_frames(&self.frames)));
         }
         scenes
     }
@@ -217,11 +217,11 @@ impl BusJob {
         let wanted =
             Frame::filled(self.design.width(), self.design.height(), self.design.pixel_bits(), 0)
                 .map_err(|error| CosimError::Model { reason: error.to_string() })?
-                .kind();
-        match self.frames.iter().position(|frame| frame.kind() != wanted) {
+                .size_and_depth();
+        match self.frames.iter().position(|frame| frame.size_and_depth() != wanted) {
             None => Ok(()),
             Some(index) => {
-                Err(CosimError::FrameShape { index, found: self.frames[index].kind(), wanted })
+                Err(CosimError::FrameShape { index, found: self.frames[index].size_and_depth(), wanted })
             }
         }
     }
@@ -231,7 +231,7 @@ impl BusJob {
         design: RasterDesign<'_>,
         toolchain: &Toolchain,
         cache: &Cache,
-    ) -> Result<Built, CosimError> {
+    ) -> Result<BuiltProgram, CosimError> {
         let top = self.top();
         let sources: Vec<Source> =
             self.sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
@@ -245,38 +245,38 @@ impl BusJob {
             top: top.clone(),
             cpp_main: program.clone(),
             trace: self.trace,
-            optimize: Optimize::Build,
-            lint: Lint::Lenient,
+            optimize: OptimizationLevel::FastBuild,
+            lint: LintMode::Lenient,
             extra_args: UNKNOWN_START.map(str::to_owned).into(),
             ..VerilatorJob::default()
         };
         let executable = verilator::build(toolchain, cache, &job)?;
         let version = toolchain.find(Tool::Verilator)?.banner;
-        Ok(Built { top, sources, program, executable, version })
+        Ok(BuiltProgram { top, sources, program, executable, version })
     }
 
     /// Plays the scenes in order, up to the first one with a mismatch.
     fn play_all(
         &self,
-        built: &Built,
-        scenes: &[Scene<'_>],
-        checker: &Checker<'_>,
+        built: &BuiltProgram,
+        scenes: &[BusScene<'_>],
+        checker: &BusChecker<'_>,
         toolchain: &Toolchain,
-    ) -> Result<Outcome, CosimError> {
-        let mut outcome = Outcome::default();
+    ) -> Result<BusOutcome, CosimError> {
+        let mut outcome = BusOutcome::default();
         for (name, traffic) in scenes {
             let folder = ScratchFolder::new()
                 .map_err(CosimError::temporary("create a folder in", &std::env::temp_dir()))?;
-            let played = self.play(built, traffic, folder.path(), toolchain)?;
+            let played = self.play_scene(built, traffic, folder.path(), toolchain)?;
             outcome.clocks += played.record.clocks.unwrap_or_default();
-            if *name == FRAMES {
-                self.keep_packets(&played.record)?;
+            if *name == FRAMES_SCENE {
+                self.write_packets(&played.record)?;
             }
             match checker.check(traffic.sessions(), &played.record, &mut outcome.facts) {
-                Ok(more) => outcome.agreed += more,
+                Ok(more) => outcome.agreement += more,
                 Err(wrong) => {
-                    let mismatch = wrong.mismatch(name);
-                    outcome.replay = Some(self.leave(built, traffic, &played, &mismatch)?);
+                    let mismatch = wrong.into_mismatch(name);
+                    outcome.replay = Some(self.write_replay(built, traffic, &played, &mismatch)?);
                     outcome.mismatch = Some(mismatch);
                     break;
                 }
@@ -286,20 +286,20 @@ impl BusJob {
     }
 
     /// Writes the replay folder of a failing scene.
-    fn leave(
+    fn write_replay(
         &self,
-        built: &Built,
+        built: &BuiltProgram,
         traffic: &Traffic<'_>,
-        played: &Played,
+        played: &PlayedScene,
         mismatch: &Mismatch,
     ) -> Result<PathBuf, CosimError> {
-        let replay = Replay {
+        let replay = BusReplay {
             top: &built.top,
             sources: &built.sources,
             program: &built.program,
             traffic: traffic.text(),
-            heard: &played.heard,
-            waves: played.waves.as_deref(),
+            record_file: &played.record_file,
+            wave_file: played.wave_file.as_deref(),
             mismatch,
             version: &built.version,
             seed: self.seed,
@@ -308,13 +308,13 @@ impl BusJob {
         replay.write(&self.output)
     }
 
-    fn play(
+    fn play_scene(
         &self,
-        built: &Built,
+        built: &BuiltProgram,
         traffic: &Traffic<'_>,
         folder: &Path,
         toolchain: &Toolchain,
-    ) -> Result<Played, CosimError> {
+    ) -> Result<PlayedScene, CosimError> {
         let [script, heard, waves] =
             ["traffic.txt", "heard.txt", WAVES_FILE].map(|name| folder.join(name));
         fs::write(&script, traffic.text()).map_err(CosimError::temporary("write", &script))?;
@@ -327,11 +327,11 @@ impl BusJob {
             .timeout(self.limit);
         let output = toolchain.run(&run)?;
         let file = File::open(&heard).map_err(CosimError::temporary("read", &heard))?;
-        let record = Record::read(BufReader::new(file)).unwrap_or_default();
+        let record = BusRecord::read(BufReader::new(file)).unwrap_or_default();
         if !output.is_success() || record.clocks.is_none() {
             let log = output.log();
             let tail = log.lines().rev().find(|line| !line.trim().is_empty());
-            return Err(CosimError::Short {
+            return Err(CosimError::EndedEarly {
                 simulator: Simulator::Verilator.to_string(),
                 clocks: traffic.text().lines().count() as u64,
                 got: record.clocks.unwrap_or_default(),
@@ -339,13 +339,13 @@ impl BusJob {
                 log: tail.map(|line| format!(": {line}")).unwrap_or_default(),
             });
         }
-        Ok(Played { record, heard, waves: self.trace.then_some(waves) })
+        Ok(PlayedScene { record, record_file: heard, wave_file: self.trace.then_some(waves) })
     }
 
     /// Writes the packets of a run to the file, in order.
-    fn keep_packets(&self, record: &Record) -> Result<(), CosimError> {
+    fn write_packets(&self, record: &BusRecord) -> Result<(), CosimError> {
         let Some(file) = &self.packets else { return Ok(()) };
-        let parcels = record.sessions.iter().flat_map(|heard| &heard.parcels);
+        let parcels = record.sessions.iter().flat_map(|heard| &heard.packets);
         let bytes: Vec<u8> = parcels.flat_map(|parcel| parcel.bytes.iter().copied()).collect();
         Ok(write_file(file, &bytes)?)
     }

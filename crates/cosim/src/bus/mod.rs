@@ -7,18 +7,18 @@
 //! leaves is not compared, because no contract defines it. Each packet must leave whole, in order
 //! and once.
 
-mod check;
-mod clears;
-mod damage;
-mod film;
-mod follower;
-mod heard;
+mod checker;
+mod event_clears;
+mod video_damage;
+mod frame_source;
+mod lossy_model;
+mod port_record;
 mod job;
 mod program;
 mod replay;
 mod scenes;
 mod thresholds;
 mod traffic;
-mod wrong;
+mod bus_mismatch;
 
 pub use job::BusJob;

@@ -2,7 +2,7 @@
 //! Thresholds that are written while frames come: other values for each of them, and sequences in
 //! which each decides.
 
-use foveate_design::{Camera, Combine, Config, Decimal, Design, FeatureKind, Thresholds};
+use foveate_design::{Camera, VoteCombination, DesignConfig, Decimal, Design, FeatureKind, ThresholdSource};
 
 /// One threshold of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ impl ThresholdKey {
     }
 
     /// Copies this threshold from one configuration to another.
-    fn copy(self, from: &Config, to: &mut Config) {
+    fn copy_value(self, from: &DesignConfig, to: &mut DesignConfig) {
         let (from, to) = (&from.camera, &mut to.camera);
         match self {
             Self::Level(place) => to.spatial[place].level = from.spatial[place].level,
@@ -55,10 +55,10 @@ impl ThresholdKey {
 
 /// Returns the design with other thresholds: once with a lower temporal level, once with a temporal
 /// level whose highest bit is set. Returns an empty list if thresholds are constants.
-pub(super) fn with_other_thresholds(design: &Design) -> Vec<Design> {
-    match design.thresholds() {
-        Thresholds::Constant => return Vec::new(),
-        Thresholds::Runtime => {}
+pub(super) fn other_threshold_designs(design: &Design) -> Vec<Design> {
+    match design.threshold_source() {
+        ThresholdSource::Constant => return Vec::new(),
+        ThresholdSource::Runtime => {}
     }
     let level = design.temporal().level;
     let lower = if level == 0 { 1 } else { level / 2 };
@@ -85,12 +85,12 @@ fn with_level(design: &Design, level: u32) -> Design {
     for feature in &mut camera.spatial {
         feature.level = feature.level.map(other_level);
         let min = feature.min_score.and_then(|min| u64::try_from(min.ceil_times(1)).ok());
-        feature.min_score = min.map(|min| Decimal::whole(if min > 1 { min / 2 } else { min + 1 }));
+        feature.min_score = min.map(|min| Decimal::from_whole(if min > 1 { min / 2 } else { min + 1 }));
     }
     let keys = ThresholdKey::all_of(design);
     keys.into_iter().fold(design.clone(), |design, key| {
         let mut config = design.config();
-        key.copy(&wanted, &mut config);
+        key.copy_value(&wanted, &mut config);
         config.validate().unwrap_or(design)
     })
 }
@@ -98,21 +98,21 @@ fn with_level(design: &Design, level: u32) -> Design {
 /// Returns thresholds for a sequence of noise frames, one set for each frame. Every threshold
 /// decides once: it alone differs from the thresholds of the frame before, and all decisions depend
 /// on it.
-pub(super) fn sweep(design: &Design) -> Vec<Design> {
-    match design.thresholds() {
-        Thresholds::Constant => return Vec::new(),
-        Thresholds::Runtime => {}
+pub(super) fn threshold_sweep(design: &Design) -> Vec<Design> {
+    match design.threshold_source() {
+        ThresholdSource::Constant => return Vec::new(),
+        ThresholdSource::Runtime => {}
     }
     let all_active = all_active(design);
     let mut configs = vec![all_active.clone()];
     for place in 0..design.features().len() {
-        configs.extend(sweep_of_feature(design, &all_active, place));
+        configs.extend(feature_sweep(design, &all_active, place));
     }
     configs.push(all_active.clone());
-    configs.extend(sweep_of_time(design, &all_active));
+    configs.extend(temporal_sweep(design, &all_active));
     if design.periphery().is_some() {
         let mut irrelevant = all_active;
-        (0..design.features().len()).for_each(|place| never_votes(design, &mut irrelevant, place));
+        (0..design.features().len()).for_each(|place| disable_feature(design, &mut irrelevant, place));
         let mut restless = irrelevant.clone();
         restless.camera.periphery.level = Some(0);
         configs.extend([irrelevant, restless]);
@@ -122,9 +122,9 @@ pub(super) fn sweep(design: &Design) -> Vec<Design> {
 
 /// Returns a configuration with which every region is active whatever it shows, and no mean differs
 /// by more than the level.
-fn all_active(design: &Design) -> Config {
+fn all_active(design: &Design) -> DesignConfig {
     let (mut config, most) = (design.config(), design.pixel_max());
-    config.camera.spatial.iter_mut().for_each(|one| one.min_score = Some(Decimal::whole(0)));
+    config.camera.spatial.iter_mut().for_each(|one| one.min_score = Some(Decimal::from_whole(0)));
     config.camera.temporal.min_count = 0;
     config.camera.temporal.level = Some(most.saturating_sub(1));
     config.camera.periphery.level = config.camera.periphery.level.map(|_| most.saturating_sub(1));
@@ -132,7 +132,7 @@ fn all_active(design: &Design) -> Config {
 }
 
 /// Sets the level and the minimum of a feature to their largest values, so that it never votes.
-fn never_votes(design: &Design, config: &mut Config, place: usize) {
+fn disable_feature(design: &Design, config: &mut DesignConfig, place: usize) {
     let most = config.camera.spatial[place].level.map(|_| largest_level(design, place));
     let feature = &mut config.camera.spatial[place];
     feature.level = most;
@@ -156,19 +156,19 @@ fn largest_level(design: &Design, place: usize) -> u32 {
 
 /// Returns configurations in which the feature with index `place` alone decides which regions are
 /// relevant: none, all by its minimum, none, and all by its level.
-fn sweep_of_feature(design: &Design, all_active: &Config, place: usize) -> Vec<Config> {
+fn feature_sweep(design: &Design, all_active: &DesignConfig, place: usize) -> Vec<DesignConfig> {
     let mut alone = all_active.clone();
     match design.combine() {
-        Combine::All => {}
-        Combine::Any => {
+        VoteCombination::All => {}
+        VoteCombination::Any => {
             let others = (0..design.features().len()).filter(|&other| other != place);
-            others.for_each(|other| never_votes(design, &mut alone, other));
+            others.for_each(|other| disable_feature(design, &mut alone, other));
         }
     }
-    never_votes(design, &mut alone, place);
-    let with_min = |config: &Config, min| {
+    disable_feature(design, &mut alone, place);
+    let with_min = |config: &DesignConfig, min| {
         let mut config = config.clone();
-        config.camera.spatial[place].min_score = Some(Decimal::whole(min));
+        config.camera.spatial[place].min_score = Some(Decimal::from_whole(min));
         config
     };
     let mut configs = vec![alone.clone(), with_min(&alone, 0)];
@@ -184,7 +184,7 @@ fn sweep_of_feature(design: &Design, all_active: &Config, place: usize) -> Vec<C
 
 /// Returns configurations in which the temporal score alone decides: none are active by the
 /// minimum, and all by the level.
-fn sweep_of_time(design: &Design, all_active: &Config) -> [Config; 3] {
+fn temporal_sweep(design: &Design, all_active: &DesignConfig) -> [DesignConfig; 3] {
     let with = |min_count, level| {
         let mut config = all_active.clone();
         config.camera.temporal.min_count = min_count;
@@ -197,18 +197,18 @@ fn sweep_of_time(design: &Design, all_active: &Config) -> [Config; 3] {
 
 /// A threshold with different values in some designs, for the question what a frame would come to
 /// if the register had not been taken over.
-pub(super) struct Missed<'a> {
+pub(super) struct StaleThreshold<'a> {
     pub(super) register: String,
     key: ThresholdKey,
     designs: &'a [Design],
 }
 
-impl<'a> Missed<'a> {
+impl<'a> StaleThreshold<'a> {
     pub(super) fn all_of(designs: &'a [Design]) -> Vec<Self> {
         let differs = |key: &ThresholdKey| {
             designs.iter().any(|design| {
                 let (own, mut mixed) = (design.config(), design.config());
-                key.copy(&designs[0].config(), &mut mixed);
+                key.copy_value(&designs[0].config(), &mut mixed);
                 own != mixed
             })
         };
@@ -218,10 +218,10 @@ impl<'a> Missed<'a> {
 
     /// Returns the camera of design `now` with this threshold of design `before`, or `None` if the
     /// two values are equal or the mix is not valid.
-    pub(super) fn camera(&self, now: usize, before: usize) -> Option<Camera> {
+    pub(super) fn camera_with_stale_value(&self, now: usize, before: usize) -> Option<Camera> {
         let own = self.designs[now].config();
         let mut mixed = own.clone();
-        self.key.copy(&self.designs[before].config(), &mut mixed);
+        self.key.copy_value(&self.designs[before].config(), &mut mixed);
         let design = (mixed != own).then(|| mixed.validate().ok()).flatten()?;
         Some(Camera::clone(&design))
     }
@@ -232,10 +232,10 @@ mod tests {
     use super::*;
 
     /// Returns the thresholds that differ between two designs.
-    fn different(design: &Design, before: &Design) -> Vec<ThresholdKey> {
+    fn differing_thresholds(design: &Design, before: &Design) -> Vec<ThresholdKey> {
         let differs = |key: &ThresholdKey| {
             let mut mixed = design.config();
-            key.copy(&before.config(), &mut mixed);
+            key.copy_value(&before.config(), &mut mixed);
             mixed != design.config()
         };
         ThresholdKey::all_of(design).into_iter().filter(differs).collect()
@@ -252,11 +252,11 @@ mod tests {
                 "spatial=[{list}]\nframe.pixel_bits={bits}\ndecision.combine='{combine}'\n\
                  render.irrelevant='{irrelevant}'\nhardware.organization='raster'\n"
             );
-            let design = Config::from_toml(&toml).unwrap().validate().unwrap();
-            let steps = sweep(&design);
+            let design = DesignConfig::from_toml(&toml).unwrap().validate().unwrap();
+            let steps = threshold_sweep(&design);
             let alone: Vec<_> = steps
                 .windows(2)
-                .map(|pair| different(&pair[1], &pair[0]))
+                .map(|pair| differing_thresholds(&pair[1], &pair[0]))
                 .filter(|keys| keys.len() == 1)
                 .flatten()
                 .collect();

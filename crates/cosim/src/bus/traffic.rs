@@ -7,43 +7,43 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 /// The strobes of all four bytes of a register.
-pub(super) const ALL: u32 = 0xF;
+pub(super) const ALL_BYTES: u32 = 0xF;
 
 /// The expected treatment of a frame by the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fate {
+pub(super) enum FrameFate {
     /// The frame must reach the array.
     Taken,
     /// The frame must not reach the array.
     LeftOut,
     /// The frame may be skipped, because the sink stalls.
-    Either,
+    MaybeSkipped,
     /// The frame must be skipped, because packets of the frame before it wait.
     Skipped,
     /// A reset comes while the frame is sent.
-    Cut,
+    CutByReset,
 }
 
 /// A frame that was sent, in the form to which the core repairs it.
 #[derive(Clone, Debug)]
-pub(super) struct Sent {
+pub(super) struct ExpectedFrame {
     pub(super) frame: Frame,
-    pub(super) fate: Fate,
+    pub(super) fate: FrameFate,
     /// True if the core has forgotten all frames before this one.
-    pub(super) first: bool,
+    pub(super) is_first: bool,
     /// The index of the camera whose thresholds hold for the frame.
-    pub(super) camera: usize,
+    pub(super) camera_index: usize,
 }
 
 /// The expected value of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Answer {
+pub(super) enum ExpectedRead {
     /// The given value.
-    Is(u32),
+    Value(u32),
     /// The number of frames skipped since reset.
-    Skipped,
+    SkippedFrames,
     /// The number of regions dropped since reset.
-    Dropped,
+    DroppedRegions,
     /// The given event bits, and the bits of skipped frames and of dropped regions and rows if
     /// there were any.
     Events(u32),
@@ -51,11 +51,11 @@ pub(super) enum Answer {
 
 /// The expected number of rising edges of `interrupt_o` while an event is cleared again and again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Raised {
+pub(super) enum ExpectedEventCount {
     /// The given number.
-    Times(u32),
+    Exactly(u32),
     /// One for every skipped frame.
-    Skipped,
+    SkippedFrames,
     /// One for every dropped row.
     DroppedRows,
     /// At least one if a region was dropped, and at most one for each dropped region; two drops at
@@ -65,13 +65,13 @@ pub(super) enum Raised {
 
 /// The traffic between two resets.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Session {
-    pub(super) sent: Vec<Sent>,
+pub(super) struct BusSession {
+    pub(super) frames: Vec<ExpectedFrame>,
     /// The registers that are read, in order, with their expected values.
-    pub(super) answers: Vec<(u32, Answer)>,
+    pub(super) reads: Vec<(u32, ExpectedRead)>,
     /// The events that are cleared again and again, in order, with the expected number of times
     /// that each is seen.
-    pub(super) raised: Vec<(&'static str, Raised)>,
+    pub(super) event_counts: Vec<(&'static str, ExpectedEventCount)>,
     /// True if packets must leave without a dropped region or row.
     pub(super) is_lossless: bool,
     /// True if no row may be dropped.
@@ -83,7 +83,7 @@ pub(super) struct Session {
 pub(super) struct Traffic<'a> {
     design: RasterDesign<'a>,
     text: String,
-    sessions: Vec<Session>,
+    sessions: Vec<BusSession>,
 }
 
 impl<'a> Traffic<'a> {
@@ -100,12 +100,12 @@ impl<'a> Traffic<'a> {
         &self.text
     }
 
-    pub(super) fn sessions(&self) -> &[Session] {
+    pub(super) fn sessions(&self) -> &[BusSession] {
         &self.sessions
     }
 
     /// Returns the number of transfers of a line.
-    pub(super) fn words(&self) -> usize {
+    pub(super) fn words_per_line(&self) -> usize {
         self.design.width().div_ceil(self.design.pixels_per_clock()) as usize
     }
 
@@ -117,46 +117,46 @@ impl<'a> Traffic<'a> {
     /// Resets the core for `clocks` clocks.
     pub(super) fn reset_for(&mut self, clocks: u64) {
         let patience = 8 * self.design.timing().clocks_per_frame() + 100_000;
-        self.line(&format!("patience {patience:x}"));
-        self.line(&format!("reset {clocks:x}"));
-        self.sessions.push(Session { is_lossless: true, ..Session::default() });
+        self.push_line(&format!("patience {patience:x}"));
+        self.push_line(&format!("reset {clocks:x}"));
+        self.sessions.push(BusSession { is_lossless: true, ..BusSession::default() });
     }
 
     /// Allows dropped regions and rows from now on, because the sink stalls, or is too slow for all
     /// regions at full rate.
-    pub(super) fn may_drop(&mut self) {
-        self.session().is_lossless = false;
+    pub(super) fn allow_drops(&mut self) {
+        self.current_session().is_lossless = false;
     }
 
     /// Allows dropped regions from now on, but no dropped rows.
-    pub(super) fn may_drop_regions(&mut self) {
-        self.may_drop();
-        self.session().keeps_rows = true;
+    pub(super) fn allow_region_drops(&mut self) {
+        self.allow_drops();
+        self.current_session().keeps_rows = true;
     }
 
     /// Sets the share of clocks at which the source offers nothing, in percent.
-    pub(super) fn gaps(&mut self, percent: u32) {
-        self.line(&format!("gaps {percent:x}"));
+    pub(super) fn set_gaps(&mut self, percent: u32) {
+        self.push_line(&format!("gaps {percent:x}"));
     }
 
     /// Sets the share of clocks at which the sink takes nothing, in percent.
-    pub(super) fn stalls(&mut self, percent: u32) {
-        self.line(&format!("stalls {percent:x}"));
+    pub(super) fn set_stalls(&mut self, percent: u32) {
+        self.push_line(&format!("stalls {percent:x}"));
     }
 
     /// Stops the sink for `clocks` clocks.
-    pub(super) fn hold(&mut self, clocks: u64) {
-        self.line(&format!("hold {clocks:x}"));
+    pub(super) fn hold_sink(&mut self, clocks: u64) {
+        self.push_line(&format!("hold {clocks:x}"));
     }
 
-    pub(super) fn clocks(&mut self, clocks: u64) {
-        self.line(&format!("clocks {clocks:x}"));
+    pub(super) fn wait_clocks(&mut self, clocks: u64) {
+        self.push_line(&format!("clocks {clocks:x}"));
     }
 
     /// Waits until all packets have left.
     pub(super) fn drain(&mut self) {
         let clocks = self.drain_clocks();
-        self.line(&format!("idle {clocks:x}"));
+        self.push_line(&format!("idle {clocks:x}"));
     }
 
     /// Returns the number of clocks without a packet after which no new packet follows.
@@ -168,126 +168,126 @@ impl<'a> Traffic<'a> {
 
     /// Writes a register, and waits until the write is done.
     pub(super) fn write(&mut self, address: u32, value: u32) {
-        self.write_bytes(address, value, ALL);
-        self.line("join");
+        self.write_bytes(address, value, ALL_BYTES);
+        self.push_line("join");
     }
 
     /// Writes some bytes of a register without waiting.
     pub(super) fn write_bytes(&mut self, address: u32, value: u32, strobes: u32) {
-        self.line(&format!("write {address:x} {value:x} {strobes:x}"));
+        self.push_line(&format!("write {address:x} {value:x} {strobes:x}"));
     }
 
     /// Reads a register without waiting, and expects `answer`.
-    pub(super) fn read(&mut self, address: u32, answer: Answer) {
-        self.ask(address);
-        self.session().answers.push((address, answer));
+    pub(super) fn read(&mut self, address: u32, answer: ExpectedRead) {
+        self.read_unchecked(address);
+        self.current_session().reads.push((address, answer));
     }
 
     /// Reads a register without waiting and without an expected value; a reset may come before the
     /// answer.
-    pub(super) fn ask(&mut self, address: u32) {
-        self.line(&format!("read {address:x}"));
+    pub(super) fn read_unchecked(&mut self, address: u32) {
+        self.push_line(&format!("read {address:x}"));
     }
 
     /// Waits for all reads and writes.
-    pub(super) fn join(&mut self) {
-        self.line("join");
+    pub(super) fn wait_for_accesses(&mut self) {
+        self.push_line("join");
     }
 
     /// Sets whether reads and writes wait for each other, and for the answers to earlier ones.
-    pub(super) fn in_order(&mut self, yes: bool) {
-        self.line(if yes { "apart 0" } else { "apart 1" });
+    pub(super) fn set_in_order(&mut self, yes: bool) {
+        self.push_line(if yes { "apart 0" } else { "apart 1" });
     }
 
     /// Checks that `interrupt_o` has the given value now.
-    pub(super) fn interrupt(&mut self, is: bool) {
-        self.line(if is { "interrupt 1" } else { "interrupt 0" });
+    pub(super) fn expect_interrupt(&mut self, is: bool) {
+        self.push_line(if is { "interrupt 1" } else { "interrupt 0" });
     }
 
     /// Writes a value to a register again and again from now on; other writes wait.
-    pub(super) fn clear(&mut self, address: u32, value: u32) {
-        self.line(&format!("clear {address:x} {value:x}"));
+    pub(super) fn clear_repeatedly(&mut self, address: u32, value: u32) {
+        self.push_line(&format!("clear {address:x} {value:x}"));
     }
 
     /// Stops the repeated write, and expects the number of times that the event was seen.
-    pub(super) fn count_raised(&mut self, event: &'static str, raised: Raised) {
-        self.line("clear 0 0");
-        self.line("join");
-        self.line("rises");
-        self.session().raised.push((event, raised));
+    pub(super) fn expect_event_count(&mut self, event: &'static str, raised: ExpectedEventCount) {
+        self.push_line("clear 0 0");
+        self.push_line("join");
+        self.push_line("rises");
+        self.current_session().event_counts.push((event, raised));
     }
 
     /// Waits until a word of a packet has been taken that is not its last.
-    pub(super) fn within_a_packet(&mut self) {
-        self.line("within");
+    pub(super) fn wait_within_packet(&mut self) {
+        self.push_line("within");
     }
 
     /// Returns the number of frames since the last reset, with skipped and damaged ones.
-    pub(super) fn frames_that_came(&self) -> u32 {
-        let sent = self.sessions.last().map_or(0, |session| session.sent.len());
+    pub(super) fn frame_count(&self) -> u32 {
+        let sent = self.sessions.last().map_or(0, |session| session.frames.len());
         u32::try_from(sent).unwrap_or(u32::MAX)
     }
 
     /// Waits for a clock of this parity.
-    pub(super) fn align(&mut self, parity: u32) {
-        self.line(&format!("align {}", parity % 2));
+    pub(super) fn align_to_parity(&mut self, parity: u32) {
+        self.push_line(&format!("align {}", parity % 2));
     }
 
     /// Adds a frame to the expected frames without sending transfers.
-    pub(super) fn expect(&mut self, sent: Sent) {
-        self.session().sent.push(sent);
+    pub(super) fn expect_frame(&mut self, sent: ExpectedFrame) {
+        self.current_session().frames.push(sent);
     }
 
     /// Sends a whole frame.
-    pub(super) fn frame(&mut self, sent: Sent) {
-        self.lines(&sent.frame, 0..sent.frame.height());
-        self.expect(sent);
+    pub(super) fn send_frame(&mut self, sent: ExpectedFrame) {
+        self.send_lines(&sent.frame, 0..sent.frame.height());
+        self.expect_frame(sent);
     }
 
     /// Sends a whole frame, and calls `inside` before the line `at`.
-    pub(super) fn frame_around(&mut self, sent: Sent, at: u32, inside: impl FnMut(&mut Self)) {
-        self.frame_around_each(sent, [at], inside);
+    pub(super) fn send_frame_around(&mut self, sent: ExpectedFrame, at: u32, inside: impl FnMut(&mut Self)) {
+        self.send_frame_around_each(sent, [at], inside);
     }
 
     /// Sends a whole frame, and calls `inside` before each of the given lines.
-    pub(super) fn frame_around_each<const COUNT: usize>(
+    pub(super) fn send_frame_around_each<const COUNT: usize>(
         &mut self,
-        sent: Sent,
+        sent: ExpectedFrame,
         lines: [u32; COUNT],
         mut inside: impl FnMut(&mut Self),
     ) {
         let mut from = 0;
         for line in lines {
-            self.lines(&sent.frame, from..line);
+            self.send_lines(&sent.frame, from..line);
             inside(self);
             from = line;
         }
-        self.lines(&sent.frame, from..sent.frame.height());
-        self.expect(sent);
+        self.send_lines(&sent.frame, from..sent.frame.height());
+        self.expect_frame(sent);
     }
 
     /// Sends only the first lines of a frame.
-    pub(super) fn torn_frame(&mut self, sent: Sent, lines: u32) {
-        self.lines(&sent.frame, 0..lines);
-        self.expect(sent);
+    pub(super) fn send_torn_frame(&mut self, sent: ExpectedFrame, lines: u32) {
+        self.send_lines(&sent.frame, 0..lines);
+        self.expect_frame(sent);
     }
 
-    fn lines(&mut self, frame: &Frame, range: Range<u32>) {
-        let last = self.words() - 1;
+    fn send_lines(&mut self, frame: &Frame, range: Range<u32>) {
+        let last = self.words_per_line() - 1;
         for y in range {
-            for (at, pixels) in self.split(frame.row(y)).enumerate() {
-                self.beat(at == 0 && y == 0, at == last, pixels);
+            for (at, pixels) in self.split_line(frame.row(y)).enumerate() {
+                self.send_beat(at == 0 && y == 0, at == last, pixels);
             }
         }
     }
 
     /// Returns the pixels of a line, transfer by transfer.
-    pub(super) fn split<'r>(&self, row: &'r [u16]) -> impl Iterator<Item = &'r [u16]> + use<'r> {
+    pub(super) fn split_line<'r>(&self, row: &'r [u16]) -> impl Iterator<Item = &'r [u16]> + use<'r> {
         row.chunks(self.design.pixels_per_clock() as usize)
     }
 
     /// Sends a transfer; `sof` marks the first of a frame, `eol` the last of a line.
-    pub(super) fn beat(&mut self, sof: bool, eol: bool, pixels: &[u16]) {
+    pub(super) fn send_beat(&mut self, sof: bool, eol: bool, pixels: &[u16]) {
         let bits = self.design.pixel_bits();
         let flags = u8::from(sof) | u8::from(eol) << 1;
         let word =
@@ -295,11 +295,11 @@ impl<'a> Traffic<'a> {
         let _ = writeln!(self.text, "beat {flags} {word:x}");
     }
 
-    fn session(&mut self) -> &mut Session {
+    fn current_session(&mut self) -> &mut BusSession {
         self.sessions.last_mut().expect("traffic begins with a reset")
     }
 
-    fn line(&mut self, text: &str) {
+    fn push_line(&mut self, text: &str) {
         self.text.push_str(text);
         self.text.push('\n');
     }

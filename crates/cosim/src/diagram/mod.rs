@@ -6,8 +6,8 @@
 //! which nothing begins or ends, [`wave`] writes the others as WaveJSON, and [`draw`] as SVG. No
 //! number is written by hand, so the diagram agrees with the model.
 
-mod choose;
-mod draw;
+mod column_choice;
+mod svg;
 mod trace;
 mod wave;
 
@@ -15,8 +15,8 @@ use crate::error::CosimError;
 use foveate_design::Design;
 use foveate_emit::SourceFile;
 use std::sync::atomic::AtomicBool;
-use trace::Trace;
-use wave::Wave;
+use trace::PortTrace;
+use wave::WaveDiagram;
 
 /// Returns `timing.json`, which WaveDrom reads, and `timing.svg`, the drawing of it. Equal designs
 /// give equal files.
@@ -24,9 +24,9 @@ use wave::Wave;
 /// # Errors
 /// Fails if `cancel` is set; [`CosimError::is_interrupted`] is then true.
 pub fn timing_diagram(design: &Design, cancel: &AtomicBool) -> Result<[SourceFile; 2], CosimError> {
-    let trace = Trace::of(design, cancel)?;
-    let columns = choose::columns(&trace);
-    let wave = Wave::of(&trace, &columns);
+    let trace = PortTrace::record(design, cancel)?;
+    let columns = column_choice::columns(&trace);
+    let wave = WaveDiagram::from_trace(&trace, &columns);
     let file = |path: &str, contents| SourceFile { path: path.to_owned(), contents };
-    Ok([file("timing.json", wave.json()), file("timing.svg", draw::svg(&wave))])
+    Ok([file("timing.json", wave.json()), file("timing.svg", svg::draw_svg(&wave))])
 }

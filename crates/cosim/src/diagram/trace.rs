@@ -2,13 +2,13 @@
 //! The ports of the model during a frame and after it, clock by clock.
 
 use crate::error::CosimError;
-use crate::level::Level;
-use crate::shipped::{Record, Rig, TestPattern};
+use crate::level::CosimLevel;
+use crate::shipped_bench::{ClockRecord, CoreSimulation, TestPattern};
 use crate::stimulus::Random;
-use foveate_design::{Array, Design, Direction, Interface, Port, Stream};
+use foveate_design::{ArrayStructure, Design, PortDirection, CoreInterface, Port, CoreStream};
 use foveate_emit::Top;
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, Thresholds};
+use foveate_model::{CoreInput, ThresholdInputs};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,25 +17,25 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const MAX_REGIONS: u32 = 1 << 14;
 
 /// The clocks from the edge that takes the first pixel on.
-pub(super) struct Trace {
+pub(super) struct PortTrace {
     /// The title of the diagram.
     pub(super) title: String,
-    pub(super) signals: Vec<Signal>,
+    pub(super) signals: Vec<DiagramSignal>,
     /// The stretches of equal clocks, in order.
-    pub(super) stretches: Vec<Stretch>,
+    pub(super) stretches: Vec<ClockStretch>,
     /// The edges that take the first pixels of frames.
-    pub(super) frames: Vec<u64>,
+    pub(super) frame_edges: Vec<u64>,
 }
 
 /// A port, or its first lane.
-pub(super) struct Signal {
+pub(super) struct DiagramSignal {
     pub(super) name: String,
     /// True if the signal is drawn as a line, false if it is drawn as numbers.
     pub(super) is_bit: bool,
 }
 
 /// Consecutive clocks at which every signal has the same value.
-pub(super) struct Stretch {
+pub(super) struct ClockStretch {
     /// The edge at which the first clock begins; edge 0 takes the first pixel.
     pub(super) first_edge: u64,
     pub(super) clocks: u64,
@@ -43,28 +43,28 @@ pub(super) struct Stretch {
     pub(super) values: Vec<Option<u64>>,
 }
 
-impl Trace {
+impl PortTrace {
     /// Plays a frame with noise in its first region, the same frame as often as needed for the
     /// first one to leave, and the clocks until everything is decided.
-    pub(super) fn of(design: &Design, cancel: &AtomicBool) -> Result<Self, CosimError> {
-        let (part, title) = part(design)?;
+    pub(super) fn record(design: &Design, cancel: &AtomicBool) -> Result<Self, CosimError> {
+        let (part, title) = traced_design(design)?;
         let top = match part.unit().array {
-            Array::Copies => Top::Rpu,
-            Array::Whole => Top::Rcm,
+            ArrayStructure::RpuCopies => Top::Rpu,
+            ArrayStructure::SharedLogic => Top::Rcm,
         };
-        let mut take = Take::new(&part, top, title, cancel);
-        let frame = frame(&part);
-        for _ in 0..=take.rig.frames_behind() {
-            let beats = take.rig.beats(&frame);
-            take.wait()?;
-            take.trace.frames.push(take.edge);
+        let mut take = TraceRecorder::new(&part, top, title, cancel);
+        let frame = traced_frame(&part);
+        for _ in 0..=take.simulation.frames_behind() {
+            let beats = take.simulation.beats(&frame);
+            take.wait_until_ready()?;
+            take.trace.frame_edges.push(take.edge);
             for (number, pixels) in beats.iter().enumerate() {
-                take.wait()?;
+                take.wait_until_ready()?;
                 take.clock(Some(pixels), number == 0)?;
             }
         }
-        take.wait()?;
-        let settling = take.rig.settling_clocks();
+        take.wait_until_ready()?;
+        let settling = take.simulation.settling_clocks();
         (0..settling.max(2)).try_for_each(|_| take.clock(None, false))?;
         Ok(take.trace)
     }
@@ -72,15 +72,15 @@ impl Trace {
 
 /// Returns the part of the design that is played: one region if all regions behave alike, or else
 /// the array, or one lane of a huge array.
-fn part(design: &Design) -> Result<(Design, String), CosimError> {
+fn traced_design(design: &Design) -> Result<(Design, String), CosimError> {
     let size = design.region_size();
     match design.unit().array {
-        Array::Copies => {
-            let part = Level::Rcm { columns: 1, rows: 1 }.design(design)?;
+        ArrayStructure::RpuCopies => {
+            let part = CosimLevel::Rcm { columns: 1, rows: 1 }.design(design)?;
             let title = format!("One of {} regions of {size}x{size} pixels", design.regions());
             return Ok((part, title));
         }
-        Array::Whole => {}
+        ArrayStructure::SharedLogic => {}
     }
     if design.regions() <= MAX_REGIONS {
         let words = format!("{} regions of {size}x{size} pixels", design.regions());
@@ -97,7 +97,7 @@ fn part(design: &Design) -> Result<(Design, String), CosimError> {
 }
 
 /// Returns a frame with noise in the first region, and one level elsewhere.
-fn frame(part: &Design) -> Frame {
+fn traced_frame(part: &Design) -> Frame {
     let side = part.region_size();
     let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
     let square = TestPattern::Noise.draw(side as usize, max, false, &mut Random::new(1));
@@ -109,46 +109,46 @@ fn frame(part: &Design) -> Frame {
 }
 
 /// A trace that is being made.
-struct Take<'a> {
-    rig: Rig<'a>,
-    record: Record,
-    thresholds: Thresholds,
+struct TraceRecorder<'a> {
+    simulation: CoreSimulation<'a>,
+    record: ClockRecord,
+    thresholds: ThresholdInputs,
     garbage: Vec<u16>,
     edge: u64,
-    trace: Trace,
-    interface: Interface,
+    trace: PortTrace,
+    interface: CoreInterface,
     cancel: &'a AtomicBool,
 }
 
-impl<'a> Take<'a> {
+impl<'a> TraceRecorder<'a> {
     fn new(part: &'a Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
         let interface = top.interface(part);
-        let record = Record::of(&interface.ports());
-        let rig = Rig::new(part, top);
+        let record = ClockRecord::for_ports(&interface.ports());
+        let rig = CoreSimulation::new(part, top);
         let shown =
             record.inputs.fields().iter().chain(record.outputs.fields()).map(|field| &field.port);
-        let signals = shown.filter(|port| is_shown(&interface, port)).map(signal).collect();
+        let signals = shown.filter(|port| is_shown(&interface, port)).map(diagram_signal).collect();
         Self {
-            garbage: vec![0; rig.width()],
+            garbage: vec![0; rig.beat_width()],
             record,
-            rig,
-            thresholds: Thresholds::of(part),
+            simulation: rig,
+            thresholds: ThresholdInputs::from_camera(part),
             edge: 0,
-            trace: Trace { title, signals, stretches: Vec::new(), frames: Vec::new() },
+            trace: PortTrace { title, signals, stretches: Vec::new(), frame_edges: Vec::new() },
             interface,
             cancel,
         }
     }
 
     /// Lets clocks pass until a pixel can be taken.
-    fn wait(&mut self) -> Result<(), CosimError> {
-        while !self.rig.is_ready() {
-            match self.rig.quiet_clocks() {
+    fn wait_until_ready(&mut self) -> Result<(), CosimError> {
+        while !self.simulation.is_ready() {
+            match self.simulation.quiet_clocks() {
                 0 | 1 => self.clock(None, false)?,
                 quiet => {
                     let applied = CoreInput::idle(&self.garbage, &self.thresholds);
-                    self.rig.skip(&applied, &mut self.record);
-                    self.keep(quiet);
+                    self.simulation.skip_quiet_clocks(&applied, &mut self.record);
+                    self.add_clocks(quiet);
                 }
             }
         }
@@ -161,13 +161,13 @@ impl<'a> Take<'a> {
         }
         let idle = CoreInput::idle(pixels.unwrap_or(&self.garbage), &self.thresholds);
         let applied = CoreInput { valid: pixels.is_some(), sof, ..idle };
-        self.rig.clock(&applied, &mut self.record);
-        self.keep(1);
+        self.simulation.clock(&applied, &mut self.record);
+        self.add_clocks(1);
         Ok(())
     }
 
-    fn keep(&mut self, clocks: u64) {
-        let Record { inputs, outputs, input, expected } = &self.record;
+    fn add_clocks(&mut self, clocks: u64) {
+        let ClockRecord { inputs, outputs, input, expected } = &self.record;
         let is_high = |role| {
             let valid = inputs.fields().iter().find(|field| field.port.role == role);
             valid.is_some_and(|field| field.get(input, 0) == 1)
@@ -176,7 +176,7 @@ impl<'a> Take<'a> {
         let shown = inputs.fields().iter().filter(|field| is_shown(interface, &field.port));
         let input = shown.map(|field| {
             let role = field.port.role;
-            let valid = interface.stream_of(role).map(|stream| stream.valid.role);
+            let valid = interface.stream_with_port(role).map(|stream| stream.valid.role);
             let says = valid.is_none_or(|valid| valid == role || is_high(valid));
             says.then(|| field.get(input, 0))
         });
@@ -189,23 +189,23 @@ impl<'a> Take<'a> {
         self.edge += clocks;
         match self.trace.stretches.last_mut() {
             Some(last) if last.values == values => last.clocks += clocks,
-            _ => self.trace.stretches.push(Stretch { first_edge, clocks, values }),
+            _ => self.trace.stretches.push(ClockStretch { first_edge, clocks, values }),
         }
     }
 }
 
 /// Returns true if a port is shown. Thresholds, resets and borders do not change, and the sink is
 /// always ready.
-fn is_shown(interface: &Interface, port: &Port) -> bool {
-    let brings = |stream: &Stream| stream.direction == Direction::Input;
-    port.direction == Direction::Output || interface.stream_of(port.role).is_some_and(brings)
+fn is_shown(interface: &CoreInterface, port: &Port) -> bool {
+    let brings = |stream: &CoreStream| stream.direction == PortDirection::Input;
+    port.direction == PortDirection::Output || interface.stream_with_port(port.role).is_some_and(brings)
 }
 
-fn signal(port: &Port) -> Signal {
+fn diagram_signal(port: &Port) -> DiagramSignal {
     let lane = match (port.lanes, port.width) {
         (1, _) => String::new(),
         (_, 1) => "[0]".to_owned(),
         (_, width) => format!("[{}:0]", width - 1),
     };
-    Signal { name: format!("{}{lane}", port.name), is_bit: !port.role.is_number() }
+    DiagramSignal { name: format!("{}{lane}", port.name), is_bit: !port.role.is_number() }
 }

@@ -2,24 +2,24 @@
 //! A diagram in the format of WaveDrom: a row of characters for each signal, and numbers for some
 //! of them.
 
-use super::choose::Column;
-use super::trace::Trace;
+use super::column_choice::DiagramColumn;
+use super::trace::PortTrace;
 use serde::Serialize;
 
 /// The name of the row that numbers the edges.
-const EDGE: &str = "edge of clk_i";
+const EDGE_ROW_NAME: &str = "edge of clk_i";
 
 /// A diagram in the format of WaveDrom.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Wave {
+pub(super) struct WaveDiagram {
     pub(super) signal: Vec<WaveRow>,
-    pub(super) head: Text,
-    pub(super) foot: Text,
+    pub(super) head: WaveText,
+    pub(super) foot: WaveText,
 }
 
 /// A line of text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Text {
+pub(super) struct WaveText {
     pub(super) text: String,
 }
 
@@ -33,54 +33,54 @@ pub(super) struct WaveRow {
     pub(super) data: Vec<String>,
 }
 
-impl Wave {
-    pub(super) fn of(trace: &Trace, columns: &[Column]) -> Self {
-        let mut rows = vec![edges(columns)];
-        rows.extend((0..trace.signals.len()).map(|signal| row(trace, signal, columns)));
+impl WaveDiagram {
+    pub(super) fn from_trace(trace: &PortTrace, columns: &[DiagramColumn]) -> Self {
+        let mut rows = vec![edge_row(columns)];
+        rows.extend((0..trace.signals.len()).map(|signal| signal_row(trace, signal, columns)));
         let foot = "A column shows the inputs of an edge and the outputs after it; edge 0 takes the first pixel of a first frame.";
         Self {
             signal: rows,
-            head: Text { text: trace.title.clone() },
-            foot: Text { text: foot.to_owned() },
+            head: WaveText { text: trace.title.clone() },
+            foot: WaveText { text: foot.to_owned() },
         }
     }
 
     /// Returns the diagram as WaveJSON, with one signal per line.
     pub(super) fn json(&self) -> String {
-        let rows: Vec<_> = self.signal.iter().map(|row| format!("    {}", text(row))).collect();
+        let rows: Vec<_> = self.signal.iter().map(|row| format!("    {}", to_json(row))).collect();
         format!(
             "{{\n  \"signal\": [\n{}\n  ],\n  \"head\": {},\n  \"foot\": {}\n}}\n",
             rows.join(",\n"),
-            text(&self.head),
-            text(&self.foot)
+            to_json(&self.head),
+            to_json(&self.foot)
         )
     }
 }
 
-fn text(value: &impl Serialize) -> String {
+fn to_json(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("texts and lists of texts have JSON")
 }
 
-fn edges(columns: &[Column]) -> WaveRow {
-    let mut row = WaveRow { name: EDGE.to_owned(), wave: String::new(), data: Vec::new() };
+fn edge_row(columns: &[DiagramColumn]) -> WaveRow {
+    let mut row = WaveRow { name: EDGE_ROW_NAME.to_owned(), wave: String::new(), data: Vec::new() };
     for column in columns {
         match column {
-            Column::Clock { edge, .. } => {
+            DiagramColumn::Clock { edge, .. } => {
                 row.wave.push('=');
                 row.data.push(edge.to_string());
             }
-            Column::Gap => row.wave.push('|'),
+            DiagramColumn::Gap => row.wave.push('|'),
         }
     }
     row
 }
 
-fn row(trace: &Trace, signal: usize, columns: &[Column]) -> WaveRow {
+fn signal_row(trace: &PortTrace, signal: usize, columns: &[DiagramColumn]) -> WaveRow {
     let shown = &trace.signals[signal];
     let mut row = WaveRow { name: shown.name.clone(), wave: String::new(), data: Vec::new() };
     let mut before: Option<Option<u64>> = None;
     for column in columns {
-        let &Column::Clock { stretch, .. } = column else {
+        let &DiagramColumn::Clock { stretch, .. } = column else {
             row.wave.push('|');
             // The value of a number may have changed in the gap.
             before = before.filter(|_| shown.is_bit);

@@ -7,40 +7,40 @@
 //! elaborated, and the modules with their parameter values are compared. [`crate::hierarchy`] finds
 //! files that nothing instantiates.
 
-mod tile;
+mod array_instance;
 mod variant;
-mod wiring;
-mod xml;
+mod wiring_check;
+mod xml_reader;
 
 use crate::error::CosimError;
-use crate::level::Level;
-use foveate_design::{Array, ConfigError, Design};
+use crate::level::CosimLevel;
+use foveate_design::{ArrayStructure, ConfigError, Design};
 use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_toolchain::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
 use std::io::BufReader;
-pub(crate) use tile::Tile;
-pub use variant::NotElaborated;
-pub(crate) use variant::Variant;
+pub(crate) use array_instance::ArrayInstance;
+pub use variant::UnelaboratedVariant;
+pub(crate) use variant::ModuleVariant;
 
 /// The elaborated hierarchy below a top.
 #[derive(Debug, Default)]
 pub(crate) struct Elaboration {
     /// The modules, each with the values of its parameters.
-    pub(crate) variants: BTreeSet<Variant>,
+    pub(crate) variants: BTreeSet<ModuleVariant>,
     /// The instances in the top, in order.
-    pub(crate) tiles: Vec<Tile>,
+    pub(crate) instances: Vec<ArrayInstance>,
 }
 
 impl Elaboration {
-    fn of(
+    fn elaborate(
         sources: &[Source],
         top: &str,
         parameters: &[Parameter],
         toolchain: &Toolchain,
     ) -> Result<Self, CosimError> {
         let text = verilator::elaborate(toolchain, sources, top, parameters)?;
-        xml::read(BufReader::new(text.as_slice()), top)
+        xml_reader::read(BufReader::new(text.as_slice()), top)
     }
 }
 
@@ -50,13 +50,13 @@ impl Elaboration {
 ///
 /// # Errors
 /// Fails if Verilator is missing or refuses the Verilog, or the toolchain's flag has stopped it.
-pub fn not_elaborated(
+pub fn unelaborated_variants(
     design: &Design,
     sources: &[SourceFile],
     prefix: &Prefix,
-    levels: &[Level],
+    levels: &[CosimLevel],
     toolchain: &Toolchain,
-) -> Result<Vec<NotElaborated>, CosimError> {
+) -> Result<Vec<UnelaboratedVariant>, CosimError> {
     let simulated = levels.iter().map(|level| Ok((level.top(), level.design(design)?)));
     let simulated = simulated.collect::<Result<Vec<_>, ConfigError>>()?;
     let is_simulated = |top: Top| {
@@ -66,7 +66,7 @@ pub fn not_elaborated(
     let open: Vec<Top> = [Top::Rpu, Top::Rcm]
         .into_iter()
         .filter(|top| {
-            crate::hierarchy::declares(sources, &prefix.name(top.module())) && !is_simulated(*top)
+            crate::hierarchy::declares(sources, &prefix.prefixed_name(top.module())) && !is_simulated(*top)
         })
         .collect();
     if open.is_empty() {
@@ -75,7 +75,7 @@ pub fn not_elaborated(
     let named: Vec<Source> =
         sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
     let elaborate = |top: Top, part: &Design| {
-        Elaboration::of(&named, &prefix.name(top.module()), &top.parameters(part), toolchain)
+        Elaboration::elaborate(&named, &prefix.prefixed_name(top.module()), &top.parameters(part), toolchain)
     };
     let mut seen = BTreeSet::new();
     for (top, part) in &simulated {
@@ -85,15 +85,15 @@ pub fn not_elaborated(
     for top in open {
         let whole = elaborate(top, design)?;
         let is_wired = match design.unit().array {
-            Array::Copies => {
-                wiring::is_right(design, &whole.tiles, &prefix.name(Top::Rpu.module()))
+            ArrayStructure::RpuCopies => {
+                wiring_check::is_wired_correctly(design, &whole.instances, &prefix.prefixed_name(Top::Rpu.module()))
             }
-            Array::Whole => false,
+            ArrayStructure::SharedLogic => false,
         };
-        let is_own = |variant: &Variant| variant.module == prefix.name(top.module());
+        let is_own = |variant: &ModuleVariant| variant.module == prefix.prefixed_name(top.module());
         let unseen = whole.variants.into_iter().filter(|variant| !seen.contains(variant));
         let unseen = unseen.filter(|variant| !(is_wired && is_own(variant)));
-        left.extend(unseen.map(|variant| variant.beside(&seen)));
+        left.extend(unseen.map(|variant| variant.into_unelaborated(&seen)));
     }
     Ok(left)
 }

@@ -7,17 +7,17 @@ use std::fmt;
 
 /// A module with the values of its parameters, in hexadecimal.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Variant {
+pub(crate) struct ModuleVariant {
     /// The name of the module.
     pub(crate) module: String,
     /// The values of its parameters, by name.
     pub(crate) parameters: BTreeMap<String, String>,
 }
 
-impl Variant {
+impl ModuleVariant {
     /// Converts the variant to one that was not elaborated, with its differences to the nearest
     /// elaborated variant of the same module.
-    pub(super) fn beside(self, seen: &BTreeSet<Self>) -> NotElaborated {
+    pub(super) fn into_unelaborated(self, seen: &BTreeSet<Self>) -> UnelaboratedVariant {
         let of_module = seen.iter().filter(|other| other.module == self.module);
         let nearest = of_module.min_by_key(|other| self.differing(other).count());
         let shown = |(name, value): (&String, &String)| format!("{name} = {value}");
@@ -25,7 +25,7 @@ impl Variant {
             Some(other) => self.differing(other).map(shown).collect(),
             None => self.parameters.iter().map(shown).collect(),
         };
-        NotElaborated { is_module_known: nearest.is_some(), module: self.module, parameters }
+        UnelaboratedVariant { is_module_known: nearest.is_some(), module: self.module, parameters }
     }
 
     fn differing<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (&'a String, &'a String)> {
@@ -35,7 +35,7 @@ impl Variant {
 
 /// A module with parameter values that no run has elaborated.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct NotElaborated {
+pub struct UnelaboratedVariant {
     /// The name of the module.
     pub module: String,
     /// True if a run has elaborated the module with other values.
@@ -45,7 +45,7 @@ pub struct NotElaborated {
     pub parameters: Vec<String>,
 }
 
-impl fmt::Display for NotElaborated {
+impl fmt::Display for UnelaboratedVariant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.is_module_known, self.parameters.is_empty()) {
             (false, _) | (true, true) => write!(f, "module {}", self.module),
@@ -58,9 +58,9 @@ impl fmt::Display for NotElaborated {
 mod tests {
     use super::*;
 
-    fn variant(module: &str, parameters: &[(&str, &str)]) -> Variant {
+    fn variant(module: &str, parameters: &[(&str, &str)]) -> ModuleVariant {
         let pair = |&(name, value): &(&str, &str)| (name.to_owned(), value.to_owned());
-        Variant { module: module.to_owned(), parameters: parameters.iter().map(pair).collect() }
+        ModuleVariant { module: module.to_owned(), parameters: parameters.iter().map(pair).collect() }
     }
 
     #[test]
@@ -69,7 +69,7 @@ mod tests {
             variant("store", &[("WORDS", "4"), ("BITS", "2"), ("DEEP", "0")]),
             variant("store", &[("WORDS", "9"), ("BITS", "4"), ("DEEP", "1")]),
         ]);
-        let said = |variant: Variant| variant.beside(&seen).to_string();
+        let said = |variant: ModuleVariant| variant.into_unelaborated(&seen).to_string();
         let left = variant("store", &[("WORDS", "c"), ("BITS", "4"), ("DEEP", "1")]);
         assert_eq!(said(left), "store with WORDS = c");
         assert_eq!(said(variant("banks", &[("WORDS", "c")])), "module banks");

@@ -6,13 +6,13 @@
 //! unnoticed. So every co-simulation and every shipped bench counts the situations. The lists do
 //! not depend on how stimuli are made.
 
-mod bus;
+mod bus_situations;
 mod occurrence;
 mod places;
-mod ports;
-mod regions;
-mod watch;
+mod port_situations;
+mod region_traces;
+mod monitor;
 
-pub(crate) use bus::{BusFacts, EVENTS, can_drop_regions, can_drop_rows};
+pub(crate) use bus_situations::{BusSituationCounts, EVENTS, can_drop_regions, can_drop_rows};
 pub use occurrence::{Occurrence, Occurrences};
-pub(crate) use watch::Watch;
+pub(crate) use monitor::SituationMonitor;

@@ -29,7 +29,7 @@ impl Occurrences {
 
     /// Returns the sums over several runs. One run may reach a situation that another cannot.
     #[must_use]
-    pub fn of_all<'a>(runs: impl IntoIterator<Item = &'a Self>) -> Self {
+    pub fn sum_of<'a>(runs: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut all = Self::default();
         for Occurrence { situation, count } in runs.into_iter().flat_map(|run| &run.0) {
             all.add(situation, *count);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The places of the pixel port that carry a pixel of the frame.
 
-use foveate_design::{Design, Feed, Hardware};
+use foveate_design::{Design, PixelFeed, Hardware};
 
 /// Returns whether a lane of the pixel port carries a pixel of the frame at a beat, counted from the first beat of the
 /// frame. A lane of a serial array has none in the slots that no region uses, and the last word of a row of a raster core
@@ -10,10 +10,10 @@ pub(super) fn has_pixel(design: &Design, beat: u64, lane: u32) -> bool {
     match design.hardware() {
         Hardware::Pipelined(_) => true,
         Hardware::Serial(own) => {
-            let own = design.on(own);
+            let own = design.with_hardware(own);
             match own.feed() {
-                Feed::Raster => true,
-                Feed::Parallel => {
+                PixelFeed::Raster => true,
+                PixelFeed::Parallel => {
                     let slot = beat / u64::from(design.stream_pixels());
                     let region = u64::from(lane) * u64::from(own.fold()) + slot;
                     region < own.regions().into()
@@ -21,7 +21,7 @@ pub(super) fn has_pixel(design: &Design, beat: u64, lane: u32) -> bool {
             }
         }
         Hardware::Raster(own) => {
-            let pixels = u64::from(design.on(own).pixels_per_clock());
+            let pixels = u64::from(design.with_hardware(own).pixels_per_clock());
             let words = u64::from(design.width()).div_ceil(pixels);
             beat % words * pixels + u64::from(lane) < design.width().into()
         }
@@ -31,10 +31,10 @@ pub(super) fn has_pixel(design: &Design, beat: u64, lane: u32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::Config;
+    use foveate_design::DesignConfig;
 
     fn design(toml: &str) -> Design {
-        Config::from_toml(toml).unwrap().validate().unwrap()
+        DesignConfig::from_toml(toml).unwrap().validate().unwrap()
     }
 
     #[test]

@@ -7,41 +7,41 @@
 //! within a flush, so that each reset finds the core in another state. The vectors follow from the
 //! design, the seed and the frames alone.
 
-mod ahead;
-mod aim;
-mod brush;
-mod damage;
+mod threshold_aimer;
+mod threshold_ranges;
+mod pattern_drawing;
+mod damaged_sequence;
 mod driver;
-mod feed;
-mod gallery;
-mod gauge;
-mod manners;
-mod memory;
-mod motif;
-mod pace;
-mod parts;
-mod queue;
+mod frame_feed;
+mod frame_generator;
+mod pattern_scorer;
+mod idle_input;
+mod faulty_store;
+mod stimulus_pattern;
+mod drain_timing;
+mod frame_parts;
+mod store_queue;
 mod random;
-mod scout;
+mod decision_predictor;
 mod sequences;
 mod session;
 mod sink;
-mod turns;
+mod sequence_schedule;
 
 use crate::error::CosimError;
-use crate::level::Level;
+use crate::level::CosimLevel;
 use crate::recording::{Recorder, Recording};
-pub(crate) use feed::FrameFeed;
+pub(crate) use frame_feed::FrameFeed;
 use foveate_design::Design;
 use foveate_frame::Frame;
-pub(crate) use motif::{Artist, Motif};
-pub(crate) use pace::settling_clocks;
-pub(crate) use queue::Queue;
+pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern};
+pub(crate) use drain_timing::settling_clocks;
+pub(crate) use store_queue::StoreQueue;
 pub(crate) use random::Random;
-use session::Session;
-pub(crate) use sink::ends_region;
+use session::StimulusSession;
+pub(crate) use sink::is_region_end_leaving;
 use std::sync::atomic::AtomicBool;
-use turns::Extent;
+use sequence_schedule::SequenceLimits;
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;
@@ -53,7 +53,7 @@ const MAX_PIXELS: u64 = 1 << 26;
 #[derive(Clone, Debug)]
 pub struct Stimulus {
     /// The part of the hardware that the vectors are for.
-    pub level: Level,
+    pub level: CosimLevel,
     /// The seed of all random data; equal seeds give equal vectors.
     pub seed: u64,
     /// The number of times that the directed sequences are played, each time with other data and
@@ -64,18 +64,18 @@ pub struct Stimulus {
     /// The number of clocks in a round that are enough, or `None` for all. If all directed
     /// sequences take more, about as many of them are recorded as fit into this number, but always
     /// the first three, which are the most telling.
-    pub enough: Option<u64>,
+    pub sufficient_clocks: Option<u64>,
 }
 
 /// The number of directed sequences that every round has: extremes, a reset in a frame, and the
 /// third of the organization.
-const MOST_TELLING: usize = 3;
+const MIN_SEQUENCES: usize = 3;
 /// The approximate length of a directed sequence, in frame times: some frames, with gaps.
 const FRAMES_OF_A_SEQUENCE: u64 = 6;
 
 impl Default for Stimulus {
     fn default() -> Self {
-        Self { level: Level::Rpu, seed: 1, rounds: 3, frames: Vec::new(), enough: None }
+        Self { level: CosimLevel::Rpu, seed: 1, rounds: 3, frames: Vec::new(), sufficient_clocks: None }
     }
 }
 
@@ -105,43 +105,43 @@ impl Stimulus {
         cancel: &AtomicBool,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
-        self.record_without(design, |_| false, cancel, progress)
+        self.record_without_sequences(design, |_| false, cancel, progress)
     }
 
     /// Records without the directed sequences for whose names `is_left_out` returns true. Tests use
     /// it to show that the situations of these sequences are then missing.
-    fn record_without(
+    fn record_without_sequences(
         &self,
         design: &Design,
         is_left_out: fn(&str) -> bool,
         cancel: &AtomicBool,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
-        self.check(design)?;
+        self.check_frames(design)?;
         let simulated = self.level.design(design)?;
         self.check_size(&simulated)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
         if self.rounds > 0 {
-            recorder.watch(&simulated, self.level.top());
+            recorder.count_situations(&simulated, self.level.top());
         }
         let plan = (self.seed, self.extent(&simulated), is_left_out);
-        Session::new((design, &simulated), self.level, plan, &mut recorder, cancel)
+        StimulusSession::new((design, &simulated), self.level, plan, &mut recorder, cancel)
             .run(&self.frames, progress)?;
         recorder.finish()
     }
 
-    fn extent(&self, simulated: &Design) -> Extent {
+    fn extent(&self, simulated: &Design) -> SequenceLimits {
         let sequence = FRAMES_OF_A_SEQUENCE * simulated.timing().clocks_per_frame().max(1);
         let fit = |clocks: u64| usize::try_from(clocks / sequence).unwrap_or(usize::MAX);
-        let most = self.enough.map_or(usize::MAX, |clocks| fit(clocks).max(MOST_TELLING));
-        Extent { rounds: self.rounds, most }
+        let most = self.sufficient_clocks.map_or(usize::MAX, |clocks| fit(clocks).max(MIN_SEQUENCES));
+        SequenceLimits { rounds: self.rounds, max_sequences: most }
     }
 
     /// Refuses an array that would not fit into memory, before any part of it is made.
     fn check_size(&self, design: &Design) -> Result<(), CosimError> {
         let regions = u64::from(match self.level {
-            Level::Rpu => design.unit().regions,
-            Level::Rcm { .. } | Level::Full => design.regions(),
+            CosimLevel::Rpu => design.unit().regions,
+            CosimLevel::Rcm { .. } | CosimLevel::Full => design.regions(),
         });
         let pixels = regions * u64::from(design.stream_pixels());
         if regions > MAX_REGIONS || pixels > MAX_PIXELS {
@@ -156,9 +156,9 @@ impl Stimulus {
     }
 
     /// Refuses missing frames and frames of another size or depth.
-    fn check(&self, design: &Design) -> Result<(), CosimError> {
+    fn check_frames(&self, design: &Design) -> Result<(), CosimError> {
         if self.rounds == 0 && self.frames.is_empty() {
-            return Err(CosimError::Nothing);
+            return Err(CosimError::NothingToSimulate);
         }
         let kind = |width, height, bits| format!("{width}x{height} pixels of {bits} bits");
         let wanted = kind(design.width(), design.height(), design.pixel_bits());
@@ -175,15 +175,15 @@ impl Stimulus {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::Config;
+    use foveate_design::DesignConfig;
 
     /// Returns the situations that do not occur in a recording without some sequences.
     fn missing(toml: &str, is_left_out: fn(&str) -> bool) -> Vec<String> {
         let toml = format!("frame={{width=32,height=24}}\n{toml}");
-        let design = Config::from_toml(&toml).unwrap().validate().unwrap();
-        let stimulus = Stimulus { level: Level::Full, rounds: 1, ..Stimulus::default() };
+        let design = DesignConfig::from_toml(&toml).unwrap().validate().unwrap();
+        let stimulus = Stimulus { level: CosimLevel::Full, rounds: 1, ..Stimulus::default() };
         let cancel = AtomicBool::new(false);
-        let found = stimulus.record_without(&design, is_left_out, &cancel, &mut |_, _| {});
+        let found = stimulus.record_without_sequences(&design, is_left_out, &cancel, &mut |_, _| {});
         let found = found.unwrap();
         found.situations().missing().into_iter().map(str::to_owned).collect()
     }

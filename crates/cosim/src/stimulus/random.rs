@@ -54,7 +54,7 @@ impl Random {
     }
 
     /// Returns one of the given items, or `None` if there are none.
-    pub(crate) fn of<T: Copy>(&mut self, things: &[T]) -> Option<T> {
+    pub(crate) fn choose<T: Copy>(&mut self, things: &[T]) -> Option<T> {
         let last = things.len().checked_sub(1)?;
         Some(things[self.index(last)])
     }
@@ -79,7 +79,7 @@ mod tests {
         let mut random = Random::new(1);
         let drawn: Vec<u64> = (0..200).map(|_| random.up_to(3)).collect();
         assert!((0..=3).all(|value| drawn.contains(&value)) && drawn.iter().all(|&v| v <= 3));
-        assert_eq!(random.of::<u8>(&[]), None);
+        assert_eq!(random.choose::<u8>(&[]), None);
         random.up_to(u64::MAX);
     }
 }

@@ -5,11 +5,11 @@
 
 use crate::common::in_parallel;
 use foveate_cosim::{
-    CosimError, Difference, Dut, Recorder, Recording, Run, Simulator, cell_models, wired_wrongly,
+    CosimError, PortDifference, DesignUnderTest, Recorder, Recording, SimulationRun, Simulator, cell_models, has_miswired_block_ram,
 };
-use foveate_design::{Direction, Port, PortRole, Qualifier};
-use foveate_toolchain::testing::{every, require_tools};
-use foveate_toolchain::verilator::Optimize;
+use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
+use foveate_toolchain::testing::{sampling_step, require_tools};
+use foveate_toolchain::verilator::OptimizationLevel;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,7 +32,7 @@ endmodule
 ";
 
 /// A memory with a separate read port, which can read a word at the edge at which it is written.
-const TWO_PORTS: &str = "module dut (
+const TWO_PORT_MEMORY: &str = "module dut (
     input wire clk_i, input wire write_i, input wire [BITS-1:0] address_i,
     input wire [WIDTH-1:0] data_i, input wire known_i,
     output reg known_o, output wire [WIDTH-1:0] data_o,
@@ -56,17 +56,17 @@ endmodule
 
 /// The number of ports of a memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Ports {
+enum MemoryPorts {
     /// One port reads and writes.
     One,
     /// One port writes, the other reads.
     Two,
 }
 
-fn port(name: &str, direction: Direction, role: PortRole, width: u32) -> Port {
+fn port(name: &str, direction: PortDirection, role: PortRole, width: u32) -> Port {
     let qualifier = match role {
-        PortRole::ForwardPixel => Qualifier::With(PortRole::ForwardValid),
-        _ => Qualifier::Always,
+        PortRole::ForwardPixel => OutputQualifier::WhileSet(PortRole::ForwardValid),
+        _ => OutputQualifier::Always,
     };
     let (name, doc) = (name.to_owned(), String::new());
     Port { name, direction, role, width, lanes: 1, per_lane: false, qualifier, doc }
@@ -79,8 +79,8 @@ fn random(state: &mut u64) -> u64 {
 
 /// Returns a memory of `words` words, and a recording that uses few addresses, so that each is used
 /// often.
-fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
-    use Direction::{Input, Output};
+fn memory_with_recording(ports: MemoryPorts, width: u32, words: u32) -> (DesignUnderTest, Recording) {
+    use PortDirection::{Input, Output};
     let bits = words.ilog2();
     let mut list = vec![
         port("clk_i", Input, PortRole::Clock, 1),
@@ -91,7 +91,7 @@ fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
         port("known_o", Output, PortRole::ForwardValid, 1),
         port("data_o", Output, PortRole::ForwardPixel, width),
     ];
-    if ports == Ports::Two {
+    if ports == MemoryPorts::Two {
         list.push(port("read_i", Input, PortRole::ForwardReady, 1));
         list.push(port("read_address_i", Input, PortRole::ReferencePixel, bits));
     }
@@ -107,15 +107,15 @@ fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
         let (write, data) = (random(&mut state) % 2, random(&mut state) << 32 ^ random(&mut state));
         // A separate read port reads at two of three clocks, often at the address of the write.
         let (read, read_address) = match (ports, random(&mut state) % 6) {
-            (Ports::One, _) => (1, address),
-            (Ports::Two, dice) => {
+            (MemoryPorts::One, _) => (1, address),
+            (MemoryPorts::Two, dice) => {
                 (u64::from(dice < 4), if dice == 0 { address } else { elsewhere })
             }
         };
         if read == 1 {
             shown = written.get(&read_address).copied();
         }
-        let (mut input, mut output) = (inputs.record(), outputs.record());
+        let (mut input, mut output) = (inputs.zero_record(), outputs.zero_record());
         let known = u64::from(shown.is_some());
         let values = [write, address, data & mask, known, read, read_address];
         for (field, value) in inputs.fields().iter().zip(values) {
@@ -129,8 +129,8 @@ fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
         }
     }
     let (text, leaves) = match ports {
-        Ports::One => (MEMORY, &["frame_store", "serial_memory"][..]),
-        Ports::Two => (TWO_PORTS, &["raster_memory"][..]),
+        MemoryPorts::One => (MEMORY, &["frame_store", "serial_memory"][..]),
+        MemoryPorts::Two => (TWO_PORT_MEMORY, &["raster_memory"][..]),
     };
     let text = text.replace("WIDTH-1", &(width - 1).to_string());
     let text = text.replace("BITS-1", &(bits - 1).to_string());
@@ -146,8 +146,8 @@ fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
 }
 
 /// Returns a multiplier, and a recording with the extremes and random factors.
-fn product() -> (Dut, Recording) {
-    use Direction::{Input, Output};
+fn product_with_recording() -> (DesignUnderTest, Recording) {
+    use PortDirection::{Input, Output};
     let ports = vec![
         port("clk_i", Input, PortRole::Clock, 1),
         port("a_i", Input, PortRole::Pixel, 27),
@@ -166,7 +166,7 @@ fn product() -> (Dut, Recording) {
         |bits: u32| i64::try_from(random(&mut state) % (1 << bits)).unwrap() - (1 << (bits - 1));
     factors.extend((0..500).map(|_| (signed(27), signed(18))));
     for (a, b) in factors {
-        let (mut input, mut output) = (inputs.record(), outputs.record());
+        let (mut input, mut output) = (inputs.zero_record(), outputs.zero_record());
         inputs.fields()[0].set(&mut input, 0, a.cast_unsigned());
         inputs.fields()[1].set(&mut input, 0, b.cast_unsigned());
         outputs.fields()[0].set(&mut output, 0, (a * b).cast_unsigned());
@@ -176,14 +176,14 @@ fn product() -> (Dut, Recording) {
     (dut(ports, sources), recorder.finish().unwrap())
 }
 
-fn dut(ports: Vec<Port>, sources: Vec<Source>) -> Dut {
+fn dut(ports: Vec<Port>, sources: Vec<Source>) -> DesignUnderTest {
     let (top, parameters, no_inline) = ("dut".to_owned(), Vec::new(), Vec::new());
-    Dut { top, ports, parameters, sources, no_inline }
+    DesignUnderTest { top, ports, parameters, sources, no_inline }
 }
 
 /// Returns the netlist of each module and the names of its cells. All modules share one run of
 /// Yosys, because it needs two seconds to read its library of cells.
-fn synthesized(duts: &[&Dut]) -> Vec<(Dut, BTreeSet<String>)> {
+fn synthesize_all(duts: &[&DesignUnderTest]) -> Vec<(DesignUnderTest, BTreeSet<String>)> {
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let (mut sources, mut all) = (BTreeMap::new(), String::new());
     let (mut outputs, mut write) = (Vec::new(), String::new());
@@ -222,26 +222,26 @@ fn synthesized(duts: &[&Dut]) -> Vec<(Dut, BTreeSet<String>)> {
         let cells: BTreeSet<String> = netlist.lines().filter_map(name).collect();
         let models = cell_models(&library, cells.clone()).unwrap();
         let sources = vec![("cells.v".to_owned(), models), ("netlist.v".to_owned(), netlist)];
-        (Dut { sources, ..duts[number].clone() }, cells)
+        (DesignUnderTest { sources, ..duts[number].clone() }, cells)
     };
     outputs.iter().enumerate().map(of).collect()
 }
 
-fn run(dut: &Dut, recording: &Recording) -> Result<Vec<Difference>, CosimError> {
+fn run_in_icarus(dut: &DesignUnderTest, recording: &Recording) -> Result<Vec<PortDifference>, CosimError> {
     let (toolchain, cache) = (&Toolchain::system(), &Cache::from_env().unwrap());
     let (simulator, limit) = (Simulator::Iverilog, Duration::from_secs(120));
-    let (seed, trace, optimize) = (1, false, Optimize::Build);
-    let run = Run { simulator, seed, trace, toolchain, cache, limit, optimize };
+    let (seed, trace, optimize) = (1, false, OptimizationLevel::FastBuild);
+    let run = SimulationRun { simulator, seed, trace, toolchain, cache, limit, optimize };
     Ok(run.run(dut, recording)?.differences)
 }
 
 /// Returns the module with one edit of the models (`file` 0) or of the netlist (`file` 1). The text
 /// must be there.
-fn edited(dut: &Dut, file: usize, from: &str, to: &str) -> Dut {
+fn with_edit(dut: &DesignUnderTest, file: usize, from: &str, to: &str) -> DesignUnderTest {
     let mut sources = dut.sources.clone();
     assert!(sources[file].1.contains(from), "{from}");
     sources[file].1 = sources[file].1.replace(from, to);
-    Dut { sources, ..dut.clone() }
+    DesignUnderTest { sources, ..dut.clone() }
 }
 
 #[test]
@@ -253,13 +253,13 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     let larger = [(1, 1 << 15), (8, 1 << 12), (16, 1 << 11), (32, 1 << 10), (10, 1 << 12)];
     // Words that are wider than a port; one needs two cells, and one leaves a port unused.
     let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
-    let one = [&shapes[..], &larger].concat().into_iter().step_by(every(2));
-    let one = one.map(|shape| (Ports::One, shape));
-    let two = [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (Ports::Two, shape));
-    let shapes: Vec<(Ports, (u32, u32))> = one.chain(two).collect();
-    let memories: Vec<(Dut, Recording)> =
-        shapes.iter().map(|&(ports, (width, words))| memory(ports, width, words)).collect();
-    let netlists = synthesized(&memories.iter().map(|(rtl, _)| rtl).collect::<Vec<_>>());
+    let one = [&shapes[..], &larger].concat().into_iter().step_by(sampling_step(2));
+    let one = one.map(|shape| (MemoryPorts::One, shape));
+    let two = [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (MemoryPorts::Two, shape));
+    let shapes: Vec<(MemoryPorts, (u32, u32))> = one.chain(two).collect();
+    let memories: Vec<(DesignUnderTest, Recording)> =
+        shapes.iter().map(|&(ports, (width, words))| memory_with_recording(ports, width, words)).collect();
+    let netlists = synthesize_all(&memories.iter().map(|(rtl, _)| rtl).collect::<Vec<_>>());
     let all: Vec<_> = shapes.iter().zip(memories.iter().zip(&netlists)).collect();
     let failures = in_parallel(&all, |&(&(ports, (width, words)), ((rtl, recording), netlist))| {
         let (netlist, cells) = netlist;
@@ -270,7 +270,7 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
             ));
         }
         for dut in [rtl, netlist] {
-            match run(dut, recording) {
+            match run_in_icarus(dut, recording) {
                 Ok(found) if found.is_empty() => {}
                 other => {
                     return Err(format!(
@@ -289,11 +289,11 @@ fn a_product_is_that_of_the_rtl() {
     if !require_tools(TOOLS) {
         return;
     }
-    let (rtl, recording) = product();
-    let (netlist, cells) = synthesized(&[&rtl]).remove(0);
+    let (rtl, recording) = product_with_recording();
+    let (netlist, cells) = synthesize_all(&[&rtl]).remove(0);
     assert!(cells.contains("DSP48E2"), "{cells:?}");
     for dut in [&rtl, &netlist] {
-        assert_eq!(run(dut, &recording).unwrap(), []);
+        assert_eq!(run_in_icarus(dut, &recording).unwrap(), []);
     }
     for (from, to) in [
         ("a * b", "a * b + 48'd1"),
@@ -301,13 +301,13 @@ fn a_product_is_that_of_the_rtl() {
         ("{{21{A[26]}}, A[26:0]}", "{{22{A[25]}}, A[25:0]}"),
         ("9'h005}", "9'h035}"),
     ] {
-        let found = run(&edited(&netlist, 0, from, to), &recording).unwrap();
+        let found = run_in_icarus(&with_edit(&netlist, 0, from, to), &recording).unwrap();
         assert!(!found.is_empty(), "not found: {to}");
     }
-    refused(&edited(&netlist, 1, ".PREG(32'sd0)", ".PREG(32'sd1)"), &recording, "registers");
-    refused(&edited(&netlist, 1, ".PREG(", ".RND(48'd1), .PREG("), &recording, "RND");
-    let other = edited(&netlist, 1, "\"ONE48\"", "\"TWO24\"");
-    refused(&other, &recording, "only_multiplies");
+    assert_refused(&with_edit(&netlist, 1, ".PREG(32'sd0)", ".PREG(32'sd1)"), &recording, "registers");
+    assert_refused(&with_edit(&netlist, 1, ".PREG(", ".RND(48'd1), .PREG("), &recording, "RND");
+    let other = with_edit(&netlist, 1, "\"ONE48\"", "\"TWO24\"");
+    assert_refused(&other, &recording, "only_multiplies");
 }
 
 #[test]
@@ -321,31 +321,31 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
     let there =
         "    wire writes_there = &enables && write_address == read_address;\n    integer i;";
     let shapes = [
-        (Ports::One, 8, 1 << 11, "RAMB18E2"),
-        (Ports::One, 16, 1 << 11, "RAMB36E2"),
-        (Ports::Two, 8, 1 << 11, "RAMB18E2"),
-        (Ports::Two, 36, 1 << 9, "RAMB18E2"),
+        (MemoryPorts::One, 8, 1 << 11, "RAMB18E2"),
+        (MemoryPorts::One, 16, 1 << 11, "RAMB36E2"),
+        (MemoryPorts::Two, 8, 1 << 11, "RAMB18E2"),
+        (MemoryPorts::Two, 36, 1 << 9, "RAMB18E2"),
     ];
-    let memories = shapes.map(|(ports, width, words, _)| memory(ports, width, words));
-    let netlists = synthesized(&memories.each_ref().map(|(rtl, _)| rtl));
+    let memories = shapes.map(|(ports, width, words, _)| memory_with_recording(ports, width, words));
+    let netlists = synthesize_all(&memories.each_ref().map(|(rtl, _)| rtl));
     for ((ports, width, _, cell), ((_, recording), (netlist, cells))) in
         shapes.into_iter().zip(memories.iter().zip(&netlists))
     {
         assert!(cells.contains(cell), "{cells:?}");
         let shape = format!("{ports:?} {width} bits");
-        let write_first = edited(&edited(netlist, 0, wires, there), 0, word, through);
-        assert!(!run(&write_first, recording).unwrap().is_empty(), "{shape}: writes first");
+        let write_first = with_edit(&with_edit(netlist, 0, wires, there), 0, word, through);
+        assert!(!run_in_icarus(&write_first, recording).unwrap().is_empty(), "{shape}: writes first");
         // A byte without its enable bit is written, also while its content is unknown.
-        let always = edited(netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
-        assert_eq!(run(&always, recording).unwrap(), [], "{shape}");
-        let always = edited(&always, 0, "enables[i] !== 1'b0", "1'b1");
-        assert!(!run(&always, recording).unwrap().is_empty(), "{shape}: writes always");
+        let always = with_edit(netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
+        assert_eq!(run_in_icarus(&always, recording).unwrap(), [], "{shape}");
+        let always = with_edit(&always, 0, "enables[i] !== 1'b0", "1'b1");
+        assert!(!run_in_icarus(&always, recording).unwrap().is_empty(), "{shape}: writes always");
         for (from, to) in [
             (") / DATA;", ") / (2 * DATA);"),
             ("? data[8*i+:8]", "? data[8*i+:8] & ~8'd4"),
             ("posedge CLKARDCLK", "negedge CLKARDCLK"),
         ] {
-            let found = run(&edited(netlist, 0, from, to), recording).unwrap();
+            let found = run_in_icarus(&with_edit(netlist, 0, from, to), recording).unwrap();
             assert!(!found.is_empty(), "{shape}: not found: {to}");
         }
         let writer = if width == 36 { "B" } else { "A" };
@@ -359,11 +359,11 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
             (".DOA_REG(", ".EN_ECC_READ(\"TRUE\"), .DOA_REG(", "EN_ECC_READ"),
             (".INIT_00(256'hx", ".INIT_00(256'h0", "start_unknown"),
         ] {
-            refused(&edited(netlist, 1, from, to), recording, said);
+            assert_refused(&with_edit(netlist, 1, from, to), recording, said);
         }
-        if ports == Ports::One {
-            let both = edited(netlist, 1, ".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd9)");
-            refused(&both, recording, "one_port");
+        if ports == MemoryPorts::One {
+            let both = with_edit(netlist, 1, ".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd9)");
+            assert_refused(&both, recording, "one_port");
         } else {
             // A port that only reads must not write, and both ports have one clock.
             let (enable, none) = if width == 36 { (".WEA(2'h0)", 2) } else { (".WEBWE(", 4) };
@@ -372,11 +372,11 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
             let end = at + text[at..].find(')').unwrap() + 1;
             let name = enable.split('(').next().unwrap();
             let written = format!("{name}({none}'h1)");
-            let found = run(&edited(netlist, 1, &text[at..end], &written), recording);
+            let found = run_in_icarus(&with_edit(netlist, 1, &text[at..end], &written), recording);
             assert!(!found.unwrap().is_empty(), "{shape}: both ports write");
             for clock in [".CLKBWRCLK(~clk_i)", ".CLKBWRCLK(1'h0)"] {
-                let clocks = edited(netlist, 1, ".CLKBWRCLK(clk_i)", clock);
-                assert!(!run(&clocks, recording).unwrap().is_empty(), "{shape}: {clock}");
+                let clocks = with_edit(netlist, 1, ".CLKBWRCLK(clk_i)", clock);
+                assert!(!run_in_icarus(&clocks, recording).unwrap().is_empty(), "{shape}: {clock}");
             }
         }
     }
@@ -385,21 +385,21 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
 /// A Yosys from before April 2026 gives the upper half of a word the parity bits of the lower half
 /// (<https://github.com/YosysHQ/yosys/pull/5833>). The model shows it.
 #[test]
-fn a_word_of_64_bits_shows_how_yosys_wires_it() {
+fn a_word_of_64_bits_differs_exactly_if_yosys_miswires_it() {
     if !require_tools(TOOLS) {
         return;
     }
-    let (rtl, recording) = memory(Ports::Two, 64, 1 << 9);
-    assert_eq!(run(&rtl, &recording).unwrap(), []);
-    let (netlist, cells) = synthesized(&[&rtl]).remove(0);
+    let (rtl, recording) = memory_with_recording(MemoryPorts::Two, 64, 1 << 9);
+    assert_eq!(run_in_icarus(&rtl, &recording).unwrap(), []);
+    let (netlist, cells) = synthesize_all(&[&rtl]).remove(0);
     assert!(cells.contains("RAMB36E2"), "{cells:?}");
-    let found = run(&netlist, &recording).unwrap();
-    assert_eq!(!found.is_empty(), wired_wrongly(&netlist.sources[1].1), "{found:?}");
+    let found = run_in_icarus(&netlist, &recording).unwrap();
+    assert_eq!(!found.is_empty(), has_miswired_block_ram(&netlist.sources[1].1), "{found:?}");
 }
 
 /// Checks that the module does not compile, and that the message contains `said`.
-fn refused(dut: &Dut, recording: &Recording, said: &str) {
-    match run(dut, recording) {
+fn assert_refused(dut: &DesignUnderTest, recording: &Recording, said: &str) {
+    match run_in_icarus(dut, recording) {
         Err(CosimError::Tool(error)) => {
             assert!(error.to_string().contains(said), "{said}: {error}");
         }

@@ -3,24 +3,24 @@
 //! and the models.
 
 use foveate_cosim::timing_diagram;
-use foveate_design::{Config, Design, PipelinedTiming, SerialTiming};
-use foveate_model::{PipelinedRpu, RpuInput, Thresholds};
+use foveate_design::{DesignConfig, Design, PipelinedTiming, SerialTiming};
+use foveate_model::{PipelinedRpu, RpuInput, ThresholdInputs};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
 /// A parsed diagram: the value of each signal at each shown edge, or `None` if it is not valid.
-struct Diagram {
+struct ParsedDiagram {
     edges: Vec<u64>,
     signals: BTreeMap<String, Vec<Option<u64>>>,
     svg: String,
 }
 
-fn diagram(design: &Design) -> Diagram {
+fn diagram(design: &Design) -> ParsedDiagram {
     let [json, svg] = timing_diagram(design, &AtomicBool::new(false)).unwrap();
     assert_eq!((json.path.as_str(), svg.path.as_str()), ("timing.json", "timing.svg"));
     let wave: Value = serde_json::from_str(&json.contents).unwrap();
@@ -49,12 +49,12 @@ fn diagram(design: &Design) -> Diagram {
         rows[1..].iter().map(|row| (text(&row["name"]), values(row))).collect();
     assert!(signals.values().all(|values| values.len() == edges.len()));
     assert!(edges.windows(2).all(|pair| pair[0] < pair[1]), "{edges:?}");
-    Diagram { edges, signals, svg: svg.contents }
+    ParsedDiagram { edges, signals, svg: svg.contents }
 }
 
-impl Diagram {
+impl ParsedDiagram {
     /// Returns the edges after which a line rises.
-    fn rises(&self, name: &str) -> Vec<u64> {
+    fn rising_edges(&self, name: &str) -> Vec<u64> {
         let values = &self.signals[name];
         let rises = |at: &usize| values[*at] == Some(1) && (*at == 0 || values[at - 1] == Some(0));
         (0..values.len()).filter(rises).map(|at| self.edges[at]).collect()
@@ -71,14 +71,14 @@ fn a_pipelined_decision_comes_when_the_timing_says() {
         "spatial = [{ feature = 'variance', min_score = 5 }]\nregion.size = 20",
     ] {
         let design = design(toml);
-        let timing = PipelinedTiming::of(design.pipelined().unwrap());
+        let timing = PipelinedTiming::from_design(design.as_pipelined().unwrap());
         let diagram = diagram(&design);
         let frame = u64::from(timing.cycles_per_frame);
         let behind = u64::from(timing.decision_frames);
         let first = frame * (1 + behind) - 1 + u64::from(timing.decision_latency);
-        assert_eq!(diagram.rises("decision_valid_o").first(), Some(&first), "{toml}");
-        assert_eq!(diagram.rises("active_o"), [first], "sent once, then held: {toml}");
-        assert!(!diagram.rises("forward_valid_o").is_empty(), "{toml}");
+        assert_eq!(diagram.rising_edges("decision_valid_o").first(), Some(&first), "{toml}");
+        assert_eq!(diagram.rising_edges("active_o"), [first], "sent once, then held: {toml}");
+        assert!(!diagram.rising_edges("forward_valid_o").is_empty(), "{toml}");
         assert!(diagram.edges.contains(&(frame - 1)) && diagram.edges.contains(&frame), "{toml}");
     }
 }
@@ -92,7 +92,7 @@ fn a_pipelined_diagram_shows_what_the_model_says() {
     );
     let diagram = diagram(&design);
     // The regions are so small that no clock is left out before the end.
-    let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
+    let mut rpu = PipelinedRpu::new(design.as_pipelined().unwrap());
     let mut checked = 0;
     for (at, &edge) in diagram.edges.iter().enumerate() {
         if edge != at as u64 {
@@ -102,7 +102,7 @@ fn a_pipelined_diagram_shows_what_the_model_says() {
         let pixel = u16::try_from(shows("pixel_i").unwrap_or(0)).unwrap();
         let valid = shows("valid_i") == Some(1);
         let input = RpuInput { reset: false, valid, pixel, border: 15 };
-        let output = rpu.step(&input, &Thresholds::of(&design));
+        let output = rpu.step(&input, &ThresholdInputs::from_camera(&design));
         for (name, value) in [
             ("decision_valid_o", u64::from(output.decision_valid)),
             ("srs_o", u64::from(output.srs)),
@@ -129,10 +129,10 @@ fn a_serial_array_is_ready_and_shows_scores_when_the_timing_says() {
         "hardware = { organization = 'serial', feed = 'raster' }\nregion.neighborhood = 'shared'\nframe = { width = 24, height = 16 }",
     ] {
         let design = design(toml);
-        let timing = SerialTiming::of(design.serial().unwrap());
+        let timing = SerialTiming::from_design(design.as_serial().unwrap());
         let diagram = diagram(&design);
         let start = timing.load_clocks() - 1;
-        let ready = diagram.rises("ready_o");
+        let ready = diagram.rising_edges("ready_o");
         assert_eq!(ready.last(), Some(&(start + timing.edges_to_ready())), "{toml}");
         let before: u64 = timing
             .phases()
@@ -140,9 +140,9 @@ fn a_serial_array_is_ready_and_shows_scores_when_the_timing_says() {
             .take_while(|(phase, _)| !phase.to_string().starts_with("rotate"))
             .map(|&(_, steps)| steps)
             .sum();
-        let scores = diagram.rises("score_valid_o");
+        let scores = diagram.rising_edges("score_valid_o");
         assert_eq!(scores.first(), Some(&(start + timing.edges_to_step(before))), "{toml}");
-        assert_eq!(diagram.rises("active_o").len(), 1, "the first region is active alone: {toml}");
+        assert_eq!(diagram.rising_edges("active_o").len(), 1, "the first region is active alone: {toml}");
         for (name, values) in &diagram.signals {
             if name.starts_with("score_o") || name.starts_with("region_o") {
                 let valid = diagram.signals["score_valid_o"].iter();
@@ -156,7 +156,7 @@ fn a_serial_array_is_ready_and_shows_scores_when_the_timing_says() {
 fn a_diagram_is_drawn_with_every_name_and_number() {
     for toml in ["", "hardware = { organization = 'serial', fold = 784 }"] {
         let design = design(toml);
-        let Diagram { edges, signals, svg } = diagram(&design);
+        let ParsedDiagram { edges, signals, svg } = diagram(&design);
         assert_eq!(svg, diagram(&design).svg, "equal designs have equal pictures");
         for text in signals.keys().cloned().chain(edges.iter().map(u64::to_string)) {
             assert!(svg.contains(&format!(">{text}<")), "{text}");

@@ -3,9 +3,9 @@
 //! its size. The default runs and the bench of a core must reach all of them, and faults there must
 //! be found.
 
-use crate::common::{cosimulate, in_parallel, simulators};
-use foveate_cosim::{Job, Level, ShippedBench, Simulator, Stimulus, not_elaborated};
-use foveate_design::{Config, Design, PRESETS};
+use crate::common::{cosimulate, in_parallel, has_simulators};
+use foveate_cosim::{CosimJob, CosimLevel, ShippedBench, Simulator, Stimulus, unelaborated_variants};
+use foveate_design::{DesignConfig, Design, PRESETS};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
@@ -21,55 +21,55 @@ const LARGE: &str = "frame = { width = 160, height = 128, pixel_bits = 4 }\nregi
     hardware = { organization = 'raster', pipelining = 'deep' }\n";
 /// The number of clocks after which the default run of a whole frame may stop; 1 leaves the first
 /// three sequences.
-const ENOUGH: u64 = 1;
+const SUFFICIENT_CLOCKS: u64 = 1;
 
 /// A fault: an edit of one file.
-struct Fault {
-    what: &'static str,
+struct LargeFrameFault {
+    description: &'static str,
     file: &'static str,
     from: &'static str,
     to: &'static str,
 }
 
-const FAULTS: &[Fault] = &[
-    Fault {
-        what: "every reference of a large store is 0",
+const FAULTS: &[LargeFrameFault] = &[
+    LargeFrameFault {
+        description: "every reference of a large store is 0",
         file: "rtl/raster_banks.v",
         from: "assign data_o = found[GROUPS];",
         to: "assign data_o = {WIDTH{1'b0}};",
     },
-    Fault {
-        what: "the write address of a bank lacks a bit",
+    LargeFrameFault {
+        description: "the write address of a bank lacks a bit",
         file: "rtl/raster_banks.v",
         from: "own_write_q <= write_q[BANK_BITS-1:0];",
         to: "own_write_q <= {1'b0, write_q[BANK_BITS-2:0]};",
     },
-    Fault {
-        what: "the first bank is written for all",
+    LargeFrameFault {
+        description: "the first bank is written for all",
         file: "rtl/raster_banks.v",
         from: "write_place[group][BANK_BITS+:SLOT_BITS] == OWN",
         to: "OWN == 0",
     },
-    Fault {
-        what: "a reference comes a clock early",
+    LargeFrameFault {
+        description: "a reference comes a clock early",
         file: "rtl/raster_banks.v",
         from: "assign data_o = found[GROUPS];",
         to: "assign data_o = g_group[GROUPS-1].any;",
     },
-    Fault {
-        what: "4 bits of the column of a region",
+    LargeFrameFault {
+        description: "4 bits of the column of a region",
         file: "rtl/raster_start.v",
         from: "column_q == BEFORE_LAST[COLUMN_BITS-1:0]",
         to: "column_q == (BEFORE_LAST & 15)",
     },
-    Fault {
-        what: "6 bits of the row of a pixel",
+    LargeFrameFault {
+        description: "6 bits of the row of a pixel",
         file: "rtl/raster_control.v",
         from: "row_q == BEFORE_LAST_TAKEN_ROW[ROW_BITS-1:0]",
         to: "row_q == (BEFORE_LAST_TAKEN_ROW & 63)",
     },
-    Fault {
-        what: "losses are counted up to 255",
+    LargeFrameFault {
+        description: "losses are counted up to 255",
         file: "rtl/raster_forward.v",
         from: "lost_count_o != 16'hFFFF",
         to: "lost_count_o != 16'h00FF",
@@ -77,11 +77,11 @@ const FAULTS: &[Fault] = &[
 ];
 
 fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
 /// Returns the sources of a core, with those of all of its tops.
-fn sources(design: &Design) -> Vec<SourceFile> {
+fn core_sources(design: &Design) -> Vec<SourceFile> {
     let mut known = BTreeSet::new();
     let all = Top::all_of(design).iter().flat_map(|&top| verilog(design, top));
     all.filter(|file| known.insert(file.path.clone())).collect()
@@ -91,11 +91,11 @@ fn sources(design: &Design) -> Vec<SourceFile> {
 fn is_found_by_cosim(
     design: &Design,
     files: &[SourceFile],
-    (level, simulator): (Level, Simulator),
+    (level, simulator): (CosimLevel, Simulator),
     output: &Path,
 ) -> bool {
-    let stimulus = Stimulus { level, rounds: 1, enough: Some(ENOUGH), ..Stimulus::default() };
-    let edit = |job: &mut Job| job.sources = files.to_vec();
+    let stimulus = Stimulus { level, rounds: 1, sufficient_clocks: Some(SUFFICIENT_CLOCKS), ..Stimulus::default() };
+    let edit = |job: &mut CosimJob| job.sources = files.to_vec();
     !cosimulate(design, simulator, stimulus, output, edit).unwrap().passed()
 }
 
@@ -130,12 +130,12 @@ fn is_found_by_bench(bench: &ShippedBench, files: &[SourceFile]) -> bool {
 /// bench.
 #[test]
 fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
-    if !simulators() {
+    if !has_simulators() {
         return;
     }
     let design = design(LARGE);
-    let levels = Level::all_of(&design, &sources(&design), &Prefix::default());
-    assert_eq!(levels.last(), Some(&Level::Full), "{levels:?}");
+    let levels = CosimLevel::for_sources(&design, &core_sources(&design), &Prefix::default());
+    assert_eq!(levels.last(), Some(&CosimLevel::Full), "{levels:?}");
     let bench =
         ShippedBench::new(&design, Top::Rcm, &Prefix::default(), &AtomicBool::new(false)).unwrap();
     assert_eq!(bench.grid, (20, 16));
@@ -145,7 +145,7 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
     assert!(!is_found_by_bench(&bench, &sound), "no fault, and yet the bench fails");
     let output = tempfile::tempdir().unwrap();
     let failures = in_parallel(FAULTS, |fault| {
-        let Fault { what, file, from, to } = fault;
+        let LargeFrameFault { description: what, file, from, to } = fault;
         let mut files = sound.clone();
         let edited = files.iter_mut().find(|source| source.path == *file);
         let edited = edited.ok_or_else(|| format!("{what}: no file {file}"))?;
@@ -157,7 +157,7 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
         // The whole frame is quicker in Verilator, in which no unknown value shows the fault; the
         // bench runs in Icarus.
         let (small, whole) =
-            ((Level::sample(&design), Simulator::Iverilog), (Level::Full, Simulator::Verilator));
+            ((CosimLevel::small_array(&design), Simulator::Iverilog), (CosimLevel::Full, Simulator::Verilator));
         if is_found_by_cosim(&design, &files, small, &folder) {
             return Err(format!("{what}: the small grid finds it, so it shows nothing here"));
         }
@@ -192,16 +192,16 @@ fn what_a_small_grid_leaves_out_is_named() {
         return;
     }
     let (design, toolchain) = (design(LARGE), Toolchain::system());
-    let sources = sources(&design);
-    let left = |levels: &[Level]| {
-        not_elaborated(&design, &sources, &Prefix::default(), levels, &toolchain).unwrap()
+    let sources = core_sources(&design);
+    let left = |levels: &[CosimLevel]| {
+        unelaborated_variants(&design, &sources, &Prefix::default(), levels, &toolchain).unwrap()
     };
-    let small = left(&[Level::sample(&design)]);
+    let small = left(&[CosimLevel::small_array(&design)]);
     let said: Vec<String> = small.iter().map(ToString::to_string).collect();
     for wanted in ["module raster_banks", "raster_ring with ", "rcm with COLUMNS = 14, ROWS = 10"] {
         assert!(said.iter().any(|text| text.starts_with(wanted)), "{wanted}: {said:?}");
     }
-    assert_eq!(left(&Level::all_of(&design, &sources, &Prefix::default())), []);
+    assert_eq!(left(&CosimLevel::for_sources(&design, &sources, &Prefix::default())), []);
 }
 
 /// An array of copies is not simulated whole. The elaborated array shows that each copy has its own
@@ -218,11 +218,11 @@ fn each_copy_of_an_array_is_connected_to_its_own_lanes() {
         "hardware.sync = true\n",
     ] {
         let design = design(&format!("frame = {{ width = 160, height = 104 }}\n{more}"));
-        let sources = sources(&design);
-        let levels = Level::all_of(&design, &sources, &Prefix::default());
-        assert!(!levels.contains(&Level::Full), "{levels:?}");
+        let sources = core_sources(&design);
+        let levels = CosimLevel::for_sources(&design, &sources, &Prefix::default());
+        assert!(!levels.contains(&CosimLevel::Full), "{levels:?}");
         let left = |files: &[SourceFile]| {
-            not_elaborated(&design, files, &Prefix::default(), &levels, &toolchain).unwrap()
+            unelaborated_variants(&design, files, &Prefix::default(), &levels, &toolchain).unwrap()
         };
         assert_eq!(left(&sources), [], "{more}");
         for (from, to) in [
@@ -244,7 +244,7 @@ fn each_copy_of_an_array_is_connected_to_its_own_lanes() {
 }
 
 /// Returns designs of every preset, and of frames up to 1920x1080.
-fn listed() -> Vec<(String, Design)> {
+fn listed_designs() -> Vec<(String, Design)> {
     let hd = "frame = { width = 1920, height = 1080 }\n";
     let mut list: Vec<(String, Design)> = PRESETS
         .iter()
@@ -280,13 +280,13 @@ fn nothing_of_a_generated_core_is_left_out() {
         return;
     }
     let toolchain = Toolchain::system();
-    let failures = in_parallel(&listed(), |(name, design)| {
-        let sources = sources(design);
+    let failures = in_parallel(&listed_designs(), |(name, design)| {
+        let sources = core_sources(design);
         let bench = ShippedBench::levels(design).map_err(|error| error.to_string())?;
         for (what, levels) in
-            [("cosim", Level::all_of(design, &sources, &Prefix::default())), ("bench", bench)]
+            [("cosim", CosimLevel::for_sources(design, &sources, &Prefix::default())), ("bench", bench)]
         {
-            let left = not_elaborated(design, &sources, &Prefix::default(), &levels, &toolchain)
+            let left = unelaborated_variants(design, &sources, &Prefix::default(), &levels, &toolchain)
                 .map_err(|error| format!("{name}: {error}"))?;
             if !left.is_empty() {
                 let left: Vec<String> = left.iter().map(ToString::to_string).collect();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The synthesized netlist agrees with the model, and a netlist with a fault does not.
 
-use crate::common::{design, directed, in_parallel};
-use foveate_cosim::{CosimReport, Job, Level, Netlist, Simulator};
-use foveate_design::Config;
+use crate::common::{design, directed_stimulus, in_parallel};
+use foveate_cosim::{CosimReport, CosimJob, CosimLevel, Netlist, Simulator};
+use foveate_design::DesignConfig;
 use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;
@@ -55,16 +55,16 @@ const RASTER_MEANS: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[denois
                             reference = \"last-sent\"\n[render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 2\n[hardware]\norganization = \"raster\"\n\
                             pipelining = \"deep\"\n";
 
-fn job(toml: &str, level: Level, regions: (u32, u32), output: &Path) -> Job {
-    let design = design(&Config::from_toml(toml).unwrap(), regions);
-    let mut job = Job::new(&design, directed(level, 1), output).unwrap();
+fn job(toml: &str, level: CosimLevel, regions: (u32, u32), output: &Path) -> CosimJob {
+    let design = design(&DesignConfig::from_toml(toml).unwrap(), regions);
+    let mut job = CosimJob::new(&design, directed_stimulus(level, 1), output).unwrap();
     job.simulator = Simulator::Iverilog;
     let netlist = job.synthesize(&Toolchain::system(), &Cache::from_env().unwrap());
     job.netlist = Some(netlist.unwrap());
     job
 }
 
-fn run(job: &Job) -> CosimReport {
+fn run_job(job: &CosimJob) -> CosimReport {
     job.run(&Toolchain::system(), &Cache::from_env().unwrap(), &mut |_| {}).unwrap()
 }
 
@@ -75,29 +75,29 @@ fn netlists_agree_with_the_model() {
     }
     let output = tempfile::tempdir().unwrap();
     let mut jobs = vec![
-        (MAD, Level::Rpu, (1, 1)),
-        (FOLDED_MEANS, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
-        (RASTER_MEANS, Level::Rcm { columns: 4, rows: 1 }, (4, 1)),
+        (MAD, CosimLevel::Rpu, (1, 1)),
+        (FOLDED_MEANS, CosimLevel::Rcm { columns: 3, rows: 1 }, (3, 1)),
+        (RASTER_MEANS, CosimLevel::Rcm { columns: 4, rows: 1 }, (4, 1)),
     ];
     // The designs above and the tests of single cells cover most of these. Not covered there are
     // two regions in a lane, two RPUs side by side, a second row of regions in `raster`, and a
     // division by 9.
     let others = [
-        (VARIANCE, Level::Rpu, (1, 1)),
-        (MEANS_DEEP, Level::Rpu, (1, 1)),
-        (MEANS, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
-        (DEEP, Level::Rpu, (1, 1)),
-        (EDGES, Level::Rpu, (1, 1)),
-        (EDGES, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
-        (FOLDED, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
-        (RASTER, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
-        (RASTER_DEEP, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
-        (RASTER_MEANS, Level::Rcm { columns: 4, rows: 2 }, (4, 2)),
+        (VARIANCE, CosimLevel::Rpu, (1, 1)),
+        (MEANS_DEEP, CosimLevel::Rpu, (1, 1)),
+        (MEANS, CosimLevel::Rcm { columns: 2, rows: 1 }, (1, 1)),
+        (DEEP, CosimLevel::Rpu, (1, 1)),
+        (EDGES, CosimLevel::Rpu, (1, 1)),
+        (EDGES, CosimLevel::Rcm { columns: 2, rows: 1 }, (1, 1)),
+        (FOLDED, CosimLevel::Rcm { columns: 3, rows: 1 }, (3, 1)),
+        (RASTER, CosimLevel::Rcm { columns: 4, rows: 3 }, (4, 3)),
+        (RASTER_DEEP, CosimLevel::Rcm { columns: 4, rows: 3 }, (4, 3)),
+        (RASTER_MEANS, CosimLevel::Rcm { columns: 4, rows: 2 }, (4, 2)),
     ];
     jobs.extend(others.into_iter().filter(|_| takes_whole_lists()));
     let failures = in_parallel(&jobs, |&(toml, level, regions)| {
         let job = job(toml, level, regions, &output.path().join(level.to_string()));
-        let report = run(&job);
+        let report = run_job(&job);
         let record = report.netlist.clone().unwrap();
         assert!(record.tool.version.starts_with("Yosys"), "{record:?}");
         assert!(report.name.contains(" netlist iverilog"), "{report}");
@@ -108,7 +108,7 @@ fn netlists_agree_with_the_model() {
 
 /// Returns the netlist with a fault in the lookup table of index `lut`: one entry is inverted, or
 /// all are.
-fn with_fault(netlist: &Netlist, lut: usize, bit: Option<u64>) -> Option<Netlist> {
+fn with_table_fault(netlist: &Netlist, lut: usize, bit: Option<u64>) -> Option<Netlist> {
     let mut faulty = netlist.clone();
     let (_, text) = faulty.sources.iter_mut().find(|(name, _)| name.ends_with("netlist.v"))?;
     let (at, _) = text.match_indices(" LUT").nth(lut)?;
@@ -128,16 +128,16 @@ fn a_wrong_table_is_found() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let sound = job(EDGES, Level::Rpu, (1, 1), &output.path().join("sound"));
+    let sound = job(EDGES, CosimLevel::Rpu, (1, 1), &output.path().join("sound"));
     let netlist = sound.netlist.clone().unwrap();
     let faults: Vec<(usize, Option<u64>)> =
         (0..4).flat_map(|i| [(26 * i, None), (26 * i + 7, Some(5 * i as u64))]).collect();
     let hidden = in_parallel(&faults, |&(lut, bit)| {
         let folder = output.path().join(format!("{lut} {bit:?}"));
-        let netlist = with_fault(&netlist, lut, bit);
+        let netlist = with_table_fault(&netlist, lut, bit);
         let netlist = Some(netlist.ok_or("no such LUT")?);
-        let job = Job { netlist, output: folder, ..sound.clone() };
-        if run(&job).passed() { Err(format!("LUT {lut}, entry {bit:?}")) } else { Ok(()) }
+        let job = CosimJob { netlist, output: folder, ..sound.clone() };
+        if run_job(&job).passed() { Err(format!("LUT {lut}, entry {bit:?}")) } else { Ok(()) }
     });
     // The design may never use a single entry of a table. Some single faults must be found, and
     // every inverted table.

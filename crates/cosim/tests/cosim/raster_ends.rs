@@ -4,12 +4,12 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crate::common::vectors::{clocks, value};
-use crate::common::{agrees, design, directed, feature, simulators};
-use foveate_cosim::{Level, Recording, Simulator, Stimulus};
+use crate::common::vectors::{clock_records, port_value};
+use crate::common::{check_agreement, design, directed_stimulus, feature, has_simulators};
+use foveate_cosim::{CosimLevel, Recording, Simulator, Stimulus};
 use foveate_design::{
-    CameraConfig, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Organization, Payload,
-    Pipelining, PortRole, Reference,
+    CameraConfig, DesignConfig, Decimal, Design, FeatureKind, DenoiseFilter, IrrelevantRendering, Organization, Payload,
+    Pipelining, PortRole, ReferencePolicy,
 };
 use foveate_frame::Frame;
 
@@ -17,16 +17,16 @@ use foveate_frame::Frame;
 /// second pass, with both kinds of references, the fewest words that a region can have, fewer rows
 /// of regions than the buffer keeps, and means beside pixels.
 fn designs() -> Vec<Design> {
-    let of = |kind, (size, pixels), grid, more: &dyn Fn(&mut Config)| {
-        let mut config = Config::from(CameraConfig {
+    let of = |kind, (size, pixels), grid, more: &dyn Fn(&mut DesignConfig)| {
+        let mut config = DesignConfig::from(CameraConfig {
             spatial: vec![feature(kind, 0)],
             ..CameraConfig::default()
         });
         config.hardware.organization = Organization::Raster;
         config.hardware.pixels_per_clock = Some(pixels);
         config.camera.region.size = size;
-        config.camera.denoise.filter = Filter::None;
-        config.camera.spatial[0].min_score = Some(Decimal::whole(1));
+        config.camera.denoise.filter = DenoiseFilter::None;
+        config.camera.spatial[0].min_score = Some(Decimal::from_whole(1));
         config.camera.temporal.min_count = 1;
         more(&mut config);
         design(&config, grid)
@@ -34,11 +34,11 @@ fn designs() -> Vec<Design> {
     vec![
         of(FeatureKind::Edge, (4, 1), (4, 4), &|_| {}),
         of(FeatureKind::Mad, (4, 1), (5, 5), &|config| {
-            config.camera.temporal.reference = Reference::LastSent;
+            config.camera.temporal.reference = ReferencePolicy::LastSent;
         }),
         of(FeatureKind::Variance, (8, 4), (8, 4), &|config| {
             config.hardware.pipelining = Some(Pipelining::Deep);
-            config.camera.temporal.reference = Reference::LastSent;
+            config.camera.temporal.reference = ReferencePolicy::LastSent;
             config.camera.render.payload = Payload::Raw;
         }),
         of(FeatureKind::Edge, (2, 2), (16, 1), &|config| {
@@ -46,55 +46,55 @@ fn designs() -> Vec<Design> {
         }),
         of(FeatureKind::Mad, (4, 4), (16, 2), &|_| {}),
         of(FeatureKind::Edge, (4, 1), (4, 4), &|config| {
-            config.camera.render.irrelevant = Irrelevant::Mean;
-            config.camera.spatial[0].min_score = Some(Decimal::whole(6));
+            config.camera.render.irrelevant = IrrelevantRendering::Mean;
+            config.camera.spatial[0].min_score = Some(Decimal::from_whole(6));
         }),
     ]
 }
 
 fn record(design: &Design) -> Recording {
-    directed(Level::Full, 6).record(design, &mut |_, _| {}).unwrap()
+    directed_stimulus(CosimLevel::Full, 6).record(design, &mut |_, _| {}).unwrap()
 }
 
 /// The index of a region and the number of its frame, as the ports show them.
-type Name = (u64, u64);
+type FrameRegion = (u64, u64);
 
 /// The fate of a region that sends something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-enum Fate {
+enum RegionFate {
     Whole,
     /// A word with `abort` ended it, and it was reported as lost.
     Aborted,
     /// It was reported as lost; no word of it left.
     Lost,
     /// A reset came before its end.
-    Open,
+    CutByReset,
 }
 
 /// A receiver that sees only the ports.
-struct Receiver<'a> {
+struct PortReceiver<'a> {
     design: &'a Design,
     /// The number of frames decided since reset.
     frames: u64,
     /// The regions that send something and whose fate is not yet known, in the order of their
     /// decisions. The flag is true for a summary.
-    waiting: VecDeque<(Name, bool)>,
+    waiting: VecDeque<(FrameRegion, bool)>,
     /// The regions that were reported as lost and for which no word with `abort` has come.
-    lost: Vec<Name>,
+    lost: Vec<FrameRegion>,
     /// The region whose words are coming, and the position of the next word.
-    open: Option<(Name, u64)>,
-    fates: BTreeMap<Fate, u64>,
+    open: Option<(FrameRegion, u64)>,
+    fates: BTreeMap<RegionFate, u64>,
     /// The number of losses in the middle: while the last word waits for the sink, as it comes to
     /// the ports, with a single word, and one after another.
-    ways: [u64; 4],
+    losses_within: [u64; 4],
     /// The number of words with `abort` that were taken at once, and of those taken later.
-    taken: [u64; 2],
+    taken_aborts: [u64; 2],
     /// The number of summaries that came whole, that ended early, and that were lost as a whole.
     summaries: [u64; 3],
     after_abort: bool,
 }
 
-impl<'a> Receiver<'a> {
+impl<'a> PortReceiver<'a> {
     fn new(design: &'a Design) -> Self {
         Self {
             design,
@@ -103,20 +103,20 @@ impl<'a> Receiver<'a> {
             lost: Vec::new(),
             open: None,
             fates: BTreeMap::new(),
-            ways: [0; 4],
-            taken: [0; 2],
+            losses_within: [0; 4],
+            taken_aborts: [0; 2],
             summaries: [0; 3],
             after_abort: false,
         }
     }
 
-    fn settle(&mut self, fate: Fate) {
+    fn count_fate(&mut self, fate: RegionFate) {
         *self.fates.entry(fate).or_default() += 1;
     }
 
     fn reset(&mut self) {
         for _ in 0..self.waiting.len() {
-            self.settle(Fate::Open);
+            self.count_fate(RegionFate::CutByReset);
         }
         self.waiting.clear();
         self.lost.clear();
@@ -134,9 +134,9 @@ impl<'a> Receiver<'a> {
 
     /// Returns the position of the word after `position`: of the next pixels, or of the next block.
     /// Returns `None` after the last word.
-    fn next(&self, position: u64, summary: bool) -> Option<u64> {
+    fn next_position(&self, position: u64, summary: bool) -> Option<u64> {
         let side = u64::from(self.design.region_size());
-        let word = u64::from(self.design.raster().unwrap().pixels_per_clock());
+        let word = u64::from(self.design.as_raster().unwrap().pixels_per_clock());
         let next = match self.design.periphery() {
             Some(own) if summary => {
                 let block = u64::from(own.block_side);
@@ -149,7 +149,7 @@ impl<'a> Receiver<'a> {
     }
 
     /// Records a word that is taken.
-    fn take(&mut self, name: Name, position: u64, [first, last, abort]: [bool; 3], summary: bool) {
+    fn take_word(&mut self, name: FrameRegion, position: u64, [first, last, abort]: [bool; 3], summary: bool) {
         assert_eq!(first, self.open.is_none(), "{name:?}");
         if first {
             // The regions before this one were lost as a whole.
@@ -160,12 +160,12 @@ impl<'a> Receiver<'a> {
                 let at = self.lost.iter().position(|&lost| lost == before);
                 self.lost
                     .remove(at.unwrap_or_else(|| panic!("{before:?} neither came nor was lost")));
-                self.settle(Fate::Lost);
+                self.count_fate(RegionFate::Lost);
             }
         }
         let (open, next) = self.open.take().unwrap_or((name, 0));
         assert_eq!((open, next), (name, position));
-        let next = self.next(position, summary);
+        let next = self.next_position(position, summary);
         assert_eq!(last, next.is_none() || abort, "{name:?}");
         assert!(!(next.is_none() && abort), "{name:?}");
         if let Some(next) = next.filter(|_| !last) {
@@ -179,28 +179,28 @@ impl<'a> Receiver<'a> {
         if let Some(at) = at {
             self.lost.remove(at);
         }
-        self.ways[3] += u64::from(abort && self.after_abort);
+        self.losses_within[3] += u64::from(abort && self.after_abort);
         self.after_abort = abort;
-        self.settle(if abort { Fate::Aborted } else { Fate::Whole });
+        self.count_fate(if abort { RegionFate::Aborted } else { RegionFate::Whole });
     }
 
     /// Checks the end of a sequence: everything has left, so the waiting regions were lost as a
     /// whole and each was reported.
-    fn end(&mut self) {
+    fn check_end(&mut self) {
         assert_eq!(self.open, None);
         assert_eq!(self.lost, self.waiting.drain(..).map(|(name, _)| name).collect::<Vec<_>>());
         for _ in 0..std::mem::take(&mut self.lost).len() {
-            self.settle(Fate::Lost);
+            self.count_fate(RegionFate::Lost);
         }
     }
 
-    fn watch(&mut self, recording: &Recording) {
+    fn check_recording(&mut self, recording: &Recording) {
         let (inputs, outputs) = (recording.inputs(), recording.outputs());
-        let mut before = outputs.record();
+        let mut before = outputs.zero_record();
         let mut waits = 0;
-        let all = clocks(recording);
+        let all = clock_records(recording);
         for (clock, (input, output)) in (0_u64..).zip(&all) {
-            let shown = |role, record: &[u8]| value(outputs, role, record);
+            let shown = |role, record: &[u8]| port_value(outputs, role, record);
             let says = |role| shown(role, output);
             let ends = |record: &[u8]| {
                 use PortRole::{ForwardAbort, ForwardFirst, ForwardLast};
@@ -214,20 +214,20 @@ impl<'a> Receiver<'a> {
                 (name, shown(PortRole::ForwardPosition, record), ends(record), is_mean)
             };
             let had = shown(PortRole::ForwardValid, &before) == 1;
-            if value(inputs, PortRole::Reset, input) == 1 {
+            if port_value(inputs, PortRole::Reset, input) == 1 {
                 let last = clock.checked_sub(1).and_then(|clock| recording.span(clock));
                 let is_cut = last.is_none_or(|span| span.sequence.contains("reset"));
                 if !is_cut {
-                    self.end();
+                    self.check_end();
                 }
                 self.reset();
                 assert_eq!(says(PortRole::LostValid), 0);
             } else {
-                let takes = value(inputs, PortRole::ForwardReady, input) == 1;
+                let takes = port_value(inputs, PortRole::ForwardReady, input) == 1;
                 if had && takes {
                     let (name, position, ends, is_mean) = word(&before);
-                    self.taken[usize::from(waits > 0)] += u64::from(ends[2]);
-                    self.take(name, position, ends, is_mean);
+                    self.taken_aborts[usize::from(waits > 0)] += u64::from(ends[2]);
+                    self.take_word(name, position, ends, is_mean);
                 }
                 waits = if had && !takes { waits + 1 } else { 0 };
                 assert!(!had || takes || word(&before) == word(output), "a word that waits stays");
@@ -237,8 +237,8 @@ impl<'a> Receiver<'a> {
                 if says(PortRole::ForwardValid) == 1 && ends(output)[2] && (takes || !had) {
                     let lost = (says(PortRole::LostRegion), says(PortRole::LostFrame));
                     let is_now = says(PortRole::LostValid) == 1 && lost == word(output).0;
-                    self.ways[usize::from(is_now)] += 1;
-                    self.ways[2] += u64::from(ends(output)[0]);
+                    self.losses_within[usize::from(is_now)] += 1;
+                    self.losses_within[2] += u64::from(ends(output)[0]);
                 }
                 if says(PortRole::DecisionValid) == 1 {
                     let is_sent = self.design.periphery().is_some() && says(PortRole::Summary) == 1;
@@ -254,13 +254,13 @@ impl<'a> Receiver<'a> {
 fn every_region_is_whole_or_ends_early_or_is_named_as_lost() {
     let mut together = 0;
     for design in designs() {
-        let mut receiver = Receiver::new(&design);
-        receiver.watch(&record(&design));
-        let Receiver { fates, ways, taken, summaries, .. } = &receiver;
+        let mut receiver = PortReceiver::new(&design);
+        receiver.check_recording(&record(&design));
+        let PortReceiver { fates, losses_within: ways, taken_aborts: taken, summaries, .. } = &receiver;
         let fate = |fate| fates.get(&fate).copied().unwrap_or_default();
         let told = format!("{fates:?} {ways:?} {taken:?}, {:?}", design.config());
-        assert!(fate(Fate::Whole) > 200 && fate(Fate::Aborted) > 20, "{told}");
-        assert!(fate(Fate::Lost) > 50 && fate(Fate::Open) > 5, "{told}");
+        assert!(fate(RegionFate::Whole) > 200 && fate(RegionFate::Aborted) > 20, "{told}");
+        assert!(fate(RegionFate::Lost) > 50 && fate(RegionFate::CutByReset) > 5, "{told}");
         assert!(ways[..3].iter().chain(taken).all(|&seen| seen > 5), "{told}");
         let has_summaries = design.periphery().is_some();
         assert!(summaries.iter().all(|&seen| (seen > 10) == has_summaries), "{summaries:?} {told}");
@@ -271,8 +271,8 @@ fn every_region_is_whole_or_ends_early_or_is_named_as_lost() {
 
 /// The frame number wraps around after 256 frames of one row of regions.
 #[test]
-fn numbers_of_frames_begin_again_after_256() {
-    if !simulators() {
+fn frame_numbers_wrap_around_after_256() {
+    if !has_simulators() {
         return;
     }
     let design = designs().swap_remove(3);
@@ -282,15 +282,15 @@ fn numbers_of_frames_begin_again_after_256() {
         Frame::from_fn(width, height, design.pixel_bits(), pixel).unwrap()
     };
     let frames = (0..260).map(frame).collect();
-    let stimulus = Stimulus { level: Level::Full, seed: 1, rounds: 0, frames, enough: None };
+    let stimulus = Stimulus { level: CosimLevel::Full, seed: 1, rounds: 0, frames, sufficient_clocks: None };
     let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
-    let seen: Vec<u64> = clocks(&recording)
+    let seen: Vec<u64> = clock_records(&recording)
         .iter()
-        .filter(|(_, output)| value(recording.outputs(), PortRole::ForwardFirst, output) == 1)
-        .map(|(_, output)| value(recording.outputs(), PortRole::ForwardFrame, output))
+        .filter(|(_, output)| port_value(recording.outputs(), PortRole::ForwardFirst, output) == 1)
+        .map(|(_, output)| port_value(recording.outputs(), PortRole::ForwardFrame, output))
         .collect();
     assert_eq!((seen.first(), seen.iter().max(), seen.last()), (Some(&0), Some(&255), Some(&3)));
     let output = tempfile::tempdir().unwrap();
     let folder = output.path().join("replay");
-    agrees("frames", &design, Simulator::Iverilog, stimulus, &folder).unwrap();
+    check_agreement("frames", &design, Simulator::Iverilog, stimulus, &folder).unwrap();
 }

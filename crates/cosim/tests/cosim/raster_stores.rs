@@ -4,28 +4,28 @@
 
 use std::collections::VecDeque;
 
-use crate::common::vectors::{clocks, field, value};
-use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, name, simulators};
-use foveate_cosim::{Level, Recording, Simulator};
+use crate::common::vectors::{clock_records, field_of_role, port_value};
+use crate::common::{check_agreement, design, directed_stimulus, feature, in_parallel, in_turn, config_name, has_simulators};
+use foveate_cosim::{CosimLevel, Recording, Simulator};
 use foveate_design::{
-    CameraConfig, Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload,
-    Pipelining, PortRole, RasterTiming, Store, Thresholds,
+    CameraConfig, DesignConfig, Design, FeatureKind, DenoiseFilter, Neighborhood, Organization, Payload,
+    Pipelining, PortRole, RasterTiming, FrameStoreKind, ThresholdSource,
 };
 use foveate_toolchain::testing::takes_whole_lists;
 
 /// Returns a configuration with an external store and regions of 4x4 pixels with these features.
-fn config(kinds: &[FeatureKind]) -> Config {
+fn config(kinds: &[FeatureKind]) -> DesignConfig {
     let spatial = kinds.iter().map(|&kind| feature(kind, 1)).collect();
-    let mut config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
+    let mut config = DesignConfig::from(CameraConfig { spatial, ..CameraConfig::default() });
     config.hardware.organization = Organization::Raster;
-    config.hardware.store = Some(Store::External);
+    config.hardware.store = Some(FrameStoreKind::External);
     config.camera.region.size = 4;
     config
 }
 
 /// Returns designs with an external store: plain and deep, with words of one and two pixels, and
 /// with a second pass.
-fn outside() -> [Design; 3] {
+fn external_store_designs() -> [Design; 3] {
     let plain = config(&[FeatureKind::Edge, FeatureKind::Variance]);
     let mut deep = config(&[FeatureKind::Corner]);
     deep.hardware.pipelining = Some(Pipelining::Deep);
@@ -33,17 +33,17 @@ fn outside() -> [Design; 3] {
     deep.camera.region.neighborhood = Neighborhood::Shared;
     deep.hardware.forward = Some(false);
     let mut pass = config(&[FeatureKind::Mad]);
-    pass.camera.denoise.filter = Filter::None;
+    pass.camera.denoise.filter = DenoiseFilter::None;
     [design(&plain, (4, 3)), design(&deep, (8, 2)), design(&pass, (4, 3))]
 }
 
 fn record(design: &Design, rounds: u32) -> Recording {
-    directed(Level::Full, rounds).record(design, &mut |_, _| {}).unwrap()
+    directed_stimulus(CosimLevel::Full, rounds).record(design, &mut |_, _| {}).unwrap()
 }
 
 /// The references that the core asked for in a sequence.
 #[derive(Debug, Default)]
-struct Story {
+struct ReferenceCounts {
     name: String,
     /// The number of valid words that equal those stored a frame earlier.
     right: u64,
@@ -54,7 +54,7 @@ struct Story {
     /// The number of valid words at edges at which the core asked for none.
     unasked: u64,
     /// The index of the first word that was missing or wrong.
-    first: Option<u64>,
+    first_fault: Option<u64>,
     /// True if the sequence ended with `reference_ready_o`.
     ends_asking: bool,
     /// True if the sequence ended with `underrun_o`.
@@ -62,37 +62,37 @@ struct Story {
 }
 
 /// Checks the ports against the contract at every clock, and returns the counts of every sequence.
-fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
+fn reference_counts(design: &Design, recording: &Recording) -> Vec<ReferenceCounts> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let words = RasterTiming::of(design.raster().unwrap()).words();
-    let mut before = outputs.record();
-    let (mut stories, mut stored) = (Vec::<Story>::new(), VecDeque::new());
+    let words = RasterTiming::from_design(design.as_raster().unwrap()).words();
+    let mut before = outputs.zero_record();
+    let (mut stories, mut stored) = (Vec::<ReferenceCounts>::new(), VecDeque::new());
     let (mut asked, mut underrun) = (0, false);
-    for (clock, (input, output)) in (0..).zip(clocks(recording)) {
-        let shows = |role| value(outputs, role, &output) == 1;
-        let was_asked = value(outputs, PortRole::ReferenceReady, &before) == 1;
-        if value(inputs, PortRole::Reset, &input) == 1 {
+    for (clock, (input, output)) in (0..).zip(clock_records(recording)) {
+        let shows = |role| port_value(outputs, role, &output) == 1;
+        let was_asked = port_value(outputs, PortRole::ReferenceReady, &before) == 1;
+        if port_value(inputs, PortRole::Reset, &input) == 1 {
             if let Some(story) = stories.last_mut().filter(|_| asked + stored.len() as u64 > 0) {
                 (story.ends_asking, story.ends_in_underrun) = (was_asked, underrun);
             }
             (asked, underrun) = (0, false);
             stored.clear();
             let name = recording.span(clock).unwrap().sequence.clone();
-            stories.push(Story { name, ..Story::default() });
+            stories.push(ReferenceCounts { name, ..ReferenceCounts::default() });
             assert!(!shows(PortRole::ReferenceReady) && !shows(PortRole::StoreValid));
         } else {
             let story = stories.last_mut().unwrap();
-            let valid = value(inputs, PortRole::ReferenceValid, &input) == 1;
+            let valid = port_value(inputs, PortRole::ReferenceValid, &input) == 1;
             if was_asked {
                 let due: u64 = stored.pop_front().expect("only what was stored is asked for");
-                let is_right = value(inputs, PortRole::ReferencePixel, &input) == due;
+                let is_right = port_value(inputs, PortRole::ReferencePixel, &input) == due;
                 match (valid, is_right) {
                     (true, true) => story.right += 1,
                     (true, false) => story.wrong += 1,
                     (false, _) => story.missing += 1,
                 }
                 if !valid || !is_right {
-                    story.first.get_or_insert(asked);
+                    story.first_fault.get_or_insert(asked);
                 }
                 underrun |= !valid;
                 asked += 1;
@@ -102,7 +102,7 @@ fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
         }
         assert_eq!(shows(PortRole::Underrun), underrun, "clock {clock}");
         if shows(PortRole::StoreValid) {
-            stored.push_back(value(outputs, PortRole::StorePixel, &output));
+            stored.push_back(port_value(outputs, PortRole::StorePixel, &output));
         }
         // In each frame as many words are stored as are requested of the frame before, except in
         // the first frame.
@@ -115,9 +115,9 @@ fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
 }
 
 #[test]
-fn the_memory_gives_back_what_was_stored_but_where_it_fails() {
-    for design in outside() {
-        let stories = stories(&design, &record(&design, 3));
+fn the_store_returns_what_was_stored_except_for_its_faults() {
+    for design in external_store_designs() {
+        let stories = reference_counts(&design, &record(&design, 3));
         let of = |name: &'static str| stories.iter().filter(move |story| story.name == name);
         let (mut right, mut underruns) = (0, 0);
         for story in &stories {
@@ -144,29 +144,29 @@ fn the_memory_gives_back_what_was_stored_but_where_it_fails() {
         let asking = stories.iter().filter(|story| story.ends_asking).count();
         assert!(asking > 2, "{asking} resets while references come");
         let firsts: std::collections::BTreeSet<_> =
-            stories.iter().filter_map(|story| story.first).collect();
+            stories.iter().filter_map(|story| story.first_fault).collect();
         assert!(firsts.contains(&0) && firsts.len() > 3, "{firsts:?}");
     }
 }
 
 /// A wrong reference changes scores.
 #[test]
-fn wrong_references_change_what_is_decided() {
-    let [design, ..] = outside();
+fn wrong_references_change_temporal_counts() {
+    let [design, ..] = external_store_designs();
     let (recording, inside) = (record(&design, 1), {
         let mut config = design.config();
-        config.hardware.store = Some(Store::Block);
+        config.hardware.store = Some(FrameStoreKind::Block);
         record(&config.validate().unwrap(), 1)
     });
     // The sequences of both recordings are equal up to the first one with a faulty store.
     let counts = |recording: &Recording| -> Vec<(String, u64)> {
         let outputs = recording.outputs();
         let decided = (0..)
-            .zip(clocks(recording))
-            .filter(|(_, (_, output))| value(outputs, PortRole::DecisionValid, output) == 1);
+            .zip(clock_records(recording))
+            .filter(|(_, (_, output))| port_value(outputs, PortRole::DecisionValid, output) == 1);
         let count = |(clock, (_, output)): (u64, (Vec<u8>, Vec<u8>))| {
             let name = recording.span(clock).unwrap().sequence.clone();
-            (name, value(outputs, PortRole::TemporalCount, &output))
+            (name, port_value(outputs, PortRole::TemporalCount, &output))
         };
         decided.map(count).collect()
     };
@@ -181,7 +181,7 @@ fn wrong_references_change_what_is_decided() {
 #[test]
 fn without_forwarding_there_are_no_forward_columns() {
     let mut config = config(&[FeatureKind::Edge]);
-    config.hardware.store = Some(Store::SinglePort);
+    config.hardware.store = Some(FrameStoreKind::SinglePort);
     config.hardware.forward = Some(false);
     let design = design(&config, (4, 3));
     let recording = record(&design, 1);
@@ -194,14 +194,14 @@ fn without_forwarding_there_are_no_forward_columns() {
     for part in ["forward", "lost", "reference", "store", "underrun"] {
         assert!(names.iter().all(|name| !name.contains(part)), "{names:?}");
     }
-    let active = field(recording.outputs(), PortRole::Active);
-    let seen = clocks(&recording).iter().filter(|(_, output)| active.get(output, 0) == 1).count();
+    let active = field_of_role(recording.outputs(), PortRole::Active);
+    let seen = clock_records(&recording).iter().filter(|(_, output)| active.get(output, 0) == 1).count();
     assert!(seen > 100, "{seen} active regions");
 }
 
 /// Returns the designs of one store, with or without forwarding: features x words x pipelining,
 /// with the other keys in turn.
-fn matrix(store: Store, forward: bool) -> Vec<Design> {
+fn matrix(store: FrameStoreKind, forward: bool) -> Vec<Design> {
     use FeatureKind::{Corner, Edge, Mad, Variance};
     let sets: [&[FeatureKind]; 5] =
         [&[Edge], &[Mad], &[Edge, Variance], &[Variance], &[Mad, Corner, Variance]];
@@ -215,11 +215,11 @@ fn matrix(store: Store, forward: bool) -> Vec<Design> {
             config.hardware.pipelining = Some(pipelining);
             let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4), (4, 4)][turn % 5];
             (config.camera.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
-            config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2);
+            config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2);
             config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
             config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
             config.hardware.thresholds =
-                [Thresholds::Runtime, Thresholds::Runtime, Thresholds::Constant][turn % 3];
+                [ThresholdSource::Runtime, ThresholdSource::Runtime, ThresholdSource::Constant][turn % 3];
             let columns = (16 * pixels).div_ceil(size).max(4);
             // Every second frame does not fill its last column and row of regions.
             let odd = u32::try_from(turn % 2).unwrap();
@@ -231,8 +231,8 @@ fn matrix(store: Store, forward: bool) -> Vec<Design> {
     designs
 }
 
-fn check_all(store: Store, forward: bool) {
-    if !simulators() {
+fn check_all(store: FrameStoreKind, forward: bool) {
+    if !has_simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -249,29 +249,29 @@ fn check_all(store: Store, forward: bool) {
         let is_narrow = design.config().hardware.pixels_per_clock == Some(1);
         let simulator = if is_narrow { Simulator::Iverilog } else { Simulator::Verilator };
         let folder = output.path().join(design.fingerprint());
-        let what = format!("{} {}", name(&design.config()), design.config().hardware.in_words());
-        agrees(&what, design, simulator, directed(Level::Full, 1), &folder)
+        let what = format!("{} {}", config_name(&design.config()), design.config().hardware.description());
+        check_agreement(&what, design, simulator, directed_stimulus(CosimLevel::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
 #[test]
 fn the_rtl_of_a_raster_core_with_a_store_of_one_port_agrees() {
-    check_all(Store::SinglePort, true);
+    check_all(FrameStoreKind::SinglePort, true);
 }
 
 #[test]
 fn the_rtl_of_a_raster_core_with_an_external_store_agrees() {
-    check_all(Store::External, true);
+    check_all(FrameStoreKind::External, true);
 }
 
 #[test]
 fn the_rtl_of_a_raster_core_without_forwarding_agrees() {
-    check_all(Store::Block, false);
-    check_all(Store::SinglePort, false);
+    check_all(FrameStoreKind::Block, false);
+    check_all(FrameStoreKind::SinglePort, false);
 }
 
 #[test]
 fn the_rtl_of_a_raster_core_with_an_external_store_and_without_forwarding_agrees() {
-    check_all(Store::External, false);
+    check_all(FrameStoreKind::External, false);
 }

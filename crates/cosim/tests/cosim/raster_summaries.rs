@@ -4,14 +4,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::common::vectors::{clocks, pairs_of_decisions, value};
-use crate::common::{agrees, directed, in_parallel, in_turn, simulators};
-use foveate_cosim::{Level, Simulator};
-use foveate_design::{Config, Design, PortRole, Thresholds};
+use crate::common::vectors::{clock_records, pairs_of_decisions, port_value};
+use crate::common::{check_agreement, directed_stimulus, in_parallel, in_turn, has_simulators};
+use foveate_cosim::{CosimLevel, Simulator};
+use foveate_design::{DesignConfig, Design, PortRole, ThresholdSource};
 
 fn design(keys: &[&str]) -> Design {
     let own = ["hardware.organization='raster'", "render.irrelevant='mean'"];
-    Config::from_toml_with("", &[keys, &own[..]].concat()).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with("", &[keys, &own[..]].concat()).unwrap().validate().unwrap()
 }
 
 /// Returns designs with blocks of one pixel and of sides that are no power of two, one to four
@@ -73,7 +73,7 @@ fn designs() -> Vec<Design> {
 
 #[test]
 fn raster_cores_with_summaries_agree() {
-    if !simulators() {
+    if !has_simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -82,7 +82,7 @@ fn raster_cores_with_summaries_agree() {
         let folder = output.path().join(design.fingerprint());
         let name = design.config().to_toml();
         let simulator = in_turn(&Simulator::ALL, *number);
-        agrees(&name, design, simulator, directed(Level::Full, 1), &folder)
+        check_agreement(&name, design, simulator, directed_stimulus(CosimLevel::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
@@ -90,56 +90,56 @@ fn raster_cores_with_summaries_agree() {
 /// Summaries are sent after nothing, pixels, a summary and a lost summary. They stay only after a
 /// summary that was sent.
 #[test]
-fn summaries_are_sent_and_stay_whatever_was_before() {
+fn summaries_are_sent_and_stay_after_every_last_output() {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    enum Before {
+    enum LastOutput {
         Nothing,
         Pixels,
         Summary,
         LostSummary,
     }
     for design in designs() {
-        let recording = directed(Level::Full, 1).record(&design, &mut |_, _| {}).unwrap();
+        let recording = directed_stimulus(CosimLevel::Full, 1).record(&design, &mut |_, _| {}).unwrap();
         let (inputs, outputs) = (recording.inputs(), recording.outputs());
         let mut last = BTreeMap::new();
-        let mut seen = BTreeMap::<(Before, bool), u64>::new();
-        for (input, output) in clocks(&recording) {
-            let shown = |role| value(outputs, role, &output);
-            if value(inputs, PortRole::Reset, &input) == 1 {
+        let mut seen = BTreeMap::<(LastOutput, bool), u64>::new();
+        for (input, output) in clock_records(&recording) {
+            let shown = |role| port_value(outputs, role, &output);
+            if port_value(inputs, PortRole::Reset, &input) == 1 {
                 last.clear();
                 continue;
             }
             if shown(PortRole::LostValid) == 1 {
                 let region = shown(PortRole::LostRegion);
-                if last.get(&region) == Some(&Before::Summary) {
-                    last.insert(region, Before::LostSummary);
+                if last.get(&region) == Some(&LastOutput::Summary) {
+                    last.insert(region, LastOutput::LostSummary);
                 }
             }
             if shown(PortRole::DecisionValid) == 1 {
                 let region = shown(PortRole::Region);
                 let sends = shown(PortRole::Summary) == 1;
-                let before = last.get(&region).copied().unwrap_or(Before::Nothing);
+                let before = last.get(&region).copied().unwrap_or(LastOutput::Nothing);
                 if shown(PortRole::Srs) == 0 {
                     *seen.entry((before, sends)).or_default() += 1;
                 }
                 if shown(PortRole::Active) == 1 {
-                    last.insert(region, Before::Pixels);
+                    last.insert(region, LastOutput::Pixels);
                 } else if sends {
-                    last.insert(region, Before::Summary);
+                    last.insert(region, LastOutput::Summary);
                 }
             }
         }
         let told = format!("{seen:?}\n{}", design.config().to_toml());
         let count = |before, sends| seen.get(&(before, sends)).copied().unwrap_or_default();
-        assert!(count(Before::Summary, true) > 10 && count(Before::Summary, false) > 10, "{told}");
-        for before in [Before::Nothing, Before::Pixels] {
+        assert!(count(LastOutput::Summary, true) > 10 && count(LastOutput::Summary, false) > 10, "{told}");
+        for before in [LastOutput::Nothing, LastOutput::Pixels] {
             assert!(count(before, true) > 10 && count(before, false) == 0, "{told}");
         }
         // If frames wait for pending regions, nothing is lost; otherwise a lost summary is sent
         // again.
-        let waits = design.timing().departure().kept_rows.is_none();
-        assert_eq!(count(Before::LostSummary, true) > 5, !waits, "{told}");
-        assert_eq!(count(Before::LostSummary, false), 0, "{told}");
+        let waits = design.timing().departure().buffered_rows.is_none();
+        assert_eq!(count(LastOutput::LostSummary, true) > 5, !waits, "{told}");
+        assert_eq!(count(LastOutput::LostSummary, false), 0, "{told}");
     }
 }
 
@@ -149,11 +149,11 @@ fn summaries_are_sent_and_stay_whatever_was_before() {
 fn summaries_stay_while_their_regions_are_held() {
     let plain = ["frame={width=16,height=15}", "region.size=4", "denoise.filter='none'"];
     for design in designs().into_iter().chain([design(&plain)]) {
-        match design.thresholds() {
-            Thresholds::Constant => continue,
-            Thresholds::Runtime => {}
+        match design.threshold_source() {
+            ThresholdSource::Constant => continue,
+            ThresholdSource::Runtime => {}
         }
-        let recording = directed(Level::Full, 1).record(&design, &mut |_, _| {}).unwrap();
+        let recording = directed_stimulus(CosimLevel::Full, 1).record(&design, &mut |_, _| {}).unwrap();
         let pairs = pairs_of_decisions(&recording);
         for pair in [("sent", "held"), ("kept", "held"), ("held", "kept"), ("held", "sent")] {
             assert!(pairs.contains(&pair), "{pair:?}: {pairs:?}\n{}", design.config().to_toml());

@@ -2,35 +2,35 @@
 //! Model against emitted RTL for serial designs: one lane and small arrays. Frames take thousands
 //! of clocks, so the keys are not crossed. They take turns, each with its own period.
 
-use crate::common::serial::{config, name};
-use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, meeting, simulators};
-use foveate_cosim::{Level, Simulator};
+use crate::common::serial::{serial_config, serial_config_name};
+use crate::common::{check_agreement, design, directed_stimulus, feature, in_parallel, in_turn, pairwise_part, has_simulators};
+use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
-    Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind,
-    Neighborhood, Payload, Pipelining, Reference, Thresholds,
+    VoteCombination, DesignConfig, Decimal, Design, FeatureKind, PixelFeed, DenoiseFilter, IrrelevantRendering, LaneMemoryKind,
+    Neighborhood, Payload, Pipelining, ReferencePolicy, ThresholdSource,
 };
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
 
 /// A design at a level; the grid of level `rcm` is that of its frame.
-struct Case {
-    config: Config,
+struct SerialCase {
+    config: DesignConfig,
     grid: (u32, u32),
-    level: Level,
+    level: CosimLevel,
 }
 
 /// The work (clocks of a frame x lanes) from which on Verilator's build takes less time than it
 /// saves.
 const COMPILED_FROM: u64 = 1000;
 
-impl Case {
-    fn lane(config: Config) -> Self {
+impl SerialCase {
+    fn lane_case(config: DesignConfig) -> Self {
         let fold = config.hardware.fold;
-        Self { config, grid: (fold, 1), level: Level::Rpu }
+        Self { config, grid: (fold, 1), level: CosimLevel::Rpu }
     }
 
-    fn array(config: Config, (columns, rows): (u32, u32)) -> Self {
-        Self { config, grid: (columns, rows), level: Level::Rcm { columns, rows } }
+    fn array_case(config: DesignConfig, (columns, rows): (u32, u32)) -> Self {
+        Self { config, grid: (columns, rows), level: CosimLevel::Rcm { columns, rows } }
     }
 
     fn design(&self) -> Design {
@@ -39,7 +39,7 @@ impl Case {
 
     fn simulator(&self) -> Simulator {
         let design = self.design();
-        if design.timing().clocks_per_frame() * u64::from(design.serial().unwrap().lanes())
+        if design.timing().clocks_per_frame() * u64::from(design.as_serial().unwrap().lanes())
             >= COMPILED_FROM
         {
             Simulator::Verilator
@@ -49,25 +49,25 @@ impl Case {
     }
 }
 
-fn check_all(cases: &[Case]) {
-    if !simulators() {
+fn check_all(cases: &[SerialCase]) {
+    if !has_simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
     let failures = in_parallel(cases, |case| {
-        let (name, design) = (name(&case.config, case.grid), case.design());
+        let (name, design) = (serial_config_name(&case.config, case.grid), case.design());
         let folder = output.path().join(format!("{}-{}", design.fingerprint(), case.level));
-        let stimulus = directed(case.level, 1);
-        agrees(&name, &design, case.simulator(), stimulus, &folder)
+        let stimulus = directed_stimulus(case.level, 1);
+        check_agreement(&name, &design, case.simulator(), stimulus, &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
 /// Sets the keys that are no axis of a test, in turn.
-fn with_turns(mut config: Config, turn: usize) -> Config {
-    config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % Irrelevant::ALL.len()];
+fn with_keys_in_turn(mut config: DesignConfig, turn: usize) -> DesignConfig {
+    config.camera.render.irrelevant = IrrelevantRendering::ALL[turn / 2 % IrrelevantRendering::ALL.len()];
     config.camera.render.payload = in_turn(Payload::ALL, turn / 3);
-    config.camera.decision.combine = in_turn(Combine::ALL, turn / 5);
+    config.camera.decision.combine = in_turn(VoteCombination::ALL, turn / 5);
     config
 }
 
@@ -77,24 +77,24 @@ fn with_turns(mut config: Config, turn: usize) -> Config {
 fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
     let mut cases = Vec::new();
     for &kind in FeatureKind::ALL {
-        for &filter in Filter::ALL {
+        for &filter in DenoiseFilter::ALL {
             for &neighborhood in Neighborhood::ALL {
-                for &reference in Reference::ALL {
+                for &reference in ReferencePolicy::ALL {
                     let turn = cases.len();
                     let fraction = u32::try_from(turn % 5).unwrap();
-                    let mut config = with_turns(config(&[feature(kind, fraction)]), turn);
+                    let mut config = with_keys_in_turn(serial_config(&[feature(kind, fraction)]), turn);
                     config.camera.denoise.filter = filter;
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.temporal.reference = reference;
                     config.camera.region.size = [4, 5, 4, 8][turn / 3 % 4];
                     config.hardware.fold = [1, 2, 1, 3][turn % 4];
-                    config.hardware.feed = Some(in_turn(Feed::ALL, turn / 2 + turn / 8));
-                    cases.push(Case::lane(config));
+                    config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn / 2 + turn / 8));
+                    cases.push(SerialCase::lane_case(config));
                 }
             }
         }
     }
-    check_all(&meeting(cases, &[4, 2, 2, 2]));
+    check_all(&pairwise_part(cases, &[4, 2, 2, 2]));
 }
 
 /// Small arrays agree for every feed x neighborhood x fold. Some folds leave empty slots, and some
@@ -111,7 +111,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
         &[Mad, Variance],
     ];
     let mut cases = Vec::new();
-    for &feed in Feed::ALL {
+    for &feed in PixelFeed::ALL {
         for &neighborhood in Neighborhood::ALL {
             for (grid, fold) in [
                 ((3, 2), 1),
@@ -125,19 +125,19 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
                 let turn = cases.len();
                 let kinds = sets[turn % sets.len()];
                 let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
-                let mut config = with_turns(config(&features), turn);
+                let mut config = with_keys_in_turn(serial_config(&features), turn);
                 config.hardware.feed = Some(feed);
                 config.hardware.fold = fold;
                 config.camera.region.neighborhood = neighborhood;
                 config.camera.region.size = [4, 5, 4, 4, 5][turn % 5];
-                config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2);
-                config.camera.temporal.reference = in_turn(Reference::ALL, turn + turn / 7);
-                cases.push(Case::array(config, grid));
+                config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2);
+                config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn + turn / 7);
+                cases.push(SerialCase::array_case(config, grid));
             }
         }
     }
     assert_eq!(cases.len(), 28);
-    check_all(&meeting(cases, &[2, 2, 7]));
+    check_all(&pairwise_part(cases, &[2, 2, 7]));
 }
 
 /// Other depths and sizes, block memory and constant thresholds agree.
@@ -146,19 +146,19 @@ fn depths_sizes_memories_and_constants_agree() {
     let mut cases = Vec::new();
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
         let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
-        let mut config = config(&kinds.map(|kind| feature(kind, 4)));
+        let mut config = serial_config(&kinds.map(|kind| feature(kind, 4)));
         config.camera.frame.pixel_bits = bits;
         for spatial in &mut config.camera.spatial {
             spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
-            spatial.min_score = Some(Decimal::whole(0));
+            spatial.min_score = Some(Decimal::from_whole(0));
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));
         config.camera.region.size = 4;
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 2);
-        config.camera.temporal.reference = in_turn(Reference::ALL, turn);
-        config.hardware.feed = Some(in_turn(Feed::ALL, turn / 3));
+        config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn);
+        config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn / 3));
         config.hardware.fold = 1 + u32::try_from(turn % 2).unwrap();
-        cases.push(Case::array(config, (2, 1)));
+        cases.push(SerialCase::array_case(config, (2, 1)));
     }
     // The memory is distributed up to 128 LUTs, so it is block memory for the larger regions and
     // folds.
@@ -166,28 +166,28 @@ fn depths_sizes_memories_and_constants_agree() {
         [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2)].into_iter().enumerate()
     {
         let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn % 3];
-        let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
+        let mut config = with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
         config.hardware.fold = fold;
-        config.hardware.feed = Some(in_turn(Feed::ALL, turn));
+        config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn));
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn + 1);
-        config.camera.temporal.reference = in_turn(Reference::ALL, turn / 2);
-        config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2 + turn);
-        cases.push(Case::array(config, (3, 2)));
+        config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
+        config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2 + turn);
+        cases.push(SerialCase::array_case(config, (3, 2)));
     }
-    let mut large = config(&[feature(Edge, 0)]);
+    let mut large = serial_config(&[feature(Edge, 0)]);
     large.camera.region.size = 32;
-    large.camera.denoise.filter = Filter::None;
-    large.camera.temporal.reference = Reference::LastSent;
-    cases.push(Case::lane(large));
+    large.camera.denoise.filter = DenoiseFilter::None;
+    large.camera.temporal.reference = ReferencePolicy::LastSent;
+    cases.push(SerialCase::lane_case(large));
     for (turn, &kind) in FeatureKind::ALL.iter().enumerate() {
-        let mut config = with_turns(config(&[feature(kind, 3)]), turn);
-        config.hardware.thresholds = Thresholds::Constant;
+        let mut config = with_keys_in_turn(serial_config(&[feature(kind, 3)]), turn);
+        config.hardware.thresholds = ThresholdSource::Constant;
         config.camera.region.size = [4, 5][turn % 2];
         config.hardware.fold = [1, 2][turn / 2];
-        config.camera.denoise.filter = in_turn(Filter::ALL, turn);
-        config.camera.temporal.reference = Reference::ALL[turn / 2];
-        cases.push(Case::array(config, (2, 2)));
+        config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn);
+        config.camera.temporal.reference = ReferencePolicy::ALL[turn / 2];
+        cases.push(SerialCase::array_case(config, (2, 2)));
     }
     check_all(&cases);
 }
@@ -199,14 +199,14 @@ fn deep_arrays_agree() {
     let sets: [&[FeatureKind]; 5] =
         [&[Edge], FeatureKind::ALL, &[Corner], &[Variance], &[Mad, Edge]];
     let mut cases = Vec::new();
-    for &filter in Filter::ALL {
-        for &reference in Reference::ALL {
-            for &feed in Feed::ALL {
-                for &memory in MemoryKind::ALL {
+    for &filter in DenoiseFilter::ALL {
+        for &reference in ReferencePolicy::ALL {
+            for &feed in PixelFeed::ALL {
+                for &memory in LaneMemoryKind::ALL {
                     let turn = cases.len();
                     let kinds = sets[turn % sets.len()];
                     let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
-                    let mut config = with_turns(config(&features), turn);
+                    let mut config = with_keys_in_turn(serial_config(&features), turn);
                     config.hardware.pipelining = Some(Pipelining::Deep);
                     config.hardware.memory = Some(memory);
                     config.hardware.feed = Some(feed);
@@ -216,19 +216,19 @@ fn deep_arrays_agree() {
                     config.camera.region.size = [4, 5, 4][turn / 2 % 3];
                     config.camera.region.neighborhood =
                         in_turn(Neighborhood::ALL, turn / 4 + turn / 2 + turn);
-                    cases.push(Case::array(config, (3, 2)));
+                    cases.push(SerialCase::array_case(config, (3, 2)));
                 }
             }
         }
     }
-    check_all(&meeting(cases, &[2; 4]));
+    check_all(&pairwise_part(cases, &[2; 4]));
 }
 
 /// Summaries agree in special cases: blocks of one pixel, of 3x3 pixels and of the whole region,
 /// many words, features with and without sums, and raw pixels, with each feed and each memory.
 #[test]
 fn summaries_agree() {
-    let (distributed, block) = (MemoryKind::Distributed, MemoryKind::Block);
+    let (distributed, block) = (LaneMemoryKind::Distributed, LaneMemoryKind::Block);
     let (plain, deep) = (Pipelining::Plain, Pipelining::Deep);
     let mut cases = Vec::new();
     for (turn, (size, blocks, bits, kinds, fold, memory, pipelining)) in [
@@ -245,25 +245,25 @@ fn summaries_agree() {
     .enumerate()
     {
         let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
-        let mut config = config(&features);
+        let mut config = serial_config(&features);
         if bits == 1 {
             config.camera.spatial[0].level = Some(1);
             config.camera.temporal.level = Some(0);
         }
         config.camera.region.size = size;
         config.camera.frame.pixel_bits = bits;
-        config.camera.render.irrelevant = Irrelevant::Mean;
+        config.camera.render.irrelevant = IrrelevantRendering::Mean;
         config.camera.periphery.blocks = Some(blocks);
         config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
-        config.camera.denoise.filter = in_turn(Filter::ALL, turn + turn / 4);
-        config.camera.temporal.reference = in_turn(Reference::ALL, turn % 3);
+        config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn + turn / 4);
+        config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn % 3);
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
-        config.hardware.thresholds = Thresholds::ALL[turn / 6];
-        config.hardware.feed = Some(in_turn(Feed::ALL, turn));
+        config.hardware.thresholds = ThresholdSource::ALL[turn / 6];
+        config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn));
         config.hardware.memory = Some(memory);
         config.hardware.pipelining = Some(pipelining);
         config.hardware.fold = fold;
-        cases.push(Case::array(config, (3, 2)));
+        cases.push(SerialCase::array_case(config, (3, 2)));
     }
     check_all(&cases);
 }
@@ -271,31 +271,31 @@ fn summaries_agree() {
 /// A memory that the configuration names agrees if the rule would choose the other kind: for every
 /// filter x reference x feed, block memory for small regions and distributed memory for large ones.
 #[test]
-fn the_memory_that_is_named_agrees() {
+fn a_configured_memory_kind_agrees() {
     let mut cases = Vec::new();
-    for &filter in Filter::ALL {
-        for &reference in Reference::ALL {
-            for &feed in Feed::ALL {
+    for &filter in DenoiseFilter::ALL {
+        for &reference in ReferencePolicy::ALL {
+            for &feed in PixelFeed::ALL {
                 let turn = cases.len();
                 for (memory, size, fold) in
-                    [(MemoryKind::Block, [4, 5][turn % 2], 2), (MemoryKind::Distributed, 8, 9)]
+                    [(LaneMemoryKind::Block, [4, 5][turn % 2], 2), (LaneMemoryKind::Distributed, 8, 9)]
                 {
                     let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn / 2 % 3];
-                    let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
+                    let mut config = with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
                     config.hardware.feed = Some(feed);
                     config.hardware.fold = fold;
                     config.camera.region.size = size;
                     config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 4 + turn);
-                    let ruled = design(&config, (5, 2)).serial().unwrap().lane_memory().kind;
+                    let ruled = design(&config, (5, 2)).as_serial().unwrap().lane_memory().kind;
                     assert_ne!(ruled, memory, "the rule would choose it, too");
                     config.hardware.memory = Some(memory);
-                    cases.push(Case::array(config, (5, 2)));
+                    cases.push(SerialCase::array_case(config, (5, 2)));
                 }
             }
         }
     }
-    let axes = [Filter::ALL.len(), Reference::ALL.len(), Feed::ALL.len(), 2];
-    check_all(&meeting(cases, &axes));
+    let axes = [DenoiseFilter::ALL.len(), ReferencePolicy::ALL.len(), PixelFeed::ALL.len(), 2];
+    check_all(&pairwise_part(cases, &axes));
 }

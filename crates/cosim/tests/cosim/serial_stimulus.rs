@@ -3,52 +3,52 @@
 //! tool is needed for that.
 
 use crate::common;
-use crate::common::serial::config;
-use crate::common::vectors::{clocks, pairs_of_decisions, value};
-use crate::common::{design, directed, feature};
-use foveate_cosim::{Layout, Level, Recording, Stimulus};
+use crate::common::serial::serial_config;
+use crate::common::vectors::{clock_records, pairs_of_decisions, port_value};
+use crate::common::{design, directed_stimulus, feature};
+use foveate_cosim::{RecordLayout, CosimLevel, Recording, Stimulus};
 use foveate_design::{
-    Config, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, PortRole, Reference,
+    DesignConfig, Design, FeatureKind, PixelFeed, DenoiseFilter, IrrelevantRendering, Neighborhood, PortRole, ReferencePolicy,
     SerialTiming,
 };
 use foveate_frame::Frame;
 use std::collections::BTreeSet;
 
 const GRID: (u32, u32) = (3, 2);
-const LEVEL: Level = Level::Rcm { columns: GRID.0, rows: GRID.1 };
+const LEVEL: CosimLevel = CosimLevel::Rcm { columns: GRID.0, rows: GRID.1 };
 
 fn record(design: &Design, stimulus: &Stimulus) -> Recording {
     stimulus.record(design, &mut |_, _| {}).unwrap()
 }
 
 /// Returns a small configuration with every feature and `last-sent` references.
-fn every_feature() -> Config {
+fn config_with_every_feature() -> DesignConfig {
     let features: Vec<_> = FeatureKind::ALL.iter().map(|&kind| feature(kind, 2)).collect();
-    let mut config = config(&features);
+    let mut config = serial_config(&features);
     config.camera.region.size = 4;
-    config.camera.denoise.filter = Filter::None;
-    config.camera.temporal.reference = Reference::LastSent;
+    config.camera.denoise.filter = DenoiseFilter::None;
+    config.camera.temporal.reference = ReferencePolicy::LastSent;
     config
 }
 
 /// Returns one design of each feed. The one with the raster feed has a halo, and a fold that leaves
 /// slots empty.
 fn designs() -> [Design; 2] {
-    let mut raster = every_feature();
-    raster.hardware.feed = Some(Feed::Raster);
+    let mut raster = config_with_every_feature();
+    raster.hardware.feed = Some(PixelFeed::Raster);
     raster.hardware.fold = 4;
     raster.camera.region.neighborhood = Neighborhood::Shared;
-    [every_feature(), raster].map(|config| design(&config, GRID))
+    [config_with_every_feature(), raster].map(|config| design(&config, GRID))
 }
 
 /// One clock of a recording.
-struct Clock {
+struct SerialClock {
     reset: bool,
     valid: bool,
     /// True if a pixel is taken at the edge of this clock.
-    takes: bool,
+    is_taken: bool,
     /// True if that pixel is the first of a frame.
-    first: bool,
+    is_first_of_frame: bool,
     thresholds: Vec<u64>,
     input: Vec<u8>,
     output: Vec<u8>,
@@ -61,14 +61,14 @@ struct Clock {
 }
 
 /// Returns the clocks of a recording. A pixel is taken if the expected `ready_o` was 1.
-fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
+fn clocks_of(design: &Design, recording: &Recording) -> Vec<SerialClock> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let timing = SerialTiming::of(design.serial().unwrap());
-    let ready = |record: &[u8]| value(outputs, PortRole::Ready, record) == 1;
-    let (mut before, mut taken, mut story) = (outputs.record(), 0, Vec::new());
-    for (input, output) in clocks(recording) {
-        let reset = value(inputs, PortRole::Reset, &input) == 1;
-        let valid = value(inputs, PortRole::Valid, &input) == 1;
+    let timing = SerialTiming::from_design(design.as_serial().unwrap());
+    let ready = |record: &[u8]| port_value(outputs, PortRole::Ready, record) == 1;
+    let (mut before, mut taken, mut story) = (outputs.zero_record(), 0, Vec::new());
+    for (input, output) in clock_records(recording) {
+        let reset = port_value(inputs, PortRole::Reset, &input) == 1;
+        let valid = port_value(inputs, PortRole::Valid, &input) == 1;
         let takes = valid && ready(&before) && !reset;
         let at_work = taken == timing.load_pixels() && !ready(&before);
         let loading = taken > 0 && taken < timing.load_pixels();
@@ -87,11 +87,11 @@ fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
         let fields = inputs.fields().iter().filter(|field| is_threshold(field.port.role));
         let thresholds = fields.map(|field| field.get(&input, 0)).collect();
         let last = std::mem::replace(&mut before, output.clone());
-        story.push(Clock {
+        story.push(SerialClock {
             reset,
             valid,
-            takes,
-            first,
+            is_taken: takes,
+            is_first_of_frame: first,
             thresholds,
             input,
             output,
@@ -106,8 +106,8 @@ fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
 #[test]
 fn thresholds_stand_still_while_a_frame_is_under_way_and_only_then() {
     for design in designs() {
-        let recording = record(&design, &directed(LEVEL, 1));
-        let story = story(&design, &recording);
+        let recording = record(&design, &directed_stimulus(LEVEL, 1));
+        let story = clocks_of(&design, &recording);
         let (mut changes, mut frames) = (0, 0);
         for pair in story.windows(2) {
             let [last, now] = pair else { unreachable!() };
@@ -115,7 +115,7 @@ fn thresholds_stand_still_while_a_frame_is_under_way_and_only_then() {
             let under_way = (now.at_work || now.loading) && !now.reset && !last.reset;
             assert!(!changed || !under_way, "thresholds change while a frame is under way");
             changes += u32::from(changed);
-            frames += u32::from(now.first);
+            frames += u32::from(now.is_first_of_frame);
         }
         assert!(frames > 40 && changes > frames, "{changes} changes, {frames} frames");
     }
@@ -124,16 +124,16 @@ fn thresholds_stand_still_while_a_frame_is_under_way_and_only_then() {
 #[test]
 fn pixels_are_offered_while_none_is_taken_and_frames_follow_at_once() {
     for design in designs() {
-        let recording = record(&design, &directed(LEVEL, 1));
-        let story = story(&design, &recording);
-        let pixel = |clock: &Clock| value(recording.inputs(), PortRole::Pixel, &clock.input);
-        let refused: Vec<_> = story.iter().filter(|c| c.valid && !c.takes && !c.reset).collect();
+        let recording = record(&design, &directed_stimulus(LEVEL, 1));
+        let story = clocks_of(&design, &recording);
+        let pixel = |clock: &SerialClock| port_value(recording.inputs(), PortRole::Pixel, &clock.input);
+        let refused: Vec<_> = story.iter().filter(|c| c.valid && !c.is_taken && !c.reset).collect();
         let garbage: BTreeSet<u64> = refused.iter().map(|clock| pixel(clock)).collect();
         assert!(refused.len() > 1000 && garbage.len() > 100, "{} refused", refused.len());
-        let ready = |record: &[u8]| value(recording.outputs(), PortRole::Ready, record) == 1;
+        let ready = |record: &[u8]| port_value(recording.outputs(), PortRole::Ready, record) == 1;
         let at_once = story.windows(2).filter(|pair| {
             let rises = !ready(&pair[0].before) && ready(&pair[0].output);
-            rises && pair[1].first && !pair[0].reset
+            rises && pair[1].is_first_of_frame && !pair[0].reset
         });
         assert!(at_once.count() > 5);
         let gaps = story.iter().filter(|clock| clock.loading && !clock.valid).count();
@@ -144,16 +144,16 @@ fn pixels_are_offered_while_none_is_taken_and_frames_follow_at_once() {
 #[test]
 fn resets_come_everywhere() {
     for design in designs() {
-        let recording = record(&design, &directed(LEVEL, 3));
+        let recording = record(&design, &directed_stimulus(LEVEL, 3));
         let outputs = recording.outputs();
-        let shows = |role: PortRole, clock: &Clock| {
-            let field = common::vectors::field(outputs, role);
-            field.slice(&clock.before).iter().any(|&byte| byte != 0)
+        let shows = |role: PortRole, clock: &SerialClock| {
+            let field = common::vectors::field_of_role(outputs, role);
+            field.bytes_in(&clock.before).iter().any(|&byte| byte != 0)
         };
-        let timing = SerialTiming::of(design.serial().unwrap());
+        let timing = SerialTiming::from_design(design.as_serial().unwrap());
         let mut found = BTreeSet::new();
         let mut worked = 0;
-        for clock in story(&design, &recording) {
+        for clock in clocks_of(&design, &recording) {
             worked = if clock.at_work { worked + 1 } else { 0 };
             if !clock.reset {
                 continue;
@@ -175,7 +175,7 @@ fn resets_come_everywhere() {
 }
 
 /// The outputs for one region of one frame.
-struct Verdict {
+struct RegionOutputs {
     frame: usize,
     region: u64,
     scores: Vec<u64>,
@@ -184,26 +184,26 @@ struct Verdict {
     active: bool,
 }
 
-fn verdicts(design: &Design, recording: &Recording) -> Vec<Verdict> {
+fn region_outputs(design: &Design, recording: &Recording) -> Vec<RegionOutputs> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let (mut frame, mut open, mut done) = (0, Vec::new(), Vec::new());
     let minima = |input: &[u8]| -> Vec<u64> {
         let features = design.features().iter().map(|f| PortRole::MinScore(f.kind()));
         let roles = [PortRole::TemporalMinCount].into_iter().chain(features);
-        roles.map(|role| value(inputs, role, input)).collect()
+        roles.map(|role| port_value(inputs, role, input)).collect()
     };
-    for clock in story(design, recording) {
-        if clock.first {
+    for clock in clocks_of(design, recording) {
+        if clock.is_first_of_frame {
             frame += 1;
             open.clear();
         }
-        let says = |role| value(outputs, role, &clock.output);
+        let says = |role| port_value(outputs, role, &clock.output);
         if says(PortRole::ScoreValid) == 1 {
             let (region, index) = (says(PortRole::Region), says(PortRole::ScoreIndex));
             open.push((region, index, says(PortRole::AnyScore)));
             if says(PortRole::DecisionValid) == 1 {
                 let own = open.iter().filter(|(r, _, _)| *r == region);
-                done.push(Verdict {
+                done.push(RegionOutputs {
                     frame,
                     region,
                     scores: own.map(|(_, _, score)| *score).collect(),
@@ -222,11 +222,11 @@ fn verdicts(design: &Design, recording: &Recording) -> Vec<Verdict> {
 #[test]
 fn decisions_are_made_on_below_and_above_their_minima() {
     for design in designs() {
-        let recording = record(&design, &directed(LEVEL, 2));
-        let verdicts = verdicts(&design, &recording);
+        let recording = record(&design, &directed_stimulus(LEVEL, 2));
+        let verdicts = region_outputs(&design, &recording);
         for index in 0..=design.features().len() {
             for near in [-1, 0, 1] {
-                let distance = |v: &&Verdict| {
+                let distance = |v: &&RegionOutputs| {
                     i128::from(v.scores[index]) - i128::from(v.minima[index]) == near
                 };
                 let regions: BTreeSet<u64> =
@@ -242,8 +242,8 @@ fn decisions_are_made_on_below_and_above_their_minima() {
 #[test]
 fn regions_of_a_frame_are_in_different_states() {
     for design in designs() {
-        let recording = record(&design, &directed(LEVEL, 1));
-        let verdicts = verdicts(&design, &recording);
+        let recording = record(&design, &directed_stimulus(LEVEL, 1));
+        let verdicts = region_outputs(&design, &recording);
         let all = u64::from(design.region_pixels());
         let frames = verdicts.last().unwrap().frame;
         let mut mixed = [0; 3];
@@ -270,8 +270,8 @@ fn regions_of_a_frame_are_in_different_states() {
 #[test]
 fn scores_reach_their_largest_values() {
     let design = designs()[0].clone();
-    let recording = record(&design, &directed(LEVEL, 2));
-    let verdicts = verdicts(&design, &recording);
+    let recording = record(&design, &directed_stimulus(LEVEL, 2));
+    let verdicts = region_outputs(&design, &recording);
     for (feature, index) in design.features().iter().zip(1..) {
         let reached = verdicts.iter().map(|verdict| verdict.scores[index]).max().unwrap();
         if feature.kind() != FeatureKind::Corner {
@@ -284,21 +284,21 @@ fn scores_reach_their_largest_values() {
 #[test]
 fn the_largest_gradient_meets_its_level() {
     for bits in [1, 3, 8, 16] {
-        let mut config = config(&[feature(FeatureKind::Edge, 2)]);
+        let mut config = serial_config(&[feature(FeatureKind::Edge, 2)]);
         config.camera.frame.pixel_bits = bits;
         config.camera.region.size = 4;
-        config.camera.denoise.filter = Filter::None;
+        config.camera.denoise.filter = DenoiseFilter::None;
         config.camera.spatial[0].level = Some(1);
         config.camera.temporal.level = Some(0);
         let design = design(&config, GRID);
-        let recording = record(&design, &directed(LEVEL, 1));
+        let recording = record(&design, &directed_stimulus(LEVEL, 1));
         let largest = 6 * u64::from(design.pixel_max());
         let mut found = BTreeSet::new();
-        for clock in story(&design, &recording) {
-            let says = |role| value(recording.outputs(), role, &clock.output);
+        for clock in clocks_of(&design, &recording) {
+            let says = |role| port_value(recording.outputs(), role, &clock.output);
             if says(PortRole::ScoreValid) == 1 && says(PortRole::ScoreIndex) == 1 {
                 let role = PortRole::Level(FeatureKind::Edge);
-                let level = value(recording.inputs(), role, &clock.input);
+                let level = port_value(recording.inputs(), role, &clock.input);
                 found.insert((level, says(PortRole::AnyScore) > 0));
             }
         }
@@ -307,14 +307,14 @@ fn the_largest_gradient_meets_its_level() {
     }
 }
 
-fn fields_of(layout: &Layout) -> Vec<&str> {
+fn port_names(layout: &RecordLayout) -> Vec<&str> {
     layout.fields().iter().map(|field| field.port.name.as_str()).collect()
 }
 
 /// The lanes of the frame go through the one lane in order, with as many regions as share it.
 #[test]
 fn frames_of_the_caller_are_streamed_lane_by_lane() {
-    let mut config = every_feature();
+    let mut config = config_with_every_feature();
     config.hardware.fold = 2;
     let design = design(&config, (3, 1));
     let frame = Frame::from_fn(12, 4, 8, |x, y| u16::try_from(x * 4 + y).unwrap()).unwrap();
@@ -324,10 +324,10 @@ fn frames_of_the_caller_are_streamed_lane_by_lane() {
     assert_eq!((recording.sequences(), recording.frames()), (2, 4));
     assert_eq!(recording.span(0).unwrap().region, Some(0));
     assert_eq!(recording.span(recording.clocks()).unwrap().region, Some(2));
-    assert!(fields_of(recording.outputs()).contains(&"forward_slot_o"));
-    let lane = design.serial().unwrap().one_lane();
-    let taken = story(&lane, &recording).into_iter().filter(|clock| clock.takes);
-    let pixel = |clock: Clock| value(recording.inputs(), PortRole::Pixel, &clock.input);
+    assert!(port_names(recording.outputs()).contains(&"forward_slot_o"));
+    let lane = design.as_serial().unwrap().single_lane_design();
+    let taken = clocks_of(&lane, &recording).into_iter().filter(|clock| clock.is_taken);
+    let pixel = |clock: SerialClock| port_value(recording.inputs(), PortRole::Pixel, &clock.input);
     let pixels: Vec<u64> = taken.map(pixel).collect();
     // Slot 0 shows the first four columns in row-major order, then slot 1 the next four.
     assert_eq!(pixels[..5], [0, 4, 8, 12, 1]);
@@ -343,9 +343,9 @@ fn summaries_are_due_and_not_due() {
     let mut found = BTreeSet::new();
     for design in designs() {
         let mut config = design.config();
-        config.camera.render.irrelevant = Irrelevant::Mean;
+        config.camera.render.irrelevant = IrrelevantRendering::Mean;
         let design = config.validate().unwrap();
-        let pairs = pairs_of_decisions(&record(&design, &directed(LEVEL, 1)));
+        let pairs = pairs_of_decisions(&record(&design, &directed_stimulus(LEVEL, 1)));
         assert!(pairs.len() > 12, "{pairs:?}");
         found.extend(pairs);
     }

@@ -3,7 +3,7 @@
 //! wrong.
 
 use foveate_cosim::{Occurrences, ShippedBench, VectorTally};
-use foveate_design::{Array, Config, Design, FeatureKind, Organization};
+use foveate_design::{ArrayStructure, DesignConfig, Design, FeatureKind, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
@@ -14,7 +14,7 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
 pub(crate) fn bench(design: &Design, top: Top) -> ShippedBench {
@@ -22,7 +22,7 @@ pub(crate) fn bench(design: &Design, top: Top) -> ShippedBench {
 }
 
 /// Returns the keys for a frame of the given grid of regions.
-fn frame(regions: (u32, u32), size: u32) -> String {
+fn frame_keys(regions: (u32, u32), size: u32) -> String {
     format!("frame.width = {}\nframe.height = {}\n", regions.0 * size, regions.1 * size)
 }
 
@@ -50,26 +50,26 @@ fn designs() -> Vec<String> {
                     let number = list.len();
                     let toml =
                         format!("frame.pixel_bits = {bits}\nregion.size = {size}\n{variant}\n");
-                    let features = features(number, bits, size);
-                    list.push(format!("{}{toml}{features}", frame((4, 3), size)));
+                    let features = feature_keys(number, bits, size);
+                    list.push(format!("{}{toml}{features}", frame_keys((4, 3), size)));
                     if size >= 4 {
                         let fold = [1, 2, 5][number % 3];
                         let feed = ["parallel", "raster"][number / 3 % 2];
                         let serial = format!(
                             "hardware.organization = 'serial'\nhardware.fold = {fold}\nhardware.feed = '{feed}'\n"
                         );
-                        list.push(format!("{}{toml}{serial}{features}", frame((4, 3), size)));
+                        list.push(format!("{}{toml}{serial}{features}", frame_keys((4, 3), size)));
                     }
                     // A frame with few large regions loses none as a whole, and the bench
                     // reports that.
                     if size < 64 {
                         let raster =
-                            raster(size, [1, 2, 4][number % 3], ["plain", "deep"][number % 2]);
+                            raster_keys(size, [1, 2, 4][number % 3], ["plain", "deep"][number % 2]);
                         let rows = [3, 5, 1, 4][number % 4];
                         let columns = (64 / size).max(4);
                         list.push(format!(
                             "{}{toml}{raster}{features}",
-                            frame((columns, rows), size)
+                            frame_keys((columns, rows), size)
                         ));
                     }
                 }
@@ -80,7 +80,7 @@ fn designs() -> Vec<String> {
 }
 
 /// Returns the keys of a raster design with words of at most `most` pixels.
-fn raster(size: u32, most: u32, pipelining: &str) -> String {
+fn raster_keys(size: u32, most: u32, pipelining: &str) -> String {
     let word = (1..=most)
         .rev()
         .find(|word| [1, 2, 4].contains(word) && size.is_multiple_of(*word))
@@ -91,7 +91,7 @@ fn raster(size: u32, most: u32, pipelining: &str) -> String {
 }
 
 /// Returns the keys for one feature, two, or all, with levels that the depth allows.
-fn features(number: usize, bits: u32, size: u32) -> String {
+fn feature_keys(number: usize, bits: u32, size: u32) -> String {
     let level = [0, 1, 20][(bits as usize).ilog2() as usize / 2];
     let entry = |kind: &FeatureKind| match kind {
         FeatureKind::Edge | FeatureKind::Corner => {
@@ -116,7 +116,7 @@ fn features(number: usize, bits: u32, size: u32) -> String {
 
 /// Returns true for a design with corners in regions of 2x2 pixels. Behind a median filter none are
 /// found, because two pixels are always equal.
-fn is_blind(design: &Design) -> bool {
+fn finds_no_corners(design: &Design) -> bool {
     design.region_size() == 2 && design.feature(FeatureKind::Corner).is_some()
 }
 
@@ -127,7 +127,7 @@ fn every_design_shows_active_held_and_blank_regions() {
         for &top in Top::all_of(&design) {
             let bench = bench(&design, top);
             let tally = &bench.tally;
-            if is_blind(&design) {
+            if finds_no_corners(&design) {
                 continue;
             }
             assert_eq!(bench.shortcoming, None, "{top:?}\n{toml}");
@@ -144,7 +144,7 @@ fn every_design_shows_active_held_and_blank_regions() {
 
 /// Summaries are sent and stay on the screen, for blocks of every size.
 #[test]
-fn every_design_with_summaries_shows_some() {
+fn the_vectors_of_designs_with_summaries_contain_some() {
     for (number, (size, blocks, bits)) in
         [(2, 2, 8), (3, 1, 1), (4, 4, 16), (6, 2, 8), (8, 1, 8), (8, 2, 1), (8, 4, 8), (64, 4, 10)]
             .into_iter()
@@ -161,11 +161,11 @@ fn every_design_with_summaries_shows_some() {
             if is_too_small || bits == 1 && hardware.contains("constant") {
                 continue;
             }
-            let features = features(number, bits, size);
+            let features = feature_keys(number, bits, size);
             let toml = format!(
                 "{}frame.pixel_bits = {bits}\nregion.size = {size}\nrender.irrelevant = 'mean'\n\
                  periphery.blocks = {blocks}\ndenoise.filter = 'none'\nhardware.{hardware}\n{features}",
-                frame((4, 3), size)
+                frame_keys((4, 3), size)
             );
             let design = design(&toml);
             for &top in Top::all_of(&design) {
@@ -182,7 +182,7 @@ fn every_design_with_summaries_shows_some() {
 /// Summaries of raster cores are sent and stay on the screen. The frames of some cores wait for
 /// pending regions, and others lose regions.
 #[test]
-fn every_raster_core_with_summaries_shows_some() {
+fn the_vectors_of_raster_cores_with_summaries_contain_some() {
     for (number, (size, word, blocks, rows)) in
         [(8, 1, 2, 3), (4, 2, 2, 5), (6, 1, 2, 2), (8, 4, 1, 4)].into_iter().enumerate()
     {
@@ -190,9 +190,9 @@ fn every_raster_core_with_summaries_shows_some() {
         let toml = format!(
             "{}region.size = {size}\nrender.irrelevant = 'mean'\nperiphery.blocks = {blocks}\n\
              denoise.filter = 'none'\n{}{}",
-            frame(((64 / size).max(4), rows), size),
-            raster(size, word, pipelining),
-            features(number, 8, size)
+            frame_keys(((64 / size).max(4), rows), size),
+            raster_keys(size, word, pipelining),
+            feature_keys(number, 8, size)
         );
         let design = design(&toml);
         for &top in Top::all_of(&design) {
@@ -227,7 +227,7 @@ fn a_raster_core_with_an_external_store_shows_its_streams() {
         assert_eq!((counted(&block.tally), block.clocks), (counted(tally), alone.clocks));
         let whole = bench(&design(&toml), Top::Rcm);
         for port in ["reference_ready_o", "store_pixel_o", "store_last_o", "underrun_o"] {
-            assert!(!whole.tally.silent.iter().any(|silent| silent == port), "{port}");
+            assert!(!whole.tally.zero_outputs.iter().any(|silent| silent == port), "{port}");
         }
     }
 }
@@ -259,7 +259,7 @@ fn large_folds_show_everything() {
 /// A bench whose vectors lack something says so and never passes. A lack that follows from the
 /// configuration is only a remark.
 #[test]
-fn what_vectors_cannot_show_is_said() {
+fn a_bench_reports_what_its_vectors_lack() {
     for (toml, words) in [
         (
             "hardware.thresholds = 'constant'\n[[spatial]]\nfeature = 'edge'\nlevel = 1529\nmin_score = 64",
@@ -306,7 +306,7 @@ fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
         (2, waits, false),
         (3, "temporal.reference = 'last-sent'\nspatial = [{ feature = 'mad' }]", false),
     ] {
-        let frame = frame((40, rows), 8);
+        let frame = frame_keys((40, rows), 8);
         let design = design(&format!("{frame}hardware.organization = 'raster'\n{more}\n"));
         let bench = bench(&design, Top::Rcm);
         assert_eq!(bench.grid, (40, rows), "{rows} {more}");
@@ -321,7 +321,7 @@ fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
 /// Frames come with an error of each kind, and with whole frames behind it. An RPU alone has no
 /// frame synchronization.
 #[test]
-fn the_benches_of_arrays_that_find_their_frames_lose_some_and_go_on() {
+fn the_benches_of_arrays_with_sync_recover_from_damaged_frames() {
     for more in [
         "",
         "spatial = [{ feature = 'mad' }]\nhardware.pipelining = 'deep'",
@@ -331,10 +331,10 @@ fn the_benches_of_arrays_that_find_their_frames_lose_some_and_go_on() {
         "hardware.organization = 'raster'\nhardware.store = 'external'",
         "hardware.organization = 'raster'\nhardware.pixels_per_clock = 2\ntemporal.reference = 'last-sent'",
     ] {
-        let design = design(&format!("{}hardware.sync = true\n{more}\n", frame((4, 3), 8)));
+        let design = design(&format!("{}hardware.sync = true\n{more}\n", frame_keys((4, 3), 8)));
         for &top in Top::all_of(&design) {
             let ShippedBench { grid, tally, shortcoming, files, .. } = bench(&design, top);
-            let is_found = top == Top::Rcm || design.unit().array == Array::Whole;
+            let is_found = top == Top::Rcm || design.unit().array == ArrayStructure::SharedLogic;
             assert_eq!(shortcoming, None, "{top:?} {more}");
             assert_eq!(tally.sync_errors, if is_found { 2 } else { 0 }, "{top:?} {more}");
             // The decisions are those of the rest of the damaged frame, and of more than two whole
@@ -357,7 +357,7 @@ fn equal_designs_have_equal_benches() {
 
 /// Puts every output of a module behind a switch: `+tie=I` makes output I 0. Returns the names of
 /// the outputs.
-fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
+fn tie_outputs(files: &mut [SourceFile], top: &str) -> Vec<String> {
     let path = format!("rtl/{top}.v");
     let file = files.iter_mut().find(|file| file.path == path).unwrap();
     let text = file.contents.clone();
@@ -402,12 +402,12 @@ fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
 
 /// A simulator that plays a bench: Icarus builds quickly, Verilator runs quickly.
 #[derive(Clone, Copy)]
-pub(crate) enum Player {
+pub(crate) enum BenchSimulator {
     Icarus,
     Verilator,
 }
 
-impl Player {
+impl BenchSimulator {
     /// Builds the simulation of a folder.
     pub(crate) fn build(self, dir: &Path, files: &[SourceFile], bench: &ShippedBench) {
         let toolchain = Toolchain::system();
@@ -446,18 +446,18 @@ impl Player {
 }
 
 /// Checks that the benches of a design pass as shipped, and fail with each output tied to 0.
-fn negative_controls(toml: &str, player: Player) {
+fn assert_tied_outputs_fail(toml: &str, player: BenchSimulator) {
     let design = design(toml);
     for &top in Top::all_of(&design) {
-        negative_control(toml, &design, top, player);
+        assert_tied_outputs_of_top_fail(toml, &design, top, player);
     }
 }
 
-fn negative_control(toml: &str, design: &Design, top: Top, player: Player) {
+fn assert_tied_outputs_of_top_fail(toml: &str, design: &Design, top: Top, player: BenchSimulator) {
     let bench = bench(design, top);
     assert_eq!(bench.shortcoming, None, "{toml}");
     let mut files = verilog(design, top);
-    let outputs = tied(&mut files, top.module());
+    let outputs = tie_outputs(&mut files, top.module());
     let dir = tempfile::tempdir().unwrap();
     let put = |file: &SourceFile| {
         let path = dir.path().join(&file.path);
@@ -486,25 +486,25 @@ fn negative_control(toml: &str, design: &Design, top: Top, player: Player) {
 /// The grid of the frames. It is small, because a bench plays the whole frame.
 const GRID: (u32, u32) = (7, 5);
 
-fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
+fn pipelined_or_serial_toml(size: u32, serial: Option<(u32, &str)>) -> String {
     let hardware = serial.map_or_else(String::new, |(fold, feed)| {
         format!("hardware = {{ organization = 'serial', fold = {fold}, feed = '{feed}' }}\n")
     });
     let small = "temporal.min_count = 2\nspatial = [{ feature = 'edge', min_score = 2 }]\ndenoise.filter = 'none'\n";
     let small = if size == 2 { small } else { "" };
-    format!("{}region.size = {size}\n{small}{hardware}", frame(GRID, size))
+    format!("{}region.size = {size}\n{small}{hardware}", frame_keys(GRID, size))
 }
 
 /// Returns a raster design with words of up to four pixels and with either kind of reference. The
 /// regions that are sent last are lost, too.
-fn of_raster(size: u32, word: u32) -> String {
+fn raster_toml(size: u32, word: u32) -> String {
     let (pipelining, reference) = match word {
         2 => ("deep", "last-sent"),
         _ => ("plain", "previous"),
     };
-    let raster = raster(size, word, pipelining);
+    let raster = raster_keys(size, word, pipelining);
     let columns = (16 * word).div_ceil(size).max(GRID.0);
-    let frame = frame((columns, GRID.1), size);
+    let frame = frame_keys((columns, GRID.1), size);
     format!("{frame}region.size = {size}\ntemporal.reference = '{reference}'\n{raster}")
 }
 
@@ -515,25 +515,25 @@ fn every_tied_output_fails() {
         return;
     }
     let quick = [
-        format!("hardware.sync = true\n{}", of_organization(2, None)),
-        of_organization(8, None),
-        format!("render.irrelevant = 'mean'\n{}", of_organization(8, None)),
+        format!("hardware.sync = true\n{}", pipelined_or_serial_toml(2, None)),
+        pipelined_or_serial_toml(8, None),
+        format!("render.irrelevant = 'mean'\n{}", pipelined_or_serial_toml(8, None)),
         format!(
             "render.irrelevant = 'mean'\nhardware.pipelining = 'deep'\n{}",
-            of_organization(6, None)
+            pipelined_or_serial_toml(6, None)
         ),
-        format!("denoise.filter = 'none'\n{}", of_organization(20, None)),
-        of_raster(4, 2),
-        format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", of_raster(8, 4)),
+        format!("denoise.filter = 'none'\n{}", pipelined_or_serial_toml(20, None)),
+        raster_toml(4, 2),
+        format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", raster_toml(8, 4)),
     ];
     // These take five to fifteen seconds in Icarus, and less than three in Verilator.
     let long = [
-        of_organization(8, Some((3, "raster"))),
-        format!("render.irrelevant = 'mean'\n{}", of_organization(4, Some((7, "parallel")))),
-        format!("hardware.sync = true\n{}", of_raster(8, 1)),
+        pipelined_or_serial_toml(8, Some((3, "raster"))),
+        format!("render.irrelevant = 'mean'\n{}", pipelined_or_serial_toml(4, Some((7, "parallel")))),
+        format!("hardware.sync = true\n{}", raster_toml(8, 1)),
     ];
-    quick.iter().for_each(|toml| negative_controls(toml, Player::Icarus));
-    long.iter().for_each(|toml| negative_controls(toml, Player::Verilator));
+    quick.iter().for_each(|toml| assert_tied_outputs_fail(toml, BenchSimulator::Icarus));
+    long.iter().for_each(|toml| assert_tied_outputs_fail(toml, BenchSimulator::Verilator));
 }
 
 /// All sizes, folds, feeds, words and organizations: `cargo test -p foveate-cosim --test cosim --
@@ -547,7 +547,7 @@ fn every_tied_output_fails_at_every_size() {
     let designs = Mutex::new(matrix().into_iter());
     let control = || {
         while let Some((toml, player)) = { designs.lock().unwrap().next() } {
-            negative_controls(&toml, player);
+            assert_tied_outputs_fail(&toml, player);
             println!("fails with every output: {}", toml.replace('\n', " "));
         }
     };
@@ -559,20 +559,20 @@ fn every_tied_output_fails_at_every_size() {
 }
 
 /// Returns the designs. Frames of large regions have too many clocks for Icarus.
-fn matrix() -> Vec<(String, Player)> {
+fn matrix() -> Vec<(String, BenchSimulator)> {
     let mut list = Vec::new();
     for size in [2, 8, 20, 32, 48, 64] {
-        let mut designs = vec![of_organization(size, None)];
+        let mut designs = vec![pipelined_or_serial_toml(size, None)];
         if size >= 4 {
             for feed in ["parallel", "raster"] {
                 for fold in [1, 3, 9] {
-                    designs.push(of_organization(size, Some((fold, feed))));
+                    designs.push(pipelined_or_serial_toml(size, Some((fold, feed))));
                 }
             }
             let divides = |word: &u32| size.is_multiple_of(*word);
-            designs.extend([1, 2, 4].into_iter().filter(divides).map(|word| of_raster(size, word)));
+            designs.extend([1, 2, 4].into_iter().filter(divides).map(|word| raster_toml(size, word)));
         }
-        let player = if size <= 8 { Player::Icarus } else { Player::Verilator };
+        let player = if size <= 8 { BenchSimulator::Icarus } else { BenchSimulator::Verilator };
         for toml in designs {
             for neighborhood in ["isolated", "shared"] {
                 list.push((format!("region.neighborhood = '{neighborhood}'\n{toml}"), player));

@@ -4,8 +4,8 @@
 //! that is no longer found is replaced by one with the same effect.
 
 use crate::common::in_parallel;
-use crate::shipped::{Player, bench};
-use foveate_design::{Config, Design};
+use crate::shipped::{BenchSimulator, bench};
+use foveate_design::{DesignConfig, Design};
 use foveate_emit::{SourceFile, Top, verilog};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
@@ -13,14 +13,14 @@ use foveate_toolchain::testing::require_tools;
 const PIPELINED: &str = "hardware.organization = 'pipelined'\n";
 const SERIAL: &str = "hardware.organization = 'serial'\nhardware.fold = 2\n";
 const RASTER: &str = "hardware.organization = 'raster'\nperiphery.blocks = 2\n";
-const SENT: &str =
+const LAST_SENT: &str =
     "hardware.organization = 'raster'\nperiphery.blocks = 2\ntemporal.reference = 'last-sent'\n";
 
 /// Returns a design with this hardware whose irrelevant regions send means.
 fn design(hardware: &str) -> Design {
     let toml =
         format!("render.irrelevant = 'mean'\nframe.width = 32\nframe.height = 24\n{hardware}");
-    Config::from_toml(&toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(&toml).unwrap().validate().unwrap()
 }
 
 /// The design, the module, the text that its file contains exactly once, and its replacement.
@@ -32,7 +32,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     (SERIAL, "serial_summary", "{!active_i && (summary_o || shows)", "{(summary_o || shows)"),
     (SERIAL, "serial_summary", "{!active_i && (summary_o || shows)", "{!srs_i && (summary_o || shows)"),
     (SERIAL, "serial_summary", "shows = was_shown && !first_q;", "shows = was_shown;"),
-    (SENT, "raster_forward", "fetched_q <= fetch && !means && !rst_i", "fetched_q <= fetch && !rst_i"),
+    (LAST_SENT, "raster_forward", "fetched_q <= fetch && !means && !rst_i", "fetched_q <= fetch && !rst_i"),
     (RASTER, "raster_forward", "shown = stepped_q ? mean : kept_q", "shown = mean"),
     (RASTER, "raster_forward", "kept_q    <= shown;", "kept_q    <= mean;"),
     (RASTER, "raster_summary", "shown_read && !lost_read && over", "shown_read && over"),
@@ -49,15 +49,15 @@ fn passes(design: &Design, top: Top, files: &[SourceFile]) -> bool {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(path, &file.contents).unwrap();
     }
-    Player::Icarus.build(dir.path(), files, &bench);
+    BenchSimulator::Icarus.build(dir.path(), files, &bench);
     let vectors = format!("+vectors={}", bench.files[1].path);
-    let (passes, log) = Player::Icarus.play(dir.path(), &[&vectors, "+stop"]);
+    let (passes, log) = BenchSimulator::Icarus.play(dir.path(), &[&vectors, "+stop"]);
     assert_eq!(passes, log.contains("PASS "), "{log}");
     passes
 }
 
 #[test]
-fn shipped_benches_find_what_a_situation_of_its_own_shows() {
+fn shipped_benches_find_faults_that_need_a_special_situation() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
         return;
     }
@@ -89,7 +89,7 @@ fn shipped_benches_of_the_faulty_cores_pass_without_a_fault() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
         return;
     }
-    let failures = in_parallel(&[PIPELINED, SERIAL, RASTER, SENT], |hardware| {
+    let failures = in_parallel(&[PIPELINED, SERIAL, RASTER, LAST_SENT], |hardware| {
         let design = design(hardware);
         let all = Top::all_of(&design).iter();
         match all.clone().all(|&top| passes(&design, top, &verilog(&design, top))) {

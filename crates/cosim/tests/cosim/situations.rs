@@ -3,8 +3,8 @@
 //! those of the benches of a core.
 
 use crate::common::in_parallel;
-use foveate_cosim::{Level, Occurrences, ShippedBench, Stimulus};
-use foveate_design::{Config, Design};
+use foveate_cosim::{CosimLevel, Occurrences, ShippedBench, Stimulus};
+use foveate_design::{DesignConfig, Design};
 use foveate_emit::{Prefix, Top};
 use std::sync::atomic::AtomicBool;
 
@@ -13,14 +13,14 @@ const FRAME: &str = "frame={width=32,height=24}";
 const RASTER: &str = "hardware.organization='raster'";
 const SERIAL: &str = "hardware.organization='serial'";
 const MEAN: &str = "render.irrelevant='mean'";
-const SENT: &str = "temporal.reference='last-sent'";
+const LAST_SENT: &str = "temporal.reference='last-sent'";
 
 /// Designs of all organizations, with and without a periphery, with both kinds of references, every
 /// store, and start marks of frames.
 const DESIGNS: &[&[&str]] = &[
     &[FRAME],
-    &[FRAME, SENT, "hardware.sync=true"],
-    &[FRAME, MEAN, SENT],
+    &[FRAME, LAST_SENT, "hardware.sync=true"],
+    &[FRAME, MEAN, LAST_SENT],
     &[
         FRAME,
         MEAN,
@@ -28,12 +28,12 @@ const DESIGNS: &[&[&str]] = &[
         "region.neighborhood='shared'",
         "hardware.pipelining='deep'",
     ],
-    &[FRAME, MEAN, "spatial=[{feature='mad'}]", SENT],
+    &[FRAME, MEAN, "spatial=[{feature='mad'}]", LAST_SENT],
     &[FRAME, MEAN, "hardware.thresholds='constant'"],
     &[FRAME, SERIAL, "hardware.fold=2"],
     // The last slot of the second lane carries no region.
     &["frame={width=12,height=4}", "region.size=4", SERIAL, "hardware.fold=2", MEAN],
-    &[FRAME, SERIAL, "hardware.fold=4", MEAN, SENT, "hardware.sync=true"],
+    &[FRAME, SERIAL, "hardware.fold=4", MEAN, LAST_SENT, "hardware.sync=true"],
     &[
         FRAME,
         SERIAL,
@@ -42,16 +42,16 @@ const DESIGNS: &[&[&str]] = &[
         "periphery.blocks=2",
         "spatial=[{feature='variance'}]",
     ],
-    &[FRAME, SERIAL, SENT, "hardware.thresholds='constant'"],
+    &[FRAME, SERIAL, LAST_SENT, "hardware.thresholds='constant'"],
     &[FRAME, RASTER],
-    &[FRAME, RASTER, SENT, "hardware.sync=true"],
+    &[FRAME, RASTER, LAST_SENT, "hardware.sync=true"],
     &[FRAME, RASTER, MEAN, "periphery.blocks=2"],
-    &[FRAME, RASTER, MEAN, SENT],
+    &[FRAME, RASTER, MEAN, LAST_SENT],
     &[
         "frame={width=48,height=48}",
         RASTER,
         MEAN,
-        SENT,
+        LAST_SENT,
         "periphery.blocks=2",
         "hardware.pixels_per_clock=2",
     ],
@@ -63,21 +63,21 @@ const DESIGNS: &[&[&str]] = &[
 
 fn design(keys: &[&str]) -> Design {
     let config =
-        Config::from_toml_with("", keys).unwrap_or_else(|error| panic!("{keys:?}: {error}"));
+        DesignConfig::from_toml_with("", keys).unwrap_or_else(|error| panic!("{keys:?}: {error}"));
     config.validate().unwrap_or_else(|error| panic!("{keys:?}: {error}"))
 }
 
 /// Returns the situations that occur at the levels at which a core is simulated by default.
-fn reached(design: &Design, seed: u64) -> Occurrences {
-    let levels: Vec<Level> = ShippedBench::levels(design).unwrap();
-    let levels = levels.into_iter().chain([Level::sample(design)]);
+fn reached_situations(design: &Design, seed: u64) -> Occurrences {
+    let levels: Vec<CosimLevel> = ShippedBench::levels(design).unwrap();
+    let levels = levels.into_iter().chain([CosimLevel::small_array(design)]);
     let recordings: Vec<_> = levels
         .map(|level| {
             let stimulus = Stimulus { level, seed, rounds: 1, ..Stimulus::default() };
             stimulus.record(design, &mut |_, _| {}).unwrap()
         })
         .collect();
-    Occurrences::of_all(recordings.iter().map(|recording| recording.situations()))
+    Occurrences::sum_of(recordings.iter().map(|recording| recording.situations()))
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn vectors_reach_every_situation_that_a_design_can_have() {
     let all: Vec<(&[&str], u64)> =
         DESIGNS.iter().flat_map(|&keys| seeds.map(|seed| (keys, seed))).collect();
     let failures = in_parallel(&all, |&(keys, seed)| {
-        let found = reached(&design(keys), seed);
+        let found = reached_situations(&design(keys), seed);
         match found.missing().is_empty() && !found.0.is_empty() {
             true => Ok(()),
             false => Err(format!("{keys:?}, seed {seed}: {found}")),
@@ -104,7 +104,7 @@ const CHOICES: &[&[&str]] = &[
     &["region.neighborhood='isolated'", "region.neighborhood='shared'"],
     &["", "spatial=[{feature='mad'}]", "spatial=[{feature='variance'},{feature='corner'}]"],
     &["", "decision.combine='all'"],
-    &["", SENT],
+    &["", LAST_SENT],
     &["render.irrelevant='zero'", "render.irrelevant='hold'", MEAN, MEAN],
     &["", "render.payload='raw'"],
     &["", "periphery.blocks=2", "periphery.level=0", "periphery.level=3"],
@@ -133,7 +133,7 @@ fn drawn_designs(count: usize) -> Vec<(Vec<&'static str>, Design)> {
         if UNREACHABLE.iter().all(|key| keys.contains(key)) {
             continue;
         }
-        if let Ok(design) = Config::from_toml_with("", &keys).and_then(|config| config.validate()) {
+        if let Ok(design) = DesignConfig::from_toml_with("", &keys).and_then(|config| config.validate()) {
             designs.push((keys, design));
         }
     }
@@ -145,7 +145,7 @@ fn drawn_designs(count: usize) -> Vec<(Vec<&'static str>, Design)> {
 fn vectors_reach_every_situation_of_designs_drawn_at_random() {
     let count = if std::env::var_os("FOVEATE_WHOLE").is_some() { 1000 } else { 24 };
     let failures = in_parallel(&drawn_designs(count), |(keys, design)| {
-        let found = reached(design, 1);
+        let found = reached_situations(design, 1);
         match found.missing().is_empty() && !found.0.is_empty() {
             true => Ok(()),
             false => Err(format!("{keys:?}: {found}")),
@@ -180,9 +180,9 @@ fn the_page_names_every_situation() {
     for keys in DESIGNS {
         let design = design(keys);
         let recording = Stimulus {
-            level: Level::sample(&design),
+            level: CosimLevel::small_array(&design),
             rounds: 1,
-            enough: Some(1),
+            sufficient_clocks: Some(1),
             ..Stimulus::default()
         };
         let recording = recording.record(&design, &mut |_, _| {}).unwrap();

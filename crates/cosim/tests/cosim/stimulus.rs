@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The vectors reach their targets. No tool is needed for that.
 
-use crate::common::vectors::{clocks, field, pairs_of_decisions};
-use crate::common::{design, directed};
-use foveate_cosim::{Level, Recording, Stimulus, vectors_hex};
-use foveate_design::{Config, Design, FeatureKind, PortRole};
+use crate::common::vectors::{clock_records, field_of_role, pairs_of_decisions};
+use crate::common::{design, directed_stimulus};
+use foveate_cosim::{CosimLevel, Recording, Stimulus, vectors_hex};
+use foveate_design::{DesignConfig, Design, FeatureKind, PortRole};
 use foveate_frame::Frame;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-fn config(toml: &str) -> Config {
-    Config::from_toml(toml).unwrap()
+fn config(toml: &str) -> DesignConfig {
+    DesignConfig::from_toml(toml).unwrap()
 }
 
 fn record(design: &Design, stimulus: &Stimulus) -> Recording {
@@ -21,7 +21,7 @@ fn record(design: &Design, stimulus: &Stimulus) -> Recording {
 fn equal_seeds_give_equal_vectors() {
     let design = design(&config(""), (1, 1));
     let text = |seed| {
-        let stimulus = Stimulus { seed, ..directed(Level::Rpu, 1) };
+        let stimulus = Stimulus { seed, ..directed_stimulus(CosimLevel::Rpu, 1) };
         vectors_hex(&record(&design, &stimulus), u64::MAX).unwrap()
     };
     assert_eq!(text(1), text(1));
@@ -34,16 +34,16 @@ fn decisions_are_made_on_below_and_above_their_thresholds() {
     let toml = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"corner\"\n\
                 [[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
     let design = design(&config(toml), (1, 1));
-    let recording = record(&design, &directed(Level::Rpu, 2));
+    let recording = record(&design, &directed_stimulus(CosimLevel::Rpu, 2));
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let scores = FeatureKind::ALL.iter().map(|&k| (PortRole::MinScore(k), PortRole::Score(k)));
     let count = (PortRole::TemporalMinCount, PortRole::TemporalCount);
     for (minimum, score) in scores.chain([count]) {
         let mut found = BTreeSet::new();
-        for (input, output) in clocks(&recording) {
-            if field(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
-                let score = field(outputs, score).get(&output, 0);
-                let minimum = field(inputs, minimum).get(&input, 0);
+        for (input, output) in clock_records(&recording) {
+            if field_of_role(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
+                let score = field_of_role(outputs, score).get(&output, 0);
+                let minimum = field_of_role(inputs, minimum).get(&input, 0);
                 found.insert(i128::from(score) - i128::from(minimum));
             }
         }
@@ -64,7 +64,7 @@ fn summaries_are_due_and_not_due() {
                  irrelevant = \"mean\"\n[hardware]\nthresholds = \"{thresholds}\"\n"
             );
             let design = design(&config(&toml), (1, 1));
-            let found = pairs_of_decisions(&record(&design, &directed(Level::Rpu, 2)));
+            let found = pairs_of_decisions(&record(&design, &directed_stimulus(CosimLevel::Rpu, 2)));
             // The screen shows no summary of an active region, unless its minima change after the
             // decision.
             let is_odd = thresholds == "constant" && found.contains(&("active", "kept"));
@@ -84,10 +84,10 @@ fn scores_reach_their_largest_values() {
     let toml = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
                 [[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
     let design = design(&config(toml), (1, 1));
-    let recording = record(&design, &directed(Level::Rpu, 2));
+    let recording = record(&design, &directed_stimulus(CosimLevel::Rpu, 2));
     for feature in design.features() {
-        let port = field(recording.outputs(), PortRole::Score(feature.kind()));
-        let reached = clocks(&recording).iter().map(|(_, output)| port.get(output, 0)).max();
+        let port = field_of_role(recording.outputs(), PortRole::Score(feature.kind()));
+        let reached = clock_records(&recording).iter().map(|(_, output)| port.get(output, 0)).max();
         assert_eq!(reached, Some(feature.score_max()), "{}", feature.kind());
     }
 }
@@ -101,14 +101,14 @@ fn the_largest_gradient_meets_its_level() {
              feature = \"edge\"\nlevel = 1\n[temporal]\nlevel = 0\n"
         );
         let design = design(&config(&toml), (1, 1));
-        let recording = record(&design, &directed(Level::Rpu, 1));
+        let recording = record(&design, &directed_stimulus(CosimLevel::Rpu, 1));
         let largest = 6 * u64::from(design.pixel_max());
         let (inputs, outputs) = (recording.inputs(), recording.outputs());
         let mut found = BTreeSet::new();
-        for (input, output) in clocks(&recording) {
-            if field(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
-                let level = field(inputs, PortRole::Level(FeatureKind::Edge)).get(&input, 0);
-                let score = field(outputs, PortRole::Score(FeatureKind::Edge)).get(&output, 0);
+        for (input, output) in clock_records(&recording) {
+            if field_of_role(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
+                let level = field_of_role(inputs, PortRole::Level(FeatureKind::Edge)).get(&input, 0);
+                let score = field_of_role(outputs, PortRole::Score(FeatureKind::Edge)).get(&output, 0);
                 found.insert((level, score > 0));
             }
         }
@@ -120,18 +120,18 @@ fn the_largest_gradient_meets_its_level() {
 #[test]
 fn every_border_is_seen_and_resets_come_at_any_time() {
     let design = design(&config("[region]\nneighborhood = \"shared\"\n"), (1, 1));
-    let recording = record(&design, &directed(Level::Rpu, 4));
+    let recording = record(&design, &directed_stimulus(CosimLevel::Rpu, 4));
     let inputs = recording.inputs();
     let (mut borders, mut resets, mut busy) = (BTreeSet::new(), 0, 0);
     let (mut pixels, mut last_reset) = (0, true);
-    for (input, _) in clocks(&recording) {
-        borders.insert(field(inputs, PortRole::Border).get(&input, 0));
-        let reset = field(inputs, PortRole::Reset).get(&input, 0) == 1;
+    for (input, _) in clock_records(&recording) {
+        borders.insert(field_of_role(inputs, PortRole::Border).get(&input, 0));
+        let reset = field_of_role(inputs, PortRole::Reset).get(&input, 0) == 1;
         if reset && !last_reset {
             resets += 1;
             busy += u32::from(pixels % design.stream_pixels() != 0);
         }
-        let valid = field(inputs, PortRole::Valid).get(&input, 0) == 1;
+        let valid = field_of_role(inputs, PortRole::Valid).get(&input, 0) == 1;
         pixels = if reset { 0 } else { pixels + u32::from(valid) };
         last_reset = reset;
     }
@@ -153,11 +153,11 @@ fn frames_of_the_caller_are_streamed_region_by_region() {
     assert_eq!((first.sequence.as_str(), first.region, first.frame), ("frames", Some(0), 0));
     let last = recording.span(recording.clocks()).unwrap();
     assert_eq!((last.region, last.frame), (Some(5), 1));
-    let border = field(recording.inputs(), PortRole::Border);
-    let borders: BTreeSet<u64> = clocks(&recording).iter().map(|(i, _)| border.get(i, 0)).collect();
+    let border = field_of_role(recording.inputs(), PortRole::Border);
+    let borders: BTreeSet<u64> = clock_records(&recording).iter().map(|(i, _)| border.get(i, 0)).collect();
     assert_eq!(borders, BTreeSet::from([0b0101, 0b0100, 0b0110, 0b1001, 0b1000, 0b1010]));
 
-    let array = Stimulus { level: Level::Rcm { columns: 2, rows: 1 }, ..stimulus };
+    let array = Stimulus { level: CosimLevel::Rcm { columns: 2, rows: 1 }, ..stimulus };
     assert_eq!(record(&design, &array).sequences(), 1);
 }
 
@@ -172,8 +172,8 @@ fn nothing_to_simulate_is_refused() {
 #[test]
 fn arrays_beyond_memory_are_refused_before_they_are_made() {
     let design = design(&config(""), (1, 1));
-    let level = Level::Rcm { columns: 300, rows: 300 };
-    let error = directed(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
+    let level = CosimLevel::Rcm { columns: 300, rows: 300 };
+    let error = directed_stimulus(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
     assert!(error.starts_with("an array of 90000 regions, which take 5760000 pixels"), "{error}");
     assert!(error.contains("the limits are 65536 regions and 67108864 pixels"), "{error}");
 }
@@ -183,7 +183,7 @@ fn an_interrupt_stops_the_model() {
     let design = design(&config(""), (1, 1));
     let cancel = AtomicBool::new(false);
     let mut heard = 0;
-    let result = directed(Level::Rpu, 3).record_until(&design, &cancel, &mut |done, _| {
+    let result = directed_stimulus(CosimLevel::Rpu, 3).record_until(&design, &cancel, &mut |done, _| {
         heard = done;
         cancel.store(done == 2, Ordering::Relaxed);
     });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Designs with `sync`: the contents of their vectors, and the agreement of model and RTL.
 
-use crate::common::vectors::{clocks, value};
-use crate::common::{agrees, directed, in_parallel, in_turn, simulators};
-use foveate_cosim::{Level, Recording, Simulator};
-use foveate_design::{Config, Design, PortRole};
+use crate::common::vectors::{clock_records, port_value};
+use crate::common::{check_agreement, directed_stimulus, in_parallel, in_turn, has_simulators};
+use foveate_cosim::{CosimLevel, Recording, Simulator};
+use foveate_design::{DesignConfig, Design, PortRole};
 use std::collections::BTreeMap;
 
 /// Designs of every organization, in small frames. Every second one is simulated in Icarus, which
@@ -80,13 +80,13 @@ const DESIGNS: &[&[&str]] = &[
 ];
 
 fn design(keys: &[&str]) -> Design {
-    let config = Config::from_toml_with("", keys).unwrap();
-    Config::from_toml_with(&config.to_toml(), &["hardware.sync=true"]).unwrap().validate().unwrap()
+    let config = DesignConfig::from_toml_with("", keys).unwrap();
+    DesignConfig::from_toml_with(&config.to_toml(), &["hardware.sync=true"]).unwrap().validate().unwrap()
 }
 
 #[test]
 fn the_rtl_of_arrays_that_find_their_frames_agrees() {
-    if !simulators() {
+    if !has_simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -97,14 +97,14 @@ fn the_rtl_of_arrays_that_find_their_frames_agrees() {
         let what = format!("{keys:?}");
         // Every organization is simulated in both simulators.
         let simulator = in_turn(&Simulator::ALL, *number);
-        agrees(&what, &design, simulator, directed(Level::Full, 1), &folder)
+        check_agreement(&what, &design, simulator, directed_stimulus(CosimLevel::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
 /// The state of the frame synchronization, as the ports show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum State {
+enum SyncState {
     Seek,
     Start,
     Inside,
@@ -113,51 +113,51 @@ enum State {
 
 /// The counts of a recording.
 #[derive(Debug, Default)]
-struct Story {
+struct SyncCounts {
     errors: u64,
     decisions: u64,
     /// The number of start marks without a beat, by state.
-    loose: BTreeMap<State, u64>,
+    lone_marks: BTreeMap<SyncState, u64>,
     /// The number of resets, by the state in which they come.
-    resets: BTreeMap<State, u64>,
+    resets: BTreeMap<SyncState, u64>,
 }
 
-fn story(design: &Design, recording: &Recording) -> Story {
+fn count_sync_events(design: &Design, recording: &Recording) -> SyncCounts {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let beats = design.timing().pixels_per_frame();
     let has_ready = outputs.fields().iter().any(|field| field.port.role == PortRole::Ready);
-    let (mut story, mut state, mut had, mut ready) = (Story::default(), State::Seek, 0, true);
+    let (mut story, mut state, mut had, mut ready) = (SyncCounts::default(), SyncState::Seek, 0, true);
     let mut was_reset = true;
-    for (input, output) in clocks(recording) {
-        let given = |role| value(inputs, role, &input) == 1;
-        let shows = |role| value(outputs, role, &output) == 1;
+    for (input, output) in clock_records(recording) {
+        let given = |role| port_value(inputs, role, &input) == 1;
+        let shows = |role| port_value(outputs, role, &output) == 1;
         if given(PortRole::Reset) {
             if !was_reset {
                 *story.resets.entry(state).or_default() += 1;
             }
-            (state, had, was_reset, ready) = (State::Seek, 0, true, true);
+            (state, had, was_reset, ready) = (SyncState::Seek, 0, true, true);
             continue;
         }
         was_reset = false;
         let (valid, sof) = (given(PortRole::Valid), given(PortRole::StartOfFrame));
         if sof && !valid {
-            *story.loose.entry(state).or_default() += 1;
+            *story.lone_marks.entry(state).or_default() += 1;
         }
         match state {
             // An array with a `ready` output takes nothing until it has completed its frame.
-            State::Fill if has_ready => {}
-            State::Fill => had += 1,
+            SyncState::Fill if has_ready => {}
+            SyncState::Fill => had += 1,
             _ if !(valid && ready) => {}
-            State::Seek | State::Start => {
-                (state, had) = if sof { (State::Inside, 1) } else { (State::Seek, 0) };
+            SyncState::Seek | SyncState::Start => {
+                (state, had) = if sof { (SyncState::Inside, 1) } else { (SyncState::Seek, 0) };
             }
-            State::Inside if sof => state = State::Fill,
-            State::Inside => had += 1,
+            SyncState::Inside if sof => state = SyncState::Fill,
+            SyncState::Inside => had += 1,
         }
         ready = !has_ready || shows(PortRole::Ready);
         state = match state {
-            State::Inside if had == beats => State::Start,
-            State::Fill if had == beats || (has_ready && ready) => State::Seek,
+            SyncState::Inside if had == beats => SyncState::Start,
+            SyncState::Fill if had == beats || (has_ready && ready) => SyncState::Seek,
             state => state,
         };
         story.errors += u64::from(shows(PortRole::SyncError));
@@ -170,27 +170,27 @@ fn story(design: &Design, recording: &Recording) -> Story {
 fn the_vectors_damage_streams_in_every_state() {
     for keys in DESIGNS {
         let design = design(keys);
-        let recording = directed(Level::Full, 3).record(&design, &mut |_, _| {}).unwrap();
-        let story = story(&design, &recording);
+        let recording = directed_stimulus(CosimLevel::Full, 3).record(&design, &mut |_, _| {}).unwrap();
+        let story = count_sync_events(&design, &recording);
         assert!(story.errors >= 36 && story.decisions > 100, "{keys:?} {story:?}");
-        for state in [State::Seek, State::Start, State::Inside, State::Fill] {
-            let count = |map: &BTreeMap<State, u64>| map.get(&state).copied().unwrap_or(0);
+        for state in [SyncState::Seek, SyncState::Start, SyncState::Inside, SyncState::Fill] {
+            let count = |map: &BTreeMap<SyncState, u64>| map.get(&state).copied().unwrap_or(0);
             assert!(count(&story.resets) > 0, "no reset in {state:?}: {keys:?} {story:?}");
-            assert!(count(&story.loose) > 0, "no mark alone in {state:?}: {keys:?} {story:?}");
+            assert!(count(&story.lone_marks) > 0, "no mark alone in {state:?}: {keys:?} {story:?}");
         }
     }
 }
 
 /// Without `sync`, designs have the same sequences without the damaged ones.
 #[test]
-fn without_it_the_vectors_are_what_they_were() {
+fn without_sync_the_vectors_have_no_damaged_sequences() {
     for keys in DESIGNS {
         let with = design(keys);
         let mut config = with.config();
         config.hardware.sync = None;
         let without = config.validate().unwrap();
         let record =
-            |design: &Design| directed(Level::Full, 1).record(design, &mut |_, _| {}).unwrap();
+            |design: &Design| directed_stimulus(CosimLevel::Full, 1).record(design, &mut |_, _| {}).unwrap();
         let (with, without) = (record(&with), record(&without));
         assert_eq!(with.sequences(), without.sequences() + 14, "{keys:?}");
         let names = without.inputs().fields().iter().chain(without.outputs().fields());

@@ -2,17 +2,17 @@
 //! The properties of a pipelined array, and the configurations that it supports.
 
 use crate::takes::Takes;
-use crate::{HardwareConfig, Organization, Pipelining, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference};
+use crate::{HardwareConfig, Organization, Pipelining, ThresholdSource};
+use foveate_camera::{Camera, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy};
 
 /// The properties that only a pipelined array has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pipelined {
+pub struct PipelinedHardware {
     /// The number of registers in the arithmetic.
     pub pipelining: Pipelining,
 }
 
-impl Takes for Pipelined {
+impl Takes for PipelinedHardware {
     fn takes_feature(kind: FeatureKind) -> bool {
         match kind {
             FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
@@ -21,21 +21,21 @@ impl Takes for Pipelined {
         }
     }
 
-    fn takes_reference(reference: Reference) -> bool {
+    fn takes_reference(reference: ReferencePolicy) -> bool {
         match reference {
-            Reference::Previous | Reference::LastSent => true,
+            ReferencePolicy::Previous | ReferencePolicy::LastSent => true,
         }
     }
 
-    fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
+    fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
         match irrelevant {
-            Irrelevant::Zero | Irrelevant::Hold | Irrelevant::Mean => true,
+            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => true,
         }
     }
 
-    fn takes_thresholds(thresholds: Thresholds) -> bool {
+    fn takes_thresholds(thresholds: ThresholdSource) -> bool {
         match thresholds {
-            Thresholds::Runtime | Thresholds::Constant => true,
+            ThresholdSource::Runtime | ThresholdSource::Constant => true,
         }
     }
 
@@ -62,13 +62,13 @@ impl Takes for Pipelined {
     }
 }
 
-impl Pipelined {
+impl PipelinedHardware {
     /// Returns the table `[hardware]`. A default is left out, so that the fingerprint of a design
     /// is the same as before the key existed.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {
             organization: Organization::Pipelined,
-            pipelining: self.pipelining.if_deep(),
+            pipelining: self.pipelining.non_default(),
             ..HardwareConfig::default()
         }
     }

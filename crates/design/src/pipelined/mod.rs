@@ -8,5 +8,5 @@ mod ports;
 mod rules;
 mod timing;
 
-pub use hardware::Pipelined;
+pub use hardware::PipelinedHardware;
 pub use timing::PipelinedTiming;

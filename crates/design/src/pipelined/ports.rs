@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The interface of a pipelined RPU, and that of the RCM that consists of such RPUs.
 
-use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
-use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
-use crate::{Design, Direction, Port, PortRole};
+use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
+use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
+use crate::{Design, PortDirection, Port, PortRole};
 
 /// Returns the interface of one RPU.
-pub(crate) fn rpu(design: &Design) -> Interface {
-    use Direction::{Input, Output};
-    let single = Port::single;
-    let pixels = Stream::into_core(
+pub(crate) fn rpu_interface(design: &Design) -> CoreInterface {
+    use PortDirection::{Input, Output};
+    let single = Port::scalar;
+    let pixels = CoreStream::into_core(
         StreamRole::Pixels,
         "a pixel of the region with its halo",
         single(Input, PortRole::Valid, 1, "a pixel is taken at this edge"),
         vec![single(Input, PortRole::Pixel, design.pixel_bits(), "pixel, row by row")],
     );
-    let decisions = Stream::out_of_core(
+    let decisions = CoreStream::out_of_core(
         StreamRole::Decisions,
         "the decision of the region with its scores",
         single(
@@ -24,7 +24,7 @@ pub(crate) fn rpu(design: &Design) -> Interface {
             1,
             "decision and scores are those of a whole frame",
         ),
-        decided(design),
+        decision_and_score_ports(design),
     );
     let doc = "that pixel; 0 unless forward_valid_o";
     let (beat, leaves) = match design.periphery() {
@@ -33,8 +33,8 @@ pub(crate) fn rpu(design: &Design) -> Interface {
             ("a pixel or a mean of the region", "a pixel of an active region leaves, or a mean")
         }
     };
-    let forwarded = Stream::out_of_core(
-        StreamRole::Forwarded,
+    let forwarded = CoreStream::out_of_core(
+        StreamRole::ForwardedPixels,
         beat,
         single(Output, PortRole::ForwardValid, 1, leaves),
         vec![single(Output, PortRole::ForwardPixel, design.pixel_bits(), doc)],
@@ -42,12 +42,12 @@ pub(crate) fn rpu(design: &Design) -> Interface {
     let doc = "sides on the frame's border: {bottom, top, right, left}";
     let border = design.needs_border().then(|| single(Input, PortRole::Border, 4, doc));
     let controls = border.into_iter().chain(threshold_ports(design)).collect();
-    Interface::new(vec![pixels, decisions, forwarded], controls)
+    CoreInterface::new(vec![pixels, decisions, forwarded], controls)
 }
 
-fn decided(design: &Design) -> Vec<Port> {
-    let output = |role, width, doc| Port::single(Direction::Output, role, width, doc);
-    let mut list = decided_ports(design, "the region's");
+fn decision_and_score_ports(design: &Design) -> Vec<Port> {
+    let output = |role, width, doc| Port::scalar(PortDirection::Output, role, width, doc);
+    let mut list = decision_ports(design, "the region's");
     for feature in design.features() {
         let doc = "score; final with decision_valid_o";
         list.push(output(PortRole::Score(feature.kind()), feature.score_bits(), doc));
@@ -60,8 +60,8 @@ fn decided(design: &Design) -> Vec<Port> {
 /// Returns the interface of the RCM: that of the RPU, with one lane per region for ports that
 /// differ by region. The border inputs are constants inside the RCM, and the logic that finds the
 /// start of a frame is in front of all RPUs.
-pub(crate) fn rcm(design: &Design) -> Interface {
-    let mut interface = rpu(design);
+pub(crate) fn rcm_interface(design: &Design) -> CoreInterface {
+    let mut interface = rpu_interface(design);
     interface.controls.retain(|port| port.role != PortRole::Border);
     for stream in &mut interface.streams {
         stream.region = BeatRegion::Lane;
@@ -72,18 +72,18 @@ pub(crate) fn rcm(design: &Design) -> Interface {
                 stream.status.extend(sync_output(design));
             }
             StreamRole::Decisions => stream.beat = "the decisions of all regions with their scores",
-            StreamRole::Forwarded => {
+            StreamRole::ForwardedPixels => {
                 stream.beat = match design.periphery() {
                     None => "a pixel of every active region",
                     Some(_) => "a pixel of every active region, or a mean of every summary",
                 };
             }
-            StreamRole::References | StreamRole::Stored | StreamRole::Scores | StreamRole::Lost => {
+            StreamRole::References | StreamRole::StoredWords | StreamRole::Scores | StreamRole::LostRegions => {
             }
         }
     }
-    interface.each_of_streams(|port| {
-        if differs_by_region(port.role) {
+    interface.change_stream_ports(|port| {
+        if is_per_region(port.role) {
             port.lanes = design.regions();
             port.per_lane = true;
             port.doc.push_str("; element i is region i");
@@ -93,7 +93,7 @@ pub(crate) fn rcm(design: &Design) -> Interface {
 }
 
 /// Returns true if the RCM has one lane per region on the port of this role.
-fn differs_by_region(role: PortRole) -> bool {
+fn is_per_region(role: PortRole) -> bool {
     matches!(
         role,
         PortRole::Pixel

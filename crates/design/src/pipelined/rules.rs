@@ -2,18 +2,18 @@
 //! The implementation of [`crate::organization`] for pipelined designs.
 
 use super::{PipelinedTiming, ports};
-use crate::rules::{Array, Rules, Unit};
-use crate::{Design, Interface, Organization, PipelinedDesign, Timing};
+use crate::rules::{ArrayStructure, OrganizationRules, ArrayUnit};
+use crate::{Design, CoreInterface, Organization, PipelinedDesign, DesignTiming};
 
-impl Rules for PipelinedDesign<'_> {
-    fn unit(&self) -> Unit {
-        Unit {
+impl OrganizationRules for PipelinedDesign<'_> {
+    fn unit(&self) -> ArrayUnit {
+        ArrayUnit {
             name: Organization::Pipelined.unit_name(),
             module: "rpu",
             count: self.regions(),
             regions: 1,
-            array: Array::Copies,
-            split: "rpu",
+            array: ArrayStructure::RpuCopies,
+            area_module: "rpu",
         }
     }
 
@@ -21,15 +21,15 @@ impl Rules for PipelinedDesign<'_> {
         self.design().clone()
     }
 
-    fn timing(&self) -> Timing {
-        PipelinedTiming::of(*self).answers()
+    fn timing(&self) -> DesignTiming {
+        PipelinedTiming::from_design(*self).to_design_timing()
     }
 
-    fn rpu_interface(&self) -> Interface {
-        ports::rpu(self)
+    fn rpu_interface(&self) -> CoreInterface {
+        ports::rpu_interface(self)
     }
 
-    fn rcm_interface(&self) -> Interface {
-        ports::rcm(self)
+    fn rcm_interface(&self) -> CoreInterface {
+        ports::rcm_interface(self)
     }
 }

@@ -2,8 +2,8 @@
 //! The timing of a pipelined design: the numbers behind `docs/timing.md`.
 
 use super::feature::score_latency;
-use crate::timing::Departure;
-use crate::{Filter, Neighborhood, PipelinedDesign, Pipelining, Timing};
+use crate::timing::DepartureTiming;
+use crate::{DenoiseFilter, Neighborhood, PipelinedDesign, Pipelining, DesignTiming};
 
 /// Registers between a median window and the stream behind it in a plain design: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
@@ -43,7 +43,7 @@ pub struct PipelinedTiming {
 impl PipelinedTiming {
     /// Returns the latencies of the design.
     #[must_use]
-    pub fn of(design: PipelinedDesign<'_>) -> Self {
+    pub fn from_design(design: PipelinedDesign<'_>) -> Self {
         let flush = match design.neighborhood() {
             Neighborhood::Isolated => design.region_size() + 1,
             Neighborhood::Shared => 0,
@@ -57,8 +57,8 @@ impl PipelinedTiming {
         // The tail is delayed so far that every score is final when the frame is done.
         let tail_delay = latencies.fold(count_latency, u32::max) - 1;
         let median = match design.filter() {
-            Filter::None => 0,
-            Filter::Median3x3 => flush + median_registers,
+            DenoiseFilter::None => 0,
+            DenoiseFilter::Median3x3 => flush + median_registers,
         };
         let window = if design.has_feature_window() { flush } else { 0 };
         let decision_frames = u32::from(design.has_second_pass());
@@ -73,10 +73,10 @@ impl PipelinedTiming {
     }
 
     /// Returns the timing in terms that every organization has.
-    pub(super) fn answers(&self) -> Timing {
+    pub(super) fn to_design_timing(&self) -> DesignTiming {
         let of = if self.decision_frames == 0 { "" } else { " of the next frame" };
         let which = if self.forward_frames == 1 { "next frame" } else { "next frame but one" };
-        Timing {
+        DesignTiming {
             clocks_per_frame: self.cycles_per_frame.into(),
             pixels_per_frame: self.cycles_per_frame.into(),
             figures: vec![
@@ -86,7 +86,7 @@ impl PipelinedTiming {
                 ("forward_frames", self.forward_frames.into()),
             ],
             phases: Vec::new(),
-            text: vec![
+            descriptions: vec![
                 ("cycles per frame", self.cycles_per_frame.to_string()),
                 (
                     "decision",
@@ -94,7 +94,7 @@ impl PipelinedTiming {
                 ),
                 ("pixels leave", format!("while the {which} enters")),
             ],
-            departure: Departure {
+            departure: DepartureTiming {
                 take_clocks: self.cycles_per_frame.into(),
                 decision_frames: self.decision_frames,
                 decision_clocks: self.decision_latency.into(),
@@ -103,8 +103,8 @@ impl PipelinedTiming {
                 // the step of a decision.
                 forward_clocks: self.decision_latency.into(),
                 slot_clocks: 0,
-                kept_rows: None,
-                alone: true,
+                buffered_rows: None,
+                has_independent_units: true,
             },
         }
     }

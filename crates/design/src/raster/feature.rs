@@ -2,23 +2,23 @@
 //! The sums that a raster core stores per region for the score of a feature, and the latency of the
 //! score.
 
-use foveate_camera::{FeatureKind, Mean, SpatialFeature, Variance};
+use foveate_camera::{FeatureKind, MeanDivision, SpatialFeature, VarianceWidths};
 
 /// The sum over the pixels of a region that a feature needs. It is formed while the pixels come, or
 /// in a second pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SummedUp<'a> {
+pub(super) enum FeatureAccumulation<'a> {
     /// The number of pixels whose window is a hit.
     Hits,
     /// The sum of the pixels, and in a second pass the sum of their distances from the mean.
-    Deviations(&'a Mean),
+    Deviations(&'a MeanDivision),
     /// The sums of the pixels and of their squares.
-    Squares(&'a Variance),
+    Squares(&'a VarianceWidths),
 }
 
-impl<'a> SummedUp<'a> {
+impl<'a> FeatureAccumulation<'a> {
     /// Returns the sum that a feature needs.
-    pub(super) fn of(feature: &'a SpatialFeature) -> Self {
+    pub(super) fn from_feature(feature: &'a SpatialFeature) -> Self {
         match feature.kind() {
             FeatureKind::Edge | FeatureKind::Corner => Self::Hits,
             FeatureKind::Mad => Self::Deviations(feature.mean().expect("mad has a mean")),

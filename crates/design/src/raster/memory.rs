@@ -3,9 +3,9 @@
 //! read port, except a single-port frame store.
 
 use super::RasterTiming;
-use super::feature::SummedUp;
+use super::feature::FeatureAccumulation;
 use crate::{
-    Design, Filter, Periphery, RasterDesign, Reference, SpatialFeature, Store, Written, bits_for,
+    Design, DenoiseFilter, Periphery, RasterDesign, ReferencePolicy, SpatialFeature, FrameStoreKind, ReferenceWriteTime, bits_for,
     index_bits,
 };
 
@@ -16,7 +16,7 @@ const ROW_BITS: u32 = 3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RasterMemory {
     /// Contents of the memory in words for users.
-    pub holds: &'static str,
+    pub contents: &'static str,
     /// Number of words.
     pub words: u64,
     /// Width of a word in bits.
@@ -32,22 +32,22 @@ impl RasterMemory {
 
     /// Returns the frame store of the design, or `None` if it is outside of the core.
     #[must_use]
-    pub fn store_of(design: RasterDesign<'_>) -> Option<Self> {
-        let words = RasterTiming::of(design).words();
+    pub fn frame_store(design: RasterDesign<'_>) -> Option<Self> {
+        let words = RasterTiming::from_design(design).words();
         let pixel = design.temporal().reference.bits_per_pixel(design.pixel_bits());
         let word = design.pixels_per_clock() * pixel;
         let (words, bits) = match design.store() {
-            Store::Block | Store::Ultra => (words, word),
-            Store::SinglePort => (words.div_ceil(2), 2 * word),
-            Store::External => return None,
+            FrameStoreKind::Block | FrameStoreKind::Ultra => (words, word),
+            FrameStoreKind::SinglePort => (words.div_ceil(2), 2 * word),
+            FrameStoreKind::External => return None,
         };
-        Some(Self { holds: "references: the frame store", words, bits })
+        Some(Self { contents: "references: the frame store", words, bits })
     }
 
     /// Returns all memories of the design. A frame store inside of the core comes first.
     #[must_use]
-    pub fn all_of(design: RasterDesign<'_>) -> Vec<Self> {
-        let sizes = Sizes::of(design);
+    pub fn all_memories(design: RasterDesign<'_>) -> Vec<Self> {
+        let sizes = MemorySizes::from_design(design);
         let means = design.periphery().map(|periphery| sizes.means(periphery, &design));
         [
             sizes.pixels(design),
@@ -61,7 +61,7 @@ impl RasterMemory {
 }
 
 /// The numbers that the sizes of the memories are derived from.
-struct Sizes {
+struct MemorySizes {
     timing: RasterTiming,
     /// Width of a word of pixels in bits.
     word: u32,
@@ -69,18 +69,18 @@ struct Sizes {
     buffer: u64,
     columns: u64,
     regions: u64,
-    reference: Reference,
+    reference: ReferencePolicy,
     /// Number of features that count hits.
     hits: u32,
 }
 
-impl Sizes {
-    fn of(design: RasterDesign<'_>) -> Self {
-        let timing = RasterTiming::of(design);
+impl MemorySizes {
+    fn from_design(design: RasterDesign<'_>) -> Self {
+        let timing = RasterTiming::from_design(design);
         let rows = u64::from(timing.buffer_rows * design.region_size());
-        let counts = |feature: &&SpatialFeature| match SummedUp::of(feature) {
-            SummedUp::Hits => true,
-            SummedUp::Deviations(_) | SummedUp::Squares(_) => false,
+        let counts = |feature: &&SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits => true,
+            FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => false,
         };
         let hits = design.features().iter().filter(counts).count();
         Self {
@@ -96,35 +96,35 @@ impl Sizes {
 
     /// Returns the frame store and the buffers of pixels.
     fn pixels(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
-        let buffer = |holds| RasterMemory { holds, words: self.buffer, bits: self.word };
-        let mut list: Vec<_> = RasterMemory::store_of(design).into_iter().collect();
-        if design.forwards() {
+        let buffer = |holds| RasterMemory { contents: holds, words: self.buffer, bits: self.word };
+        let mut list: Vec<_> = RasterMemory::frame_store(design).into_iter().collect();
+        if design.has_forwarding() {
             list.push(buffer("pixels that may leave"));
         }
         if design.has_second_pass() {
             list.push(buffer("a copy for the second pass"));
         }
-        match self.reference.written() {
-            Written::WithEveryFrame => {}
-            Written::WhenSent if design.keeps_raw() => {
+        match self.reference.write_time() {
+            ReferenceWriteTime::EveryFrame => {}
+            ReferenceWriteTime::WhenSent if design.has_separate_raw_pixels() => {
                 list.push(buffer("denoised pixels, which become references when raw ones leave"));
             }
-            Written::WhenSent => {}
+            ReferenceWriteTime::WhenSent => {}
         }
         list
     }
 
     /// Returns the buffers of rows of pixels in front of the windows.
     fn rows(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
-        let row = |holds, bits| RasterMemory { holds, words: self.timing.row_words.into(), bits };
+        let row = |holds, bits| RasterMemory { contents: holds, words: self.timing.row_words.into(), bits };
         let mut list = Vec::new();
-        if design.filter() != Filter::None {
+        if design.filter() != DenoiseFilter::None {
             list.push(row("two rows of pixels, for the median", 2 * self.word));
         }
         if design.has_feature_window() {
             list.push(row("two rows of pixels, for the features", 2 * self.word));
         }
-        if design.has_feature_window() && design.keeps_raw() && design.forwards() {
+        if design.has_feature_window() && design.has_separate_raw_pixels() && design.has_forwarding() {
             list.push(row("a row of raw pixels", self.word));
         }
         if self.timing.windows == 0 && self.timing.rows > self.timing.taken_rows {
@@ -136,16 +136,16 @@ impl Sizes {
     /// Returns the memories of the scores of a row of regions.
     fn scores(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let side = u64::from(design.region_size());
-        let column = |holds, bits| RasterMemory { holds, words: self.columns, bits };
+        let column = |holds, bits| RasterMemory { contents: holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
         let sums = column("sums of pixels", design.pixel_sum_bits());
-        let of_pixels = |feature: &SpatialFeature| match SummedUp::of(feature) {
-            SummedUp::Hits => None,
-            SummedUp::Deviations(_) | SummedUp::Squares(_) => Some(sums),
+        let of_pixels = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits => None,
+            FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => Some(sums),
         };
-        let of_squares = |feature: &SpatialFeature| match SummedUp::of(feature) {
-            SummedUp::Hits | SummedUp::Deviations(_) => None,
-            SummedUp::Squares(widths) => Some(column("sums of squares", widths.square_sum_bits)),
+        let of_squares = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits | FeatureAccumulation::Deviations(_) => None,
+            FeatureAccumulation::Squares(widths) => Some(column("sums of squares", widths.square_sum_bits)),
         };
         list.extend(design.features().iter().find_map(of_pixels));
         list.extend(design.features().iter().find_map(of_squares));
@@ -155,25 +155,25 @@ impl Sizes {
     /// Returns the memories of the means of blocks: means that are being summed, means that are
     /// ready to leave, and means that the screen shows.
     fn means(&self, periphery: &Periphery, design: &Design) -> Vec<RasterMemory> {
-        let (side, means) = (u64::from(periphery.blocks), u64::from(periphery.means()));
+        let (side, means) = (u64::from(periphery.blocks), u64::from(periphery.mean_count()));
         let pixel = design.pixel_bits();
         // The low bits of the numbers of columns and rows of regions tell the entries apart.
         let rows = u64::from(self.timing.buffer_rows).next_power_of_two();
         let columns = self.columns.next_power_of_two();
-        let shown = |holds| RasterMemory { holds, words: self.regions, bits: 1 };
+        let shown = |holds| RasterMemory { contents: holds, words: self.regions, bits: 1 };
         vec![
             RasterMemory {
-                holds: "sums of blocks, and whether their means differ",
+                contents: "sums of blocks, and whether their means differ",
                 words: columns * side,
                 bits: periphery.sum_bits + u32::from(periphery.blocks > 1),
             },
             RasterMemory {
-                holds: "means that may leave",
+                contents: "means that may leave",
                 words: columns * rows * means,
                 bits: pixel,
             },
             RasterMemory {
-                holds: "means that were sent",
+                contents: "means that were sent",
                 words: self.regions * means,
                 bits: pixel,
             },
@@ -191,17 +191,17 @@ impl Sizes {
     /// Returns the queues of regions, and the flags of regions with a valid reference.
     fn queues(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let waiting = 1 << index_bits(u64::from(self.timing.buffer_rows) * self.columns);
-        let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
+        let queue = |holds, bits| RasterMemory { contents: holds, words: waiting, bits };
         let start = index_bits(self.buffer);
         // An entry stores the address at which the reference is written, and whether it is written.
-        let reference = match self.reference.written() {
-            Written::WithEveryFrame => 0,
-            Written::WhenSent => index_bits(self.timing.words()) + 1,
+        let reference = match self.reference.write_time() {
+            ReferenceWriteTime::EveryFrame => 0,
+            ReferenceWriteTime::WhenSent => index_bits(self.timing.words()) + 1,
         };
         // An entry stores whether the means of the region leave.
         let summary = u32::from(design.periphery().is_some());
         let mut list = Vec::new();
-        if design.forwards() {
+        if design.has_forwarding() {
             list.push(queue(
                 "active regions that wait for the sink",
                 ROW_BITS
@@ -212,23 +212,23 @@ impl Sizes {
                     + summary,
             ));
         }
-        let bits = |feature: &SpatialFeature| match SummedUp::of(feature) {
-            SummedUp::Hits => design.count_bits(),
-            SummedUp::Deviations(_) => 0,
-            SummedUp::Squares(_) => feature.score_bits(),
+        let bits = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits => design.count_bits(),
+            FeatureAccumulation::Deviations(_) => 0,
+            FeatureAccumulation::Squares(_) => feature.score_bits(),
         };
         let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let judged = judged + 2 * u32::from(design.periphery().is_some());
-        list.extend(design.features().iter().filter_map(|feature| match SummedUp::of(feature) {
-            SummedUp::Hits | SummedUp::Squares(_) => None,
-            SummedUp::Deviations(mean) => Some(queue(
+        list.extend(design.features().iter().filter_map(|feature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits | FeatureAccumulation::Squares(_) => None,
+            FeatureAccumulation::Deviations(mean) => Some(queue(
                 "regions that wait for the second pass",
                 mean.mean_bits + start + judged,
             )),
         }));
         let bits = self.reference.bits_per_region();
         if bits > 0 {
-            let mut all = |holds| list.push(RasterMemory { holds, words: self.regions, bits });
+            let mut all = |holds| list.push(RasterMemory { contents: holds, words: self.regions, bits });
             all("which regions have a reference, by decisions");
             if self.reference.is_lost_with_its_region() {
                 all("which regions have a reference, by losses");

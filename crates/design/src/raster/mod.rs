@@ -10,11 +10,11 @@ mod rules;
 mod stream;
 mod timing;
 
-pub use hardware::Raster;
+pub use hardware::RasterHardware;
 pub use memory::RasterMemory;
 pub use ports::FRAME_NUMBERS;
-pub use stream::{RasterStream, RowDeparture};
-pub use timing::{RasterTiming, SecondPass};
+pub use stream::{RasterStreamTiming, RowDeparture};
+pub use timing::{RasterTiming, SecondPassTiming};
 
 #[cfg(test)]
 mod tests;

@@ -2,9 +2,9 @@
 //! The interface of a raster core. Its streams depend on the frame store and on whether pixels
 //! leave.
 
-use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
-use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
-use crate::{Design, Direction, Port, PortRole, RasterDesign};
+use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
+use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
+use crate::{Design, PortDirection, Port, PortRole, RasterDesign};
 
 /// Bits of `lost_count_o`, which stays at its largest value once it has reached it.
 const LOST_COUNT_BITS: u32 = 16;
@@ -14,44 +14,44 @@ const LOST_COUNT_BITS: u32 = 16;
 pub const FRAME_NUMBERS: u32 = 256;
 
 /// Returns the interface of the core.
-pub(super) fn interface(design: RasterDesign<'_>) -> Interface {
+pub(super) fn interface(design: RasterDesign<'_>) -> CoreInterface {
     let word = design.pixels_per_clock() * design.pixel_bits();
-    let mut streams = vec![pixels(&design, word)];
-    if design.frames_are_kept_outside() {
+    let mut streams = vec![pixel_stream(&design, word)];
+    if design.has_external_store() {
         let kept = design.temporal().reference.bits_per_pixel(design.pixel_bits());
         let word = design.pixels_per_clock() * kept;
-        streams.extend([references(word), stored(word)]);
+        streams.extend([reference_stream(word), store_stream(word)]);
     }
-    streams.push(Stream {
+    streams.push(CoreStream {
         region: BeatRegion::Number(PortRole::Region),
-        ..Stream::out_of_core(
+        ..CoreStream::out_of_core(
             StreamRole::Decisions,
             "the decision of a region with its scores",
             output(PortRole::DecisionValid, 1, "the decision for region_o"),
-            decided(&design),
+            decision_and_score_ports(&design),
         )
     });
-    if design.forwards() {
-        streams.extend([forwarded(&design, word), lost(&design)]);
+    if design.has_forwarding() {
+        streams.extend([forward_stream(&design, word), loss_stream(&design)]);
     }
-    Interface::new(streams, threshold_ports(&design))
+    CoreInterface::new(streams, threshold_ports(&design))
 }
 
 fn input(role: PortRole, width: u32, doc: &str) -> Port {
-    Port::single(Direction::Input, role, width, doc)
+    Port::scalar(PortDirection::Input, role, width, doc)
 }
 
 fn output(role: PortRole, width: u32, doc: &str) -> Port {
-    Port::single(Direction::Output, role, width, doc)
+    Port::scalar(PortDirection::Output, role, width, doc)
 }
 
-fn pixels(design: &Design, word: u32) -> Stream {
+fn pixel_stream(design: &Design, word: u32) -> CoreStream {
     let doc = "word of pixels, the left one in the lowest bits";
-    Stream {
+    CoreStream {
         ready: Some(output(PortRole::Ready, 1, "a word would be taken at the next edge")),
         start: sync_input(design),
         status: sync_output(design).into_iter().collect(),
-        ..Stream::into_core(
+        ..CoreStream::into_core(
             StreamRole::Pixels,
             "a word of a row of the frame",
             input(PortRole::Valid, 1, "a word is taken at this edge, if ready_o"),
@@ -61,14 +61,14 @@ fn pixels(design: &Design, word: u32) -> Stream {
 }
 
 /// Returns the stream of references from an external frame store.
-fn references(word: u32) -> Stream {
+fn reference_stream(word: u32) -> CoreStream {
     let ready = "reference_pixel_i is taken at the next edge";
     let underrun = "a reference was missing since reset";
     let pixels = "the word of the frame before, if reference_ready_o";
-    Stream {
+    CoreStream {
         ready: Some(output(PortRole::ReferenceReady, 1, ready)),
         status: vec![output(PortRole::Underrun, 1, underrun)],
-        ..Stream::into_core(
+        ..CoreStream::into_core(
             StreamRole::References,
             "the word with which the next word is compared",
             input(PortRole::ReferenceValid, 1, "a reference is on the port below"),
@@ -78,12 +78,12 @@ fn references(word: u32) -> Stream {
 }
 
 /// Returns the stream of words to an external frame store.
-fn stored(word: u32) -> Stream {
-    let with = |role, width, doc| Port::with(PortRole::StoreValid, role, width, doc);
-    Stream {
+fn store_stream(word: u32) -> CoreStream {
+    let with = |role, width, doc| Port::qualified_output(PortRole::StoreValid, role, width, doc);
+    CoreStream {
         last: Some(PortRole::StoreLast),
-        ..Stream::out_of_core(
-            StreamRole::Stored,
+        ..CoreStream::out_of_core(
+            StreamRole::StoredWords,
             "a word that is given back in the next frame",
             output(PortRole::StoreValid, 1, "a word is to be stored"),
             vec![
@@ -94,11 +94,11 @@ fn stored(word: u32) -> Stream {
     }
 }
 
-fn decided(design: &Design) -> Vec<Port> {
-    let with = |role, width, doc| Port::with(PortRole::DecisionValid, role, width, doc);
+fn decision_and_score_ports(design: &Design) -> Vec<Port> {
+    let with = |role, width, doc| Port::qualified_output(PortRole::DecisionValid, role, width, doc);
     let doc = "the region that is decided; only with decision_valid_o";
     let mut list = vec![with(PortRole::Region, design.region_bits(), doc)];
-    list.extend(decided_ports(design, "its"));
+    list.extend(decision_ports(design, "its"));
     for feature in design.features() {
         let doc = "score; only with decision_valid_o";
         list.push(with(PortRole::Score(feature.kind()), feature.score_bits(), doc));
@@ -108,8 +108,8 @@ fn decided(design: &Design) -> Vec<Port> {
     list
 }
 
-fn forwarded(design: &Design, word: u32) -> Stream {
-    let with = |role, width, doc| Port::with(PortRole::ForwardValid, role, width, doc);
+fn forward_stream(design: &Design, word: u32) -> CoreStream {
+    let with = |role, width, doc| Port::qualified_output(PortRole::ForwardValid, role, width, doc);
     let (regions, frames) = (design.region_bits(), FRAME_NUMBERS.ilog2());
     let ready = "what is on the forward ports is taken";
     let region = "its region; only with forward_valid_o";
@@ -140,7 +140,7 @@ fn forwarded(design: &Design, word: u32) -> Stream {
             )
         }
     };
-    Stream {
+    CoreStream {
         ready: Some(input(PortRole::ForwardReady, 1, ready)),
         region: BeatRegion::Number(PortRole::ForwardRegion),
         last: Some(PortRole::ForwardLast),
@@ -148,8 +148,8 @@ fn forwarded(design: &Design, word: u32) -> Stream {
             output(PortRole::Lost, 1, "a region was lost since reset"),
             output(PortRole::LostCount, LOST_COUNT_BITS, count),
         ],
-        ..Stream::out_of_core(
-            StreamRole::Forwarded,
+        ..CoreStream::out_of_core(
+            StreamRole::ForwardedPixels,
             beat,
             output(PortRole::ForwardValid, 1, leaves),
             payload,
@@ -157,14 +157,14 @@ fn forwarded(design: &Design, word: u32) -> Stream {
     }
 }
 
-fn lost(design: &Design) -> Stream {
-    let with = |role, width, doc| Port::with(PortRole::LostValid, role, width, doc);
+fn loss_stream(design: &Design) -> CoreStream {
+    let with = |role, width, doc| Port::qualified_output(PortRole::LostValid, role, width, doc);
     let frame = "number of its frame since reset, modulo 256; only with lost_valid_o";
     let region = "that region; only with lost_valid_o";
-    Stream {
+    CoreStream {
         region: BeatRegion::Number(PortRole::LostRegion),
-        ..Stream::out_of_core(
-            StreamRole::Lost,
+        ..CoreStream::out_of_core(
+            StreamRole::LostRegions,
             "a region that was lost",
             output(PortRole::LostValid, 1, "a region was lost at the edge before"),
             vec![

@@ -7,10 +7,10 @@ mod stores;
 mod summaries;
 
 use super::*;
-use crate::{Array, Config, Design, Direction, Pipelining, PortRole, Qualifier, Store};
+use crate::{ArrayStructure, DesignConfig, Design, PortDirection, Pipelining, PortRole, OutputQualifier, FrameStoreKind};
 
-fn config(overrides: &[&str]) -> Config {
-    Config::from_toml_with("[hardware]\norganization = \"raster\"\n", overrides).unwrap()
+fn config(overrides: &[&str]) -> DesignConfig {
+    DesignConfig::from_toml_with("[hardware]\norganization = \"raster\"\n", overrides).unwrap()
 }
 
 fn design(overrides: &[&str]) -> Design {
@@ -24,7 +24,7 @@ fn refusal(overrides: &[&str]) -> String {
 #[test]
 fn a_frame_of_full_hd_takes_what_the_page_says() {
     let design = design(&["frame.width=1920", "frame.height=1080"]);
-    let timing = RasterTiming::of(design.raster().unwrap());
+    let timing = RasterTiming::from_design(design.as_raster().unwrap());
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (1920, 1920, 2));
     assert_eq!((timing.region_row_words, timing.region_words), (8, 64));
     assert_eq!((timing.store_latency, timing.decision_latency), (7, 11));
@@ -41,7 +41,7 @@ fn a_frame_of_full_hd_takes_what_the_page_says() {
     // the ports from 1946 on, and the 15,360 words of the row follow each other without a gap.
     assert_eq!(departure.forward_clocks, 1_946 + 15_360 - 1);
     assert_eq!((departure.decision_frames, departure.forward_frames), (0, 0));
-    assert_eq!((departure.slot_clocks, departure.alone), (0, false));
+    assert_eq!((departure.slot_clocks, departure.has_independent_units), (0, false));
 }
 
 /// The frame has 61x37 pixels: 8x5 regions of 8x8 pixels. Its rows have 16 words, all of which are
@@ -56,13 +56,13 @@ fn the_second_pass_of_a_ragged_frame() {
         "denoise.filter=none",
         "spatial=[{feature=\"variance\"},{feature=\"mad\"}]",
     ]);
-    let timing = RasterTiming::of(design.raster().unwrap());
+    let timing = RasterTiming::from_design(design.as_raster().unwrap());
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (16, 16, 0));
     assert_eq!((timing.store_latency, timing.decision_latency), (4, 13));
-    assert_eq!(timing.second_pass, Some(SecondPass { after_store: 12, decision_latency: 6 }));
+    assert_eq!(timing.second_pass, Some(SecondPassTiming { after_store: 12, decision_latency: 6 }));
     assert_eq!((timing.buffer_rows, timing.region_words), (3, 16));
     assert_eq!((timing.advances(), timing.flush_clocks()), (640, 48));
-    assert_eq!((timing.taken(), timing.clocks_per_frame()), (37 * 16, 653));
+    assert_eq!((timing.taken_words_per_frame(), timing.clocks_per_frame()), (37 * 16, 653));
     // The last word of the first region of the last row comes at T0 + 48 - 14, and its pass begins
     // 16 clocks later. The eight passes take 128 clocks, and the decision comes 6 clocks after the
     // last edge.
@@ -81,7 +81,7 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
         "hardware.pixels_per_clock=2",
         "spatial=[{feature=\"variance\"}]",
     ];
-    let timing = RasterTiming::of(design(&overrides).raster().unwrap());
+    let timing = RasterTiming::from_design(design(&overrides).as_raster().unwrap());
     assert_eq!((timing.row_words, timing.taken_words, timing.windows), (28, 25, 1));
     assert_eq!((timing.store_latency, timing.decision_latency), (6, 13));
     assert_eq!((timing.advances(), timing.flush_clocks()), (24 * 28 + 29, 3 + 4 * 28 + 29));
@@ -97,24 +97,24 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
 #[test]
 fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row() {
     let full_hd =
-        RasterTiming::of(design(&["frame.width=1920", "frame.height=1080"]).raster().unwrap());
-    assert_eq!((full_hd.blank_rows(), full_hd.stall_clocks()), (3, 1920 - 8 - 4 - 3));
-    assert_eq!(full_hd.decided_after(), 3_842 + 11);
-    let ragged = RasterTiming::of(
+        RasterTiming::from_design(design(&["frame.width=1920", "frame.height=1080"]).as_raster().unwrap());
+    assert_eq!((full_hd.blank_rows(), full_hd.max_stall_clocks()), (3, 1920 - 8 - 4 - 3));
+    assert_eq!(full_hd.clocks_to_decision(), 3_842 + 11);
+    let ragged = RasterTiming::from_design(
         design(&[
             "frame.width=50",
             "frame.height=20",
             "hardware.pixels_per_clock=2",
             "spatial=[{feature=\"variance\"}]",
         ])
-        .raster()
+        .as_raster()
         .unwrap(),
     );
-    assert_eq!((ragged.blank_rows(), ragged.stall_clocks()), (6, 28 - 4 - 7 - 3));
+    assert_eq!((ragged.blank_rows(), ragged.max_stall_clocks()), (6, 28 - 4 - 7 - 3));
     let mad = |more: &[&str]| {
         let features = "spatial=[{feature=\"mad\"},{feature=\"variance\"}]";
         let frame = ["frame.width=64", "frame.height=32", features];
-        RasterTiming::of(design(&[&frame, more].concat()).raster().unwrap()).stall_clocks()
+        RasterTiming::from_design(design(&[&frame, more].concat()).as_raster().unwrap()).max_stall_clocks()
     };
     assert_eq!(mad(&[]), 9 * 64 - 72 - 17);
     assert_eq!(mad(&["hardware.pipelining=deep"]), 9 * 64 - 72 - 21);
@@ -126,7 +126,7 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
 fn memories_of_the_paper_on_a_small_frame() {
     let of = |more: &[&str]| {
         let frame = ["frame.width=64", "frame.height=64"];
-        let memories = RasterMemory::all_of(design(&[&frame, more].concat()).raster().unwrap());
+        let memories = RasterMemory::all_memories(design(&[&frame, more].concat()).as_raster().unwrap());
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
     // A queue entry has 3 bits of the row of regions, 6 of the region number, 10 of the address in
@@ -139,13 +139,13 @@ fn memories_of_the_paper_on_a_small_frame() {
     assert_eq!(sent, [&raw[..], &[(16, 33), (64, 1), (64, 1)]].concat());
     // A frame with few rows of regions has more bits of the frame number.
     for (height, bits) in [(24, 18 + 1), (16, 17 + 1), (8, 16 + 2)] {
-        let low = RasterMemory::all_of(
-            design(&["frame.width=64", &format!("frame.height={height}")]).raster().unwrap(),
+        let low = RasterMemory::all_memories(
+            design(&["frame.width=64", &format!("frame.height={height}")]).as_raster().unwrap(),
         );
         assert_eq!(low.last().map(|memory| memory.bits), Some(bits), "{height}");
     }
     let total: u64 =
-        RasterMemory::all_of(design(&["frame.width=64", "frame.height=64"]).raster().unwrap())
+        RasterMemory::all_memories(design(&["frame.width=64", "frame.height=64"]).as_raster().unwrap())
             .iter()
             .map(RasterMemory::total_bits)
             .sum();
@@ -155,13 +155,13 @@ fn memories_of_the_paper_on_a_small_frame() {
 #[test]
 fn latencies_follow_filter_features_and_pipelining() {
     let latencies = |filter: &str, feature: &str, pipelining: &str| {
-        let timing = RasterTiming::of(
+        let timing = RasterTiming::from_design(
             design(&[
                 &format!("denoise.filter={filter}"),
                 &format!("spatial=[{{feature=\"{feature}\"}}]"),
                 &format!("hardware.pipelining={pipelining}"),
             ])
-            .raster()
+            .as_raster()
             .unwrap(),
         );
         (timing.store_latency, timing.decision_latency)
@@ -186,7 +186,7 @@ fn only_small_frames_of_last_sent_wait() {
             &format!("temporal.reference={reference}"),
             &format!("spatial=[{{feature=\"{feature}\"}}]"),
         ]);
-        RasterTiming::of(design.raster().unwrap()).waits_for_pending
+        RasterTiming::from_design(design.as_raster().unwrap()).waits_for_pending
     };
     assert!(waits(2, "last-sent", "edge") && !waits(3, "last-sent", "edge"));
     assert!(waits(3, "last-sent", "mad") && !waits(4, "last-sent", "mad"));
@@ -199,16 +199,16 @@ fn keys_are_filled_in_and_only_here() {
     let hardware = plain.config().hardware;
     assert_eq!(
         (hardware.pixels_per_clock, hardware.pipelining, hardware.store),
-        (Some(1), Some(Pipelining::Plain), Some(Store::Block))
+        (Some(1), Some(Pipelining::Plain), Some(FrameStoreKind::Block))
     );
     assert_eq!((hardware.feed, hardware.memory, hardware.fold), (None, None, 1));
-    assert_eq!(hardware.in_words(), "raster, 1 pixel per clock, plain pipelining, block store");
+    assert_eq!(hardware.description(), "raster, 1 pixel per clock, plain pipelining, block store");
     let named = design(&["hardware.pixels_per_clock=1", "hardware.store=block"]);
     assert_eq!(named.fingerprint(), plain.fingerprint());
     let others = ["pixels_per_clock=2", "pipelining=deep", "store=ultra"]
         .map(|key| design(&[&format!("hardware.{key}")]));
     assert!(others.iter().all(|other| other.fingerprint() != plain.fingerprint()));
-    assert_eq!(others[2].raster().unwrap().store(), Store::Ultra);
+    assert_eq!(others[2].as_raster().unwrap().store(), FrameStoreKind::Ultra);
 
     for organization in ["pipelined", "serial"] {
         let other = [&format!("hardware.organization={organization}")];
@@ -321,7 +321,7 @@ fn ports_stand_in_the_order_of_the_page() {
         ("temporal_level_i", 8),
         ("temporal_min_i", 7),
     ];
-    assert_eq!(named(Direction::Input), inputs);
+    assert_eq!(named(PortDirection::Input), inputs);
     let outputs = [
         ("ready_o", 1),
         ("decision_valid_o", 1),
@@ -346,16 +346,16 @@ fn ports_stand_in_the_order_of_the_page() {
         ("lost_region_o", 6),
         ("lost_frame_o", 8),
     ];
-    assert_eq!(named(Direction::Output), outputs);
+    assert_eq!(named(PortDirection::Output), outputs);
     for port in &ports {
         let qualifier = match port.name.as_str() {
             "region_o" | "corner_score_o" | "edge_score_o" | "temporal_count_o" => {
-                Qualifier::With(PortRole::DecisionValid)
+                OutputQualifier::WhileSet(PortRole::DecisionValid)
             }
-            "forward_ready_i" | "forward_valid_o" => Qualifier::Always,
-            name if name.starts_with("forward_") => Qualifier::With(PortRole::ForwardValid),
-            "lost_region_o" | "lost_frame_o" => Qualifier::With(PortRole::LostValid),
-            _ => Qualifier::Always,
+            "forward_ready_i" | "forward_valid_o" => OutputQualifier::Always,
+            name if name.starts_with("forward_") => OutputQualifier::WhileSet(PortRole::ForwardValid),
+            "lost_region_o" | "lost_frame_o" => OutputQualifier::WhileSet(PortRole::LostValid),
+            _ => OutputQualifier::Always,
         };
         assert_eq!((port.qualifier, port.lanes), (qualifier, 1), "{}", port.name);
     }
@@ -365,7 +365,7 @@ fn ports_stand_in_the_order_of_the_page() {
 fn one_core_serves_all_regions_and_the_lone_one_the_smallest_frame() {
     let unit = design(&[]).unit();
     assert_eq!((unit.name, unit.module, unit.count), ("core", "raster_core", 1));
-    assert_eq!((unit.regions, unit.array), (784, Array::Whole));
+    assert_eq!((unit.regions, unit.array), (784, ArrayStructure::SharedLogic));
     for (size, pixels, columns) in
         [(8, 1, 4), (8, 4, 8), (2, 1, 8), (2, 2, 16), (64, 4, 4), (12, 4, 6), (5, 1, 4)]
     {
@@ -379,7 +379,7 @@ fn one_core_serves_all_regions_and_the_lone_one_the_smallest_frame() {
         let lone = design.lone_unit();
         assert_eq!((lone.columns(), lone.rows()), (columns, 3), "{size} {pixels}");
         assert_eq!((lone.width(), lone.height()), (columns * size, 3 * size));
-        assert!(RasterTiming::of(lone.raster().unwrap()).row_words >= 16);
+        assert!(RasterTiming::from_design(lone.as_raster().unwrap()).row_words >= 16);
         assert_eq!(lone.lone_unit(), lone);
         assert_eq!(design.rpu_ports(), lone.rcm_ports());
     }

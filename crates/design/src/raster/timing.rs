@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The timing of a raster core: the numbers of `docs/raster.md`.
 
-use super::feature::SummedUp;
-use crate::timing::Departure;
-use crate::{Action, Filter, Periphery, Pipelining, RasterDesign, Timing, Written};
+use super::feature::FeatureAccumulation;
+use crate::timing::DepartureTiming;
+use crate::{RegionAction, DenoiseFilter, Periphery, Pipelining, RasterDesign, DesignTiming, ReferenceWriteTime};
 
 /// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
 /// the queue, without a second pass.
@@ -41,9 +41,9 @@ pub struct RasterTiming {
     /// at which the readout holds it.
     pub queue_latency: u32,
     /// True if the pixels of active regions leave.
-    pub forwards: bool,
+    pub has_forwarding: bool,
     /// The timing of the second pass, for designs with `mad` only.
-    pub second_pass: Option<SecondPass>,
+    pub second_pass: Option<SecondPassTiming>,
     /// Words of a region that sends its summary, q*q, for designs with a periphery only.
     pub summary_words: Option<u32>,
     /// True if a frame waits until no region of the frame before is pending. The frame then has at
@@ -53,7 +53,7 @@ pub struct RasterTiming {
 
 /// The timing of the second pass, which reads the stored words of a region back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SecondPass {
+pub struct SecondPassTiming {
     /// Least number of clocks from the edge at which the last word of the region is stored to the
     /// first edge of its pass.
     pub after_store: u32,
@@ -64,34 +64,34 @@ pub struct SecondPass {
 impl RasterTiming {
     /// Returns the timing of the design.
     #[must_use]
-    pub fn of(design: RasterDesign<'_>) -> Self {
+    pub fn from_design(design: RasterDesign<'_>) -> Self {
         let word_pixels = design.pixels_per_clock();
-        let median = u32::from(design.filter() == Filter::Median3x3);
+        let median = u32::from(design.filter() == DenoiseFilter::Median3x3);
         let feature = u32::from(design.has_feature_window());
         let (store_latency, after_store, lookup_to_store, queue_latency) = match design.pipelining()
         {
             Pipelining::Plain => (2 + 4 * median + feature, 4, 1, 2),
             Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2, 3),
         };
-        let latencies = design.features().iter().map(|f| SummedUp::of(f).score_latency());
+        let latencies = design.features().iter().map(|f| FeatureAccumulation::from_feature(f).score_latency());
         let score_latency = latencies.max().unwrap_or_default();
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
             Pipelining::Plain => (8, 4),
             Pipelining::Deep => (9, 6),
         };
-        let second_pass = design.has_second_pass().then_some(SecondPass {
+        let second_pass = design.has_second_pass().then_some(SecondPassTiming {
             after_store: pass_after_store + score_latency,
             decision_latency: pass_to_decision,
         });
-        let buffer_rows = match (second_pass, design.forwards()) {
+        let buffer_rows = match (second_pass, design.has_forwarding()) {
             (Some(_), _) => 3,
             (None, true) => 2,
             (None, false) => 0,
         };
         // The reference, or the summary on the screen, depends on what the frame before has sent.
-        let compares_with_sent = match design.temporal().reference.written() {
-            Written::WithEveryFrame => design.periphery().is_some(),
-            Written::WhenSent => true,
+        let compares_with_sent = match design.temporal().reference.write_time() {
+            ReferenceWriteTime::EveryFrame => design.periphery().is_some(),
+            ReferenceWriteTime::WhenSent => true,
         };
         Self {
             word_pixels,
@@ -107,9 +107,9 @@ impl RasterTiming {
             decision_latency: store_latency + after_store + score_latency,
             buffer_rows,
             queue_latency,
-            forwards: design.forwards(),
+            has_forwarding: design.has_forwarding(),
             second_pass,
-            summary_words: design.periphery().map(Periphery::means),
+            summary_words: design.periphery().map(Periphery::mean_count),
             waits_for_pending: compares_with_sent && design.rows() <= buffer_rows,
         }
     }
@@ -122,7 +122,7 @@ impl RasterTiming {
 
     /// Returns the number of words of a frame that are taken, H*V.
     #[must_use]
-    pub fn taken(&self) -> u64 {
+    pub fn taken_words_per_frame(&self) -> u64 {
         u64::from(self.taken_rows) * u64::from(self.taken_words)
     }
 
@@ -165,18 +165,18 @@ impl RasterTiming {
     /// Returns the clocks from the edge that takes the last word of a region inside of the frame to
     /// its decision. Words come at every clock, and the second pass does not wait.
     #[must_use]
-    pub fn decided_after(&self) -> u64 {
+    pub fn clocks_to_decision(&self) -> u64 {
         self.tail_delay()
             + match self.second_pass {
                 None => u64::from(self.decision_latency),
-                Some(pass) => u64::from(self.stored_to_decided(pass)),
+                Some(pass) => u64::from(self.clocks_through_second_pass(pass)),
             }
     }
 
     /// Returns the largest number of clocks for which a sink may stall in all without loss, while
     /// all regions are active and words come at every clock.
     #[must_use]
-    pub fn stall_clocks(&self) -> u32 {
+    pub fn max_stall_clocks(&self) -> u32 {
         let row = self.row_words;
         match self.second_pass {
             None => {
@@ -197,11 +197,11 @@ impl RasterTiming {
 
     /// Returns the number of words of a region that leave for an action, or `None` if none leave.
     #[must_use]
-    pub fn words_sent(&self, action: Action) -> Option<u32> {
+    pub fn words_sent(&self, action: RegionAction) -> Option<u32> {
         match action {
-            Action::Forward => self.forwards.then_some(self.region_words),
-            Action::Summarize => self.summary_words,
-            Action::Hold | Action::Blank => None,
+            RegionAction::Forward => self.has_forwarding.then_some(self.region_words),
+            RegionAction::Summarize => self.summary_words,
+            RegionAction::Hold | RegionAction::Blank => None,
         }
     }
 
@@ -215,7 +215,7 @@ impl RasterTiming {
     /// Returns the largest number of clocks from one frame to the next that follows at once: all of
     /// its regions are active, and the next frame waits for them if it must.
     #[must_use]
-    pub fn most_clocks_per_frame(&self) -> u64 {
+    pub fn max_clocks_per_frame(&self) -> u64 {
         // The sink takes the last word at the edge after the one after which the word is on the
         // ports.
         let left =
@@ -230,11 +230,11 @@ impl RasterTiming {
     }
 
     /// Returns the timing in terms that every organization has.
-    pub(super) fn answers(&self) -> Timing {
+    pub(super) fn to_design_timing(&self) -> DesignTiming {
         let clocks = self.clocks_per_frame();
         let mut figures = vec![
             ("cycles_per_frame", clocks),
-            ("taken_words", self.taken()),
+            ("taken_words", self.taken_words_per_frame()),
             ("advances", self.advances()),
             ("row_words", self.row_words.into()),
             ("store_latency", self.store_latency.into()),
@@ -244,7 +244,7 @@ impl RasterTiming {
         if let Some(words) = self.summary_words {
             figures.push(("summary_words", words.into()));
         }
-        let mut decision = format!("{} clocks after its region's last word", self.decided_after());
+        let mut decision = format!("{} clocks after its region's last word", self.clocks_to_decision());
         if let Some(pass) = self.second_pass {
             figures.push(("second_pass_words", self.region_words.into()));
             figures.push(("second_pass_latency", pass.decision_latency.into()));
@@ -255,44 +255,44 @@ impl RasterTiming {
             self.advances(),
             self.decision_latency
         );
-        let leave = if self.forwards {
-            format!("from {} clocks after their decision on", self.to_first_word())
+        let leave = if self.has_forwarding {
+            format!("from {} clocks after their decision on", self.clocks_to_first_word())
         } else {
             "never: only decisions do".to_owned()
         };
-        Timing {
+        DesignTiming {
             clocks_per_frame: clocks,
-            pixels_per_frame: self.taken(),
+            pixels_per_frame: self.taken_words_per_frame(),
             figures,
             phases: Vec::new(),
-            text: vec![
+            descriptions: vec![
                 ("cycles per frame", shown),
                 ("decision", decision),
                 ("pixels leave", leave),
             ],
-            departure: Departure {
+            departure: DepartureTiming {
                 take_clocks: self.take_clocks(),
                 decision_frames: 0,
                 decision_clocks: self.last_decision(),
                 forward_frames: 0,
                 forward_clocks: self.last_word(),
                 slot_clocks: 0,
-                kept_rows: (!self.waits_for_pending).then_some(self.buffer_rows),
-                alone: false,
+                buffered_rows: (!self.waits_for_pending).then_some(self.buffer_rows),
+                has_independent_units: false,
             },
         }
     }
 
     /// Returns the clocks from the advance of the last word of a region in the tail to its
     /// decision, if its pass does not wait.
-    fn stored_to_decided(&self, pass: SecondPass) -> u32 {
+    fn clocks_through_second_pass(&self, pass: SecondPassTiming) -> u32 {
         self.store_latency + pass.after_store + self.region_words - 1 + pass.decision_latency
     }
 
     /// Returns the clocks from T0 to the advance, in the tail, of the last word of the first region
     /// of the last row of regions, plus L, so that the number is never negative. The last advance
     /// is that of the last region of that row.
-    fn first_of_last_row(&self) -> u64 {
+    fn clocks_to_last_region_row(&self) -> u64 {
         self.flush_clocks() + u64::from(self.region_row_words)
     }
 
@@ -302,8 +302,8 @@ impl RasterTiming {
             None => self.edges_to_ready(),
             Some(pass) => {
                 // The passes of the regions of a row follow each other without a gap.
-                let first = self.first_of_last_row() + u64::from(self.stored_to_decided(pass));
-                first + self.words_of_regions()
+                let first = self.clocks_to_last_region_row() + u64::from(self.clocks_through_second_pass(pass));
+                first + self.words_per_region_row()
                     - u64::from(self.region_words)
                     - u64::from(self.row_words)
             }
@@ -313,7 +313,7 @@ impl RasterTiming {
     /// Returns the clocks from the decision of a region to its first word on the ports, if it does
     /// not wait: it enters the queue, leaves it, and the word is fetched.
     #[must_use]
-    pub fn to_first_word(&self) -> u64 {
+    pub fn clocks_to_first_word(&self) -> u64 {
         u64::from(1 + self.queue_latency + 2)
     }
 
@@ -322,22 +322,22 @@ impl RasterTiming {
     /// last decision.
     fn last_word(&self) -> u64 {
         match self.second_pass {
-            _ if !self.forwards => self.last_decision(),
+            _ if !self.has_forwarding => self.last_decision(),
             // The words of a row of regions follow each other without a gap.
             None => {
-                let first = self.first_of_last_row() + u64::from(self.decision_latency);
-                first + self.to_first_word() + self.words_of_regions()
+                let first = self.clocks_to_last_region_row() + u64::from(self.decision_latency);
+                first + self.clocks_to_first_word() + self.words_per_region_row()
                     - 1
                     - u64::from(self.row_words)
             }
             Some(_) => {
-                self.last_decision() + self.to_first_word() + u64::from(self.region_words) - 1
+                self.last_decision() + self.clocks_to_first_word() + u64::from(self.region_words) - 1
             }
         }
     }
 
     /// Returns the number of words of a row of regions, N*L.
-    fn words_of_regions(&self) -> u64 {
+    fn words_per_region_row(&self) -> u64 {
         let rows = u64::from(self.region_words / self.region_row_words);
         rows * u64::from(self.row_words)
     }

@@ -26,7 +26,7 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
 
 /// Returns true if the lanes compute an operand from the word first: a difference, or some of its
 /// bits.
-pub(super) fn makes_operand(feature: &SpatialFeature) -> bool {
+pub(super) fn has_computed_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => false,
         FeatureKind::Mad | FeatureKind::Variance => true,
@@ -35,7 +35,7 @@ pub(super) fn makes_operand(feature: &SpatialFeature) -> bool {
 
 /// The widths of registers that a feature needs, in bits. A register that it does not use has 0.
 #[derive(Default)]
-pub(super) struct Needs {
+pub(super) struct FeatureRegisterWidths {
     pub(super) accumulator: u32,
     pub(super) second: u32,
     pub(super) scale: u32,
@@ -43,16 +43,16 @@ pub(super) struct Needs {
 
 /// Returns the widths of the registers of a feature, in an array whose ring of lanes has words of
 /// `chain` bits.
-pub(super) fn needs(design: &Design, feature: &SpatialFeature, chain: u32) -> Needs {
+pub(super) fn feature_register_widths(design: &Design, feature: &SpatialFeature, chain: u32) -> FeatureRegisterWidths {
     let pixel = design.pixel_bits();
     match feature.kind() {
         // The accumulator holds the sum of three pixels minus that of three others.
-        FeatureKind::Edge => Needs { accumulator: pixel + 3, ..Needs::default() },
-        FeatureKind::Corner => Needs::default(),
+        FeatureKind::Edge => FeatureRegisterWidths { accumulator: pixel + 3, ..FeatureRegisterWidths::default() },
+        FeatureKind::Corner => FeatureRegisterWidths::default(),
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");
             let second = pixel + mean.fraction_bits;
-            Needs {
+            FeatureRegisterWidths {
                 accumulator: (mean.dividend_bits + 1).max(chain),
                 second,
                 // The scale holds the shifted divisor.
@@ -61,7 +61,7 @@ pub(super) fn needs(design: &Design, feature: &SpatialFeature, chain: u32) -> Ne
         }
         FeatureKind::Variance => {
             let sum = design.pixel_sum_bits();
-            Needs {
+            FeatureRegisterWidths {
                 accumulator: (sum + 1).max(chain),
                 second: sum,
                 scale: pixel + design.count_bits(),

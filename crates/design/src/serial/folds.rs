@@ -2,7 +2,7 @@
 //! The folds of a serial design that are fast enough, and the ones among them that may be the
 //! cheapest.
 
-use super::{Phase, SerialTiming};
+use super::{SerialPhase, SerialTiming};
 use crate::{Design, Hardware, SerialDesign};
 use foveate_camera::ConfigError;
 
@@ -25,7 +25,7 @@ impl Design {
     pub fn largest_fold(&self, max_clocks: u64) -> Option<u32> {
         let single = self.with_fold(1).ok()?;
         let fastest = match single.hardware() {
-            Hardware::Serial(own) => SerialTiming::of(single.on(own)),
+            Hardware::Serial(own) => SerialTiming::from_design(single.with_hardware(own)),
             Hardware::Pipelined(_) | Hardware::Raster(_) => return None,
         };
         // `least` is a lower bound of the steps of a slot, which holds for any number of lanes.
@@ -45,7 +45,7 @@ impl Design {
     /// list has the one with the fewest empty slots. The list is empty if [`Self::largest_fold`]
     /// returns `None`.
     #[must_use]
-    pub fn frugal_folds(&self, max_clocks: u64) -> Vec<u32> {
+    pub fn pareto_folds(&self, max_clocks: u64) -> Vec<u32> {
         let Some(largest) = self.largest_fold(max_clocks) else { return Vec::new() };
         let (mut folds, mut fewest_blocks) = (Vec::new(), u64::MAX);
         for lanes in self.regions().div_ceil(largest)..=self.regions() {
@@ -55,7 +55,7 @@ impl Design {
             }
             let Ok(folded) = self.with_fold(fold) else { continue };
             let blocks = match folded.hardware() {
-                Hardware::Serial(own) => lane_blocks(folded.on(own)),
+                Hardware::Serial(own) => lane_blocks(folded.with_hardware(own)),
                 Hardware::Pipelined(_) | Hardware::Raster(_) => return Vec::new(),
             };
             // A fold with fewer slots takes fewer clocks, so this fold is fast enough.
@@ -73,18 +73,18 @@ impl Design {
 
 /// Returns the number of RAMB18 in the memories of all lanes.
 fn lane_blocks(design: SerialDesign<'_>) -> u64 {
-    let (_, blocks) = design.lane_memory().taken();
+    let (_, blocks) = design.lane_memory().resources();
     blocks * u64::from(design.lanes())
 }
 
-fn least_steps((phase, steps): &(Phase, u64)) -> u64 {
+fn least_steps((phase, steps): &(SerialPhase, u64)) -> u64 {
     match phase {
-        Phase::RotateCount
-        | Phase::Means
-        | Phase::RotateScore(_)
-        | Phase::Unload
-        | Phase::UnloadMeans => 0,
-        Phase::DenoiseTemporal | Phase::Border | Phase::Temporal | Phase::Pass(_) | Phase::Copy => {
+        SerialPhase::RotateCount
+        | SerialPhase::ComputeMeans
+        | SerialPhase::RotateScore(_)
+        | SerialPhase::UnloadPixels
+        | SerialPhase::UnloadMeans => 0,
+        SerialPhase::DenoiseAndCompare | SerialPhase::RepeatBorder | SerialPhase::CompareRaw | SerialPhase::FeaturePass(_) | SerialPhase::CopyReference => {
             *steps
         }
     }

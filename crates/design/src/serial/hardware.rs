@@ -2,26 +2,26 @@
 //! The properties of a serial array, and the configurations that it supports.
 
 use crate::takes::Takes;
-use crate::{Feed, HardwareConfig, MemoryKind, Organization, Pipelining, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference, in_range};
+use crate::{PixelFeed, HardwareConfig, LaneMemoryKind, Organization, Pipelining, ThresholdSource};
+use foveate_camera::{Camera, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy, check_range};
 
 /// Smallest side of a region in pixels.
 const MIN_SIDE: u32 = 4;
 
 /// The properties that only a serial array has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Serial {
+pub struct SerialHardware {
     /// Regions per lane K.
     pub fold: u32,
     /// The order in which pixels enter.
-    pub feed: Feed,
+    pub feed: PixelFeed,
     /// The kind of memory of the lanes, if the configuration chooses it; see [`super::LaneMemory`].
-    pub memory: Option<MemoryKind>,
+    pub memory: Option<LaneMemoryKind>,
     /// The number of registers in the arithmetic.
     pub pipelining: Pipelining,
 }
 
-impl Takes for Serial {
+impl Takes for SerialHardware {
     fn takes_feature(kind: FeatureKind) -> bool {
         match kind {
             FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
@@ -30,21 +30,21 @@ impl Takes for Serial {
         }
     }
 
-    fn takes_reference(reference: Reference) -> bool {
+    fn takes_reference(reference: ReferencePolicy) -> bool {
         match reference {
-            Reference::Previous | Reference::LastSent => true,
+            ReferencePolicy::Previous | ReferencePolicy::LastSent => true,
         }
     }
 
-    fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
+    fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
         match irrelevant {
-            Irrelevant::Zero | Irrelevant::Hold | Irrelevant::Mean => true,
+            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => true,
         }
     }
 
-    fn takes_thresholds(thresholds: Thresholds) -> bool {
+    fn takes_thresholds(thresholds: ThresholdSource) -> bool {
         match thresholds {
-            Thresholds::Runtime | Thresholds::Constant => true,
+            ThresholdSource::Runtime | ThresholdSource::Constant => true,
         }
     }
 
@@ -70,10 +70,10 @@ impl Takes for Serial {
         let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
-            return Err(asked.clash("region.size", size.to_string(), &remedy));
+            return Err(asked.combination_error("region.size", size.to_string(), &remedy));
         }
         let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
-        in_range("hardware.fold", fold, 1..=regions, &why)?;
+        check_range("hardware.fold", fold, 1..=regions, &why)?;
         Ok(Self {
             fold,
             feed: feed.unwrap_or_default(),
@@ -83,7 +83,7 @@ impl Takes for Serial {
     }
 }
 
-impl Serial {
+impl SerialHardware {
     /// Returns the table `[hardware]`. `pipelining` is left out while it has its default, so that
     /// the fingerprint of a design is the same as before the key existed.
     pub(crate) fn config(&self) -> HardwareConfig {
@@ -92,7 +92,7 @@ impl Serial {
             fold: self.fold,
             feed: Some(self.feed),
             memory: self.memory,
-            pipelining: self.pipelining.if_deep(),
+            pipelining: self.pipelining.non_default(),
             ..HardwareConfig::default()
         }
     }

@@ -8,37 +8,37 @@ use foveate_camera::Reciprocal;
 
 /// The arithmetic that makes a mean of the sum of a block in the accumulator of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BlockSums {
+pub struct BlockMeanDivision {
     /// Bits of the sum of a block plus half of its number of pixels.
-    pub sum: u32,
+    pub sum_bits: u32,
     /// Number of low bits of the sum that stay in the lane.
-    pub dropped: u32,
+    pub dropped_bits: u32,
     /// Number of the other bits of the sum, which pass the ports.
-    pub passing: u32,
+    pub passing_bits: u32,
     /// Constant factor of the bits that pass.
     pub factor: u64,
     /// Number of bits by which the product is shifted to the right.
     pub shift: u32,
 }
 
-impl BlockSums {
+impl BlockMeanDivision {
     /// Makes the arithmetic for a sum of `sum` bits. With `takes_all`, a lane also moves its whole
     /// accumulator to the score for a feature. It then drops no bits, because that would need a
     /// multiplexer.
-    fn of(sum: u32, reciprocal: Reciprocal, takes_all: bool) -> Self {
+    fn from_reciprocal(sum: u32, reciprocal: Reciprocal, takes_all: bool) -> Self {
         let is_shift = reciprocal.multiplier() == 1;
         let dropped = if is_shift && !takes_all { reciprocal.shift() } else { 0 };
         let (factor, shift) = (reciprocal.multiplier(), reciprocal.shift() - dropped);
-        Self { sum, dropped, passing: sum - dropped, factor, shift }
+        Self { sum_bits: sum, dropped_bits: dropped, passing_bits: sum - dropped, factor, shift }
     }
 }
 
 impl SerialDesign<'_> {
     /// Returns the arithmetic of the means of blocks, or `None` if no means are sent.
     #[must_use]
-    pub fn block_sums(&self) -> Option<BlockSums> {
+    pub fn block_mean_division(&self) -> Option<BlockMeanDivision> {
         let periphery = self.periphery()?;
-        let takes_all = self.features().iter().any(feature::makes_operand);
-        Some(BlockSums::of(periphery.sum_bits, periphery.reciprocal, takes_all))
+        let takes_all = self.features().iter().any(feature::has_computed_operand);
+        Some(BlockMeanDivision::from_reciprocal(periphery.sum_bits, periphery.reciprocal, takes_all))
     }
 }

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::{Filter, MemoryKind, Reference, SerialDesign, index_bits};
+use crate::{DenoiseFilter, LaneMemoryKind, ReferencePolicy, SerialDesign, index_bits};
 
 /// Largest number of memory LUTs of the distributed memory of a lane, unless the configuration
 /// chooses the kind. A RAMB18 is the same share of the block RAM of a VU9P as 137 memory LUTs are
@@ -17,7 +17,7 @@ const RAMB18: [(u64, u64); 5] = [(1, 16_384), (2, 8_192), (4, 4_096), (9, 2_048)
 
 /// The contents of an area of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum AreaKind {
+pub enum SlotAreaKind {
     /// Raw pixels with their halo, (N+2r)^2 words.
     Raw,
     /// Denoised pixels, S^2 words.
@@ -26,7 +26,7 @@ pub enum AreaKind {
     Reference,
 }
 
-impl fmt::Display for AreaKind {
+impl fmt::Display for SlotAreaKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Raw => "raw",
@@ -38,16 +38,16 @@ impl fmt::Display for AreaKind {
 
 /// An area of a slot: a square of pixels in row-major order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Area {
+pub struct SlotArea {
     /// Contents of the area.
-    pub kind: AreaKind,
+    pub kind: SlotAreaKind,
     /// Address of the first word of the area in its slot.
     pub base: u32,
     /// Side of the square in pixels. A pixel is one word.
     pub side: u32,
 }
 
-impl Area {
+impl SlotArea {
     /// Returns the number of words of the area.
     #[must_use]
     pub fn words(&self) -> u32 {
@@ -55,7 +55,7 @@ impl Area {
     }
 }
 
-impl MemoryKind {
+impl LaneMemoryKind {
     /// Returns the clocks from an address to its data.
     #[must_use]
     pub fn read_latency(self) -> u32 {
@@ -70,7 +70,7 @@ impl MemoryKind {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LaneMemory {
     /// The areas of a slot, one behind the other from address 0.
-    pub areas: Vec<Area>,
+    pub areas: Vec<SlotArea>,
     /// Words of a slot: a power of two that is large enough for the areas. Slot k starts at address
     /// k times this.
     pub slot_words: u32,
@@ -83,9 +83,9 @@ pub struct LaneMemory {
     /// Number of RAMB18 as block memory, all with words of the same width.
     pub blocks: u64,
     /// The kind of memory.
-    pub kind: MemoryKind,
+    pub kind: LaneMemoryKind,
     /// The reason for the kind of memory.
-    pub why: MemoryChoice,
+    pub choice: MemoryChoice,
 }
 
 /// The reason for the kind of memory of a lane.
@@ -95,29 +95,29 @@ pub enum MemoryChoice {
     Configured,
     /// The configuration does not choose. The memory is distributed while it takes at most this
     /// many memory LUTs, else block.
-    Limit(u64),
+    LutLimit(u64),
 }
 
 impl LaneMemory {
-    fn of(design: SerialDesign<'_>) -> Self {
+    fn from_design(design: SerialDesign<'_>) -> Self {
         let denoises = match design.filter() {
-            Filter::None => false,
-            Filter::Median3x3 => true,
+            DenoiseFilter::None => false,
+            DenoiseFilter::Median3x3 => true,
         };
         let reference = design.temporal().reference;
         let keeps_reference = match reference {
-            Reference::Previous => !denoises,
-            Reference::LastSent => true,
+            ReferencePolicy::Previous => !denoises,
+            ReferencePolicy::LastSent => true,
         };
         let candidates = [
-            (true, AreaKind::Raw, design.stream_side()),
-            (denoises, AreaKind::Denoised, design.denoised_side()),
-            (keeps_reference, AreaKind::Reference, design.region_size()),
+            (true, SlotAreaKind::Raw, design.stream_side()),
+            (denoises, SlotAreaKind::Denoised, design.denoised_side()),
+            (keeps_reference, SlotAreaKind::Reference, design.region_size()),
         ];
         let mut areas = Vec::new();
         let mut words = 0;
         for (_, kind, side) in candidates.into_iter().filter(|(there, _, _)| *there) {
-            areas.push(Area { kind, base: words, side });
+            areas.push(SlotArea { kind, base: words, side });
             words += side * side;
         }
         let slot_words = words.next_power_of_two();
@@ -128,28 +128,28 @@ impl LaneMemory {
         let luts = bits * depth.div_ceil(LUT_WORDS);
         let blocks = RAMB18.map(|(wide, words)| bits.div_ceil(wide) * depth.div_ceil(words));
         let blocks = blocks.into_iter().min().expect("a block has words");
-        let (kind, why) = match design.own().memory {
+        let (kind, why) = match design.own_hardware().memory {
             Some(kind) => (kind, MemoryChoice::Configured),
             None if luts <= MAX_MEMORY_LUTS => {
-                (MemoryKind::Distributed, MemoryChoice::Limit(MAX_MEMORY_LUTS))
+                (LaneMemoryKind::Distributed, MemoryChoice::LutLimit(MAX_MEMORY_LUTS))
             }
-            None => (MemoryKind::Block, MemoryChoice::Limit(MAX_MEMORY_LUTS)),
+            None => (LaneMemoryKind::Block, MemoryChoice::LutLimit(MAX_MEMORY_LUTS)),
         };
-        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, blocks, kind, why }
+        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, blocks, kind, choice: why }
     }
 
     /// Returns the numbers of memory LUTs and of RAMB18 for the kind of memory that the lane has.
     #[must_use]
-    pub fn taken(&self) -> (u64, u64) {
+    pub fn resources(&self) -> (u64, u64) {
         match self.kind {
-            MemoryKind::Distributed => (self.luts, 0),
-            MemoryKind::Block => (0, self.blocks),
+            LaneMemoryKind::Distributed => (self.luts, 0),
+            LaneMemoryKind::Block => (0, self.blocks),
         }
     }
 
     /// Returns the area of that kind, or `None` if a slot does not have it.
     #[must_use]
-    pub fn area(&self, kind: AreaKind) -> Option<&Area> {
+    pub fn area(&self, kind: SlotAreaKind) -> Option<&SlotArea> {
         self.areas.iter().find(|area| area.kind == kind)
     }
 }
@@ -158,6 +158,6 @@ impl SerialDesign<'_> {
     /// The memory of one lane.
     #[must_use]
     pub fn lane_memory(&self) -> LaneMemory {
-        LaneMemory::of(*self)
+        LaneMemory::from_design(*self)
     }
 }

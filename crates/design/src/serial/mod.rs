@@ -13,13 +13,13 @@ mod rules;
 mod timing;
 mod widths;
 
-pub use hardware::Serial;
-pub use means::BlockSums;
-pub use memory::{Area, AreaKind, LaneMemory, MemoryChoice};
-pub use timing::{Phase, SerialTiming};
+pub use hardware::SerialHardware;
+pub use means::BlockMeanDivision;
+pub use memory::{SlotArea, SlotAreaKind, LaneMemory, MemoryChoice};
+pub use timing::{SerialPhase, SerialTiming};
 pub use widths::LaneWidths;
 
-use crate::{Design, Feed, SerialDesign, index_bits};
+use crate::{Design, PixelFeed, SerialDesign, index_bits};
 
 /// Returns the bits of a port or register that holds a number in `0..n`. They are at least 1.
 fn number_bits(n: u32) -> u32 {
@@ -38,13 +38,13 @@ impl SerialDesign<'_> {
     /// Returns the number of regions per lane, K.
     #[must_use]
     pub fn fold(&self) -> u32 {
-        self.own().fold
+        self.own_hardware().fold
     }
 
     /// Returns the order in which pixels enter.
     #[must_use]
-    pub fn feed(&self) -> Feed {
-        self.own().feed
+    pub fn feed(&self) -> PixelFeed {
+        self.own_hardware().feed
     }
 
     /// Returns the number of lanes, L = ceil(M / K).
@@ -56,7 +56,7 @@ impl SerialDesign<'_> {
     /// Returns the region that `lane` (0..L) serves in `slot` (0..K), or `None` if the slot is
     /// empty.
     #[must_use]
-    pub fn region_of(&self, lane: u32, slot: u32) -> Option<u32> {
+    pub fn region_in_slot(&self, lane: u32, slot: u32) -> Option<u32> {
         let region = u64::from(lane) * u64::from(self.fold()) + u64::from(slot);
         u32::try_from(region).ok().filter(|&region| region < self.regions())
     }
@@ -89,7 +89,7 @@ impl SerialDesign<'_> {
     /// Returns the bits that hold every score of the design: the temporal count and those of the
     /// features.
     #[must_use]
-    pub fn any_score_bits(&self) -> u32 {
+    pub fn max_score_bits(&self) -> u32 {
         let features = self.features().iter().map(|feature| feature.score_bits());
         features.fold(self.count_bits(), u32::max)
     }
@@ -123,7 +123,7 @@ impl SerialDesign<'_> {
     /// the same. The array of that grid is the RPU of a serial design. Its frame may be wider than
     /// a configuration allows.
     #[must_use]
-    pub fn one_lane(&self) -> Design {
+    pub fn single_lane_design(&self) -> Design {
         let (width, height) = (self.fold() * self.region_size(), self.region_size());
         let mut config = self.config();
         (config.camera.frame.width, config.camera.frame.height) = (Some(width), Some(height));

@@ -2,31 +2,31 @@
 //! The implementation of [`crate::organization`] for serial designs.
 
 use super::{SerialTiming, ports::interface};
-use crate::rules::{Array, Rules, Unit};
-use crate::{Design, Interface, Organization, SerialDesign, Timing};
+use crate::rules::{ArrayStructure, OrganizationRules, ArrayUnit};
+use crate::{Design, CoreInterface, Organization, SerialDesign, DesignTiming};
 
-impl Rules for SerialDesign<'_> {
-    fn unit(&self) -> Unit {
-        Unit {
+impl OrganizationRules for SerialDesign<'_> {
+    fn unit(&self) -> ArrayUnit {
+        ArrayUnit {
             name: Organization::Serial.unit_name(),
             module: "serial_lane",
             count: self.lanes(),
             regions: self.fold(),
-            array: Array::Whole,
+            array: ArrayStructure::SharedLogic,
             // The sequencer is a part of the array, not of a lane.
-            split: "rcm",
+            area_module: "rcm",
         }
     }
 
     fn lone_unit(&self) -> Design {
-        self.one_lane()
+        self.single_lane_design()
     }
 
-    fn timing(&self) -> Timing {
-        SerialTiming::of(*self).answers()
+    fn timing(&self) -> DesignTiming {
+        SerialTiming::from_design(*self).to_design_timing()
     }
 
-    fn rcm_interface(&self) -> Interface {
+    fn rcm_interface(&self) -> CoreInterface {
         interface(*self)
     }
 }

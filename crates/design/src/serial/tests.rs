@@ -3,33 +3,33 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::{Config, FeatureKind, Feed, MemoryKind, Neighborhood, Qualifier};
-use Phase::{
-    Border, Copy, DenoiseTemporal, Means, Pass, RotateCount, RotateScore, Temporal as Compare,
-    Unload, UnloadMeans,
+use crate::{DesignConfig, FeatureKind, PixelFeed, LaneMemoryKind, Neighborhood, OutputQualifier};
+use SerialPhase::{
+    RepeatBorder, CopyReference, DenoiseAndCompare, ComputeMeans, FeaturePass, RotateCount, RotateScore, CompareRaw as Compare,
+    UnloadPixels, UnloadMeans,
 };
 
 fn design(overrides: &[&str]) -> Design {
     let serial = "[hardware]\norganization = \"serial\"\n";
-    Config::from_toml_with(serial, overrides).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with(serial, overrides).unwrap().validate().unwrap()
 }
 
 fn timing(design: &Design) -> SerialTiming {
-    SerialTiming::of(design.serial().unwrap())
+    SerialTiming::from_design(design.as_serial().unwrap())
 }
 
 #[test]
 fn the_papers_frame_takes_7905_clocks() {
     let design = design(&[]);
-    let (timing, array) = (timing(&design), design.serial().unwrap());
-    assert_eq!((array.lanes(), array.fold(), array.feed()), (784, 1, Feed::Parallel));
+    let (timing, array) = (timing(&design), design.as_serial().unwrap());
+    assert_eq!((array.lanes(), array.fold(), array.feed()), (784, 1, PixelFeed::Parallel));
     let edge = FeatureKind::Edge;
     let phases = [
-        (DenoiseTemporal, 64 * 83),
+        (DenoiseAndCompare, 64 * 83),
         (RotateCount, 784),
-        (Pass(edge), 14 * 64),
+        (FeaturePass(edge), 14 * 64),
         (RotateScore(edge), 784),
-        (Unload, 64),
+        (UnloadPixels, 64),
     ];
     assert_eq!(timing.phases(), phases);
     assert_eq!((timing.slot_steps(), timing.steps()), (7_840, 7_840));
@@ -61,32 +61,32 @@ fn every_phase_of_a_raster_fold_with_all_features() {
     let timing = timing(&design);
     let (variance, corner, mad) = (FeatureKind::Variance, FeatureKind::Corner, FeatureKind::Mad);
     let phases = [
-        (DenoiseTemporal, 100 * 85),
-        (Border, 4 * 10 * 3),
+        (DenoiseAndCompare, 100 * 85),
+        (RepeatBorder, 4 * 10 * 3),
         (RotateCount, 2),
         // The binary form of n = 64 has one 1. The largest sum, 64 * 255 = 16,320, has 14 bits, and
         // 64 has 7 bits.
-        (Pass(variance), 64 + 8 * 64 + 28 + 8 + 7 + 2),
+        (FeaturePass(variance), 64 + 8 * 64 + 28 + 8 + 7 + 2),
         (RotateScore(variance), 2),
-        (Pass(corner), 36 * 64),
+        (FeaturePass(corner), 36 * 64),
         (RotateScore(corner), 2),
-        (Pass(mad), 128 + 8 + 12 + 3),
+        (FeaturePass(mad), 128 + 8 + 12 + 3),
         (RotateScore(mad), 2),
-        (Copy, 64 * 3),
-        (Unload, 64 * 3),
+        (CopyReference, 64 * 3),
+        (UnloadPixels, 64 * 3),
     ];
     assert_eq!(timing.phases(), phases);
     assert_eq!((timing.slot_steps(), timing.steps()), (12_088, 36_264));
     assert_eq!((timing.load_pixels(), timing.load_clocks()), (384, 6 * 144));
     assert_eq!((timing.read_latency(), timing.edges_to_step(5)), (1, 7));
     assert_eq!(timing.clocks_per_frame(), 864 + 36_264 + 1);
-    let memory = design.serial().unwrap().lane_memory();
+    let memory = design.as_serial().unwrap().lane_memory();
     let area = |kind| memory.area(kind).map(|area| (area.base, area.side));
-    assert_eq!(area(AreaKind::Raw), Some((0, 12)));
-    assert_eq!(area(AreaKind::Denoised), Some((144, 10)));
-    assert_eq!(area(AreaKind::Reference), Some((244, 8)));
+    assert_eq!(area(SlotAreaKind::Raw), Some((0, 12)));
+    assert_eq!(area(SlotAreaKind::Denoised), Some((144, 10)));
+    assert_eq!(area(SlotAreaKind::Reference), Some((244, 8)));
     assert_eq!((memory.slot_words, memory.depth, memory.address_bits), (512, 1536, 11));
-    assert_eq!((memory.luts, memory.kind), (192, MemoryKind::Block));
+    assert_eq!((memory.luts, memory.kind), (192, LaneMemoryKind::Block));
 }
 
 #[test]
@@ -94,25 +94,25 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     let steps = |reference: &str, fold: &str| {
         let design =
             design(&["denoise.filter=none", reference, fold, "frame.width=8", "frame.height=80"]);
-        (timing(&design).phases().to_vec(), design.serial().unwrap().lane_memory())
+        (timing(&design).phases().to_vec(), design.as_serial().unwrap().lane_memory())
     };
-    let edge = (Pass(FeatureKind::Edge), 14 * 64);
+    let edge = (FeaturePass(FeatureKind::Edge), 14 * 64);
     let rotation = (RotateScore(FeatureKind::Edge), 10);
     let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=1");
-    assert_eq!(phases, [(Compare, 192), (RotateCount, 10), edge, rotation, (Unload, 64)]);
-    assert_eq!((memory.slot_words, memory.luts, memory.kind), (128, 16, MemoryKind::Distributed));
+    assert_eq!(phases, [(Compare, 192), (RotateCount, 10), edge, rotation, (UnloadPixels, 64)]);
+    assert_eq!((memory.slot_words, memory.luts, memory.kind), (128, 16, LaneMemoryKind::Distributed));
     let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=1");
-    assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 128)));
+    assert_eq!((phases[0], phases[4]), ((Compare, 192), (CopyReference, 128)));
     // Eight slots of 128 words take 128 LUTs, and nine take 144.
     let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=8");
     assert_eq!(
         (phases[0], memory.luts, memory.kind),
-        ((Compare, 192), 128, MemoryKind::Distributed)
+        ((Compare, 192), 128, LaneMemoryKind::Distributed)
     );
     let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=9");
-    assert_eq!((phases[0], memory.luts, memory.kind), ((Compare, 256), 144, MemoryKind::Block));
+    assert_eq!((phases[0], memory.luts, memory.kind), ((Compare, 256), 144, LaneMemoryKind::Block));
     let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=9");
-    assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 192)));
+    assert_eq!((phases[0], phases[4]), ((Compare, 192), (CopyReference, 192)));
 }
 
 /// The expected numbers are computed by hand from `docs/serial.md`: a deep array needs a clock more
@@ -121,8 +121,8 @@ fn without_denoising_the_reference_is_compared_by_itself() {
 fn a_deep_array_waits_for_its_registers() {
     let of = |more: &[&str]| timing(&design(&[&["hardware.pipelining=deep"], more].concat()));
     let (plain, deep) = (timing(&design(&[])), of(&[]));
-    assert_eq!((plain.read_latency(), plain.settling()), (0, 0));
-    assert_eq!((deep.read_latency(), deep.settling()), (1, 1));
+    assert_eq!((plain.read_latency(), plain.settling_steps()), (0, 0));
+    assert_eq!((deep.read_latency(), deep.settling_steps()), (1, 1));
     assert_eq!(deep.clocks_per_frame(), plain.clocks_per_frame() + 64 + 2);
     assert_eq!(deep.edges_to_step(0), plain.edges_to_step(0) + 1);
     assert_eq!(deep.edges_to_ready(), 1 + deep.steps());
@@ -132,7 +132,7 @@ fn a_deep_array_waits_for_its_registers() {
         let feature = format!("spatial=[{{feature='{sums}'}}]");
         assert_eq!(latency(&[&feature]), 2);
         assert_eq!(latency(&["hardware.memory=block", &feature]), 3);
-        assert_eq!(of(&[&feature]).settling(), 1);
+        assert_eq!(of(&[&feature]).settling_steps(), 1);
     }
 }
 
@@ -145,7 +145,7 @@ fn means_pass_the_ports_once_and_leave_once() {
         let phases: Vec<_> = timing.phases().iter().map(|&(phase, _)| phase).collect();
         let edge = FeatureKind::Edge;
         let (count, score) = (RotateCount, RotateScore(edge));
-        assert_eq!(phases, [DenoiseTemporal, count, Means, Pass(edge), score, Unload, UnloadMeans]);
+        assert_eq!(phases, [DenoiseAndCompare, count, ComputeMeans, FeaturePass(edge), score, UnloadPixels, UnloadMeans]);
         (timing.phases()[2].1, timing.phases()[6].1, timing)
     };
     let (means, unload, four) = own(&[]);
@@ -160,7 +160,7 @@ fn means_pass_the_ports_once_and_leave_once() {
     let (means, unload, one) = own(&small);
     assert_eq!((means, unload), (27 + 5, 7));
     // The decision comes with the last score, before pixels and means leave.
-    let departure = one.answers().departure;
+    let departure = one.to_design_timing().departure;
     assert_eq!(departure.forward_clocks - departure.decision_clocks, 25 + 7);
 }
 
@@ -170,45 +170,45 @@ fn means_pass_the_ports_once_and_leave_once() {
 fn what_a_lane_drops_of_a_sum_need_not_pass() {
     let own = |more: &[&str]| {
         let design = design(&[&["render.irrelevant=mean"], more].concat());
-        let design = design.serial().unwrap();
-        let sums = design.block_sums().unwrap();
+        let design = design.as_serial().unwrap();
+        let sums = design.block_mean_division().unwrap();
         let widths = design.lane_widths();
         (sums, (widths.accumulator, widths.chain))
     };
     let (four, widths) = own(&[]);
-    assert_eq!(four, BlockSums { sum: 12, dropped: 4, passing: 8, factor: 1, shift: 0 });
+    assert_eq!(four, BlockMeanDivision { sum_bits: 12, dropped_bits: 4, passing_bits: 8, factor: 1, shift: 0 });
     assert_eq!(widths, (12, 8));
     let (one, widths) = own(&["periphery.blocks=1"]);
-    assert_eq!((one.sum, one.dropped, one.passing), (14, 6, 8));
+    assert_eq!((one.sum_bits, one.dropped_bits, one.passing_bits), (14, 6, 8));
     assert_eq!(widths, (14, 8));
     // With `mad` the lane moves whole sums for a score, so it drops no bits.
     let (all, widths) = own(&["spatial=[{feature=\"mad\"}]"]);
-    assert_eq!(all, BlockSums { sum: 12, dropped: 0, passing: 12, factor: 1, shift: 4 });
-    let none = design(&["spatial=[{feature=\"mad\"}]"]).serial().unwrap().lane_widths();
+    assert_eq!(all, BlockMeanDivision { sum_bits: 12, dropped_bits: 0, passing_bits: 12, factor: 1, shift: 4 });
+    let none = design(&["spatial=[{feature=\"mad\"}]"]).as_serial().unwrap().lane_widths();
     assert_eq!(widths, (none.accumulator, none.chain));
     // 25 pixels are not a power of two, so a multiplication is needed.
     let (odd, widths) = own(&["region.size=5"]);
-    assert_eq!((odd.sum, odd.dropped, odd.passing), (13, 0, 13));
+    assert_eq!((odd.sum_bits, odd.dropped_bits, odd.passing_bits), (13, 0, 13));
     assert_eq!(widths, (13, 13));
     let exact = |sum: u64| (sum * odd.factor) >> odd.shift;
     assert_eq!([24, 25, 6387].map(exact), [0, 1, 255]);
-    assert_eq!(design(&[]).serial().unwrap().block_sums(), None);
+    assert_eq!(design(&[]).as_serial().unwrap().block_mean_division(), None);
 }
 
 #[test]
 fn the_configuration_may_name_the_memory() {
     let of = |overrides: &[&str]| {
         let design = design(overrides);
-        (design.serial().unwrap().lane_memory(), timing(&design))
+        (design.as_serial().unwrap().lane_memory(), timing(&design))
     };
     let (ruled, plain) = of(&[]);
-    assert_eq!((ruled.kind, ruled.why), (MemoryKind::Distributed, MemoryChoice::Limit(128)));
+    assert_eq!((ruled.kind, ruled.choice), (LaneMemoryKind::Distributed, MemoryChoice::LutLimit(128)));
     let (same, steps) = of(&["hardware.memory=distributed"]);
-    assert_eq!((same.kind, same.why), (MemoryKind::Distributed, MemoryChoice::Configured));
+    assert_eq!((same.kind, same.choice), (LaneMemoryKind::Distributed, MemoryChoice::Configured));
     assert_eq!(steps, plain);
     // Each of the 64 medians waits one clock for the word that it replaces.
     let (block, steps) = of(&["hardware.memory=block"]);
-    assert_eq!((block.kind, block.why), (MemoryKind::Block, MemoryChoice::Configured));
+    assert_eq!((block.kind, block.choice), (LaneMemoryKind::Block, MemoryChoice::Configured));
     assert_eq!((steps.read_latency(), steps.steps()), (1, plain.steps() + 64));
     assert_eq!(block.kind.read_latency(), 1);
     // Nine slots of 128 words exceed the limit. The choice of the configuration holds for every
@@ -216,36 +216,36 @@ fn the_configuration_may_name_the_memory() {
     let folded = ["frame.width=8", "frame.height=80", "hardware.fold=9"];
     let (ruled, slow) = of(&folded);
     let (named, steps) = of(&[&folded[..], &["hardware.memory=distributed"]].concat());
-    assert_eq!((ruled.kind, named.kind), (MemoryKind::Block, MemoryKind::Distributed));
+    assert_eq!((ruled.kind, named.kind), (LaneMemoryKind::Block, LaneMemoryKind::Distributed));
     assert_eq!((ruled.luts, named.luts), (144, 144));
     assert_eq!(steps.steps(), slow.steps() - 9 * 64);
     let design = design(&["hardware.memory=block"]);
-    let folded = design.with_fold(2).unwrap().serial().unwrap().lane_memory();
+    let folded = design.with_fold(2).unwrap().as_serial().unwrap().lane_memory();
     let lane = design.lone_unit();
-    let single = lane.serial().unwrap().lane_memory();
+    let single = lane.as_serial().unwrap().lane_memory();
     assert_eq!((folded.kind, single.kind), (block.kind, block.kind));
 }
 
 #[test]
 fn the_widths_of_the_ports_hold_their_numbers() {
     let wide = design(&["hardware.fold=3", "spatial=[{feature=\"edge\"},{feature=\"variance\"}]"]);
-    let wide = wide.serial().unwrap();
+    let wide = wide.as_serial().unwrap();
     assert_eq!(
         (wide.lanes(), wide.region_bits(), wide.lane_bits(), wide.slot_bits()),
         (262, 10, 9, 2)
     );
     assert_eq!((wide.score_count(), wide.score_index_bits()), (3, 2));
-    assert_eq!(wide.any_score_bits(), wide.features()[1].score_bits());
-    assert_eq!((wide.region_of(261, 0), wide.region_of(261, 1)), (Some(783), None));
+    assert_eq!(wide.max_score_bits(), wide.features()[1].score_bits());
+    assert_eq!((wide.region_in_slot(261, 0), wide.region_in_slot(261, 1)), (Some(783), None));
     let one = design(&["frame.width=8", "frame.height=8"]);
-    let one = one.serial().unwrap();
+    let one = one.as_serial().unwrap();
     assert_eq!((one.region_bits(), one.lane_bits(), one.slot_bits()), (1, 1, 1));
-    assert_eq!((one.score_index_bits(), one.any_score_bits()), (1, 7));
+    assert_eq!((one.score_index_bits(), one.max_score_bits()), (1, 7));
 }
 
 /// Returns name, width and number of lanes of every output, and whether it has a value per lane.
 fn outputs(ports: &[crate::Port]) -> Vec<(&str, u32, u32, bool)> {
-    let outputs = ports.iter().filter(|port| port.direction == crate::Direction::Output);
+    let outputs = ports.iter().filter(|port| port.direction == crate::PortDirection::Output);
     outputs.map(|port| (port.name.as_str(), port.width, port.lanes, port.per_lane)).collect()
 }
 
@@ -287,12 +287,12 @@ fn ports_follow_feed_and_fold() {
     for port in parallel.iter().chain(&raster) {
         let qualifier = match port.name.as_str() {
             "score_index_o" | "region_o" | "score_o" => {
-                Qualifier::With(crate::PortRole::ScoreValid)
+                OutputQualifier::WhileSet(crate::PortRole::ScoreValid)
             }
             "forward_pixel_o" | "forward_position_o" | "forward_slot_o" | "forward_region_o" => {
-                Qualifier::With(crate::PortRole::ForwardValid)
+                OutputQualifier::WhileSet(crate::PortRole::ForwardValid)
             }
-            _ => Qualifier::Always,
+            _ => OutputQualifier::Always,
         };
         assert_eq!(port.qualifier, qualifier, "{}", port.name);
     }
@@ -309,16 +309,16 @@ fn ports_follow_feed_and_fold() {
             ports.into_iter().filter(|p| p.name.ends_with("level_i") || p.name.ends_with("min_i"));
         own.collect()
     };
-    let pipelined = Config::default().validate().unwrap();
+    let pipelined = DesignConfig::default().validate().unwrap();
     assert_eq!(thresholds(raster), thresholds(pipelined.rcm_ports()));
 }
 
 #[test]
 fn one_rpu_is_the_array_of_one_lane() {
     let design = design(&["hardware.fold=3", "region.neighborhood=shared"]);
-    let one = design.serial().unwrap().one_lane();
+    let one = design.as_serial().unwrap().single_lane_design();
     assert_eq!(
-        (one.width(), one.height(), one.regions(), one.serial().unwrap().lanes()),
+        (one.width(), one.height(), one.regions(), one.as_serial().unwrap().lanes()),
         (24, 8, 3, 1)
     );
     assert_eq!(one.config().validate().unwrap(), one);
@@ -329,7 +329,7 @@ fn one_rpu_is_the_array_of_one_lane() {
 
 /// Returns c(x) by the definition in docs/serial.md: the number of pairs of a region column and a
 /// position in its window.
-fn counted(design: &Design, at: u32, regions: u32) -> u32 {
+fn count_places(design: &Design, at: u32, regions: u32) -> u32 {
     let (side, halo) = (i64::from(design.region_size()), i64::from(design.halo()));
     let end = i64::from(regions) * side - 1;
     let windows = (0..i64::from(regions)).flat_map(|r| r * side - halo..(r + 1) * side + halo);
@@ -354,12 +354,12 @@ fn every_window_is_filled_once() {
                         &format!("frame.height={}", rows * side - 1),
                         "hardware.feed=raster",
                     ]);
-                    let array = design.serial().unwrap();
+                    let array = design.as_serial().unwrap();
                     let mut places = 0;
                     for y in 0..rows * side {
-                        assert_eq!(array.row_places(y), counted(&design, y, rows));
+                        assert_eq!(array.row_places(y), count_places(&design, y, rows));
                         for x in 0..columns * side {
-                            assert_eq!(array.column_places(x), counted(&design, x, columns));
+                            assert_eq!(array.column_places(x), count_places(&design, x, columns));
                             places += u64::from(array.column_places(x) * array.row_places(y));
                         }
                     }
@@ -407,24 +407,24 @@ fn the_largest_fold_is_the_last_that_is_fast_enough() {
 fn frugal_folds_have_fewer_lanes_or_fewer_block_rams() {
     let single = design(&["hardware.feed=raster"]);
     let clocks = |fold: u32| timing(&single.with_fold(fold).unwrap()).clocks_per_frame();
-    assert_eq!(single.frugal_folds(clocks(17)), [17, 16, 8]);
+    assert_eq!(single.pareto_folds(clocks(17)), [17, 16, 8]);
     // With a clock less, 17 slots are too slow, and 47 lanes with fewer slots do not exist.
-    assert_eq!(single.frugal_folds(clocks(17) - 1), [16, 8]);
+    assert_eq!(single.pareto_folds(clocks(17) - 1), [16, 8]);
     // The candidates are two lanes of 392 slots (448 slots are allowed), seven lanes of 112, and
     // one lane of 784, which fills its blocks.
-    assert_eq!(single.frugal_folds(clocks(448)), [392, 112, 8]);
-    assert_eq!(single.frugal_folds(clocks(784)), [784, 8]);
-    assert_eq!(single.frugal_folds(clocks(1)), [1]);
-    assert!(single.frugal_folds(clocks(1) - 1).is_empty());
-    let blocks = |fold: u32| single.with_fold(fold).unwrap().serial().unwrap().lane_memory().blocks;
+    assert_eq!(single.pareto_folds(clocks(448)), [392, 112, 8]);
+    assert_eq!(single.pareto_folds(clocks(784)), [784, 8]);
+    assert_eq!(single.pareto_folds(clocks(1)), [1]);
+    assert!(single.pareto_folds(clocks(1) - 1).is_empty());
+    let blocks = |fold: u32| single.with_fold(fold).unwrap().as_serial().unwrap().lane_memory().blocks;
     assert_eq!([16, 17, 32, 33, 392, 784].map(blocks), [1, 2, 2, 3, 25, 49]);
     // Words of 4 bits are twice as many as words of 9 bits. Words of 12 bits take words of 18 bits,
     // or of 9 and 4.
     let of_bits =
-        |bits: &str, fold: &str| design(&[bits, fold]).serial().unwrap().lane_memory().blocks;
+        |bits: &str, fold: &str| design(&[bits, fold]).as_serial().unwrap().lane_memory().blocks;
     assert_eq!(of_bits("frame.pixel_bits=4", "hardware.fold=32"), 1);
     assert_eq!(of_bits("frame.pixel_bits=12", "hardware.fold=16"), 2);
-    assert!(Config::default().validate().unwrap().frugal_folds(u64::MAX).is_empty());
+    assert!(DesignConfig::default().validate().unwrap().pareto_folds(u64::MAX).is_empty());
 }
 
 /// No fold that is fast enough has fewer lanes and no more block RAMs than a fold in the list, or
@@ -434,12 +434,12 @@ fn no_fold_beats_the_frugal() {
     let single = design(&["frame.width=100", "frame.height=40", "hardware.memory=block"]);
     let all: Vec<_> = (1..=single.regions()).map(|fold| single.with_fold(fold).unwrap()).collect();
     let cost = |design: &Design| {
-        let array = design.serial().unwrap();
+        let array = design.as_serial().unwrap();
         let lanes = u64::from(array.lanes());
         (lanes, lanes * array.lane_memory().blocks)
     };
     for limit in all.iter().map(|design| timing(design).clocks_per_frame()) {
-        let frugal = single.frugal_folds(limit);
+        let frugal = single.pareto_folds(limit);
         let frugal: Vec<_> = frugal.iter().map(|&fold| &all[fold as usize - 1]).collect();
         assert!(frugal.iter().all(|design| timing(design).clocks_per_frame() <= limit));
         let costs: Vec<_> = frugal.iter().map(|design| cost(design)).collect();
@@ -454,7 +454,7 @@ fn no_fold_beats_the_frugal() {
 /// A method that derives one design from another validates it like a configuration file.
 #[test]
 fn a_pipelined_design_has_no_other_fold() {
-    let design = Config::default().validate().unwrap();
+    let design = DesignConfig::default().validate().unwrap();
     assert_eq!(design.with_fold(1).unwrap(), design);
     let refusal = design.with_fold(2).unwrap_err().to_string();
     assert_eq!(
@@ -471,7 +471,7 @@ fn one_lane_may_have_more_regions_than_a_row() {
     let design = design(&["frame.width=8192", "frame.height=8192", "hardware.fold=1048576"]);
     let lane = design.lone_unit();
     assert_eq!(
-        (lane.width(), lane.serial().unwrap().lanes(), lane.regions()),
+        (lane.width(), lane.as_serial().unwrap().lanes(), lane.regions()),
         (8 << 20, 1, 1 << 20)
     );
     assert_eq!(lane.features(), design.features());

@@ -4,48 +4,48 @@
 use std::fmt;
 
 use super::feature;
-use crate::timing::Departure;
-use crate::{FeatureKind, Feed, Filter, Pipelining, Reference, SerialDesign, Timing, Written};
+use crate::timing::DepartureTiming;
+use crate::{FeatureKind, PixelFeed, DenoiseFilter, Pipelining, ReferencePolicy, SerialDesign, DesignTiming, ReferenceWriteTime};
 
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Phase {
+pub enum SerialPhase {
     /// The medians are computed. Each is compared with its reference as it is written.
-    DenoiseTemporal,
+    DenoiseAndCompare,
     /// The denoised pixels beyond the border of the frame are replaced by repetitions of those at
     /// the border.
-    Border,
+    RepeatBorder,
     /// The raw pixels are compared with their reference.
-    Temporal,
+    CompareRaw,
     /// The temporal counts of the lanes pass the ports.
     RotateCount,
     /// The means of blocks are computed, and pass to the comparison with the means that the screen
     /// shows.
-    Means,
+    ComputeMeans,
     /// The score of a feature is computed.
-    Pass(FeatureKind),
+    FeaturePass(FeatureKind),
     /// The scores of a feature pass the ports.
     RotateScore(FeatureKind),
     /// The sent pixels become the reference.
-    Copy,
+    CopyReference,
     /// The pixels of active regions leave.
-    Unload,
+    UnloadPixels,
     /// The means of regions that send their summary leave.
     UnloadMeans,
 }
 
-impl fmt::Display for Phase {
+impl fmt::Display for SerialPhase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::DenoiseTemporal => f.pad("denoise and temporal"),
-            Self::Border => f.pad("border"),
-            Self::Temporal => f.pad("temporal"),
+            Self::DenoiseAndCompare => f.pad("denoise and temporal"),
+            Self::RepeatBorder => f.pad("border"),
+            Self::CompareRaw => f.pad("temporal"),
             Self::RotateCount => f.pad("rotate count"),
-            Self::Means => f.pad("means"),
-            Self::Pass(kind) => f.pad(kind.name()),
+            Self::ComputeMeans => f.pad("means"),
+            Self::FeaturePass(kind) => f.pad(kind.name()),
             Self::RotateScore(kind) => f.pad(&format!("rotate {kind}")),
-            Self::Copy => f.pad("copy"),
-            Self::Unload => f.pad("unload"),
+            Self::CopyReference => f.pad("copy"),
+            Self::UnloadPixels => f.pad("unload"),
             Self::UnloadMeans => f.pad("unload means"),
         }
     }
@@ -54,10 +54,10 @@ impl fmt::Display for Phase {
 /// The timing of a serial array: all numbers of `docs/serial.md`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SerialTiming {
-    phases: Vec<(Phase, u64)>,
+    phases: Vec<(SerialPhase, u64)>,
     slots: u32,
     read_latency: u32,
-    settling: u32,
+    settling_steps: u32,
     load_pixels: u64,
     load_clocks: u64,
 }
@@ -65,14 +65,14 @@ pub struct SerialTiming {
 impl SerialTiming {
     /// Returns the timing of the design.
     #[must_use]
-    pub fn of(design: SerialDesign<'_>) -> Self {
+    pub fn from_design(design: SerialDesign<'_>) -> Self {
         let stream = u64::from(design.stream_pixels());
         let (load_pixels, load_clocks) = match design.feed() {
-            Feed::Parallel => {
+            PixelFeed::Parallel => {
                 let pixels = u64::from(design.fold()) * stream;
                 (pixels, pixels)
             }
-            Feed::Raster => {
+            PixelFeed::Raster => {
                 let regions = u64::from(design.regions());
                 (regions * u64::from(design.region_pixels()), regions * stream)
             }
@@ -81,7 +81,7 @@ impl SerialTiming {
             phases: phases(design),
             slots: design.fold(),
             read_latency: read_latency(design),
-            settling: settling(design),
+            settling_steps: settling_steps(design),
             load_pixels,
             load_clocks,
         }
@@ -90,7 +90,7 @@ impl SerialTiming {
     /// Returns the phases of one slot that the design has, in order, each with its number of steps.
     /// They are the same for every slot.
     #[must_use]
-    pub fn phases(&self) -> &[(Phase, u64)] {
+    pub fn phases(&self) -> &[(SerialPhase, u64)] {
         &self.phases
     }
 
@@ -109,8 +109,8 @@ impl SerialTiming {
     /// Returns the number of steps at the start of a rotation in which no score is on the ports, s,
     /// 0 or 1.
     #[must_use]
-    pub fn settling(&self) -> u32 {
-        self.settling
+    pub fn settling_steps(&self) -> u32 {
+        self.settling_steps
     }
 
     /// Returns the number of steps for one slot.
@@ -158,14 +158,14 @@ impl SerialTiming {
     }
 
     /// Returns the timing in terms that every organization has.
-    pub(super) fn answers(&self) -> Timing {
+    pub(super) fn to_design_timing(&self) -> DesignTiming {
         let phases: Vec<_> =
             self.phases.iter().map(|(phase, steps)| (phase.to_string(), *steps)).collect();
         let listed: Vec<_> =
             phases.iter().map(|(phase, steps)| format!("{phase} {steps}")).collect();
         let (clocks, slot) = (self.clocks_per_frame(), self.slot_steps());
         let (load, steps) = (self.load_clocks, self.steps());
-        Timing {
+        DesignTiming {
             clocks_per_frame: clocks,
             pixels_per_frame: self.load_pixels,
             figures: vec![
@@ -176,22 +176,22 @@ impl SerialTiming {
                 ("slot_steps", slot),
             ],
             phases,
-            text: vec![
+            descriptions: vec![
                 ("steps per slot", format!("{slot}: {}", listed.join(", "))),
                 (
                     "cycles per frame",
                     format!("{clocks}: {load} to take the frame, {steps} steps, 1 between"),
                 ),
             ],
-            departure: Departure {
+            departure: DepartureTiming {
                 take_clocks: load,
                 decision_frames: 0,
                 decision_clocks: self.edges_to_step(self.steps_to_decisions() - 1),
                 forward_frames: 0,
                 forward_clocks: self.edges_to_step(slot - 1),
                 slot_clocks: slot,
-                kept_rows: None,
-                alone: false,
+                buffered_rows: None,
+                has_independent_units: false,
             },
         }
     }
@@ -199,7 +199,7 @@ impl SerialTiming {
     /// Returns the number of steps of a slot up to its last decision, which comes with the last
     /// score.
     fn steps_to_decisions(&self) -> u64 {
-        let is_score = |(phase, _): &(Phase, u64)| matches!(phase, Phase::RotateScore(_));
+        let is_score = |(phase, _): &(SerialPhase, u64)| matches!(phase, SerialPhase::RotateScore(_));
         let last = self.phases.iter().rposition(is_score).expect("a design has a feature");
         self.phases[..=last].iter().map(|(_, steps)| steps).sum()
     }
@@ -210,76 +210,76 @@ impl SerialTiming {
 fn read_latency(design: SerialDesign<'_>) -> u32 {
     let word = match design.pipelining() {
         Pipelining::Plain => 0,
-        Pipelining::Deep => 1 + u32::from(design.features().iter().any(feature::makes_operand)),
+        Pipelining::Deep => 1 + u32::from(design.features().iter().any(feature::has_computed_operand)),
     };
     design.lane_memory().kind.read_latency() + word
 }
 
 /// Returns s. A deep lane has a register behind the hit.
-fn settling(design: SerialDesign<'_>) -> u32 {
+fn settling_steps(design: SerialDesign<'_>) -> u32 {
     match design.pipelining() {
         Pipelining::Plain => 0,
         Pipelining::Deep => 1,
     }
 }
 
-fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
+fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     let n = u64::from(design.region_pixels());
     let lanes = u64::from(design.lanes());
     let read = u64::from(read_latency(design));
-    let rotation = u64::from(settling(design)) + lanes;
+    let rotation = u64::from(settling_steps(design)) + lanes;
     let reference = design.temporal().reference;
     let mut list = Vec::new();
     match design.filter() {
-        Filter::Median3x3 => {
+        DenoiseFilter::Median3x3 => {
             let pixels = u64::from(design.denoised_side()).pow(2);
             let looked_up = match reference {
                 // The reference is the word that the median overwrites.
-                Reference::Previous => 0,
-                Reference::LastSent => 1,
+                ReferencePolicy::Previous => 0,
+                ReferencePolicy::LastSent => 1,
             };
             let median = 10 * u64::from(design.pixel_bits()) + 3 + read + looked_up;
-            list.push((Phase::DenoiseTemporal, pixels * median));
+            list.push((SerialPhase::DenoiseAndCompare, pixels * median));
             if design.needs_border() {
                 let side = u64::from(design.denoised_side());
-                list.push((Phase::Border, 4 * side * (2 + read)));
+                list.push((SerialPhase::RepeatBorder, 4 * side * (2 + read)));
             }
         }
-        Filter::None => {
+        DenoiseFilter::None => {
             let compared = match reference {
                 // The pixel overwrites the reference.
-                Reference::Previous => 3 + read,
-                Reference::LastSent => 3,
+                ReferencePolicy::Previous => 3 + read,
+                ReferencePolicy::LastSent => 3,
             };
-            list.push((Phase::Temporal, n * compared));
+            list.push((SerialPhase::CompareRaw, n * compared));
         }
     }
-    list.push((Phase::RotateCount, rotation));
+    list.push((SerialPhase::RotateCount, rotation));
     if let Some(periphery) = design.periphery() {
         let mean = u64::from(periphery.block_pixels()) + 2;
-        list.push((Phase::Means, u64::from(periphery.means()) * (mean + rotation)));
+        list.push((SerialPhase::ComputeMeans, u64::from(periphery.mean_count()) * (mean + rotation)));
     }
     for feature in design.features() {
-        list.push((Phase::Pass(feature.kind()), feature::pass_steps(&design, feature)));
-        list.push((Phase::RotateScore(feature.kind()), rotation));
+        list.push((SerialPhase::FeaturePass(feature.kind()), feature::pass_steps(&design, feature)));
+        list.push((SerialPhase::RotateScore(feature.kind()), rotation));
     }
-    match reference.written() {
-        Written::WithEveryFrame => {}
-        Written::WhenSent => list.push((Phase::Copy, n * (2 + read))),
+    match reference.write_time() {
+        ReferenceWriteTime::EveryFrame => {}
+        ReferenceWriteTime::WhenSent => list.push((SerialPhase::CopyReference, n * (2 + read))),
     }
     let unload = match design.feed() {
-        Feed::Parallel => n,
-        Feed::Raster => n * (1 + lanes),
+        PixelFeed::Parallel => n,
+        PixelFeed::Raster => n * (1 + lanes),
     };
-    list.push((Phase::Unload, unload));
+    list.push((SerialPhase::UnloadPixels, unload));
     if let Some(periphery) = design.periphery() {
         let round = match design.feed() {
             // The means of all lanes pass around the ring. Then every lane writes its own means and
             // reads them.
-            Feed::Parallel => lanes + 2 + read,
-            Feed::Raster => 1 + lanes,
+            PixelFeed::Parallel => lanes + 2 + read,
+            PixelFeed::Raster => 1 + lanes,
         };
-        list.push((Phase::UnloadMeans, u64::from(periphery.means()) * round));
+        list.push((SerialPhase::UnloadMeans, u64::from(periphery.mean_count()) * round));
     }
     list
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The widths of the registers of a serial lane and of the sequencer.
 
-use super::feature::needs;
-use crate::{Feed, Filter, SerialDesign, index_bits};
+use super::feature::feature_register_widths;
+use crate::{PixelFeed, DenoiseFilter, SerialDesign, index_bits};
 
 /// The widths of the registers of a serial array, in bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,28 +21,28 @@ pub struct LaneWidths {
 }
 
 impl LaneWidths {
-    fn of(design: SerialDesign<'_>) -> Self {
+    fn from_design(design: SerialDesign<'_>) -> Self {
         let pixel = design.pixel_bits();
         let raster = match design.feed() {
-            Feed::Parallel => 0,
-            Feed::Raster => pixel,
+            PixelFeed::Parallel => 0,
+            PixelFeed::Raster => pixel,
         };
-        let sums = design.block_sums();
-        let chain = design.any_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing));
+        let sums = design.block_mean_division();
+        let chain = design.max_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing_bits));
         // The accumulator holds the difference of two pixels. The scale holds the power of two that
         // the median search starts with.
         let mut widths = Self {
-            accumulator: (pixel + 1).max(sums.map_or(0, |sums| sums.sum)),
+            accumulator: (pixel + 1).max(sums.map_or(0, |sums| sums.sum_bits)),
             second: 2,
             chain,
             scale: pixel,
             center: index_bits(match design.filter() {
-                Filter::None => design.region_pixels().into(),
-                Filter::Median3x3 => u64::from(design.denoised_side()).pow(2),
+                DenoiseFilter::None => design.region_pixels().into(),
+                DenoiseFilter::Median3x3 => u64::from(design.denoised_side()).pow(2),
             }),
         };
         for feature in design.features() {
-            let needs = needs(&design, feature, chain);
+            let needs = feature_register_widths(&design, feature, chain);
             widths.accumulator = widths.accumulator.max(needs.accumulator);
             widths.second = widths.second.max(needs.second);
             widths.scale = widths.scale.max(needs.scale);
@@ -55,6 +55,6 @@ impl SerialDesign<'_> {
     /// Returns the widths of the registers of the array.
     #[must_use]
     pub fn lane_widths(&self) -> LaneWidths {
-        LaneWidths::of(*self)
+        LaneWidths::from_design(*self)
     }
 }

@@ -2,14 +2,14 @@
 //! Tests of configuration files: the accepted values, the designs that they make, and the messages
 //! of refusals.
 
-use foveate_design::{Config, ConfigError, Design, PRESETS, PipelinedTiming, Preset};
+use foveate_design::{DesignConfig, ConfigError, Design, PRESETS, PipelinedTiming, Preset};
 
 fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
 fn refusal(toml: &str) -> String {
-    Config::from_toml(toml).and_then(|config| config.validate()).unwrap_err().to_string()
+    DesignConfig::from_toml(toml).and_then(|config| config.validate()).unwrap_err().to_string()
 }
 
 #[test]
@@ -19,7 +19,7 @@ fn the_default_is_the_paper() {
     assert_eq!((paper.region_pixels(), paper.stream_pixels(), paper.pixel_max()), (64, 64, 255));
     assert_eq!((paper.count_bits(), paper.position_bits()), (7, 6));
     assert_eq!(paper.timing().clocks_per_frame(), 64);
-    assert_eq!(PipelinedTiming::of(paper.pipelined().unwrap()).decision_latency, 20);
+    assert_eq!(PipelinedTiming::from_design(paper.as_pipelined().unwrap()).decision_latency, 20);
 }
 
 #[test]
@@ -27,7 +27,7 @@ fn every_preset_is_a_design_and_survives_writing() {
     for preset in PRESETS {
         let config = preset.config().unwrap();
         let design = config.validate().unwrap();
-        let again = Config::from_toml(&design.config().to_toml()).unwrap();
+        let again = DesignConfig::from_toml(&design.config().to_toml()).unwrap();
         assert_eq!(again, design.config(), "{}", preset.name);
         assert_eq!(again.validate().unwrap().fingerprint(), design.fingerprint());
     }
@@ -58,7 +58,7 @@ fn deep_pipelining_adds_registers_and_takes_none_of_the_clocks_of_a_frame() {
     let latencies = |keys: &str| {
         let of = |pipelining: &str| {
             let design = design(&format!("{keys}[hardware]\npipelining = \"{pipelining}\"\n"));
-            let timing = PipelinedTiming::of(design.pipelined().unwrap());
+            let timing = PipelinedTiming::from_design(design.as_pipelined().unwrap());
             assert_eq!((timing.cycles_per_frame, timing.decision_frames), (64, 0), "{keys}");
             timing.decision_latency
         };
@@ -73,7 +73,7 @@ fn deep_pipelining_adds_registers_and_takes_none_of_the_clocks_of_a_frame() {
         let keys = "[region]\nneighborhood = \"shared\"\n[[spatial]]\nfeature = \"edge\"\n\
                     [[spatial]]\nfeature = \"mad\"\n";
         let keys = format!("{keys}[hardware]\npipelining = \"{pipelining}\"\n");
-        let timing = PipelinedTiming::of(design(&keys).pipelined().unwrap());
+        let timing = PipelinedTiming::from_design(design(&keys).as_pipelined().unwrap());
         (timing.cycles_per_frame, timing.decision_latency, timing.decision_frames)
     };
     assert_eq!((shared("plain"), shared("deep")), ((144, 2 + 1, 1), (144, 3 + 2, 1)));
@@ -86,13 +86,13 @@ fn plain_pipelining_is_the_default() {
     assert_eq!(design(&pipelining("plain")).fingerprint(), paper);
     let deep = design(&pipelining("deep"));
     assert_ne!(deep.fingerprint(), paper);
-    assert_eq!(deep.config().hardware.in_words(), "pipelined, deep pipelining");
+    assert_eq!(deep.config().hardware.description(), "pipelined, deep pipelining");
     let serial = |keys: &str| design(&format!("{keys}organization = \"serial\"\n"));
     let plain = serial("[hardware]\n");
     assert_eq!(serial(&pipelining("plain")).fingerprint(), plain.fingerprint());
     let deep = serial(&pipelining("deep"));
     assert_ne!(deep.fingerprint(), plain.fingerprint());
-    assert!(deep.config().hardware.in_words().contains("deep pipelining"));
+    assert!(deep.config().hardware.description().contains("deep pipelining"));
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn impossible_combinations_say_what_to_do() {
 
 #[test]
 fn overrides_reach_every_key() {
-    let with = |overrides: &[&str]| Config::from_toml_with("", overrides);
+    let with = |overrides: &[&str]| DesignConfig::from_toml_with("", overrides);
     let config = with(&["region.size=16", "temporal.reference=last-sent", "spatial.0.level=50"]);
     let design = config.unwrap().validate().unwrap();
     assert_eq!((design.region_size(), design.features()[0].level()), (16, Some(50)));
@@ -246,7 +246,7 @@ fn overrides_reach_every_key() {
 
 #[test]
 fn an_input_gives_its_size_unless_the_file_names_another() {
-    let mut open = Config::default();
+    let mut open = DesignConfig::default();
     open.camera.fit_frame(640, 480).unwrap();
     assert_eq!(open.validate().unwrap().width(), 640);
     let error = open.camera.fit_frame(320, 480).unwrap_err().to_string();

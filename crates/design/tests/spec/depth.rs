@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of thresholds in grey levels at different depths of pixels.
 
-use foveate_design::{Config, Decimal, Design, FeatureKind, PRESETS, Preset, SpatialConfig};
+use foveate_design::{DesignConfig, Decimal, Design, FeatureKind, PRESETS, Preset, SpatialConfig};
 
-fn with(text: &str, overrides: &[&str]) -> Config {
-    Config::from_toml_with(text, overrides).unwrap()
+fn config_with(text: &str, overrides: &[&str]) -> DesignConfig {
+    DesignConfig::from_toml_with(text, overrides).unwrap()
 }
 
 fn design(text: &str, overrides: &[&str]) -> Design {
-    with(text, overrides).validate().unwrap()
+    config_with(text, overrides).validate().unwrap()
 }
 
 fn refusal(text: &str, overrides: &[&str]) -> String {
-    with(text, overrides).validate().unwrap_err().to_string()
+    config_with(text, overrides).validate().unwrap_err().to_string()
 }
 
 /// Returns the name and the text of every preset, and of a configuration for every feature alone
 /// with its default thresholds.
-fn starts() -> Vec<(String, String)> {
+fn base_configs() -> Vec<(String, String)> {
     let presets = PRESETS.iter().map(|preset| (preset.name.to_owned(), preset.toml.to_owned()));
     let features = FeatureKind::ALL
         .iter()
@@ -47,7 +47,7 @@ fn designs_of_8_bits_are_what_they_were() {
         ("feature variance", "358f63961f2266c8"),
     ];
     let found: Vec<(String, String)> =
-        starts().into_iter().map(|(name, text)| (name, design(&text, &[]).fingerprint())).collect();
+        base_configs().into_iter().map(|(name, text)| (name, design(&text, &[]).fingerprint())).collect();
     let expected: Vec<(String, String)> =
         expected.map(|(name, print)| (name.to_owned(), print.to_owned())).into();
     assert_eq!(found, expected);
@@ -59,7 +59,7 @@ fn designs_of_8_bits_are_what_they_were() {
 
 #[test]
 fn defaults_follow_the_depth_and_are_within_reach_at_every_one() {
-    for (name, text) in starts() {
+    for (name, text) in base_configs() {
         let eight = design(&text, &[]);
         for bits in 1..=16 {
             let own = design(&text, &[&format!("frame.pixel_bits={bits}")]);
@@ -109,7 +109,7 @@ fn defaults_of_some_depths_by_hand() {
 
 #[test]
 fn a_file_with_every_key_follows_an_override_of_the_depth() {
-    for (name, text) in starts() {
+    for (name, text) in base_configs() {
         let every_key = design(&text, &[]).config();
         for bits in 1..=16 {
             let bits = format!("frame.pixel_bits={bits}");
@@ -130,10 +130,10 @@ fn what_is_written_is_in_levels_of_the_depth_that_it_is_written_with() {
     // A table that replaces all of `frame` has the default depth.
     assert_eq!(design(five, &["frame={width=64}"]).temporal().level, 16);
     let scores = "[[spatial]]\nfeature = \"variance\"\nmin_score = 8\n";
-    let six = with(scores, &["frame.pixel_bits=6"]);
+    let six = config_with(scores, &["frame.pixel_bits=6"]);
     assert_eq!(six.camera.spatial[0].min_score, Decimal::from_f64(0.5));
     // An error message shows the value of the file, whatever the depth.
-    let wrong = Config::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
+    let wrong = DesignConfig::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
     assert!(wrong.unwrap_err().to_string().contains("`temporal.level`: \"high\" is not valid"));
 }
 

@@ -2,12 +2,12 @@
 //! Tests that no configuration, however broken, makes the parser or the validation panic, and that
 //! every error is one line. `FOVEATE_FUZZ_CASES` sets the number of cases.
 
-use foveate_design::{Config, PRESETS};
+use foveate_design::{DesignConfig, PRESETS};
 
 /// The random generator SplitMix64, which makes the same cases on every machine.
-struct Random(u64);
+struct CaseGenerator(u64);
 
-impl Random {
+impl CaseGenerator {
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
@@ -132,10 +132,10 @@ fn cases() -> u64 {
 /// Parses and validates a configuration. Returns true for a design and false for an error, whose
 /// message must be one line.
 fn attempt(text: &str, overrides: &[String]) -> bool {
-    let result = Config::from_toml_with(text, overrides).and_then(|config| config.validate());
+    let result = DesignConfig::from_toml_with(text, overrides).and_then(|config| config.validate());
     match result {
         Ok(design) => {
-            assert_eq!(Config::from_toml(&design.config().to_toml()).unwrap(), design.config());
+            assert_eq!(DesignConfig::from_toml(&design.config().to_toml()).unwrap(), design.config());
             assert!(!design.rcm_ports().is_empty() && design.fingerprint().len() == 16);
             assert!(design.timing().clocks_per_frame() > 0);
             true
@@ -150,7 +150,7 @@ fn attempt(text: &str, overrides: &[String]) -> bool {
 
 #[test]
 fn overrides_of_every_kind() {
-    let mut random = Random(1);
+    let mut random = CaseGenerator(1);
     let mut designs = 0;
     for _ in 0..cases() {
         let count = random.below(4) + 1;
@@ -163,7 +163,7 @@ fn overrides_of_every_kind() {
 
 #[test]
 fn broken_files() {
-    let mut random = Random(2);
+    let mut random = CaseGenerator(2);
     let originals: Vec<String> = PRESETS
         .iter()
         .map(|preset| preset.config().unwrap().validate().unwrap().config().to_toml())

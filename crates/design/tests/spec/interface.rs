@@ -2,7 +2,7 @@
 //! Tests that the streams and controls of an interface contain every port exactly once.
 
 use foveate_design::{
-    BeatRegion, Config, Design, Direction, Interface, Port, PortRole, Qualifier, Stream, StreamRole,
+    BeatRegion, DesignConfig, Design, PortDirection, CoreInterface, Port, PortRole, OutputQualifier, CoreStream, StreamRole,
 };
 use std::collections::BTreeSet;
 
@@ -27,11 +27,11 @@ fn design(hardware: &str) -> Design {
         "region.neighborhood='shared'".to_owned(),
         "frame={width=32,height=24}".to_owned(),
     ];
-    Config::from_toml_with("", &overrides).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with("", &overrides).unwrap().validate().unwrap()
 }
 
 /// Returns the interfaces of both modules, `rpu` and `rcm`, of every design.
-fn interfaces() -> impl Iterator<Item = (&'static str, Design, Interface)> {
+fn interfaces() -> impl Iterator<Item = (&'static str, Design, CoreInterface)> {
     DESIGNS.iter().flat_map(|&hardware| {
         let design = design(hardware);
         let both = [design.rpu_interface(), design.rcm_interface()];
@@ -39,7 +39,7 @@ fn interfaces() -> impl Iterator<Item = (&'static str, Design, Interface)> {
     })
 }
 
-fn beat(stream: &Stream) -> impl Iterator<Item = &Port> {
+fn beat_ports(stream: &CoreStream) -> impl Iterator<Item = &Port> {
     stream.start.iter().chain(&stream.payload)
 }
 
@@ -52,18 +52,18 @@ fn every_port_is_there_once_and_goes_where_its_stream_says() {
         let mut counted = 2 + interface.controls.len();
         for stream in &interface.streams {
             let (with, against) = match stream.direction {
-                Direction::Input => (Direction::Input, Direction::Output),
-                Direction::Output => (Direction::Output, Direction::Input),
+                PortDirection::Input => (PortDirection::Input, PortDirection::Output),
+                PortDirection::Output => (PortDirection::Output, PortDirection::Input),
             };
             let is = |direction| move |port: &Port| port.direction == direction;
-            assert!(is(with)(&stream.valid) && beat(stream).all(is(with)), "{hardware}");
+            assert!(is(with)(&stream.valid) && beat_ports(stream).all(is(with)), "{hardware}");
             assert!(stream.ready.iter().all(is(against)), "{hardware}");
-            assert!(stream.status.iter().all(is(Direction::Output)), "{hardware}");
-            counted += 1 + beat(stream).count() + stream.status.len();
+            assert!(stream.status.iter().all(is(PortDirection::Output)), "{hardware}");
+            counted += 1 + beat_ports(stream).count() + stream.status.len();
             counted += usize::from(stream.ready.is_some());
         }
         assert_eq!(counted, ports.len(), "{hardware}");
-        assert!(interface.controls.iter().all(|port| port.direction == Direction::Input));
+        assert!(interface.controls.iter().all(|port| port.direction == PortDirection::Input));
     }
 }
 
@@ -73,14 +73,14 @@ fn every_port_is_there_once_and_goes_where_its_stream_says() {
 fn payload_means_something_with_its_own_beat() {
     for (hardware, _, interface) in interfaces() {
         for stream in &interface.streams {
-            for port in beat(stream) {
+            for port in beat_ports(stream) {
                 match port.qualifier {
-                    Qualifier::Always => {}
-                    Qualifier::With(role) => assert_eq!(role, stream.valid.role, "{hardware}"),
+                    OutputQualifier::Always => {}
+                    OutputQualifier::WhileSet(role) => assert_eq!(role, stream.valid.role, "{hardware}"),
                 }
             }
             let others = stream.ready.iter().chain(&stream.status);
-            assert!(others.chain([&stream.valid]).all(|p| p.qualifier == Qualifier::Always));
+            assert!(others.chain([&stream.valid]).all(|p| p.qualifier == OutputQualifier::Always));
             let has = |role| stream.payload.iter().any(|port| port.role == role);
             assert!(stream.last.is_none_or(has), "{hardware}");
             let named = match stream.region {
@@ -98,16 +98,16 @@ fn payload_means_something_with_its_own_beat() {
 /// The streams of each organization, by the contract.
 #[test]
 fn streams_are_those_of_the_organization() {
-    use StreamRole::{Decisions, Forwarded, Lost, Pixels, References, Scores, Stored};
+    use StreamRole::{Decisions, ForwardedPixels, LostRegions, Pixels, References, Scores, StoredWords};
     let roles = |hardware: &str| -> Vec<StreamRole> {
         design(hardware).rcm_interface().streams.iter().map(|stream| stream.role).collect()
     };
-    assert_eq!(roles("organization='pipelined'"), [Pixels, Decisions, Forwarded]);
-    assert_eq!(roles("organization='serial'"), [Pixels, Scores, Decisions, Forwarded]);
-    assert_eq!(roles("organization='raster'"), [Pixels, Decisions, Forwarded, Lost]);
+    assert_eq!(roles("organization='pipelined'"), [Pixels, Decisions, ForwardedPixels]);
+    assert_eq!(roles("organization='serial'"), [Pixels, Scores, Decisions, ForwardedPixels]);
+    assert_eq!(roles("organization='raster'"), [Pixels, Decisions, ForwardedPixels, LostRegions]);
     assert_eq!(
         roles("organization='raster',store='external',forward=false"),
-        [Pixels, References, Stored, Decisions]
+        [Pixels, References, StoredWords, Decisions]
     );
     let ready = |hardware, role| {
         let interface = design(hardware).rcm_interface();
@@ -115,26 +115,26 @@ fn streams_are_those_of_the_organization() {
     };
     assert_eq!(ready("organization='pipelined'", Pixels), None);
     assert_eq!(ready("organization='serial'", Pixels).unwrap(), "ready_o");
-    assert_eq!(ready("organization='serial'", Forwarded), None);
-    assert_eq!(ready("organization='raster'", Forwarded).unwrap(), "forward_ready_i");
+    assert_eq!(ready("organization='serial'", ForwardedPixels), None);
+    assert_eq!(ready("organization='raster'", ForwardedPixels).unwrap(), "forward_ready_i");
 }
 
 #[test]
 fn a_port_is_of_one_stream_and_controls_are_of_none() {
     for (hardware, design, interface) in interfaces() {
         for stream in &interface.streams {
-            for port in beat(stream).chain([&stream.valid]).chain(&stream.status) {
-                let found = interface.stream_of(port.role).unwrap();
+            for port in beat_ports(stream).chain([&stream.valid]).chain(&stream.status) {
+                let found = interface.stream_with_port(port.role).unwrap();
                 assert_eq!(found.role, stream.role, "{hardware}: {}", port.name);
             }
         }
         for port in &interface.controls {
-            assert!(interface.stream_of(port.role).is_none(), "{hardware}: {}", port.name);
+            assert!(interface.stream_with_port(port.role).is_none(), "{hardware}: {}", port.name);
         }
         let thresholds = |port: &&Port| port.role != PortRole::Border;
-        let expected = match design.thresholds() {
-            foveate_design::Thresholds::Runtime => 4,
-            foveate_design::Thresholds::Constant => 0,
+        let expected = match design.threshold_source() {
+            foveate_design::ThresholdSource::Runtime => 4,
+            foveate_design::ThresholdSource::Constant => 0,
         };
         assert_eq!(interface.controls.iter().filter(thresholds).count(), expected, "{hardware}");
     }

@@ -9,6 +9,6 @@ mod fuzz;
 #[allow(dead_code, reason = "files of boards need more of it")]
 mod hostile;
 mod interface;
-mod owners;
+mod key_owners;
 mod sync;
 mod user_texts;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of `hardware.sync`: the positions of its ports, and designs without it.
 
-use foveate_design::{Array, Config, Design, Direction, PRESETS, Port, PortRole};
+use foveate_design::{ArrayStructure, DesignConfig, Design, PortDirection, PRESETS, Port, PortRole};
 
 const ORGANIZATIONS: [&str; 4] = [
     "organization='pipelined'",
@@ -12,7 +12,7 @@ const ORGANIZATIONS: [&str; 4] = [
 
 fn design(hardware: &str) -> Design {
     let hardware = format!("hardware={{{hardware}}}");
-    Config::from_toml_with("", &[hardware]).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with("", &[hardware]).unwrap().validate().unwrap()
 }
 
 fn names(ports: &[Port]) -> Vec<&str> {
@@ -29,11 +29,11 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
         assert_eq!(place(PortRole::StartOfFrame), place(PortRole::Valid) + 1, "{organization}");
         let (sof, error) =
             (&ports[place(PortRole::StartOfFrame)], &ports[place(PortRole::SyncError)]);
-        assert_eq!((sof.name.as_str(), sof.bits(), sof.direction), ("sof_i", 1, Direction::Input));
+        assert_eq!((sof.name.as_str(), sof.bits(), sof.direction), ("sof_i", 1, PortDirection::Input));
         assert_eq!((error.name.as_str(), error.bits()), ("sync_error_o", 1));
-        assert_eq!(error.direction, Direction::Output);
-        let first_output = ports.iter().position(|port| port.direction == Direction::Output);
-        let inputs = ports.iter().filter(|port| port.direction == Direction::Input).count();
+        assert_eq!(error.direction, PortDirection::Output);
+        let first_output = ports.iter().position(|port| port.direction == PortDirection::Output);
+        let inputs = ports.iter().filter(|port| port.direction == PortDirection::Input).count();
         assert_eq!(first_output, Some(inputs), "inputs first: {organization}");
         let others: Vec<&str> = names(&ports)
             .into_iter()
@@ -42,18 +42,18 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
         assert_eq!(others, names(&plain), "{organization}");
 
         let finds_frames = match with.unit().array {
-            Array::Copies => false,
+            ArrayStructure::RpuCopies => false,
             // A lone lane or core is an array, so it has the ports.
-            Array::Whole => true,
+            ArrayStructure::SharedLogic => true,
         };
         let unit = with.rpu_ports();
         assert_eq!(names(&unit).contains(&"sof_i"), finds_frames, "{organization}");
         assert_eq!(names(&unit).contains(&"sync_error_o"), finds_frames, "{organization}");
 
-        assert!(with.syncs() && !without.syncs());
+        assert!(with.has_frame_sync() && !without.has_frame_sync());
         assert_eq!(with.timing(), without.timing(), "no clock changes");
-        assert!(with.config().hardware.in_words().ends_with("frame sync"));
-        assert!(!without.config().hardware.in_words().contains("frame sync"));
+        assert!(with.config().hardware.description().ends_with("frame sync"));
+        assert!(!without.config().hardware.description().contains("frame sync"));
     }
 }
 
@@ -73,12 +73,12 @@ fn a_design_without_it_is_what_it_was() {
 fn only_the_preset_for_video_has_it() {
     for preset in PRESETS {
         let design = preset.config().unwrap().validate().unwrap();
-        assert_eq!(design.syncs(), preset.name == "raster", "{}", preset.name);
+        assert_eq!(design.has_frame_sync(), preset.name == "raster", "{}", preset.name);
     }
 }
 
 #[test]
 fn what_is_no_truth_value_is_refused() {
-    let error = Config::from_toml("[hardware]\nsync = 1\n").unwrap_err().to_string();
+    let error = DesignConfig::from_toml("[hardware]\nsync = 1\n").unwrap_err().to_string();
     assert_eq!(error, "`hardware.sync`: 1 is not valid; it takes true or false");
 }

@@ -2,8 +2,8 @@
 //! Tests that no text of a configuration reaches generated files, except the names that the program
 //! defines.
 
-use foveate_camera::text::AsToml;
-use foveate_design::{Config, ConfigError, Preset};
+use foveate_camera::toml_text::TomlConfig;
+use foveate_design::{DesignConfig, ConfigError, Preset};
 use toml::{Table, Value};
 
 use crate::hostile::{Schema, key, texts};
@@ -11,7 +11,7 @@ use crate::hostile::{Schema, key, texts};
 /// The test puts hostile texts into every key and into every value of several presets.
 #[test]
 fn no_text_of_a_configuration_is_taken() {
-    let problem = |config: Result<Config, ConfigError>| {
+    let problem = |config: Result<DesignConfig, ConfigError>| {
         config.and_then(|config| config.validate()).err().map(|error| error.to_string())
     };
     let mut tried = 0;
@@ -24,19 +24,19 @@ fn no_text_of_a_configuration_is_taken() {
             assert!(!said.contains(char::is_control), "{key} = {shown:?}: {said:.300}");
             tried += 1;
         };
-        for (name, _) in Config::keys() {
+        for (name, _) in DesignConfig::keys() {
             let change = format!("{}={quoted}", name.replace(".N.", ".0."));
             let said =
-                problem(Config::from_toml_with(Preset::find("paper").unwrap().toml, &[change]));
+                problem(DesignConfig::from_toml_with(Preset::find("paper").unwrap().toml, &[change]));
             refused(said, name.rsplit('.').next().unwrap());
         }
         for preset in ["paper", "raster", "serial"] {
-            let base: Table = Config::from_toml(Preset::find(preset).unwrap().toml)
+            let base: Table = DesignConfig::from_toml(Preset::find(preset).unwrap().toml)
                 .unwrap()
                 .to_toml()
                 .parse()
                 .unwrap();
-            let complaint = |table: &Table| problem(Config::from_toml(&table.to_string()));
+            let complaint = |table: &Table| problem(DesignConfig::from_toml(&table.to_string()));
             let schema = Schema { base, complaint: &complaint };
             for place in schema.places() {
                 let table = schema.with(&place, Value::String(text.clone()));

@@ -3,19 +3,19 @@
 //! are made.
 
 use crate::thresholds::threshold_value;
-use foveate_camera::{Irrelevant, Payload};
-use foveate_design::{Design, Interface, Port, RasterDesign};
+use foveate_camera::{IrrelevantRendering, Payload};
+use foveate_design::{Design, CoreInterface, Port, RasterDesign};
 
 /// The number of bits of a register.
 pub(crate) const REGISTER_BITS: u32 = 32;
 /// The version of this register map.
 const MAP_VERSION: u32 = 1;
 /// The address of the first threshold, in bytes.
-const THRESHOLDS: u32 = 0x100;
+const THRESHOLD_BASE: u32 = 0x100;
 
 /// The behaviour of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FieldKind {
     /// The field always reads as this value.
     Constant(u32),
     /// The field reads the value that the core drives.
@@ -36,7 +36,7 @@ pub enum Kind {
     Event,
 }
 
-impl Kind {
+impl FieldKind {
     /// Returns the access that software has, in the words of the register documents.
     #[must_use]
     pub fn access(&self) -> &'static str {
@@ -63,7 +63,7 @@ impl Kind {
 
 /// Adjacent bits of a register with one meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Field {
+pub struct RegisterField {
     /// The name of the field.
     pub name: String,
     /// The lowest bit of the field.
@@ -71,7 +71,7 @@ pub struct Field {
     /// The number of bits of the field.
     pub width: u32,
     /// The behaviour of the field.
-    pub kind: Kind,
+    pub kind: FieldKind,
     /// The meaning of the field, as text for its documents.
     pub doc: String,
 }
@@ -84,7 +84,7 @@ pub struct Register {
     /// The address in bytes, relative to the base of the core.
     pub address: u32,
     /// The fields, from low bits to high ones.
-    pub fields: Vec<Field>,
+    pub fields: Vec<RegisterField>,
     /// The purpose of the register, as text for its documents.
     pub doc: String,
 }
@@ -103,16 +103,16 @@ const EVENTS: [(&str, &str); 8] = [
 
 /// Returns the registers with which every map begins: the identity of the core, and what the core
 /// computes. The register `version` has the fields `beside` in addition to the version itself.
-pub(super) fn common(design: &Design, beside: Vec<Field>) -> Vec<Register> {
-    let fingerprint = fingerprint(design);
+pub(super) fn common_registers(design: &Design, beside: Vec<RegisterField>) -> Vec<Register> {
+    let fingerprint = fingerprint_number(design);
     let low = u32::try_from(fingerprint & 0xFFFF_FFFF).expect("32 bits");
     let high = u32::try_from(fingerprint >> REGISTER_BITS).expect("32 bits");
     let mut list = Vec::new();
-    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<Field>| {
+    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<RegisterField>| {
         list.push(Register { name: name.to_owned(), address, fields, doc: doc.to_owned() });
     };
     let constant = |name: &str, low: u32, width: u32, value: u32, doc: &str| {
-        field(name, low, width, Kind::Constant(value), doc)
+        field(name, low, width, FieldKind::Constant(value), doc)
     };
     let all = |value: u32, doc: &str| vec![constant("value", 0, REGISTER_BITS, value, doc)];
     let magic = u32::from_le_bytes(*b"FOVE");
@@ -151,8 +151,8 @@ pub(super) fn common(design: &Design, beside: Vec<Field>) -> Vec<Register> {
             constant("size", 0, 8, design.region_size(), "N, pixels of a side"),
             constant("pixel_bits", 8, 8, design.pixel_bits(), "P"),
             constant("means", 16, 8, means, "q, means of a side; 0 without summaries"),
-            constant("irrelevant", 24, 4, irrelevant(design), "0 `zero`, 1 `hold`, 2 `mean`"),
-            constant("raw", 28, 1, raw(design), "1: raw pixels leave"),
+            constant("irrelevant", 24, 4, irrelevant_code(design), "0 `zero`, 1 `hold`, 2 `mean`"),
+            constant("raw", 28, 1, raw_flag(design), "1: raw pixels leave"),
         ],
     );
     list
@@ -160,12 +160,12 @@ pub(super) fn common(design: &Design, beside: Vec<Field>) -> Vec<Register> {
 
 /// Returns the registers of the core of a design, by address.
 #[must_use]
-pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
-    let mut list = common(&design, Vec::new());
-    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<Field>| {
+pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
+    let mut list = common_registers(&design, Vec::new());
+    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<RegisterField>| {
         list.push(Register { name: name.to_owned(), address, fields, doc: doc.to_owned() });
     };
-    let status = |width: u32, doc: &str| vec![field("value", 0, width, Kind::Status, doc)];
+    let status = |width: u32, doc: &str| vec![field("value", 0, width, FieldKind::Status, doc)];
     add(
         0x01C,
         "tick_rate",
@@ -181,21 +181,21 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
                 "enable",
                 0,
                 1,
-                Kind::Control { reset: 1 },
+                FieldKind::Control { reset: 1 },
                 "0: no frame begins; those that come are left out",
             ),
             field(
                 "wait",
                 1,
                 1,
-                Kind::Control { reset: 0 },
+                FieldKind::Control { reset: 0 },
                 "1: a frame that may not begin yet holds up its source; 0: it is skipped",
             ),
             field(
                 "restart",
                 2,
                 1,
-                Kind::Command,
+                FieldKind::Command,
                 "forgets all references once no frame is under way",
             ),
         ],
@@ -205,23 +205,23 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
         "status",
         "what goes on",
         vec![
-            field("busy", 0, 1, Kind::Status, "a frame is under way"),
-            field("restarting", 1, 1, Kind::Status, "a restart waits for the frames under way"),
+            field("busy", 0, 1, FieldKind::Status, "a frame is under way"),
+            field("restarting", 1, 1, FieldKind::Status, "a restart waits for the frames under way"),
         ],
     );
-    let each = |kind: &Kind| {
+    let each = |kind: &FieldKind| {
         let event =
             |(bit, (name, doc)): (u32, &(&str, &str))| field(name, bit, 1, kind.clone(), doc);
         (0..).zip(&EVENTS).map(event).collect::<Vec<_>>()
     };
-    add(0x028, "events", "what has happened, until 1 is written", each(&Kind::Event));
+    add(0x028, "events", "what has happened, until 1 is written", each(&FieldKind::Event));
     add(
         0x02C,
         "interrupt_enable",
         "events that raise `interrupt_o`",
-        each(&Kind::Control { reset: 0 }),
+        each(&FieldKind::Control { reset: 0 }),
     );
-    add(0x030, "interrupt_test", "as if that happened", each(&Kind::Command));
+    add(0x030, "interrupt_test", "as if that happened", each(&FieldKind::Command));
     add(
         0x034,
         "frames",
@@ -246,77 +246,77 @@ pub(super) fn threshold_registers(design: &Design) -> Vec<Register> {
         let doc = threshold.port.doc.clone();
         threshold.parts().into_iter().map(move |part| (part, doc.clone()))
     });
-    let register = |(address, (part, doc)): (u32, (Part, String))| {
-        let reset = Kind::Threshold { reset: part.reset };
+    let register = |(address, (part, doc)): (u32, (ThresholdPart, String))| {
+        let reset = FieldKind::Threshold { reset: part.reset };
         let fields = vec![field("value", 0, part.width, reset, &doc)];
         let doc = "threshold, from the next frame on".to_owned();
         Register { name: part.name, address, fields, doc }
     };
-    (THRESHOLDS..).step_by(4).zip(parts).map(register).collect()
+    (THRESHOLD_BASE..).step_by(4).zip(parts).map(register).collect()
 }
 
 /// A threshold that is an input of the array.
-pub(crate) struct Threshold {
+pub(crate) struct ThresholdInput {
     pub(crate) port: Port,
     value: u64,
 }
 
 /// The part of a threshold that fits into one register.
-pub(crate) struct Part {
+pub(crate) struct ThresholdPart {
     pub(crate) name: String,
     pub(crate) width: u32,
     reset: u32,
 }
 
-impl Threshold {
+impl ThresholdInput {
     /// Returns the registers that hold the threshold, the one with the lowest bits first.
-    pub(crate) fn parts(&self) -> Vec<Part> {
+    pub(crate) fn parts(&self) -> Vec<ThresholdPart> {
         let name = self.port.name.trim_end_matches("_i");
         let width = self.port.width;
         let low = u32::try_from(self.value & 0xFFFF_FFFF).expect("32 bits");
         if width <= REGISTER_BITS {
-            return vec![Part { name: name.to_owned(), width, reset: low }];
+            return vec![ThresholdPart { name: name.to_owned(), width, reset: low }];
         }
         let high =
             u32::try_from(self.value >> REGISTER_BITS).expect("a threshold has at most 64 bits");
         vec![
-            Part { name: format!("{name}_low"), width: REGISTER_BITS, reset: low },
-            Part { name: format!("{name}_high"), width: width - REGISTER_BITS, reset: high },
+            ThresholdPart { name: format!("{name}_low"), width: REGISTER_BITS, reset: low },
+            ThresholdPart { name: format!("{name}_high"), width: width - REGISTER_BITS, reset: high },
         ]
     }
 }
 
 /// Returns the thresholds that are inputs of the array.
-pub(crate) fn thresholds(design: &Design) -> Vec<Threshold> {
+pub(crate) fn thresholds(design: &Design) -> Vec<ThresholdInput> {
     let value =
         |port: &Port| threshold_value(design, port).expect("a control of an array is a threshold");
-    let Interface { controls, .. } = design.rcm_interface();
-    controls.into_iter().map(|port| Threshold { value: value(&port), port }).collect()
+    let CoreInterface { controls, .. } = design.rcm_interface();
+    controls.into_iter().map(|port| ThresholdInput { value: value(&port), port }).collect()
 }
 
 /// Returns the fingerprint of a design as a number.
-pub(crate) fn fingerprint(design: &Design) -> u64 {
+pub(crate) fn fingerprint_number(design: &Design) -> u64 {
     u64::from_str_radix(&design.fingerprint(), 16).expect("a fingerprint is hexadecimal")
 }
 
 /// Returns the number by which packets and registers name the content of irrelevant regions.
-pub(crate) fn irrelevant(design: &Design) -> u32 {
+pub(crate) fn irrelevant_code(design: &Design) -> u32 {
     match design.irrelevant() {
-        Irrelevant::Zero => 0,
-        Irrelevant::Hold => 1,
-        Irrelevant::Mean => 2,
+        IrrelevantRendering::Zero => 0,
+        IrrelevantRendering::Hold => 1,
+        IrrelevantRendering::Mean => 2,
     }
 }
 
 /// Returns 1 if raw pixels leave, else 0, as in packets and registers. Without a filter the pixels
 /// are raw in either case.
-pub(crate) fn raw(design: &Design) -> u32 {
+pub(crate) fn raw_flag(design: &Design) -> u32 {
     match design.payload() {
         Payload::Raw => 1,
         Payload::Denoised => 0,
     }
 }
 
-pub(super) fn field(name: &str, low: u32, width: u32, kind: Kind, doc: &str) -> Field {
-    Field { name: name.to_owned(), low, width, kind, doc: doc.to_owned() }
+pub(super) fn field(name: &str, low: u32, width: u32, kind: FieldKind, doc: &str) -> RegisterField {
+    RegisterField { name: name.to_owned(), low, width, kind, doc: doc.to_owned() }
 }

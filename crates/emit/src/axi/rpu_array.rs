@@ -2,10 +2,10 @@
 //! The registers of an array of RPUs on a board (docs/boards.md): a table like that of a core on
 //! AXI, and the files made from it.
 
-use super::pages;
-use super::registers::{Field, Kind, Register, common, field, threshold_registers};
-use super::verilog;
-use crate::text::{file, text_of};
+use super::register_documents;
+use super::registers::{RegisterField, FieldKind, Register, common_registers, field, threshold_registers};
+use super::register_module;
+use crate::verilog_text::{module_file, rendered_text};
 use crate::{SourceFile, banner};
 use foveate_design::{Design, PipelinedDesign, Port, PortRole, bits_for};
 
@@ -14,21 +14,21 @@ pub const ARRAY_REGISTERS: &str = "array_registers";
 /// The bits of a frame's number within the pattern, which repeats every 128 frames.
 const PERIOD_BITS: u32 = 7;
 /// The number of bits of a register.
-const WORD: u32 = 32;
+const WORD_BITS: u32 = 32;
 
 /// Returns the registers of an array of RPUs behind a pattern, by address.
 #[must_use]
 pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
-    let is_array = field("array", 16, 1, Kind::Constant(1), "1: the map of an array of RPUs");
-    let mut list = common(&design, vec![is_array]);
-    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<Field>| {
+    let is_array = field("array", 16, 1, FieldKind::Constant(1), "1: the map of an array of RPUs");
+    let mut list = common_registers(&design, vec![is_array]);
+    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<RegisterField>| {
         list.push(Register { name: name.to_owned(), address, fields, doc: doc.to_owned() });
     };
-    let status = |width: u32, doc: &str| vec![field("value", 0, width, Kind::Status, doc)];
+    let status = |width: u32, doc: &str| vec![field("value", 0, width, FieldKind::Status, doc)];
     let control = |name: &str, low: u32, width: u32, doc: &str| {
-        field(name, low, width, Kind::Control { reset: 0 }, doc)
+        field(name, low, width, FieldKind::Control { reset: 0 }, doc)
     };
-    add(0x034, "frames", "whole frames", status(WORD, "modulo 2^32"));
+    add(0x034, "frames", "whole frames", status(WORD_BITS, "modulo 2^32"));
     add(
         0x040,
         "capture_region",
@@ -42,16 +42,16 @@ pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
         "capture",
         "a capture",
         vec![
-            field("start", 0, 1, Kind::Command, "the next such frame is kept"),
-            field("captured", 1, 1, Kind::Status, "it is there"),
+            field("start", 0, 1, FieldKind::Command, "the next such frame is kept"),
+            field("captured", 1, 1, FieldKind::Status, "it is there"),
         ],
     );
-    add(0x04C, "captured_frame", "the frame that is there", status(WORD, "its number since reset"));
+    add(0x04C, "captured_frame", "the frame that is there", status(WORD_BITS, "its number since reset"));
     let bits = ["srs", "trs", "summary", "active"].into_iter().zip(0..);
     let mut decision: Vec<_> =
-        bits.map(|(name, low)| field(name, low, 1, Kind::Status, "as the RPU said it")).collect();
+        bits.map(|(name, low)| field(name, low, 1, FieldKind::Status, "as the RPU said it")).collect();
     let values = bits_for(design.region_pixels().into());
-    decision.push(field("values", 16, values, Kind::Status, "how many pixels or means left"));
+    decision.push(field("values", 16, values, FieldKind::Status, "how many pixels or means left"));
     add(0x050, "captured_decision", "its decision", decision);
     let mut address = 0x054;
     for port in array_scores(&design) {
@@ -60,10 +60,10 @@ pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
             add(address, name, doc, status(width, "as the RPU said it"));
             address += 4;
         };
-        match port.width.checked_sub(WORD).filter(|more| *more > 0) {
+        match port.width.checked_sub(WORD_BITS).filter(|more| *more > 0) {
             None => part(&name, port.width, "a score"),
             Some(more) => {
-                part(&format!("{name}_low"), WORD, "a score, its low bits");
+                part(&format!("{name}_low"), WORD_BITS, "a score, its low bits");
                 part(&format!("{name}_high"), more, "a score, its high bits");
             }
         }
@@ -85,8 +85,8 @@ pub fn array_scores(design: &Design) -> Vec<Port> {
 /// Returns the module with the registers of an array.
 #[must_use]
 pub fn array_registers(design: PipelinedDesign<'_>) -> SourceFile {
-    let view = verilog::view(&design, (ARRAY_REGISTERS, true), &array_table(design));
-    file(ARRAY_REGISTERS, text_of(&view))
+    let view = register_module::register_module(&design, (ARRAY_REGISTERS, true), &array_table(design));
+    module_file(ARRAY_REGISTERS, rendered_text(&view))
 }
 
 /// Returns the files that software needs for the registers: a page, a C header and SystemRDL.
@@ -94,9 +94,9 @@ pub fn array_registers(design: PipelinedDesign<'_>) -> SourceFile {
 pub fn array_software(design: PipelinedDesign<'_>) -> Vec<SourceFile> {
     let (banner, list) = (banner(&design), array_table(design));
     let files = [
-        ("REGISTERS.md", pages::markdown(&banner, &list)),
-        ("software/foveate_registers.h", pages::header(&banner, &list)),
-        ("software/foveate.rdl", pages::rdl(&banner, &list)),
+        ("REGISTERS.md", register_documents::register_page(&banner, &list)),
+        ("software/foveate_registers.h", register_documents::c_header(&banner, &list)),
+        ("software/foveate.rdl", register_documents::system_rdl(&banner, &list)),
     ];
     files.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }).into()
 }

@@ -2,19 +2,19 @@
 //! The README of a raster core, which says how long a source waits and when a region is lost.
 
 use super::{
-    PortRow, StreamRow, ThresholdRow, port_rows, score_names, stream_rows, sync, threshold,
+    PortRow, StreamRow, ThresholdRow, port_rows, score_names, stream_rows, sync, threshold_row,
 };
 use crate::instance::instance;
-use crate::text::text_of;
+use crate::verilog_text::rendered_text;
 use crate::{Prefix, Top, banner};
 use askama::Template;
 use foveate_design::{
-    FRAME_NUMBERS, Pipelining, RasterDesign, RasterMemory, RasterTiming, Store, Thresholds,
+    FRAME_NUMBERS, Pipelining, RasterDesign, RasterMemory, RasterTiming, FrameStoreKind, ThresholdSource,
 };
 
 #[derive(Template)]
 #[template(path = "raster_README.md")]
-struct Readme {
+struct RasterReadme {
     banner: String,
     /// The beginning of the names of modules: the prefix and its `_`.
     before: String,
@@ -86,17 +86,17 @@ struct Readme {
 }
 
 pub(crate) fn raster_readme(design: RasterDesign<'_>, prefix: &Prefix) -> String {
-    text_of(&view(design, prefix, &RasterTiming::of(design)))
+    rendered_text(&view(design, prefix, &RasterTiming::from_design(design)))
 }
 
-fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Readme {
+fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> RasterReadme {
     let n = design.region_size();
-    let memories = RasterMemory::all_of(design);
+    let memories = RasterMemory::all_memories(design);
     let reference = design.temporal().reference;
     let reference_bits = reference.bits_per_pixel(design.pixel_bits());
-    Readme {
+    RasterReadme {
         banner: banner(&design),
-        before: prefix.name(""),
+        before: prefix.prefixed_name(""),
         width: design.width(),
         height: design.height(),
         p: design.pixel_bits(),
@@ -118,34 +118,34 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         stall: timing.edges_to_ready(),
         blank_rows: timing.blank_rows(),
         waits: timing.waits_for_pending,
-        decided_after: timing.decided_after(),
+        decided_after: timing.clocks_to_decision(),
         second_pass: timing.second_pass.is_some(),
         region_words: timing.region_words,
-        first_word: timing.to_first_word(),
+        first_word: timing.clocks_to_first_word(),
         last_position: design.region_pixels() - timing.word_pixels,
         frame_numbers: FRAME_NUMBERS,
         padded: design.columns() * n > design.width() || design.rows() * n > design.height(),
         buffer_rows: timing.buffer_rows,
-        sink_stall: timing.stall_clocks(),
+        sink_stall: timing.max_stall_clocks(),
         memory_bits: memories.iter().map(RasterMemory::total_bits).sum(),
         store_words: timing.words(),
         store_bits: timing.words() * u64::from(design.pixels_per_clock() * reference_bits),
-        outside: design.store() == Store::External,
-        single_port: design.store() == Store::SinglePort,
-        forwards: design.forwards(),
+        outside: design.store() == FrameStoreKind::External,
+        single_port: design.store() == FrameStoreKind::SinglePort,
+        forwards: design.has_forwarding(),
         blocks: design.periphery().map_or(0, |own| own.blocks),
         block_side: design.periphery().map_or(0, |own| own.block_side),
         memories,
         deep: design.pipelining() == Pipelining::Deep,
         marks_regions: reference.bits_per_region() > 0,
         store: design.store().name(),
-        runtime: design.thresholds() == Thresholds::Runtime,
+        runtime: design.threshold_source() == ThresholdSource::Runtime,
         streams: stream_rows(&design),
         rcm_ports: port_rows(&design),
-        thresholds: design.rcm_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
+        thresholds: design.rcm_ports().iter().filter_map(|port| threshold_row(&design, port)).collect(),
         instance: instance(&design, prefix),
-        synthesized: crate::top::placed(&design),
-        sync: sync::section(&design, "word", ""),
+        synthesized: crate::top::placed_top(&design),
+        sync: sync::sync_section(&design, "word", ""),
         has_rpu: Top::has_rpu(&design),
         on_axi: design.is_on_axi(),
         compared: " at which it is valid",

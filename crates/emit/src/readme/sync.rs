@@ -4,30 +4,30 @@
 use askama::Template;
 use foveate_design::{Design, PortRole};
 
-use crate::text::text_of;
+use crate::verilog_text::rendered_text;
 
 #[derive(Template)]
 #[template(path = "core_sync.md")]
-struct Sync {
+struct SyncSection {
     syncs: bool,
     /// The number of beats of a frame, and the name of a beat.
     beats: u64,
     beat: &'static str,
     /// The unit that gets a beat at each edge, as words that follow `beat`; empty for the whole
     /// core.
-    of: &'static str,
+    unit: &'static str,
     has_ready: bool,
 }
 
 /// Returns the section on where frames start and on lost pixels. `beat` is the name of what is
 /// taken at one edge, and `of` says for which unit.
-pub(crate) fn section(design: &Design, beat: &'static str, of: &'static str) -> String {
-    let view = Sync {
-        syncs: design.syncs(),
+pub(crate) fn sync_section(design: &Design, beat: &'static str, of: &'static str) -> String {
+    let view = SyncSection {
+        syncs: design.has_frame_sync(),
         beats: design.timing().pixels_per_frame(),
         beat,
-        of,
+        unit: of,
         has_ready: design.rcm_ports().iter().any(|port| port.role == PortRole::Ready),
     };
-    text_of(&view).trim().to_owned()
+    rendered_text(&view).trim().to_owned()
 }

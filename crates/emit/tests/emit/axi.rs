@@ -5,28 +5,28 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
-use crate::common::{design, every_design, every_design_on_a_bus, has_tclsh, meeting};
+use crate::common::{design, every_design, every_design_on_a_bus, has_tclsh, covering_pairs};
 use foveate_design::Hardware;
-use foveate_emit::{AXI_TOP, Kind, Prefix, SourceFile, array_table, core, on_bus, registers};
-use foveate_toolchain::testing::{every, require_tools};
+use foveate_emit::{AXI_TOP, FieldKind, Prefix, SourceFile, array_table, core, axi_modules, axi_registers};
+use foveate_toolchain::testing::{sampling_step, require_tools};
 use foveate_toolchain::{Source, Tool, Toolchain, verilator};
 use rayon::prelude::*;
 
 #[test]
-fn verilator_has_nothing_to_say_of_cores_on_a_bus() {
+fn verilator_has_no_warning_for_cores_on_axi() {
     if !require_tools(&[Tool::Verilator]) {
         return;
     }
     let toolchain = Toolchain::system();
     let check = |toml: &String| {
-        let files = on_bus(&design(toml)).unwrap();
+        let files = axi_modules(&design(toml)).unwrap();
         let sources: Vec<Source> = files.into_iter().map(Source::from).collect();
         let said = verilator::lint(&toolchain, &sources, AXI_TOP, None).err()?;
         Some(format!("{toml}{said}"))
     };
     // `lint.rs` covers all arrays; a third of the designs shows every choice around an array.
     let designs: Vec<String> =
-        meeting(every_design_on_a_bus()).into_iter().step_by(every(3)).collect();
+        covering_pairs(every_design_on_a_bus()).into_iter().step_by(sampling_step(3)).collect();
     let found: Vec<String> = designs.par_iter().filter_map(check).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
@@ -36,12 +36,12 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
     let buses = every_design_on_a_bus().into_iter().map(|toml| {
         let design = design(&toml);
         let Hardware::Raster(own) = design.hardware() else { panic!("{toml}") };
-        (registers(design.on(own)), toml)
+        (axi_registers(design.with_hardware(own)), toml)
     });
     // The registers of arrays on a board leave the upper half of the addresses to the captured
     // frame.
     let arrays = every_design().into_iter().filter_map(|toml| {
-        let list = array_table(design(&toml).pipelined()?);
+        let list = array_table(design(&toml).as_pipelined()?);
         assert!(list.iter().all(|register| register.address < 0x800), "{toml}");
         Some((list, toml))
     });
@@ -57,10 +57,10 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
                 end = field.low + field.width;
                 let fits = |value: u32| u64::from(value) < 1 << field.width;
                 match field.kind {
-                    Kind::Constant(value)
-                    | Kind::Control { reset: value }
-                    | Kind::Threshold { reset: value } => assert!(fits(value), "{register:?}"),
-                    Kind::Status | Kind::Command | Kind::Event => {}
+                    FieldKind::Constant(value)
+                    | FieldKind::Control { reset: value }
+                    | FieldKind::Threshold { reset: value } => assert!(fits(value), "{register:?}"),
+                    FieldKind::Status | FieldKind::Command | FieldKind::Event => {}
                 }
             }
             assert!(end <= 32, "{register:?}");
@@ -69,7 +69,7 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
 }
 
 /// Runs `package_ip.tcl` of a core, with an edit, where stubs check what it requests from Vivado.
-fn packaged(files: &[SourceFile], fault: Option<(&str, &str)>) -> Result<String, String> {
+fn run_package_ip(files: &[SourceFile], fault: Option<(&str, &str)>) -> Result<String, String> {
     let dir = tempfile::tempdir().unwrap();
     for file in files {
         let path = dir.path().join(&file.path);
@@ -94,12 +94,12 @@ fn the_script_that_packages_a_core_for_vivado_asks_for_what_is_there() {
         return;
     }
     for toml in every_design_on_a_bus() {
-        let files = core(&design(&toml), &Prefix::default());
-        let said = packaged(&files, None).unwrap_or_else(|error| panic!("{toml}{error}"));
+        let files = core_files(&design(&toml), &Prefix::default());
+        let said = run_package_ip(&files, None).unwrap_or_else(|error| panic!("{toml}{error}"));
         assert!(said.contains(" 6 interfaces, "), "{said}");
     }
-    let files = core(&design(&every_design_on_a_bus()[0]), &Prefix::new("left").unwrap());
-    packaged(&files, None).unwrap();
+    let files = core_files(&design(&every_design_on_a_bus()[0]), &Prefix::new("left").unwrap());
+    run_package_ip(&files, None).unwrap();
     // Each planted fault must be found.
     for fault in [
         ("    rtl/left_adder.v\n", "    rtl/adder.v\n"),
@@ -117,6 +117,6 @@ fn the_script_that_packages_a_core_for_vivado_asks_for_what_is_there() {
         ("ipx::create_xgui_files", "ipx::create_gui_files"),
         ("set_property range 4096", "set_property size 4096"),
     ] {
-        assert!(packaged(&files, Some(fault)).is_err(), "not seen: {fault:?}");
+        assert!(run_package_ip(&files, Some(fault)).is_err(), "not seen: {fault:?}");
     }
 }

@@ -31,8 +31,8 @@ fn memory() -> &'static str {
 }
 
 /// Returns what a bench prints that compares both forms, the one for the ECP5 with this edit.
-fn compared((width, words): (u32, u32), from: &str, to: &str) -> String {
-    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+fn bench_output((width, words): (u32, u32), from: &str, to: &str) -> String {
+    let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let own = memory().replacen("module raster_memory", "module ecp5_memory", 1);
     let own = own.replace("`ifdef FOVEATE_ECP5", "`ifndef PORTABLE");
     assert!(own.contains(from), "{from}");
@@ -62,7 +62,7 @@ fn blocks_of_the_ecp5_show_what_the_memory_shows() {
         return;
     }
     for &shape in SHAPES {
-        let shown = compared(shape, "", "");
+        let shown = bench_output(shape, "", "");
         assert!(shown.starts_with("PASS"), "{shape:?}: {shown}");
     }
     for (shape, from, to) in [
@@ -75,15 +75,15 @@ fn blocks_of_the_ecp5_show_what_the_memory_shows() {
         ((2, 40000), "if (output_i) bank_q", "bank_q"),
         ((2, 40000), "if (read_i) read_bank_q", "read_bank_q"),
     ] {
-        let shown = compared(shape, from, to);
+        let shown = bench_output(shape, from, to);
         assert!(!shown.contains("PASS"), "not found: {to}: {shown}");
     }
 }
 
 /// Returns what Yosys makes of the memory of a deep design: the number of blocks, of blocks with
 /// their output register, and of flip-flops. `define` defines the family, or is empty.
-fn synthesized(define: &str) -> (usize, usize, usize) {
-    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+fn synthesis_counts(define: &str) -> (usize, usize, usize) {
+    let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let script = format!(
         "read_verilog {define} raster_memory.v\n\
          chparam -set OUTPUT_STAGE 1 raster_memory\n\
@@ -103,6 +103,6 @@ fn only_where_the_family_is_defined_the_register_is_that_of_the_block() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    assert_eq!(synthesized("-DFOVEATE_ECP5"), (1, 1, 0));
-    assert_eq!(synthesized(""), (1, 0, 16));
+    assert_eq!(synthesis_counts("-DFOVEATE_ECP5"), (1, 1, 0));
+    assert_eq!(synthesis_counts(""), (1, 0, 16));
 }

@@ -5,16 +5,16 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::common::{design, every_design, every_design_on_a_bus, meeting};
+use crate::common::{design, every_design, every_design_on_a_bus, covering_pairs};
 use foveate_design::{Design, Organization};
-use foveate_emit::{AXI_TOP, LEAVES, SourceFile, Top, on_bus, verilog};
+use foveate_emit::{AXI_TOP, LEAVES, SourceFile, Top, axi_modules, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, ToolError, Toolchain};
 use rayon::prelude::*;
 
 /// Returns the module names of the files.
-fn shipped(files: &[SourceFile]) -> BTreeSet<String> {
+fn shipped_modules(files: &[SourceFile]) -> BTreeSet<String> {
     let name = |file: &SourceFile| {
         let name = file.path.strip_prefix("rtl/").unwrap();
         name.strip_suffix(".v").unwrap().to_owned()
@@ -24,10 +24,10 @@ fn shipped(files: &[SourceFile]) -> BTreeSet<String> {
 
 /// Returns the modules at and below `top`, with the parameters of its own text: the scopes in the
 /// program that Icarus compiles. Fails with the warning if Icarus has one.
-fn elaborated(files: &[SourceFile], top: &str) -> Result<BTreeSet<String>, ToolError> {
+fn elaborated_modules(files: &[SourceFile], top: &str) -> Result<BTreeSet<String>, ToolError> {
     let sources = files.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
     let job = IverilogJob { sources, top: top.to_owned(), strict: true, ..IverilogJob::default() };
-    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let compiled = iverilog::compile(&toolchain, &cache, &job)?;
     let text = fs::read_to_string(compiled).unwrap();
     let scopes = text.lines().filter_map(|line| line.split_once(".scope module, "));
@@ -37,14 +37,14 @@ fn elaborated(files: &[SourceFile], top: &str) -> Result<BTreeSet<String>, ToolE
 
 /// Returns the problem of a top, if any: a warning, a module that is shipped but not elaborated, or
 /// one that is elaborated but not shipped.
-fn problem(design: &Design, top: Top) -> Option<String> {
-    problem_of(&verilog(design, top), top.module())
+fn top_problem(design: &Design, top: Top) -> Option<String> {
+    files_problem(&verilog(design, top), top.module())
 }
 
 /// Returns the problem of these files and the module on top of them, if any.
-fn problem_of(files: &[SourceFile], top: &str) -> Option<String> {
-    let shipped = shipped(files);
-    match elaborated(files, top) {
+fn files_problem(files: &[SourceFile], top: &str) -> Option<String> {
+    let shipped = shipped_modules(files);
+    match elaborated_modules(files, top) {
         Ok(found) if found == shipped => None,
         Ok(found) => {
             let unused: Vec<_> = shipped.difference(&found).collect();
@@ -59,12 +59,12 @@ fn every_shipped_module_is_elaborated_without_a_warning_of_icarus() {
     if !require_tools(&[Tool::Iverilog]) {
         return;
     }
-    let found: Vec<String> = meeting(every_design())
+    let found: Vec<String> = covering_pairs(every_design())
         .par_iter()
         .flat_map_iter(|toml| {
             let design = design(toml);
             let tops = Top::all_of(&design).iter();
-            let problems = tops.filter_map(|&top| problem(&design, top));
+            let problems = tops.filter_map(|&top| top_problem(&design, top));
             problems.map(|problem| format!("{problem}\n{toml}")).collect::<Vec<_>>()
         })
         .collect();
@@ -77,11 +77,11 @@ fn every_shipped_module_around_an_array_is_elaborated_without_a_warning_of_icaru
         return;
     }
     let check = |toml: &String| {
-        let files = on_bus(&design(toml)).unwrap();
-        let problem = problem_of(&files, AXI_TOP)?;
+        let files = axi_modules(&design(toml)).unwrap();
+        let problem = files_problem(&files, AXI_TOP)?;
         Some(format!("{problem}\n{toml}"))
     };
-    let designs = meeting(every_design_on_a_bus());
+    let designs = covering_pairs(every_design_on_a_bus());
     let found: Vec<String> = designs.par_iter().filter_map(check).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
@@ -92,7 +92,7 @@ fn every_shipped_module_around_an_array_is_elaborated_without_a_warning_of_icaru
 fn smaller_grids_need_no_other_modules() {
     for toml in every_design() {
         let design = design(&toml);
-        let own = shipped(&verilog(&design, Top::Rcm));
+        let own = shipped_modules(&verilog(&design, Top::Rcm));
         let mut config = design.lone_unit().config();
         let is_small = design.organization() != Organization::Serial;
         if is_small {
@@ -104,7 +104,7 @@ fn smaller_grids_need_no_other_modules() {
             part.height = part.height.map(|height| height - beyond(design.rows(), design.height()));
         }
         let part = if is_small { config.validate().unwrap() } else { design.lone_unit() };
-        let needed = shipped(&verilog(&part, Top::Rcm));
+        let needed = shipped_modules(&verilog(&part, Top::Rcm));
         assert!(needed.is_subset(&own), "{:?}: {toml}", needed.difference(&own));
     }
 }
@@ -116,8 +116,8 @@ fn every_leaf_is_in_some_design() {
     let on_buses: Vec<Design> = every_design_on_a_bus().iter().map(|toml| design(toml)).collect();
     let arrays = designs.iter().map(|design| verilog(design, Top::Rcm));
     let all: BTreeSet<String> = arrays
-        .chain(on_buses.iter().filter_map(on_bus))
-        .flat_map(|files| shipped(&files))
+        .chain(on_buses.iter().filter_map(axi_modules))
+        .flat_map(|files| shipped_modules(&files))
         .collect();
     for leaf in LEAVES {
         assert!(all.contains(leaf.name), "{}", leaf.name);

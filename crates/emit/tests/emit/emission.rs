@@ -6,12 +6,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{design, matrix, raster_matrix, serial_matrix};
-use foveate_design::{Design, Direction, FeatureKind, RasterTiming, SerialTiming};
+use crate::common::{design, pipelined_matrix, raster_matrix, serial_matrix};
+use foveate_design::{Design, PortDirection, FeatureKind, RasterTiming, SerialTiming};
 use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf, Prefix, SourceFile, Top, verilog};
 
 fn core(design: &Design) -> Vec<SourceFile> {
-    foveate_emit::core(design, &Prefix::default())
+    foveate_emit::core_files(design, &Prefix::default())
 }
 
 /// The block RAM of the ECP5, which `raster_memory` instantiates by name.
@@ -64,7 +64,7 @@ fn every_leaf_says_what_it_uses_and_stands_after_it() {
 
 #[test]
 fn emission_is_deterministic() {
-    for toml in [matrix(), serial_matrix(), raster_matrix()].concat() {
+    for toml in [pipelined_matrix(), serial_matrix(), raster_matrix()].concat() {
         assert_eq!(core(&design(&toml)), core(&design(&toml)), "{toml}");
     }
 }
@@ -72,7 +72,7 @@ fn emission_is_deterministic() {
 #[test]
 fn every_feature_is_in_the_matrices() {
     let matrices =
-        [("pipelined", matrix()), ("serial", serial_matrix()), ("raster", raster_matrix())];
+        [("pipelined", pipelined_matrix()), ("serial", serial_matrix()), ("raster", raster_matrix())];
     for (name, designs) in matrices {
         for &kind in FeatureKind::ALL {
             let has = |text: &String| design(text).feature(kind).is_some();
@@ -83,7 +83,7 @@ fn every_feature_is_in_the_matrices() {
 
 #[test]
 fn module_headers_are_the_port_lists() {
-    for toml in matrix() {
+    for toml in pipelined_matrix() {
         let design = design(&toml);
         let files = verilog(&design, Top::Rcm);
         for &top in Top::all_of(&design) {
@@ -91,8 +91,8 @@ fn module_headers_are_the_port_lists() {
             let header = header.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
             for port in top.ports(&design) {
                 let direction = match port.direction {
-                    Direction::Input => "input",
-                    Direction::Output => "output",
+                    PortDirection::Input => "input",
+                    PortDirection::Output => "output",
                 };
                 let line = header
                     .lines()
@@ -152,7 +152,7 @@ fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_wait
         let design = design(&format!("{hardware}feed = '{feed}'\n"));
         let files = core(&design);
         let readme = contents(&files, "README.md");
-        let stall = SerialTiming::of(design.serial().unwrap()).edges_to_ready();
+        let stall = SerialTiming::from_design(design.as_serial().unwrap()).edges_to_ready();
         for part in [
             "**region = lane * 5 + slot**, lane = 0..156, slot = 0..4",
             "The last 1 slots of lane 156 are empty",
@@ -161,8 +161,8 @@ fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_wait
         ] {
             assert!(readme.contains(part), "{part}: {readme}");
         }
-        assert_eq!(design.serial().unwrap().region_of(156, 3), Some(783));
-        assert_eq!(design.serial().unwrap().region_of(156, 4), None);
+        assert_eq!(design.as_serial().unwrap().region_in_slot(156, 3), Some(783));
+        assert_eq!(design.as_serial().unwrap().region_in_slot(156, 4), None);
     }
 }
 
@@ -192,7 +192,7 @@ fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall
     // The clocks are 3 words of the last row, 4 rows, 2 * 29 for the windows, and 11 to the
     // decision.
     let stall = 3 + 4 * 28 + 2 * 29 + 11;
-    assert_eq!(RasterTiming::of(design.raster().unwrap()).edges_to_ready(), stall);
+    assert_eq!(RasterTiming::from_design(design.as_raster().unwrap()).edges_to_ready(), stall);
     for part in [
         &format!("`ready_o` is 0 for **{stall} clocks**"),
         "7 blank rows of 28 clocks are enough",

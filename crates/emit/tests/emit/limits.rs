@@ -7,10 +7,10 @@ mod cases;
 use std::collections::BTreeSet;
 
 use crate::common::{design, every_design};
-use cases::{Case, all_leaves, cases, with_default};
+use cases::{LimitCase, all_leaves, cases, with_default};
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{every, require_tools};
+use foveate_toolchain::testing::{sampling_step, require_tools};
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
@@ -18,33 +18,33 @@ use rayon::prelude::*;
 const TOOLS: &[Tool] = &[Tool::Verilator, Tool::Iverilog, Tool::Yosys];
 
 /// Returns the message of a tool if it reports an error.
-fn said<T>(result: Result<T, ToolError>) -> Option<String> {
+fn error_message<T>(result: Result<T, ToolError>) -> Option<String> {
     result.err().map(|error| match error {
         ToolError::Failed { full, .. } => full,
         other => other.to_string(),
     })
 }
 
-fn verilator_says(sources: &[Source], top: &str) -> Option<String> {
-    said(verilator::lint(&Toolchain::system(), sources, top, None))
+fn verilator_error(sources: &[Source], top: &str) -> Option<String> {
+    error_message(verilator::lint(&Toolchain::system(), sources, top, None))
 }
 
-fn icarus_says(sources: &[Source], top: &str) -> Option<String> {
+fn icarus_error(sources: &[Source], top: &str) -> Option<String> {
     let job = IverilogJob {
         sources: sources.to_vec(),
         top: top.to_owned(),
         strict: true,
         ..IverilogJob::default()
     };
-    said(iverilog::compile(&Toolchain::system(), &Cache::throw_away().unwrap(), &job))
+    error_message(iverilog::compile(&Toolchain::system(), &Cache::temporary().unwrap(), &job))
 }
 
 /// Returns the error of Yosys, if any; `before` holds commands between reading and elaboration.
-fn yosys_says(sources: &[Source], before: &str, top: &str) -> Option<String> {
+fn yosys_error(sources: &[Source], before: &str, top: &str) -> Option<String> {
     let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
     let script = format!("read_verilog {}\n{before}hierarchy -check -top {top}\n", names.join(" "));
     let job = YosysJob { sources: sources.to_vec(), script, outputs: Vec::new() };
-    said(yosys::run(&Toolchain::system(), &Cache::throw_away().unwrap(), &job))
+    error_message(yosys::run(&Toolchain::system(), &Cache::temporary().unwrap(), &job))
 }
 
 /// Returns what is wrong with the answer of a tool, if anything.
@@ -62,9 +62,9 @@ fn problem(tool: Tool, refused: Option<&str>, said: Option<String>) -> Option<St
 /// Returns what is wrong with the answers of all tools.
 fn problems(sources: &[Source], top: &str, refused: Option<&str>) -> Vec<String> {
     let answers = [
-        (Tool::Verilator, verilator_says(sources, top)),
-        (Tool::Iverilog, icarus_says(sources, top)),
-        (Tool::Yosys, yosys_says(sources, "", top)),
+        (Tool::Verilator, verilator_error(sources, top)),
+        (Tool::Iverilog, icarus_error(sources, top)),
+        (Tool::Yosys, yosys_error(sources, "", top)),
     ];
     answers.into_iter().filter_map(|(tool, said)| problem(tool, refused, said)).collect()
 }
@@ -76,11 +76,11 @@ fn parameters_out_of_range_are_refused_one_by_one() {
     if !require_tools(TOOLS) {
         return;
     }
-    let check = |case: &Case| {
+    let check = |case: &LimitCase| {
         let (sources, top) = (case.sources(), case.module.as_str());
-        let found = match case.refused.as_deref() {
+        let found = match case.refusing_limit.as_deref() {
             None => problems(&sources, top, None),
-            refused => problem(Tool::Verilator, refused, verilator_says(&sources, top))
+            refused => problem(Tool::Verilator, refused, verilator_error(&sources, top))
                 .into_iter()
                 .collect(),
         };
@@ -91,12 +91,12 @@ fn parameters_out_of_range_are_refused_one_by_one() {
     // other tools refuse all of them together.
     let cases = cases();
     let mut modules = BTreeSet::new();
-    let chosen: Vec<&Case> = cases
+    let chosen: Vec<&LimitCase> = cases
         .iter()
         .enumerate()
         .filter(|(number, case)| {
-            let first = case.refused.is_some() && modules.insert(&case.module);
-            case.refused.is_none() || first || number % every(6) == 0
+            let first = case.refusing_limit.is_some() && modules.insert(&case.module);
+            case.refusing_limit.is_none() || first || number % sampling_step(6) == 0
         })
         .map(|(_, case)| case)
         .collect();
@@ -111,12 +111,12 @@ fn parameters_out_of_range_are_refused_together() {
         return;
     }
     let cases = cases();
-    let refused = cases.iter().filter_map(|case| case.refused.as_ref().map(|limit| (case, limit)));
-    let named: Vec<(String, &Case, &String)> = refused
+    let refused = cases.iter().filter_map(|case| case.refusing_limit.as_ref().map(|limit| (case, limit)));
+    let named: Vec<(String, &LimitCase, &String)> = refused
         .enumerate()
         .map(|(number, (case, limit))| (format!("case_{number}"), case, limit))
         .collect();
-    let modules: String = named.iter().map(|(name, case, _)| case.named(name)).collect();
+    let modules: String = named.iter().map(|(name, case, _)| case.renamed_text(name)).collect();
     let instances: String =
         named.iter().map(|(name, ..)| format!("    {name} u_{name} ();\n")).collect();
     let copies = ("cases.v".to_owned(), modules);
@@ -125,12 +125,12 @@ fn parameters_out_of_range_are_refused_together() {
         all_leaves().map(|leaf| (format!("rtl/{}.v", leaf.name), leaf.contents.to_owned()));
 
     let all: Vec<Source> = [copies.clone(), top].into_iter().chain(leaves).collect();
-    let icarus = icarus_says(&all, "top").unwrap_or_default();
+    let icarus = icarus_error(&all, "top").unwrap_or_default();
     let missing: BTreeSet<&str> = icarus.split_whitespace().collect();
     // Yosys elaborates each module as it reads it, and later stops at the first module that does
     // not exist. The missing modules that the copies instantiate are printed before, as
     // `cell \MODULE \INSTANCE`.
-    let yosys = yosys_says(&[copies], "dump t:*_must_*\n", "case_0").unwrap_or_default();
+    let yosys = yosys_error(&[copies], "dump t:*_must_*\n", "case_0").unwrap_or_default();
     let cells: BTreeSet<&str> = yosys.split_whitespace().collect();
     let of_first = format!("Module `\\{}_case_0' referenced in module `\\case_0'", named[0].2);
     let mut wrong = Vec::new();
@@ -138,7 +138,7 @@ fn parameters_out_of_range_are_refused_together() {
         wrong
             .push(format!("{} does not refuse a module that does not exist: {yosys}", Tool::Yosys));
     }
-    for (name, Case { module, parameters, .. }, limit) in &named {
+    for (name, LimitCase { module, parameters, .. }, limit) in &named {
         if !missing.contains(format!("{limit}_{name}").as_str()) {
             wrong
                 .push(format!("{module} {parameters:?}: {} does not name {limit}", Tool::Iverilog));
@@ -204,15 +204,15 @@ fn every_limit_has_a_case_and_every_module_with_limits_a_control() {
         let words = leaf.contents.split_whitespace();
         let limits: BTreeSet<&str> = words.filter(|word| word.contains("_must_")).collect();
         let own = || cases.iter().filter(|case| case.module == leaf.name);
-        let tried: BTreeSet<&str> = own().filter_map(|case| case.refused.as_deref()).collect();
+        let tried: BTreeSet<&str> = own().filter_map(|case| case.refusing_limit.as_deref()).collect();
         assert_eq!(limits, tried, "{}", leaf.name);
-        let controls = own().filter(|case| case.refused.is_none()).count();
+        let controls = own().filter(|case| case.refusing_limit.is_none()).count();
         assert_eq!(controls, usize::from(!limits.is_empty()), "{}", leaf.name);
     }
 }
 
 /// Returns the lines of a module's header that declare something without a comment.
-fn undocumented(text: &str) -> Vec<&str> {
+fn undocumented_lines(text: &str) -> Vec<&str> {
     let header = text.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
     let declares = |line: &&str| {
         let start = line.trim_start();
@@ -226,16 +226,16 @@ fn undocumented(text: &str) -> Vec<&str> {
 #[test]
 fn every_parameter_and_port_is_documented() {
     for leaf in all_leaves() {
-        assert_eq!(undocumented(leaf.contents), Vec::<&str>::new(), "{}", leaf.name);
+        assert_eq!(undocumented_lines(leaf.contents), Vec::<&str>::new(), "{}", leaf.name);
     }
     for toml in every_design() {
         let design = design(&toml);
         for &top in Top::all_of(&design) {
             let files = verilog(&design, top);
             let top_file = &files.last().unwrap().contents;
-            assert_eq!(undocumented(top_file), Vec::<&str>::new(), "{toml}");
+            assert_eq!(undocumented_lines(top_file), Vec::<&str>::new(), "{toml}");
         }
     }
     let planted = "\nmodule m #(\n    parameter A = 1\n) (\n    input wire b,  // so\n    output wire c  //\n);\n";
-    assert_eq!(undocumented(planted).len(), 2);
+    assert_eq!(undocumented_lines(planted).len(), 2);
 }

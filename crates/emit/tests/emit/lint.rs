@@ -2,7 +2,7 @@
 //! Emitted Verilog has no warning in Verilator and Yosys, over the matrix of designs.
 //! `elaborated.rs` tests warnings of Icarus.
 
-use crate::common::{MORE, design, matrix, meeting, raster_matrix, serial_matrix};
+use crate::common::{EXTRA_RASTER_DESIGNS, design, pipelined_matrix, covering_pairs, raster_matrix, serial_matrix};
 use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Runs `check` on the Verilog of every design and reports every failure.
-fn each_design(designs: &[String], check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync) {
+fn check_each_design(designs: &[String], check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync) {
     let failures: Vec<String> = designs
         .par_iter()
         .filter_map(|toml| {
@@ -26,15 +26,15 @@ fn each_design(designs: &[String], check: impl Fn(&[Source]) -> Result<(), ToolE
 }
 
 #[test]
-fn verilator_has_nothing_to_say() {
+fn verilator_has_no_warning() {
     if !require_tools(&[Tool::Verilator]) {
         return;
     }
     let toolchain = Toolchain::system();
     let (others, more) =
-        (meeting([serial_matrix(), raster_matrix()].concat()), MORE.map(str::to_owned));
-    let designs = [meeting(matrix()), others, more.to_vec()].concat();
-    each_design(&designs, |sources| verilator::lint(&toolchain, sources, "rcm", None));
+        (covering_pairs([serial_matrix(), raster_matrix()].concat()), EXTRA_RASTER_DESIGNS.map(str::to_owned));
+    let designs = [covering_pairs(pipelined_matrix()), others, more.to_vec()].concat();
+    check_each_design(&designs, |sources| verilator::lint(&toolchain, sources, "rcm", None));
 }
 
 /// The selection of designs still has each feature with each size of regions, and each organization
@@ -42,7 +42,7 @@ fn verilator_has_nothing_to_say() {
 #[test]
 fn fewer_designs_have_every_two_values() {
     for (matrix, sizes) in [(serial_matrix(), 6), (raster_matrix(), 8)] {
-        let (whole, fewer) = (matrix.len(), meeting(matrix));
+        let (whole, fewer) = (matrix.len(), covering_pairs(matrix));
         assert!(takes_whole_lists() || fewer.len() < whole * 2 / 3, "{}", fewer.len());
         let of = |toml: &String, key: &str| {
             let line = toml.lines().find(|line| line.starts_with(key));
@@ -62,17 +62,17 @@ fn fewer_designs_have_every_two_values() {
 }
 
 #[test]
-fn yosys_has_nothing_to_say() {
+fn yosys_has_no_warning() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     // The other organizations, with all their memories, take seconds each. Every fifth of them
     // still covers every leaf; `scripts/lint.sh` lints more.
     let others = [serial_matrix(), raster_matrix()].concat();
-    let more = MORE.map(str::to_owned).to_vec();
-    let designs = [meeting(matrix()), others.into_iter().step_by(5).collect(), more].concat();
-    each_design(&designs, |sources| {
+    let more = EXTRA_RASTER_DESIGNS.map(str::to_owned).to_vec();
+    let designs = [covering_pairs(pipelined_matrix()), others.into_iter().step_by(5).collect(), more].concat();
+    check_each_design(&designs, |sources| {
         let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
         let script = format!(
             "read_verilog {}\nhierarchy -check -top rcm\nproc\nopt_clean\ncheck -assert\n",
@@ -93,7 +93,7 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let designs: Vec<String> = raster_matrix().into_iter().skip(1).step_by(7).collect();
     let has = |part: &str| designs.iter().any(|toml| toml.contains(part));
     assert!(has("feature='mad'") && has("'variance'") && has("'last-sent'") && has("'raw'"));
@@ -116,7 +116,7 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
             named.collect()
         };
         let mut found: Vec<_> = numbers("SIZE").into_iter().zip(numbers("WIDTH")).collect();
-        let mut said: Vec<_> = RasterMemory::all_of(design.raster().unwrap())
+        let mut said: Vec<_> = RasterMemory::all_memories(design.as_raster().unwrap())
             .iter()
             .map(|memory| (memory.words, u64::from(memory.bits)))
             .collect();
@@ -143,5 +143,5 @@ fn a_planted_flaw_is_seen() {
     assert!(verilator::lint(&toolchain, &sources, "rpu", None).is_err());
     let job =
         IverilogJob { sources, top: "rpu".to_owned(), strict: true, ..IverilogJob::default() };
-    assert!(iverilog::compile(&toolchain, &Cache::throw_away().unwrap(), &job).is_err());
+    assert!(iverilog::compile(&toolchain, &Cache::temporary().unwrap(), &job).is_err());
 }

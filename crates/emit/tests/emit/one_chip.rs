@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::design;
-use foveate_design::{Design, Direction, PortRole};
+use foveate_design::{Design, PortDirection, PortRole};
 use foveate_emit::{Prefix, SourceFile, Top, core};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
@@ -34,7 +34,7 @@ fn designs() -> Vec<(Prefix, Design)> {
     ];
     let named = list.into_iter().map(|(name, toml)| {
         let design = design(&toml);
-        (Prefix::asked(Some(name), &design).unwrap(), design)
+        (Prefix::from_request(Some(name), &design).unwrap(), design)
     });
     named.collect()
 }
@@ -50,19 +50,19 @@ fn top(cores: &[(&Prefix, &Design)]) -> String {
         let mut counted = 0;
         for port in Top::Rcm.ports(design) {
             let signal = match (port.direction, port.role) {
-                (Direction::Input, PortRole::Clock) => "clk".to_owned(),
-                (Direction::Input, PortRole::Reset) => "rst".to_owned(),
-                (Direction::Input, PortRole::Pixel) => {
+                (PortDirection::Input, PortRole::Clock) => "clk".to_owned(),
+                (PortDirection::Input, PortRole::Reset) => "rst".to_owned(),
+                (PortDirection::Input, PortRole::Pixel) => {
                     format!("{{{}{{pixels}}}}", port.bits().div_ceil(32))
                 }
-                (Direction::Input, PortRole::Valid | PortRole::ForwardReady) => "1'b1".to_owned(),
-                (Direction::Input, _) => format!("{}'d1", port.bits()),
-                (Direction::Output, PortRole::DecisionValid) => format!("decided_{number}"),
-                (Direction::Output, PortRole::Score(_) | PortRole::AnyScore) => {
+                (PortDirection::Input, PortRole::Valid | PortRole::ForwardReady) => "1'b1".to_owned(),
+                (PortDirection::Input, _) => format!("{}'d1", port.bits()),
+                (PortDirection::Output, PortRole::DecisionValid) => format!("decided_{number}"),
+                (PortDirection::Output, PortRole::Score(_) | PortRole::AnyScore) => {
                     counted = port.bits();
                     format!("score_{number}")
                 }
-                (Direction::Output, _) => String::new(),
+                (PortDirection::Output, _) => String::new(),
             };
             pins.push(format!(".{}({signal})", port.name));
         }
@@ -72,13 +72,13 @@ fn top(cores: &[(&Prefix, &Design)]) -> String {
              always @(posedge clk) if (!rst && decided_{number}) begin\n        count_{number} = count_{number} + 1;\n        \
              sum_{number} = sum_{number} * 3 + score_{number};\n    end\n    {} u_{number} ({});\n",
             counted - 1,
-            prefix.name("rcm"),
+            prefix.prefixed_name("rcm"),
             pins.join(", ")
         );
         let _ = writeln!(
             says,
             "        $display(\"{} %0d %0d\", count_{number}, sum_{number});",
-            Prefix::name(prefix, "core")
+            Prefix::prefixed_name(prefix, "core")
         );
     }
     let _ = write!(
@@ -95,8 +95,8 @@ fn top(cores: &[(&Prefix, &Design)]) -> String {
 fn write(folder: &Path, cores: &[(&Prefix, &Design)]) -> Vec<String> {
     let mut names = Vec::new();
     for (number, (prefix, design)) in cores.iter().enumerate() {
-        let files: Vec<SourceFile> = core(design, prefix);
-        let list = files.iter().find(|file| file.path == prefix.name("rcm.f")).unwrap();
+        let files: Vec<SourceFile> = core_files(design, prefix);
+        let list = files.iter().find(|file| file.path == prefix.prefixed_name("rcm.f")).unwrap();
         for path in list.contents.lines() {
             let file = files.iter().find(|file| file.path == path).unwrap();
             let name = format!("{number}_{}", path.strip_prefix("rtl/").unwrap());
@@ -189,7 +189,7 @@ fn no_names_of_two_cores_are_alike() {
     let (mut modules, mut names) = (BTreeSet::new(), BTreeSet::new());
     for (prefix, design) in &designs {
         for prefix in [prefix, &Prefix::default()] {
-            let files = core(design, prefix);
+            let files = core_files(design, prefix);
             let fusesoc = files.iter().find(|file| file.path == "foveate_rcm.core").unwrap();
             let name =
                 fusesoc.contents.lines().find_map(|line| line.strip_prefix("name: ")).unwrap();

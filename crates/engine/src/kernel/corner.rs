@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The feature `corner`: FAST 5/8.
 
-use crate::kernel::{Sides, Windows, near};
-use foveate_lanes::{BLOCK, Block, Lane, best_arc};
+use crate::kernel::{WindowSides, WindowRows, extended_block};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
 
 /// Adds one to every lane whose pixel is a corner at `level`.
 #[inline(always)]
-pub(crate) fn count<T: Lane>(
-    windows: Windows<'_, T>,
-    sides: impl Sides<T>,
+pub(crate) fn count_corners<T: PixelLane>(
+    windows: WindowRows<'_, T>,
+    sides: impl WindowSides<T>,
     level: T,
     hits: &mut [Block<T>],
 ) {
     for (at, hits) in hits.iter_mut().enumerate() {
-        let above = near(windows.above, at);
-        let here = near(windows.here, at);
-        let below = near(windows.below, at);
+        let above = extended_block(windows.above, at);
+        let here = extended_block(windows.here, at);
+        let below = extended_block(windows.below, at);
         let mut sums = *hits;
-        for i in 0..BLOCK {
-            let (nw, n, ne) = sides.see(above, at, i);
-            let (w, center, e) = sides.see(here, at, i);
-            let (sw, s, se) = sides.see(below, at, i);
+        for i in 0..BLOCK_LANES {
+            let (nw, n, ne) = sides.window_row(above, at, i);
+            let (w, center, e) = sides.window_row(here, at, i);
+            let (sw, s, se) = sides.window_row(below, at, i);
             let ring = [nw, n, ne, e, se, s, sw, w];
-            let bright = best_arc(ring, T::min, T::max) > center.plus(level);
-            let dark = best_arc(ring, T::max, T::min) < center.minus(level);
-            sums[i] += T::hit(bright | dark);
+            let bright = best_arc(ring, T::min, T::max) > center.saturating_plus(level);
+            let dark = best_arc(ring, T::max, T::min) < center.saturating_minus(level);
+            sums[i] += T::from_hit(bright | dark);
         }
         *hits = sums;
     }

@@ -4,32 +4,32 @@
 //! `|Gx| + |Gy|` is the larger of `|Gx + Gy|` and `|Gx - Gy|`. Both are even, and half of each is a
 //! sum of three differences of pixels. It is compared with half the level, rounded down.
 
-use crate::kernel::{Sides, Windows, near};
-use foveate_lanes::{BLOCK, Block, Lane};
+use crate::kernel::{WindowSides, WindowRows, extended_block};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane whose window is an edge. `half` is half of the level, rounded down.
 #[inline(always)]
-pub(crate) fn count<T: Lane>(
-    windows: Windows<'_, T>,
-    sides: impl Sides<T>,
+pub(crate) fn count_edges<T: PixelLane>(
+    windows: WindowRows<'_, T>,
+    sides: impl WindowSides<T>,
     half: T::Signed,
     hits: &mut [Block<T>],
 ) {
     for (at, hits) in hits.iter_mut().enumerate() {
-        let above = near(windows.above, at);
-        let here = near(windows.here, at);
-        let below = near(windows.below, at);
+        let above = extended_block(windows.above, at);
+        let here = extended_block(windows.here, at);
+        let below = extended_block(windows.below, at);
         let mut sums = *hits;
-        for i in 0..BLOCK {
-            let (nw, n, ne) = sides.see(above, at, i);
-            let (w, _, e) = sides.see(here, at, i);
-            let (sw, s, se) = sides.see(below, at, i);
+        for i in 0..BLOCK_LANES {
+            let (nw, n, ne) = sides.window_row(above, at, i);
+            let (w, _, e) = sides.window_row(here, at, i);
+            let (sw, s, se) = sides.window_row(below, at, i);
             let minus = |a, b| T::Signed::from(a) - T::Signed::from(b);
             let (across, down) = (minus(e, w), minus(s, n));
             let sum = across + down + minus(se, nw);
             let difference = across - down + minus(ne, sw);
             let larger = sum.max(-sum).max(difference.max(-difference));
-            sums[i] += T::hit(larger > half);
+            sums[i] += T::from_hit(larger > half);
         }
         *hits = sums;
     }

@@ -7,43 +7,43 @@
 //! above `m`, the score is `2 (2^f Q - r K) + n mu - 2^f S`. So one saturating subtraction per
 //! pixel is enough for any f.
 
-use foveate_lanes::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds to every column the amounts by which its pixels exceed `mean`.
 #[inline(always)]
-pub(crate) fn add_above<T: Lane>(
+pub(crate) fn add_above<T: PixelLane>(
     pixels: &[Block<T>],
     mean: &[Block<T>],
-    above: &mut [Block<T::Sum>],
+    above: &mut [Block<T::ColumnSum>],
 ) {
     for ((pixels, mean), above) in pixels.iter().zip(mean).zip(above) {
-        for i in 0..BLOCK {
-            above[i] += T::Sum::from(pixels[i].minus(mean[i]));
+        for i in 0..BLOCK_LANES {
+            above[i] += T::ColumnSum::from(pixels[i].saturating_minus(mean[i]));
         }
     }
 }
 
 /// Adds one to every lane whose pixel is above `mean`.
 #[inline(always)]
-pub(crate) fn count_above<T: Lane>(pixels: &[Block<T>], mean: &[Block<T>], hits: &mut [Block<T>]) {
+pub(crate) fn count_above<T: PixelLane>(pixels: &[Block<T>], mean: &[Block<T>], hits: &mut [Block<T>]) {
     for ((pixels, mean), hits) in pixels.iter().zip(mean).zip(hits) {
-        for i in 0..BLOCK {
-            hits[i] += pixels[i].minus(mean[i]).min(T::ONE);
+        for i in 0..BLOCK_LANES {
+            hits[i] += pixels[i].saturating_minus(mean[i]).min(T::ONE);
         }
     }
 }
 
 /// Returns the rounded mean of a region in units of `2^-f` grey levels.
 #[inline(always)]
-pub(crate) fn mean(sum: u64, n: u64, fraction_bits: u32) -> u64 {
+pub(crate) fn region_mean(sum: u64, n: u64, fraction_bits: u32) -> u64 {
     ((sum << fraction_bits) + n / 2) / n
 }
 
 /// Returns the score. `sum` is the sum of the pixels, `above` the sum of the amounts by which
 /// pixels exceed the whole part of the mean, and `over` the number of pixels that exceed it.
 #[inline(always)]
-pub(crate) fn score(n: u64, fraction_bits: u32, sum: u64, above: u64, over: u64) -> u64 {
-    let mean = mean(sum, n, fraction_bits);
+pub(crate) fn mad_score(n: u64, fraction_bits: u32, sum: u64, above: u64, over: u64) -> u64 {
+    let mean = region_mean(sum, n, fraction_bits);
     let fraction = mean - ((mean >> fraction_bits) << fraction_bits);
     2 * ((above << fraction_bits) - fraction * over) + n * mean - (sum << fraction_bits)
 }
@@ -58,12 +58,12 @@ mod tests {
             let pixels = [code % 7, code / 7 % 7, code / 49 % 7, code / 343].map(|x| x as u64);
             for fraction_bits in 0..=2 {
                 let sum = pixels.iter().sum();
-                let mean = mean(sum, 4, fraction_bits);
+                let mean = region_mean(sum, 4, fraction_bits);
                 let whole = mean >> fraction_bits;
                 let above = pixels.iter().map(|x| x.saturating_sub(whole)).sum();
                 let over = pixels.iter().map(|&x| u64::from(x > whole)).sum();
                 let plain: u64 = pixels.iter().map(|x| (x << fraction_bits).abs_diff(mean)).sum();
-                let score = score(4, fraction_bits, sum, above, over);
+                let score = mad_score(4, fraction_bits, sum, above, over);
                 assert_eq!(score, plain, "{pixels:?} with {fraction_bits} bits");
             }
         }

@@ -5,13 +5,13 @@
 //! The median of the nine is the median of three values: the largest of the columns' lows, the
 //! middle one of their mids and the smallest of their highs.
 
-use crate::kernel::{Near, Sides, near};
+use crate::kernel::{ExtendedRow, WindowSides, extended_block};
 use foveate_lanes::prefetch;
-use foveate_lanes::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Sorts the three pixels of every column.
 #[inline(always)]
-pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
+pub(crate) fn sort_columns<T: PixelLane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
     let ([a, b, c], [low, mid, high]) = (rows, sorted);
     let blocks = low.len();
     let (a, b, c) = (&a[..blocks], &b[..blocks], &c[..blocks]);
@@ -19,8 +19,8 @@ pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block
     for at in 0..blocks {
         let (a, b, c) = (&a[at], &b[at], &c[at]);
         let (mut lows, mut mids, mut highs) =
-            ([T::default(); BLOCK], [T::default(); BLOCK], [T::default(); BLOCK]);
-        for i in 0..BLOCK {
+            ([T::default(); BLOCK_LANES], [T::default(); BLOCK_LANES], [T::default(); BLOCK_LANES]);
+        for i in 0..BLOCK_LANES {
             let (p, q, r) = (a[i], b[i], c[i]);
             let (p, q) = (p.min(q), p.max(q));
             let (q, r) = (q.min(r), q.max(r));
@@ -33,9 +33,9 @@ pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block
 /// Computes the median of every window from its three sorted columns. Prefetches `ahead`, raw
 /// pixels that will be sorted some rows later.
 #[inline(always)]
-pub(crate) fn combine<T: Lane>(
-    [low, mid, high]: [Near<'_, T>; 3],
-    sides: impl Sides<T>,
+pub(crate) fn combine_columns<T: PixelLane>(
+    [low, mid, high]: [ExtendedRow<'_, T>; 3],
+    sides: impl WindowSides<T>,
     ahead: &[Block<T>],
     out: &mut [Block<T>],
 ) {
@@ -43,31 +43,31 @@ pub(crate) fn combine<T: Lane>(
         if let Some(ahead) = ahead.get(at) {
             prefetch(ahead);
         }
-        let (low, mid, high) = (near(low, at), near(mid, at), near(high, at));
-        let mut medians = [T::default(); BLOCK];
-        for i in 0..BLOCK {
+        let (low, mid, high) = (extended_block(low, at), extended_block(mid, at), extended_block(high, at));
+        let mut medians = [T::default(); BLOCK_LANES];
+        for i in 0..BLOCK_LANES {
             medians[i] =
-                of_columns(sides.see(low, at, i), sides.see(mid, at, i), sides.see(high, at, i));
+                median_of_columns(sides.window_row(low, at, i), sides.window_row(mid, at, i), sides.window_row(high, at, i));
         }
         *out = medians;
     }
 }
 
 #[inline(always)]
-fn of_columns<T: Lane>(low: (T, T, T), mid: (T, T, T), high: (T, T, T)) -> T {
+fn median_of_columns<T: PixelLane>(low: (T, T, T), mid: (T, T, T), high: (T, T, T)) -> T {
     middle((low.0.max(low.1).max(low.2), middle(mid), high.0.min(high.1).min(high.2)))
 }
 
 /// Returns the second of three values in sorted order.
 #[inline(always)]
-fn middle<T: Lane>((a, b, c): (T, T, T)) -> T {
+fn middle<T: PixelLane>((a, b, c): (T, T, T)) -> T {
     a.min(b).max(a.max(b).min(c))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::Open;
+    use crate::kernel::SharedSides;
 
     /// The 0-1 principle: a network of minima and maxima is right for all values if it is right for
     /// zeros and ones.
@@ -77,19 +77,19 @@ mod tests {
             let pixel = |place: usize| u8::from(bits >> place & 1 == 1);
             // Lane 0 sees the window, whose left column is the lane before the first block.
             let rows = [0, 3, 6].map(|row| {
-                let mut lanes = [0; 3 * BLOCK];
-                lanes[BLOCK - 1] = pixel(row);
-                lanes[BLOCK] = pixel(row + 1);
-                lanes[BLOCK + 1] = pixel(row + 2);
+                let mut lanes = [0; 3 * BLOCK_LANES];
+                lanes[BLOCK_LANES - 1] = pixel(row);
+                lanes[BLOCK_LANES] = pixel(row + 1);
+                lanes[BLOCK_LANES + 1] = pixel(row + 2);
                 lanes
             });
-            let mut sorted = [[0; 3 * BLOCK]; 3];
+            let mut sorted = [[0; 3 * BLOCK_LANES]; 3];
             let [low, mid, high] = &mut sorted;
             let blocks = [low, mid, high].map(|row| row.as_chunks_mut().0);
             let rows = rows.each_ref().map(|row| row.as_chunks().0);
             sort_columns(rows, blocks);
-            let mut out = [[9; BLOCK]];
-            combine(sorted.each_ref().map(|row| &row[BLOCK - 1..]), Open, &[], &mut out);
+            let mut out = [[9; BLOCK_LANES]];
+            combine_columns(sorted.each_ref().map(|row| &row[BLOCK_LANES - 1..]), SharedSides, &[], &mut out);
             assert_eq!(out[0][0], u8::from(bits.count_ones() >= 5), "window {bits:09b}");
         }
     }

@@ -17,54 +17,54 @@ pub(crate) mod median;
 pub(crate) mod sums;
 pub(crate) mod temporal;
 
-use foveate_lanes::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// A row that has one lane before its first block and one lane after its last.
-pub(crate) type Near<'a, T> = &'a [T];
+pub(crate) type ExtendedRow<'a, T> = &'a [T];
 
 /// Returns block `at` of such a row, with the lane before it and the lane after it.
 #[inline(always)]
-pub(crate) fn near<T>(row: Near<'_, T>, at: usize) -> &[T; BLOCK + 2] {
-    row[at * BLOCK..].first_chunk().expect("one lane more on each side")
+pub(crate) fn extended_block<T>(row: ExtendedRow<'_, T>, at: usize) -> &[T; BLOCK_LANES + 2] {
+    row[at * BLOCK_LANES..].first_chunk().expect("one lane more on each side")
 }
 
 /// The three rows that the windows of a row cover.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Windows<'a, T> {
-    pub(crate) above: Near<'a, T>,
-    pub(crate) here: Near<'a, T>,
-    pub(crate) below: Near<'a, T>,
+pub(crate) struct WindowRows<'a, T> {
+    pub(crate) above: ExtendedRow<'a, T>,
+    pub(crate) here: ExtendedRow<'a, T>,
+    pub(crate) below: ExtendedRow<'a, T>,
 }
 
 /// The pixels that windows see beyond the sides of a region.
-pub(crate) trait Sides<T: Lane>: Copy {
+pub(crate) trait WindowSides<T: PixelLane>: Copy {
     /// Returns the pixels at the left, center and right of the window of lane `i` of block `at`, in
     /// one row.
-    fn see(self, row: &[T; BLOCK + 2], at: usize, i: usize) -> (T, T, T);
+    fn window_row(self, row: &[T; BLOCK_LANES + 2], at: usize, i: usize) -> (T, T, T);
 }
 
 /// The neighborhood `shared`: windows see the real neighbors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Open;
+pub(crate) struct SharedSides;
 
 /// The neighborhood `isolated`: windows see the region's own border pixel. Every bit of a mask is
 /// set in the first and in the last columns of regions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seams<'a, T> {
+pub(crate) struct IsolatedSides<'a, T> {
     pub(crate) first: &'a [Block<T>],
     pub(crate) last: &'a [Block<T>],
 }
 
-impl<T: Lane> Sides<T> for Open {
+impl<T: PixelLane> WindowSides<T> for SharedSides {
     #[inline(always)]
-    fn see(self, row: &[T; BLOCK + 2], _at: usize, i: usize) -> (T, T, T) {
+    fn window_row(self, row: &[T; BLOCK_LANES + 2], _at: usize, i: usize) -> (T, T, T) {
         (row[i], row[i + 1], row[i + 2])
     }
 }
 
-impl<T: Lane> Sides<T> for Seams<'_, T> {
+impl<T: PixelLane> WindowSides<T> for IsolatedSides<'_, T> {
     #[inline(always)]
-    fn see(self, row: &[T; BLOCK + 2], at: usize, i: usize) -> (T, T, T) {
+    fn window_row(self, row: &[T; BLOCK_LANES + 2], at: usize, i: usize) -> (T, T, T) {
         let center = row[i + 1];
         (
             select(self.first[at][i], center, row[i]),
@@ -76,6 +76,6 @@ impl<T: Lane> Sides<T> for Seams<'_, T> {
 
 /// Returns `yes` where the mask is set, otherwise `no`.
 #[inline(always)]
-fn select<T: Lane>(mask: T, yes: T, no: T) -> T {
+fn select<T: PixelLane>(mask: T, yes: T, no: T) -> T {
     no ^ ((yes ^ no) & mask)
 }

@@ -3,33 +3,33 @@
 
 use std::ops::Range;
 
-use foveate_lanes::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds every pixel to the sum of its column.
 #[inline(always)]
-pub(crate) fn add<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Sum>]) {
+pub(crate) fn add_to_columns<T: PixelLane>(pixels: &[Block<T>], sums: &mut [Block<T::ColumnSum>]) {
     for (pixels, sums) in pixels.iter().zip(sums) {
-        for i in 0..BLOCK {
-            sums[i] += T::Sum::from(pixels[i]);
+        for i in 0..BLOCK_LANES {
+            sums[i] += T::ColumnSum::from(pixels[i]);
         }
     }
 }
 
 /// Computes the column sums of some rows of a plane. `plane` begins at the first column of `sums`.
 #[inline(always)]
-pub(crate) fn add_rows<T: Lane>(
+pub(crate) fn add_rows<T: PixelLane>(
     plane: &[T],
     stride: usize,
     rows: Range<usize>,
-    sums: &mut [Block<T::Sum>],
+    sums: &mut [Block<T::ColumnSum>],
 ) {
     for (at, sums) in sums.iter_mut().enumerate() {
         // The sums stay in registers over all rows.
-        let mut own = [T::Sum::default(); BLOCK];
+        let mut own = [T::ColumnSum::default(); BLOCK_LANES];
         for row in rows.clone() {
-            if let Some(pixels) = plane[row * stride + at * BLOCK..].first_chunk::<BLOCK>() {
-                for i in 0..BLOCK {
-                    own[i] += T::Sum::from(pixels[i]);
+            if let Some(pixels) = plane[row * stride + at * BLOCK_LANES..].first_chunk::<BLOCK_LANES>() {
+                for i in 0..BLOCK_LANES {
+                    own[i] += T::ColumnSum::from(pixels[i]);
                 }
             }
         }
@@ -39,9 +39,9 @@ pub(crate) fn add_rows<T: Lane>(
 
 /// Adds the square of every pixel to the sum of its column.
 #[inline(always)]
-pub(crate) fn add_squares<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Square>]) {
+pub(crate) fn add_squares<T: PixelLane>(pixels: &[Block<T>], sums: &mut [Block<T::SquareSum>]) {
     for (pixels, sums) in pixels.iter().zip(sums) {
-        for i in 0..BLOCK {
+        for i in 0..BLOCK_LANES {
             sums[i] += pixels[i].square();
         }
     }
@@ -49,7 +49,7 @@ pub(crate) fn add_squares<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Squ
 
 /// Adds up the columns of every region. A region has `side` columns.
 #[inline(always)]
-pub(crate) fn by_region<V: Copy + Into<u64>>(columns: &[V], side: usize, regions: &mut [u64]) {
+pub(crate) fn sum_by_region<V: Copy + Into<u64>>(columns: &[V], side: usize, regions: &mut [u64]) {
     // The usual sizes are constants, so that the inner loop has no counter.
     match side {
         4 => by_constant::<4, V>(columns, regions),
@@ -74,7 +74,7 @@ fn by_constant<const SIDE: usize, V: Copy + Into<u64>>(columns: &[V], regions: &
 
 /// Writes a value of each region into all of its columns.
 #[inline(always)]
-pub(crate) fn spread<T: Copy>(
+pub(crate) fn spread_over_columns<T: Copy>(
     regions: &[u64],
     side: usize,
     value: impl Fn(u64) -> T,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The temporal score: the number of pixels that differ from their reference by more than a level.
 
-use foveate_lanes::{BLOCK, Block, Lane};
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane that has changed, and replaces the reference by the current pixels.
 #[inline(always)]
-pub(crate) fn count_and_replace<T: Lane>(
+pub(crate) fn count_and_replace<T: PixelLane>(
     now: &[Block<T>],
     reference: &mut [Block<T>],
     level: T,
@@ -13,7 +13,7 @@ pub(crate) fn count_and_replace<T: Lane>(
 ) {
     for ((now, reference), hits) in now.iter().zip(reference).zip(hits) {
         let mut sums = *hits;
-        for i in 0..BLOCK {
+        for i in 0..BLOCK_LANES {
             sums[i] += changed(now[i], reference[i], level);
         }
         *hits = sums;
@@ -24,7 +24,7 @@ pub(crate) fn count_and_replace<T: Lane>(
 /// Adds one to every lane that has changed, and writes the current pixels to `store`. The reference
 /// stays.
 #[inline(always)]
-pub(crate) fn count_and_store<T: Lane>(
+pub(crate) fn count_and_store<T: PixelLane>(
     now: &[Block<T>],
     reference: &[Block<T>],
     level: T,
@@ -33,7 +33,7 @@ pub(crate) fn count_and_store<T: Lane>(
 ) {
     for (((now, reference), hits), store) in now.iter().zip(reference).zip(hits).zip(store) {
         let mut sums = *hits;
-        for i in 0..BLOCK {
+        for i in 0..BLOCK_LANES {
             sums[i] += changed(now[i], reference[i], level);
         }
         *hits = sums;
@@ -43,6 +43,6 @@ pub(crate) fn count_and_store<T: Lane>(
 
 /// Returns one if the pixel has changed, otherwise zero.
 #[inline(always)]
-fn changed<T: Lane>(now: T, reference: T, level: T) -> T {
-    now.distance(reference).minus(level).min(T::ONE)
+fn changed<T: PixelLane>(now: T, reference: T, level: T) -> T {
+    now.absolute_difference(reference).saturating_minus(level).min(T::ONE)
 }

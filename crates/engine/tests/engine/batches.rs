@@ -2,21 +2,21 @@
 //! Several frames in one call give the results of single calls, for every camera, clip, division
 //! into batches, number of threads and instruction set.
 
-use foveate_camera::{Camera, FeatureKind, Neighborhood, Reference, SpatialConfig};
-use foveate_engine::{Engine, FrameOutcome, Level, Options, Screens};
+use foveate_camera::{Camera, FeatureKind, Neighborhood, ReferencePolicy, SpatialConfig};
+use foveate_engine::{Engine, FrameOutcome, InstructionSet, EngineOptions, BatchScreens};
 use foveate_frame::Frame;
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
 use proptest::prelude::*;
 
-use crate::film::{Change, film, scripts};
+use crate::clip_script::{FrameChange, film, scripts};
 use crate::hard_cases::camera;
 use crate::properties::assert_same;
-use crate::recipe::cameras;
+use crate::random_cameras::cameras;
 
 /// One call of an engine.
 #[derive(Clone, Copy, Debug)]
-struct Call {
+struct EngineCall {
     frames: usize,
     /// Asks for the screens.
     screens: bool,
@@ -26,9 +26,9 @@ struct Call {
     single: bool,
 }
 
-fn calls() -> impl Strategy<Value = Vec<Call>> {
+fn calls() -> impl Strategy<Value = Vec<EngineCall>> {
     let call = (0usize..=7, any::<bool>(), proptest::bool::weighted(0.15), any::<bool>());
-    let call = call.prop_map(|(frames, screens, reset, single)| Call {
+    let call = call.prop_map(|(frames, screens, reset, single)| EngineCall {
         frames,
         screens,
         reset,
@@ -45,9 +45,9 @@ fn strided(camera: &Camera, frame: &Frame, gap: usize) -> Vec<u16> {
 
 /// Screens of both widths, which all engines write in turn.
 #[derive(Default)]
-struct Kept {
-    bytes: Screens<u8>,
-    words: Screens<u16>,
+struct KeptScreens {
+    bytes: BatchScreens<u8>,
+    words: BatchScreens<u16>,
 }
 
 /// Returns the outcomes of frames that are given in one call, and their screens if `kept` is given.
@@ -55,7 +55,7 @@ fn step(
     engine: &mut Engine,
     frames: &[Frame],
     gap: usize,
-    kept: Option<&mut Kept>,
+    kept: Option<&mut KeptScreens>,
 ) -> (Vec<FrameOutcome>, Vec<Vec<u16>>) {
     let camera = engine.camera().clone();
     let stride = usize::try_from(camera.width()).unwrap() + gap;
@@ -73,17 +73,17 @@ fn step(
     let mut screens = kept.map(|kept| &mut kept.bytes);
     let outcomes = engine.step_batch_u8(&frames, stride, screens.as_deref_mut());
     let screens = screens.iter().flat_map(|screens| screens.iter());
-    let screens = screens.map(|screen| Plane::Bytes(screen).to_words()).collect();
+    let screens = screens.map(|screen| FramePixels::Bytes(screen).to_words()).collect();
     (outcomes.unwrap().to_vec(), screens)
 }
 
 /// Runs a clip through the model frame by frame and through engines call by call. The clip is
 /// repeated until the calls end. Returns how many regions one thread skipped.
-fn check(camera: &Camera, film: &[Frame], calls: &[Call], options: Options, gap: usize) -> usize {
+fn check(camera: &Camera, film: &[Frame], calls: &[EngineCall], options: EngineOptions, gap: usize) -> usize {
     let mut model = FunctionalCamera::new(camera);
-    let engine = |threads| Engine::with_options(camera, Options { threads, ..options }).unwrap();
+    let engine = |threads| Engine::with_options(camera, EngineOptions { threads, ..options }).unwrap();
     let mut engines = [1, 2, 3].map(engine);
-    let (mut film, mut skipped, mut kept) = (film.iter().cycle(), 0, Kept::default());
+    let (mut film, mut skipped, mut kept) = (film.iter().cycle(), 0, KeptScreens::default());
     for call in calls {
         let context = format!("{call:?} of {calls:?}, {options:?}, {:?}", camera.config());
         if call.reset {
@@ -121,8 +121,8 @@ fn check(camera: &Camera, film: &[Frame], calls: &[Call], options: Options, gap:
     skipped
 }
 
-fn batch(frames: usize) -> Call {
-    Call { frames, screens: true, reset: false, single: false }
+fn batch(frames: usize) -> EngineCall {
+    EngineCall { frames, screens: true, reset: false, single: false }
 }
 
 proptest! {
@@ -134,10 +134,10 @@ proptest! {
         (seed, script) in scripts(),
         calls in calls(),
         skip in any::<bool>(),
-        level in proptest::sample::select(Level::available()),
+        level in proptest::sample::select(InstructionSet::available()),
         gap in 0usize..4,
     ) {
-        let options = Options { threads: 1, skip, level };
+        let options = EngineOptions { threads: 1, skips_identical_regions, level };
         check(&camera, &film(&camera, seed, &script), &calls, options, gap);
     }
 }
@@ -145,15 +145,15 @@ proptest! {
 /// Frames that a batch divides among threads, still and moving, in batches of every length.
 #[test]
 fn strips_go_through_a_batch_without_a_seam() {
-    use Change::{Noise, Patch, Spot, Still};
+    use FrameChange::{Noise, Patch, Spot, Still};
     let script =
         [Still, Still, Patch(0.4, 0.2), Still, Still, Noise, Still, Spot(0.5, 0.5), Still, Still];
     // These four cases contain every pair of values.
     let cameras = [
-        (Neighborhood::Isolated, Reference::Previous, 8),
-        (Neighborhood::Isolated, Reference::LastSent, 10),
-        (Neighborhood::Shared, Reference::Previous, 10),
-        (Neighborhood::Shared, Reference::LastSent, 8),
+        (Neighborhood::Isolated, ReferencePolicy::Previous, 8),
+        (Neighborhood::Isolated, ReferencePolicy::LastSent, 10),
+        (Neighborhood::Shared, ReferencePolicy::Previous, 10),
+        (Neighborhood::Shared, ReferencePolicy::LastSent, 8),
     ];
     for side in [5, 8, 32] {
         for (neighborhood, reference, bits) in cameras {
@@ -166,7 +166,7 @@ fn strips_go_through_a_batch_without_a_seam() {
             });
             let calls = [batch(2), batch(5), batch(1), batch(9), batch(4)];
             let film = film(&camera, 9, &script);
-            assert!(check(&camera, &film, &calls, Options::default(), 0) > 0);
+            assert!(check(&camera, &film, &calls, EngineOptions::default(), 0) > 0);
         }
     }
 }
@@ -175,8 +175,8 @@ fn strips_go_through_a_batch_without_a_seam() {
 #[test]
 fn a_single_batch_is_skipped_where_it_stands_still() {
     let camera = camera(250, 70, 8, |_| {});
-    let frames = film(&camera, 5, &[Change::Still; 7]);
-    let skipped = check(&camera, &frames, &[batch(8)], Options::default(), 0);
+    let frames = film(&camera, 5, &[FrameChange::Still; 7]);
+    let skipped = check(&camera, &frames, &[batch(8)], EngineOptions::default(), 0);
     assert_eq!(skipped, 7 * usize::try_from(camera.regions()).unwrap());
 }
 
@@ -184,7 +184,7 @@ fn a_single_batch_is_skipped_where_it_stands_still() {
 #[test]
 fn long_batches_are_one_film() {
     let camera = camera(1500, 1100, 64, |_| {});
-    let script = [Change::Still, Change::Patch(0.3, 0.4), Change::Still, Change::Fade];
+    let script = [FrameChange::Still, FrameChange::Patch(0.3, 0.4), FrameChange::Still, FrameChange::Fade];
     let calls = [batch(7), batch(6)];
-    check(&camera, &film(&camera, 11, &script), &calls, Options::default(), 0);
+    check(&camera, &film(&camera, 11, &script), &calls, EngineOptions::default(), 0);
 }

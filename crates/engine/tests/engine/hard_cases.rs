@@ -2,12 +2,12 @@
 //! Cases that random cameras reach too seldom.
 
 use foveate_camera::{
-    Camera, CameraConfig, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
+    Camera, CameraConfig, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy, SpatialConfig,
 };
-use foveate_engine::Options;
+use foveate_engine::EngineOptions;
 use foveate_frame::Frame;
 
-use crate::film::{Change, film};
+use crate::clip_script::{FrameChange, film};
 use crate::properties::{check, check_all};
 
 pub(crate) fn camera(
@@ -43,7 +43,7 @@ fn the_largest_sums_stay_inside_their_lanes() {
         let stripes = |x: u32, _| if (x / 2).is_multiple_of(2) { 0 } else { max };
         let stripes = Frame::from_fn(128, 128, bits, stripes).unwrap();
         let halves = Frame::from_fn(128, 128, bits, |_, y| if y < 32 { 0 } else { max }).unwrap();
-        check(&camera, &[full, stripes, halves], Options::default());
+        check(&camera, &[full, stripes, halves], EngineOptions::default());
     }
 }
 
@@ -51,7 +51,7 @@ fn the_largest_sums_stay_inside_their_lanes() {
 /// it moves again.
 #[test]
 fn stillness_is_skipped_and_exact() {
-    use Change::{Noise, Patch, Spot, Still};
+    use FrameChange::{Noise, Patch, Spot, Still};
     let script = [
         Still,
         Still,
@@ -73,8 +73,8 @@ fn stillness_is_skipped_and_exact() {
         Still,
     ];
     for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
-        for reference in [Reference::Previous, Reference::LastSent] {
-            for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
+        for reference in [ReferencePolicy::Previous, ReferencePolicy::LastSent] {
+            for irrelevant in [IrrelevantRendering::Zero, IrrelevantRendering::Hold] {
                 for min_count in [0, 1, 40] {
                     let camera = camera(250, 70, 8, |config| {
                         every_feature(config);
@@ -85,7 +85,7 @@ fn stillness_is_skipped_and_exact() {
                         config.spatial[0].level = Some(400);
                     });
                     let frames = film(&camera, 77, &script);
-                    let way = |(threads, skip)| Options { threads, skip, ..Options::default() };
+                    let way = |(threads, skip)| EngineOptions { threads, skips_identical_regions: skip, ..EngineOptions::default() };
                     let ways = [(1, true), (1, false), (2, true), (2, false)].map(way);
                     let [alone, alone_all, two, two_all] = check_all(&camera, &frames, ways);
                     assert!(alone > 1000 && two > 1000, "skipped: {alone}, {two}");
@@ -109,9 +109,9 @@ fn the_halo_of_a_skipped_region_is_watched() {
     for x in 60u32..70 {
         for y in 5u32..11 {
             let place = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let spots = [Change::Still, Change::Spot(place.0 / 200.0, place.1 / 24.0)];
+            let spots = [FrameChange::Still, FrameChange::Spot(place.0 / 200.0, place.1 / 24.0)];
             let frames = film(&camera, u64::from(100 * x + y), &spots);
-            assert!(check(&camera, &frames, Options::default()) > 50);
+            assert!(check(&camera, &frames, EngineOptions::default()) > 50);
         }
     }
 }
@@ -126,7 +126,7 @@ fn several_runs_of_one_band_do_not_mix() {
                 every_feature(config);
                 config.region.neighborhood = neighborhood;
             });
-            let mut frames = film(&camera, 21, &[Change::Still]);
+            let mut frames = film(&camera, 21, &[FrameChange::Still]);
             for round in 0..3 {
                 let last = frames.last().unwrap().clone();
                 let spots = [40 + round, 450 + round, 905 + round];
@@ -136,7 +136,7 @@ fn several_runs_of_one_band_do_not_mix() {
                 };
                 frames.push(Frame::from_fn(1000, 40, 8, pixel).unwrap());
             }
-            assert!(check(&camera, &frames, Options::default()) > 500);
+            assert!(check(&camera, &frames, EngineOptions::default()) > 500);
         }
     }
 }
@@ -146,20 +146,20 @@ fn several_runs_of_one_band_do_not_mix() {
 #[test]
 fn what_is_still_after_a_wipe_loses_its_reference() {
     let script = [
-        Change::Still,
-        Change::Still,
-        Change::Wipe(0.3, 0.1),
-        Change::Still,
-        Change::Still,
-        Change::Patch(0.3, 0.1),
-        Change::Still,
+        FrameChange::Still,
+        FrameChange::Still,
+        FrameChange::Wipe(0.3, 0.1),
+        FrameChange::Still,
+        FrameChange::Still,
+        FrameChange::Patch(0.3, 0.1),
+        FrameChange::Still,
     ];
-    for irrelevant in [Irrelevant::Zero, Irrelevant::Hold] {
+    for irrelevant in [IrrelevantRendering::Zero, IrrelevantRendering::Hold] {
         let camera = camera(600, 64, 8, |config| {
-            config.temporal.reference = Reference::LastSent;
+            config.temporal.reference = ReferencePolicy::LastSent;
             config.render.irrelevant = irrelevant;
         });
-        assert!(check(&camera, &film(&camera, 9, &script), Options::default()) > 1000);
+        assert!(check(&camera, &film(&camera, 9, &script), EngineOptions::default()) > 1000);
     }
 }
 
@@ -169,8 +169,8 @@ fn regions_that_share_a_block_with_a_change_stay_exact() {
     for side in [3, 5, 6, 7, 12, 48] {
         let camera = camera(300, 3 * side, side, every_feature);
         let script =
-            [Change::Still, Change::Spot(0.45, 0.5), Change::Still, Change::Spot(0.9, 0.1)];
-        check(&camera, &film(&camera, 5, &script), Options::default());
+            [FrameChange::Still, FrameChange::Spot(0.45, 0.5), FrameChange::Still, FrameChange::Spot(0.9, 0.1)];
+        check(&camera, &film(&camera, 5, &script), EngineOptions::default());
     }
 }
 
@@ -178,22 +178,22 @@ fn regions_that_share_a_block_with_a_change_stay_exact() {
 /// the results are those of one thread.
 #[test]
 fn strips_of_several_threads_meet_without_a_seam() {
-    use Change::{Noise, Patch, Spot, Still};
+    use FrameChange::{Noise, Patch, Spot, Still};
     let script = [Still, Still, Patch(0.4, 0.2), Still, Noise, Still, Spot(0.5, 0.5)];
     // The cases contain every pair of side, neighborhood and reference.
     for (number, side) in [5, 8, 32].into_iter().enumerate() {
         for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
             let is_isolated = neighborhood == Neighborhood::Isolated;
             let reference = match is_isolated == number.is_multiple_of(2) {
-                true => Reference::Previous,
-                false => Reference::LastSent,
+                true => ReferencePolicy::Previous,
+                false => ReferencePolicy::LastSent,
             };
             let camera = camera(530, 270, side, |config| {
                 every_feature(config);
                 config.region.neighborhood = neighborhood;
                 config.temporal.reference = reference;
             });
-            let ways = [2, 3].map(|threads| Options { threads, ..Options::default() });
+            let ways = [2, 3].map(|threads| EngineOptions { threads, ..EngineOptions::default() });
             check_all(&camera, &film(&camera, 3, &script), ways);
         }
     }

@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod batches;
-mod film;
+mod clip_script;
 mod hard_cases;
 mod memory;
 mod properties;
-mod recipe;
+mod random_cameras;
 mod refusals;

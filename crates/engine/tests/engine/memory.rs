@@ -2,23 +2,23 @@
 //! A model that is resumed from the copied state of an engine continues as one that has seen every
 //! frame.
 
-use foveate_engine::{Before, Engine};
-use foveate_frame::{Frame, Plane};
-use foveate_model::{FunctionalCamera, FunctionalOutcome, Remembered};
+use foveate_engine::{RegionStateBefore, Engine};
+use foveate_frame::{Frame, FramePixels};
+use foveate_model::{FunctionalCamera, FunctionalOutcome, RegionMemory};
 use proptest::prelude::*;
 
-use crate::film::{film, scripts};
-use crate::recipe::cameras;
+use crate::clip_script::{film, scripts};
+use crate::random_cameras::cameras;
 
 /// Returns the outcome of a model that is resumed from the state of an engine before its last
 /// frame, and then takes that frame.
 fn resumed(engine: &Engine, frame: &Frame) -> FunctionalOutcome {
     let camera = engine.camera();
-    let shown = engine.rendered_before().map(Plane::to_words).unwrap();
+    let shown = engine.rendered_before().map(FramePixels::to_words).unwrap();
     let shown = Frame::new(camera.width(), camera.height(), camera.pixel_bits(), shown).unwrap();
     let remembered = |region| {
-        let Before { reference, summary } = engine.before(region).unwrap();
-        Remembered { reference, summary }
+        let RegionStateBefore { reference, summary } = engine.region_state_before(region).unwrap();
+        RegionMemory { reference, summary }
     };
     let mut model = FunctionalCamera::resume(camera, &shown, remembered).unwrap();
     model.step(frame).unwrap().clone()
@@ -34,16 +34,16 @@ proptest! {
     ) {
         let mut model = FunctionalCamera::new(&camera);
         let mut engine = Engine::new(&camera);
-        prop_assert_eq!(engine.before(0), None);
-        engine.remember(true);
+        prop_assert_eq!(engine.region_state_before(0), None);
+        engine.set_state_copying(true);
         for frame in &film(&camera, seed, &script) {
             engine.step(frame).unwrap();
             prop_assert_eq!(&resumed(&engine, frame), model.step(frame).unwrap());
         }
         engine.reset();
-        prop_assert_eq!(engine.before(0), None);
-        engine.remember(false);
+        prop_assert_eq!(engine.region_state_before(0), None);
+        engine.set_state_copying(false);
         engine.step(&film(&camera, seed, &script)[0]).unwrap();
-        prop_assert_eq!(engine.before(0), None);
+        prop_assert_eq!(engine.region_state_before(0), None);
     }
 }

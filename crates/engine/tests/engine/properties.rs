@@ -3,14 +3,14 @@
 //! and number of threads, with and without skipping.
 
 use foveate_camera::Camera;
-use foveate_engine::{Engine, FrameOutcome, Level, Options};
+use foveate_engine::{Engine, FrameOutcome, InstructionSet, EngineOptions};
 use foveate_frame::Frame;
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
 use proptest::prelude::*;
 
-use crate::film::{film, scripts};
-use crate::recipe::cameras;
+use crate::clip_script::{film, scripts};
+use crate::random_cameras::cameras;
 
 pub(crate) fn assert_same(
     fast: &FrameOutcome,
@@ -26,7 +26,7 @@ pub(crate) fn assert_same(
 }
 
 /// Runs a clip through the model and the engine. Returns how many regions were skipped.
-pub(crate) fn check(camera: &Camera, frames: &[Frame], options: Options) -> usize {
+pub(crate) fn check(camera: &Camera, frames: &[Frame], options: EngineOptions) -> usize {
     check_all(camera, frames, [options])[0]
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn check(camera: &Camera, frames: &[Frame], options: Options) -> usiz
 pub(crate) fn check_all<const N: usize>(
     camera: &Camera,
     frames: &[Frame],
-    ways: [Options; N],
+    ways: [EngineOptions; N],
 ) -> [usize; N] {
     let mut model = FunctionalCamera::new(camera);
     let mut engines = ways.map(|options| Engine::with_options(camera, options).unwrap());
@@ -62,11 +62,11 @@ pub(crate) fn check_all<const N: usize>(
     skipped
 }
 
-fn options() -> impl Strategy<Value = Options> {
-    let level = proptest::sample::select(Level::available());
-    (1usize..=2, any::<bool>(), level).prop_map(|(threads, skip, level)| Options {
+fn options() -> impl Strategy<Value = EngineOptions> {
+    let level = proptest::sample::select(InstructionSet::available());
+    (1usize..=2, any::<bool>(), level).prop_map(|(threads, skip, level)| EngineOptions {
         threads,
-        skip,
+        skips_identical_regions: skip,
         level,
     })
 }
@@ -97,7 +97,7 @@ proptest! {
             let words: Vec<u16> =
                 rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect();
             let expected = plain.step(&frame).unwrap();
-            match plain_bits(&camera) {
+            match has_byte_pixels(&camera) {
                 true => {
                     let bytes: Vec<u8> = words.iter().map(|&p| p.to_le_bytes()[0]).collect();
                     prop_assert_eq!(strided.step_u8(&bytes, width + gap).unwrap(), expected);
@@ -105,12 +105,12 @@ proptest! {
                 false => prop_assert_eq!(strided.step_u16(&words, width + gap).unwrap(), expected),
             }
             prop_assert_eq!(strided.rendered(), plain.rendered());
-            let bytes = matches!(plain.rendered(), Plane::Bytes(_));
-            prop_assert_eq!(bytes, plain_bits(&camera));
+            let bytes = matches!(plain.rendered(), FramePixels::Bytes(_));
+            prop_assert_eq!(bytes, has_byte_pixels(&camera));
         }
     }
 }
 
-fn plain_bits(camera: &Camera) -> bool {
+fn has_byte_pixels(camera: &Camera) -> bool {
     camera.pixel_bits() <= 8
 }

@@ -2,7 +2,7 @@
 //! Pixels that are not a frame of the camera are refused by name, and change nothing.
 
 use foveate_camera::{Camera, CameraConfig};
-use foveate_engine::{Engine, EngineError, FrameOutcome, MAX_THREADS, Options, Screens};
+use foveate_engine::{Engine, EngineError, FrameOutcome, MAX_THREADS, EngineOptions, BatchScreens};
 use foveate_frame::Frame;
 
 fn camera(bits: u32) -> Camera {
@@ -49,13 +49,13 @@ fn what_is_no_frame_of_the_design_is_refused() {
 #[test]
 fn more_threads_than_help_are_refused_before_one_is_started() {
     for threads in [MAX_THREADS + 1, 1_000_000, usize::MAX] {
-        let options = Options { threads, ..Options::default() };
+        let options = EngineOptions { threads, ..EngineOptions::default() };
         let refusal = Engine::with_options(&camera(6), options).unwrap_err().to_string();
         let right = "expected 1 to 256, or 0, which takes one per processor";
         assert_eq!(refusal, format!("threads = {threads}: {right}"));
     }
     for threads in [0, MAX_THREADS] {
-        let options = Options { threads, ..Options::default() };
+        let options = EngineOptions { threads, ..EngineOptions::default() };
         assert!(Engine::with_options(&camera(6), options).is_ok());
     }
 }
@@ -82,7 +82,7 @@ fn batches_with_a_wrong_frame_change_nothing() {
         refused(engine.step_batch_u16(&[&[0; 180]], 20, None)),
         "pixels of 6 bits need the type u8, but u16 was given"
     );
-    let mut screens = Screens::new();
+    let mut screens = BatchScreens::new();
     engine.step_batch_u8(&[good], 20, Some(&mut screens)).unwrap();
     assert!(engine.step_batch_u8(&[bad], 20, Some(&mut screens)).is_err());
     assert_eq!(screens.get(0).map(<[u8]>::to_vec), Some(vec![0; 180]));

@@ -2,13 +2,13 @@
 //! The paper's table with the design's figures.
 
 use crate::area::Area;
-use crate::paper::BesidePaper;
+use crate::paper::PaperComparison;
 use crate::report::AreaReport;
-use crate::table::{Table, header};
-use foveate_pictures::page::number::grouped;
+use crate::table::{ReportTable, header};
+use foveate_pictures::page::number_text::grouped;
 
 /// Returns the table; `None` if the paper has no comparable module.
-pub(super) fn paper_table(report: &AreaReport) -> Option<Table> {
+pub(super) fn paper_table(report: &AreaReport) -> Option<ReportTable> {
     let mut rows = Vec::new();
     // A unit for all regions is comparable to the paper's array, but not to one RPU.
     if report.units > 1 || report.regions == 1 {
@@ -21,7 +21,7 @@ pub(super) fn paper_table(report: &AreaReport) -> Option<Table> {
         return None;
     }
     let columns = ["LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
-    Some(Table {
+    Some(ReportTable {
         title: "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)".to_owned(),
         header: header("", &columns),
         rows,
@@ -34,9 +34,9 @@ fn paper_rows(
     paper_name: &str,
     name: &str,
     area: &Area,
-    comparison: &BesidePaper,
+    comparison: &PaperComparison,
 ) -> Vec<Vec<String>> {
-    let BesidePaper { paper, ratio } = comparison;
+    let PaperComparison { paper, ratio } = comparison;
     let row = |name: String, cells: [(u64, Option<f64>); 3]| {
         let pairs = cells.into_iter().flat_map(|(value, ratio)| {
             [grouped(value), ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}x"))]

@@ -2,12 +2,12 @@
 //! The limits that a design must meet, and its distance from them.
 
 use foveate_camera::Camera;
-use foveate_estimate::Speed;
-use foveate_fidelity::Figures;
+use foveate_estimate::FrameRate;
+use foveate_fidelity::FidelityFigures;
 use serde::Serialize;
 
-use crate::cost::Silicon;
-use crate::row::{bytes_per_frame, real};
+use crate::cost::DesignArea;
+use crate::row::{bytes_per_frame, count_to_f64};
 
 /// The limits that a design must meet. Shares are 0..=1. A limit that is `None` is not checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -40,7 +40,7 @@ pub struct Constraints {
 
 /// A limit and the figure that was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Held {
+pub struct ConstraintCheck {
     /// The name of the option that sets the limit, without its dashes.
     pub name: &'static str,
     /// The figure. The PSNR of identical screens is infinite, which is null in JSON.
@@ -48,7 +48,7 @@ pub struct Held {
     /// The limit: the largest or the least value of the figure.
     pub limit: f64,
     /// Whether the limit is a minimum.
-    pub at_least: bool,
+    pub is_minimum: bool,
     /// Whether the limit is met.
     pub holds: bool,
     /// The clock in MHz at which the frames per second hold; only for frames per second.
@@ -59,24 +59,24 @@ pub struct Held {
     pub is_expected: bool,
 }
 
-impl Held {
-    fn at_most(name: &'static str, value: f64, limit: f64) -> Self {
-        Self { at_least: false, holds: value <= limit, ..Self::at_least(name, value, limit) }
+impl ConstraintCheck {
+    fn check_at_most(name: &'static str, value: f64, limit: f64) -> Self {
+        Self { is_minimum: false, holds: value <= limit, ..Self::check_at_least(name, value, limit) }
     }
 
-    fn at_least(name: &'static str, value: f64, limit: f64) -> Self {
+    fn check_at_least(name: &'static str, value: f64, limit: f64) -> Self {
         let holds = value >= limit;
-        Self { name, value, limit, at_least: true, holds, clock_mhz: None, is_expected: false }
+        Self { name, value, limit, is_minimum: true, holds, clock_mhz: None, is_expected: false }
     }
 
     /// Returns the constraint of a network's agreement, 0 to 1, with its least value.
-    pub(super) fn agreement(share: f64, least: f64) -> Self {
-        Self::at_least("min-agreement", share, least)
+    pub(super) fn check_agreement(share: f64, least: f64) -> Self {
+        Self::check_at_least("min-agreement", share, least)
     }
 
     /// Returns the constraint of the agreement that is to be expected of other frames.
-    pub(super) fn expected_agreement(share: f64, least: f64) -> Self {
-        Self { is_expected: true, ..Self::agreement(share, least) }
+    pub(super) fn check_expected_agreement(share: f64, least: f64) -> Self {
+        Self { is_expected: true, ..Self::check_agreement(share, least) }
     }
 
     /// Returns the distance of the figure from the limit: 0 if the limit is met, 1 if the figure is
@@ -88,41 +88,41 @@ impl Held {
             return 0.0;
         }
         let (more, less) =
-            if self.at_least { (self.limit, self.value) } else { (self.value, self.limit) };
+            if self.is_minimum { (self.limit, self.value) } else { (self.value, self.limit) };
         (more.max(LEAST) / less.max(LEAST)).log2().max(LEAST)
     }
 }
 
 /// Returns whether all limits are met.
-pub(super) fn all_hold(held: &[Held]) -> bool {
+pub(super) fn all_met(held: &[ConstraintCheck]) -> bool {
     held.iter().all(|held| held.holds)
 }
 
 /// Returns the sum of the distances of all figures from their limits.
-pub(super) fn excess(held: &[Held]) -> f64 {
-    held.iter().map(Held::excess).sum()
+pub(super) fn total_excess(held: &[ConstraintCheck]) -> f64 {
+    held.iter().map(ConstraintCheck::excess).sum()
 }
 
 impl Constraints {
     /// Returns the constraints on the screen and the sent bytes of a camera. `recall` is known if
     /// it is limited.
     #[must_use]
-    pub fn on_figures(&self, camera: &Camera, figures: &Figures, recall: Option<f64>) -> Vec<Held> {
+    pub fn check_figures(&self, camera: &Camera, figures: &FidelityFigures, recall: Option<f64>) -> Vec<ConstraintCheck> {
         let at_most =
-            |name, limit: Option<f64>, value| limit.map(|l| Held::at_most(name, value, l));
+            |name, limit: Option<f64>, value| limit.map(|l| ConstraintCheck::check_at_most(name, value, l));
         // Identical screens have the best PSNR.
         let psnr = figures.psnr_ideal.unwrap_or(f64::INFINITY);
         [
             at_most("max-flips", self.max_flips, figures.action_flips),
             at_most("max-missed", self.max_missed, figures.missed),
-            self.min_psnr.map(|limit| Held::at_least("min-psnr", psnr, limit)),
+            self.min_psnr.map(|limit| ConstraintCheck::check_at_least("min-psnr", psnr, limit)),
             at_most(
                 "max-stale-frames",
-                self.max_stale_frames.map(real),
-                real(figures.staleness.longest),
+                self.max_stale_frames.map(count_to_f64),
+                count_to_f64(figures.staleness.longest),
             ),
             at_most("max-bytes", self.max_bytes, bytes_per_frame(camera, figures)),
-            self.min_recall.zip(recall).map(|(limit, r)| Held::at_least("min-recall", r, limit)),
+            self.min_recall.zip(recall).map(|(limit, r)| ConstraintCheck::check_at_least("min-recall", r, limit)),
         ]
         .into_iter()
         .flatten()
@@ -140,26 +140,26 @@ impl Constraints {
 
     /// Returns the constraint on speed, at the low end of the clock. Without a clock it is not met.
     #[must_use]
-    pub fn on_speed(&self, speed: Option<&Speed>) -> Vec<Held> {
+    pub fn check_speed(&self, speed: Option<&FrameRate>) -> Vec<ConstraintCheck> {
         let rate = speed.map_or(0.0, |speed| speed.low_frames_per_second);
         let clock_mhz = speed.map(|speed| speed.low_clock_mhz);
-        let held = |limit| Held { clock_mhz, ..Held::at_least("min-fps", rate, limit) };
+        let held = |limit| ConstraintCheck { clock_mhz, ..ConstraintCheck::check_at_least("min-fps", rate, limit) };
         self.min_fps.map(held).into_iter().collect()
     }
 
     /// Returns the constraints on area.
     #[must_use]
-    pub fn on_silicon(&self, silicon: &Silicon) -> Vec<Held> {
-        let Silicon { unit, array, .. } = silicon;
+    pub fn check_area(&self, silicon: &DesignArea) -> Vec<ConstraintCheck> {
+        let DesignArea { unit, array, .. } = silicon;
         [
-            ("max-lut", real(unit.lut_total_packed), self.max_lut),
-            ("max-ff", real(unit.ff), self.max_ff),
-            ("max-array-lut", real(array.lut_total_packed), self.max_array_lut),
-            ("max-bram", real(array.bram18) / 2.0, self.max_bram),
+            ("max-lut", count_to_f64(unit.lut_total_packed), self.max_lut),
+            ("max-ff", count_to_f64(unit.ff), self.max_ff),
+            ("max-array-lut", count_to_f64(array.lut_total_packed), self.max_array_lut),
+            ("max-bram", count_to_f64(array.bram18) / 2.0, self.max_bram),
         ]
         .into_iter()
         .filter_map(|(name, value, limit)| {
-            limit.map(|limit| Held::at_most(name, value, real(limit)))
+            limit.map(|limit| ConstraintCheck::check_at_most(name, value, count_to_f64(limit)))
         })
         .collect()
     }
@@ -171,10 +171,10 @@ mod tests {
 
     #[test]
     fn excess_is_nothing_when_it_holds_and_grows_with_distance() {
-        assert!(Held::at_most("a", 1.0, 1.0).excess() == 0.0);
-        assert!((Held::at_most("a", 4.0, 2.0).excess() - 1.0).abs() < 1e-12);
-        assert!((Held::at_least("a", 60.0, 120.0).excess() - 1.0).abs() < 1e-12);
-        let of_none = Held::at_most("a", 0.5, 0.0).excess();
-        assert!(of_none.is_finite() && of_none > Held::at_most("a", 0.5, 0.1).excess());
+        assert!(ConstraintCheck::check_at_most("a", 1.0, 1.0).excess() == 0.0);
+        assert!((ConstraintCheck::check_at_most("a", 4.0, 2.0).excess() - 1.0).abs() < 1e-12);
+        assert!((ConstraintCheck::check_at_least("a", 60.0, 120.0).excess() - 1.0).abs() < 1e-12);
+        let of_none = ConstraintCheck::check_at_most("a", 0.5, 0.0).excess();
+        assert!(of_none.is_finite() && of_none > ConstraintCheck::check_at_most("a", 0.5, 0.1).excess());
     }
 }

@@ -17,44 +17,44 @@
 //!    folded again ([`plan`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
-mod agreed;
+mod agreement;
 mod build;
 mod constraints;
 mod descent;
-mod held_out;
-mod looks;
+mod halves;
+mod search;
 mod network;
 mod plan;
 mod receiver;
 mod report;
-mod rough;
+mod rough_cost;
 mod target;
-mod why;
+mod reasons;
 
 use std::path::PathBuf;
 
-use foveate_design::{Config, HardwareConfig};
+use foveate_design::{DesignConfig, HardwareConfig};
 use foveate_footage::InputOptions;
 
 use crate::cost::Synthesizer;
-use crate::footage::Footage;
-use crate::{ExploreError, Hooks};
-use build::build;
-use descent::{Asked, Descent};
-use held_out::{Halves, halves};
-use looks::Search;
-use network::{Jury, Part};
+use crate::footage::ExplorationFootage;
+use crate::{ExploreError, ExploreHooks};
+use build::build_designs;
+use descent::{KnownAgreements, Descent};
+use halves::{ClipHalves, count_halves};
+use search::CameraSearch;
+use network::{NetworkAgreement, ClipPart};
 
-pub use agreed::Agreed;
-pub use constraints::{Constraints, Held};
-pub use network::{Cheapest, FittedNetwork, NetworkGoal};
-pub use report::{Design, Fit, Target};
+pub use agreement::AgreementEstimate;
+pub use constraints::{Constraints, ConstraintCheck};
+pub use network::{CostObjective, FittedNetwork, NetworkGoal};
+pub use report::{FittedDesign, FitResult, ActivityTarget};
 
 /// The request of a fit.
 #[derive(Clone, Debug)]
 pub struct FitRequest<'a> {
     /// The task of the camera. The ideal camera performs it in floating point over whole frames.
-    pub task: &'a Config,
+    pub task: &'a DesignConfig,
     /// The clips, which have one size.
     pub inputs: &'a [PathBuf],
     /// The options for reading the clips.
@@ -75,7 +75,7 @@ pub struct FitRequest<'a> {
     pub synthesizer: &'a Synthesizer,
     /// The most designs that are synthesized: of those that meet all other limits, or of the
     /// nearest ones.
-    pub most: usize,
+    pub max_designs: usize,
 }
 
 /// Finds the cheapest design that meets the limits on the first half of the footage, or the nearest
@@ -84,47 +84,47 @@ pub struct FitRequest<'a> {
 /// # Errors
 /// Fails if an input cannot be read or is too short to be halved, if Yosys is missing or fails, or
 /// if `hooks` cancels.
-pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
+pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResult, ExploreError> {
     // The hardware settings of the task do not affect what the camera computes, so they are
     // dropped. `thresholds` and `sync` stay, because every candidate design takes them over;
     // `memory` goes to `build`.
     let HardwareConfig { thresholds, sync, memory, .. } = request.task.hardware;
     let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
-    let task = Config { hardware, ..request.task.clone() };
+    let task = DesignConfig { hardware, ..request.task.clone() };
     let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };
     let request = &FitRequest { task: &task, input: &input, ..request.clone() };
     let (lengths, boxes, (task, target)) = {
-        let footage = Footage::new(request.inputs, request.input, &request.task.camera, hooks)?;
+        let footage = ExplorationFootage::new(request.inputs, request.input, &request.task.camera, hooks)?;
         let footage = footage.with_boxes(request.boxes)?;
-        let least = if request.network.is_some() { Part::LEAST } else { held_out::LEAST };
-        let lengths = halves(&footage, least, hooks)?;
-        let aimed = target::aim(request, &footage, &lengths)?;
+        let least = if request.network.is_some() { ClipPart::MIN_FRAMES } else { halves::MIN_FRAMES };
+        let lengths = count_halves(&footage, least, hooks)?;
+        let aimed = target::task_for_target(request, &footage, &lengths)?;
         (lengths, footage.boxes, aimed)
     };
-    let mut footage = Footage::new(request.inputs, request.input, &task, hooks)?;
+    let mut footage = ExplorationFootage::new(request.inputs, request.input, &task, hooks)?;
     footage.boxes = boxes;
-    let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
-    let jury = request.network.map(|goal| Jury::new(goal, &footage, &lengths, search.task()));
+    let mut search = CameraSearch::new(request.constraints, &footage, &lengths, &task)?;
+    let jury = request.network.map(|goal| NetworkAgreement::new(goal, &footage, &lengths, search.task()));
     let jury = jury.transpose()?;
     let asked = match &jury {
         None => {
             search.run()?;
-            Asked::default()
+            KnownAgreements::default()
         }
         Some(jury) => Descent::new(&mut search, jury, &request.task.hardware).run()?,
     };
-    let built = build(&search, request, memory, hooks)?;
+    let built = build_designs(&search, request, memory, hooks)?;
     let chosen = built.chosen();
     let camera = &chosen.look.config;
     let least = request.network.map_or(0.0, |goal| goal.min_agreement);
     let steps = (asked.count(), asked.reasons(camera, least));
-    let second = search.second_half(&chosen.look)?;
-    let network = jury.map(|jury| jury.report(camera, asked.of(camera))).transpose()?;
-    Ok(report::fit(request, &search, steps, &built, target, (second, network), &lengths))
+    let second = search.measure_second_half(&chosen.look)?;
+    let network = jury.map(|jury| jury.fitted_network(camera, asked.agreements_of(camera))).transpose()?;
+    Ok(report::fit_result(request, &search, steps, &built, target, (second, network), &lengths))
 }
 
 /// Returns the number of frames of the first halves and of the second halves of all clips.
-fn frames(halves: &Halves) -> (u64, u64) {
+fn frames_of_halves(halves: &ClipHalves) -> (u64, u64) {
     halves
         .frames
         .iter()

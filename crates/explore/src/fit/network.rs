@@ -11,19 +11,19 @@ use std::path::Path;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    Agreement, ConfidenceIntervals, InferenceError, NOISE_LEVELS, NoiseAgreement, NoiseCeiling,
-    Testimony, Viewing, Witness, frames_of, has_places,
+    OutputAgreement, ConfidenceIntervals, InferenceError, NOISE_LEVELS, NoiseAgreement, NoiseComparison,
+    FrameOutcome, VisionOptions, VisionNetwork, frame_format_of, has_class_map,
 };
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::agreed::Agreed;
-use super::held_out::Halves;
-use super::receiver::Receiver;
-use crate::depths::Depths;
-use crate::footage::Footage;
-use crate::row::real;
-use crate::{ExploreError, Progress};
+use super::agreement::AgreementEstimate;
+use super::halves::ClipHalves;
+use super::receiver::ClipReceiver;
+use crate::depths::FrameDepths;
+use crate::footage::ExplorationFootage;
+use crate::row::count_to_f64;
+use crate::{ExploreError, ExploreProgress};
 
 /// The goal of a fit with a network: the network must agree, behind the camera, with its outputs
 /// for whole frames.
@@ -32,11 +32,11 @@ pub struct NetworkGoal<'a> {
     /// The network's file.
     pub path: &'a Path,
     /// The options for reading the network and for showing it frames.
-    pub viewing: &'a Viewing,
+    pub viewing: &'a VisionOptions,
     /// The least agreement, 0..=1, defined as by `foveate infer --whole-frames`.
     pub min_agreement: f64,
     /// The cost that is minimized.
-    pub cheapest: Cheapest,
+    pub cheapest: CostObjective,
     /// The most frames of each part of all clips that the network sees: of the part that cameras
     /// are searched by, of the part that confirms a camera, and of the second halves.
     pub frames: u64,
@@ -45,7 +45,7 @@ pub struct NetworkGoal<'a> {
 /// The cost of designs behind which a network agrees enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Cheapest {
+pub enum CostObjective {
     /// The bytes that leave the camera; area decides between cameras with equal bytes.
     Bytes,
     /// The area.
@@ -62,14 +62,14 @@ pub struct FittedNetwork {
     /// The least agreement that was wanted, 0..=1.
     pub min_agreement: f64,
     /// The cost that was minimized.
-    pub cheapest: Cheapest,
+    pub cheapest: CostObjective,
     /// The agreement on the frames of the search: the first two thirds of the first half.
-    pub fitted: Agreed,
+    pub fitted: AgreementEstimate,
     /// The agreement on the rest of the first half, which had no part in the search and confirmed
     /// its result.
-    pub confirmed: Agreed,
+    pub confirmed: AgreementEstimate,
     /// The agreement on the second half, which influenced no choice.
-    pub held_out: Agreed,
+    pub held_out: AgreementEstimate,
     /// The agreement with whole frames of the second half under noise, level by level.
     pub noise: Vec<NoiseAgreement>,
     /// The size of a whole frame in bytes.
@@ -78,7 +78,7 @@ pub struct FittedNetwork {
 
 /// A part of every clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum ClipPart {
     /// The first two thirds of the first half, which cameras are searched by.
     Search,
     /// The rest of the first half, which comes later, has no part in the search, and confirms its
@@ -88,9 +88,9 @@ pub(super) enum Part {
     HeldOut,
 }
 
-impl Part {
+impl ClipPart {
     /// The fewest frames of a clip with which each part has a frame.
-    pub(super) const LEAST: u64 = 6;
+    pub(super) const MIN_FRAMES: u64 = 6;
 
     /// Returns the frames of this part of a clip with `all` frames, of which `half` are the first
     /// half. The first frame belongs to no part, because every camera sends it whole.
@@ -105,63 +105,63 @@ impl Part {
 }
 
 /// A frame that the network sees, and its findings.
-struct Sample {
+struct WholeFrameSample {
     number: u64,
-    whole: Testimony,
+    findings: FrameOutcome,
     /// The agreement behind a camera that shows whole frames.
-    best: Agreement,
+    best_agreement: OutputAgreement,
 }
 
 /// The network, and its findings in whole frames.
-pub(super) struct Jury<'a> {
-    witness: Witness,
+pub(super) struct NetworkAgreement<'a> {
+    witness: VisionNetwork,
     pub(super) goal: NetworkGoal<'a>,
-    footage: &'a Footage<'a>,
-    halves: &'a Halves,
+    footage: &'a ExplorationFootage<'a>,
+    halves: &'a ClipHalves,
     /// The frames that the network saw, by part and by clip.
-    samples: [Vec<Vec<Sample>>; 3],
+    samples: [Vec<Vec<WholeFrameSample>>; 3],
     /// The agreement under noise on the whole frames of the second halves.
-    noise: NoiseCeiling,
+    noise: NoiseComparison,
 }
 
-impl<'a> Jury<'a> {
+impl<'a> NetworkAgreement<'a> {
     /// Runs the network on whole frames in the depth of the task.
     pub(super) fn new(
         goal: NetworkGoal<'a>,
-        footage: &'a Footage<'a>,
-        halves: &'a Halves,
+        footage: &'a ExplorationFootage<'a>,
+        halves: &'a ClipHalves,
         task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
         let witness =
-            Witness::read(goal.path, footage.size, goal.viewing).map_err(InferenceError::from)?;
+            VisionNetwork::read(goal.path, footage.size, goal.viewing).map_err(InferenceError::from)?;
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
         let most = (goal.frames / clips).max(1);
         let mut samples = [const { Vec::new() }; 3];
-        let mut noise = NoiseCeiling::new(&NOISE_LEVELS, camera.pixel_max());
+        let mut noise = NoiseComparison::new(&NOISE_LEVELS, camera.pixel_max());
         for (clip, &frames) in halves.frames.iter().enumerate() {
-            let parts = [Part::Search, Part::Confirmation, Part::HeldOut];
-            let wanted = parts.map(|part| (part, spread(part.frames(frames), most)));
-            let mut looking = witness.look_at(frames_of(&camera));
+            let parts = [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut];
+            let wanted = parts.map(|part| (part, spread_evenly(part.frames(frames), most)));
+            let mut looking = witness.start_run(frame_format_of(&camera));
             let mut source = footage.open(&footage.subjects[clip])?;
             let mut found = [const { Vec::new() }; 3];
             for number in 0..frames.1 {
-                footage.go_on(Progress::Asking { cameras: 0 })?;
+                footage.report_progress(ExploreProgress::RunningNetwork { cameras: 0 })?;
                 let Some(current) = source.next_frame()? else { break };
                 for (found, (part, wanted)) in found.iter_mut().zip(&wanted) {
                     if wanted.contains(&number) {
-                        let whole = looking.look(current.frame.plane());
-                        if *part == Part::HeldOut {
-                            let frame = current.frame.plane().to_words();
+                        let whole = looking.outcome(current.frame.borrowed_pixels());
+                        if *part == ClipPart::HeldOut {
+                            let frame = current.frame.borrowed_pixels().to_words();
                             let at = (clip as u64, number);
                             let findings = looking.findings();
-                            noise.look((&witness, &mut looking), (&frame, &findings), at);
+                            noise.add_frame((&witness, &mut looking), (&frame, &findings), at);
                         }
                         let best = witness.compare(&whole, &whole);
-                        found.push(Sample { number, whole, best });
+                        found.push(WholeFrameSample { number, findings: whole, best_agreement: best });
                     }
                 }
-                source.give_back(current);
+                source.recycle(current);
             }
             samples.iter_mut().zip(found).for_each(|(part, found)| part.push(found));
         }
@@ -170,7 +170,7 @@ impl<'a> Jury<'a> {
 
     /// Returns the bytes per frame that cameras send on the first halves. `asked` is the number of
     /// cameras that the network was run behind so far, for progress.
-    pub(super) fn bytes_sent(
+    pub(super) fn bytes_per_frame_of(
         &self,
         cameras: &[Camera],
         asked: usize,
@@ -180,31 +180,31 @@ impl<'a> Jury<'a> {
             let mut engines: Vec<Engine> = cameras.iter().map(Engine::new).collect();
             let mut source = self.footage.open(subject)?;
             for _ in 0..half {
-                self.footage.go_on(Progress::Asking { cameras: asked })?;
+                self.footage.report_progress(ExploreProgress::RunningNetwork { cameras: asked })?;
                 let Some(current) = source.next_frame()? else { break };
                 let depths = cameras.iter().map(|camera| camera.pixel_bits());
-                let (shown, kind) = (Depths::of(&current.frame, depths)?, source.kind());
+                let (shown, kind) = (FrameDepths::from_frame(&current.frame, depths)?, source.kind());
                 engines.par_iter_mut().zip(&mut values).try_for_each(|(engine, values)| {
-                    shown.show(engine, kind)?;
-                    *values += engine.camera().values_of(&engine.outcome().actions);
+                    shown.step_engine(engine, kind)?;
+                    *values += engine.camera().values_sent_per_frame(&engine.outcome().actions);
                     Ok::<_, ExploreError>(())
                 })?;
                 frames += 1;
-                source.give_back(current);
+                source.recycle(current);
             }
         }
         let bytes = |(camera, values): (&Camera, &u64)| {
-            real(camera.bits_sent(frames, *values)) / 8.0 / real(frames.max(1))
+            count_to_f64(camera.bits_sent(frames, *values)) / 8.0 / count_to_f64(frames.max(1))
         };
         Ok(cameras.iter().zip(&values).map(bytes).collect())
     }
 
     /// Reports the agreement of the network behind the chosen camera. The agreement on the frames
     /// of the search is known; the one on the frames that confirm may be known.
-    pub(super) fn report(
+    pub(super) fn fitted_network(
         &self,
         chosen: &CameraConfig,
-        (fitted, confirmed): (Agreed, Option<Agreed>),
+        (fitted, confirmed): (AgreementEstimate, Option<AgreementEstimate>),
     ) -> Result<FittedNetwork, ExploreError> {
         let camera = chosen.validate()?;
         let of_pixels = f64::from(camera.width()) * f64::from(camera.height());
@@ -216,45 +216,45 @@ impl<'a> Jury<'a> {
             fitted,
             confirmed: match confirmed {
                 Some(confirmed) => confirmed,
-                None => self.ask(&camera, Part::Confirmation, None, 0)?,
+                None => self.measure_agreement(&camera, ClipPart::Confirmation, None, 0)?,
             },
-            held_out: self.ask(&camera, Part::HeldOut, None, 0)?,
-            noise: self.noise.found(),
-            bytes_per_whole_frame: of_pixels * f64::from(self.footage.bits()) / 8.0,
+            held_out: self.measure_agreement(&camera, ClipPart::HeldOut, None, 0)?,
+            noise: self.noise.results(),
+            bytes_per_whole_frame: of_pixels * f64::from(self.footage.pixel_bits()) / 8.0,
         })
     }
 
     /// Returns the agreement behind a camera on a part. `asked` is the number of cameras so far,
     /// for progress. With `least` it stops as soon as `least` cannot be reached.
-    pub(super) fn ask(
+    pub(super) fn measure_agreement(
         &self,
         camera: &Camera,
-        part: Part,
+        part: ClipPart,
         least: Option<f64>,
         asked: usize,
-    ) -> Result<Agreed, ExploreError> {
+    ) -> Result<AgreementEstimate, ExploreError> {
         let samples = &self.samples[part as usize];
         // Frames that the network has not seen yet count with their best possible agreement.
-        let mut frames: Vec<Agreement> =
-            samples.iter().flatten().map(|sample| sample.best.clone()).collect();
+        let mut frames: Vec<OutputAgreement> =
+            samples.iter().flatten().map(|sample| sample.best_agreement.clone()).collect();
         let mut looked = 0;
         for (clip, own) in samples.iter().enumerate() {
-            let mut looking = self.witness.look_at(frames_of(camera));
-            let mut receiver = Receiver::new(self.footage, clip, camera)?;
+            let mut looking = self.witness.start_run(frame_format_of(camera));
+            let mut receiver = ClipReceiver::new(self.footage, clip, camera)?;
             for sample in own {
-                let Some(screen) = receiver.screen(sample.number, asked)? else { break };
-                frames[looked] = self.witness.compare(&sample.whole, &looking.look(screen));
+                let Some(screen) = receiver.screen_after(sample.number, asked)? else { break };
+                frames[looked] = self.witness.compare(&sample.findings, &looking.outcome(screen));
                 looked += 1;
-                let share = frames.iter().sum::<Agreement>().share();
+                let share = frames.iter().sum::<OutputAgreement>().share();
                 if least.is_some_and(|least| share < least) {
-                    return Ok(Agreed::at_most(share, looked as u64));
+                    return Ok(AgreementEstimate::upper_bound(share, looked as u64));
                 }
             }
         }
-        let agreed = Agreed::over(&frames[..looked]);
-        let no_interval = agreed.detections.is_none() && has_places(self.witness.network());
+        let agreed = AgreementEstimate::from_frames(&frames[..looked]);
+        let no_interval = agreed.detections.is_none() && has_class_map(self.witness.network());
         Ok(if no_interval {
-            Agreed { intervals: ConfidenceIntervals::default(), ..agreed }
+            AgreementEstimate { intervals: ConfidenceIntervals::default(), ..agreed }
         } else {
             agreed
         })
@@ -262,7 +262,7 @@ impl<'a> Jury<'a> {
 }
 
 /// Returns at most `most` numbers of a range, spread evenly.
-fn spread(range: Range<u64>, most: u64) -> Vec<u64> {
+fn spread_evenly(range: Range<u64>, most: u64) -> Vec<u64> {
     let length = range.end.saturating_sub(range.start);
     let count = most.min(length);
     (0..count).map(|index| range.start + (2 * index + 1) * length / (2 * count)).collect()
@@ -276,8 +276,8 @@ mod tests {
     /// search, and no part is empty.
     #[test]
     fn parts_follow_each_other() {
-        for all in Part::LEAST..200 {
-            let [searched, confirmed, held_out] = [Part::Search, Part::Confirmation, Part::HeldOut]
+        for all in ClipPart::MIN_FRAMES..200 {
+            let [searched, confirmed, held_out] = [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut]
                 .map(|part| part.frames((all / 2, all)));
             let ends = (searched.start, held_out.end);
             assert_eq!(
@@ -286,16 +286,16 @@ mod tests {
             );
             assert!(!searched.is_empty() && !confirmed.is_empty() && !held_out.is_empty(), "{all}");
         }
-        assert_eq!(Part::Confirmation.frames((90, 180)), 60..90);
-        let one_fewer = Part::LEAST - 1;
-        assert!(Part::Confirmation.frames((one_fewer / 2, one_fewer)).is_empty());
+        assert_eq!(ClipPart::Confirmation.frames((90, 180)), 60..90);
+        let one_fewer = ClipPart::MIN_FRAMES - 1;
+        assert!(ClipPart::Confirmation.frames((one_fewer / 2, one_fewer)).is_empty());
     }
 
     #[test]
     fn frames_are_spread_evenly() {
-        assert_eq!(spread(1..5, 10), [1, 2, 3, 4]);
-        assert_eq!(spread(0..100, 4), [12, 37, 62, 87]);
-        assert_eq!(spread(50..60, 1), [55]);
-        assert!(spread(1..1, 4).is_empty());
+        assert_eq!(spread_evenly(1..5, 10), [1, 2, 3, 4]);
+        assert_eq!(spread_evenly(0..100, 4), [12, 37, 62, 87]);
+        assert_eq!(spread_evenly(50..60, 1), [55]);
+        assert!(spread_evenly(1..1, 4).is_empty());
     }
 }

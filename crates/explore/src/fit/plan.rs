@@ -4,11 +4,11 @@
 //! tried; no frame rate is reported at it.
 
 use foveate_design::{Design, Hardware};
-use foveate_estimate::{Area, Device, Speed, most_clocks};
+use foveate_estimate::{Area, FpgaDevice, FrameRate, most_clocks_per_frame};
 
 use super::FitRequest;
-use crate::cost::Silicon;
-use crate::row::real;
+use crate::cost::DesignArea;
+use crate::row::count_to_f64;
 
 /// The planned clock in Hz. It is below the low ends of the serial arrays in `docs/area.md`, of
 /// which the slowest is at 56 MHz. A faster design is folded again for its own clock.
@@ -17,18 +17,18 @@ const PLANNED_HZ: u64 = 50_000_000;
 /// Returns the most clocks that a frame may take, at the clock of the request or at the planned
 /// one.
 pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
-    let hertz = real(request.clock_hz.unwrap_or(PLANNED_HZ));
-    request.constraints.min_fps.map(|fps| most_clocks(hertz, fps))
+    let hertz = count_to_f64(request.clock_hz.unwrap_or(PLANNED_HZ));
+    request.constraints.min_fps.map(|fps| most_clocks_per_frame(hertz, fps))
 }
 
 /// Returns the deeper folds of a serial design that are fast enough at the low end of its clock and
 /// may be the cheapest, or a raster design with half the pixels per clock, if it is fast enough.
-pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design> {
-    let most = most_clocks(speed.low_clock_mhz * 1e6, min_fps);
+pub(super) fn slower_designs(design: &Design, speed: &FrameRate, min_fps: f64) -> Vec<Design> {
+    let most = most_clocks_per_frame(speed.low_clock_mhz * 1e6, min_fps);
     match design.hardware() {
         Hardware::Pipelined(_) => Vec::new(),
         Hardware::Serial(own) => {
-            let deeper = design.frugal_folds(most).into_iter().filter(|fold| *fold > own.fold);
+            let deeper = design.pareto_folds(most).into_iter().filter(|fold| *fold > own.fold);
             deeper.filter_map(|fold| design.with_fold(fold).ok()).collect()
         }
         Hardware::Raster(own) => {
@@ -43,16 +43,16 @@ pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design
 /// Returns the expected cost of a slower design, from the synthesis of the design that it is
 /// derived from. Its lanes have the logic of that design's lanes, and their memory follows from the
 /// fold. Half the pixels per clock take half the logic.
-pub(super) fn expected(design: &Design, silicon: &Silicon) -> f64 {
-    let Silicon { unit, units, array, .. } = silicon;
+pub(super) fn expected_cost(design: &Design, silicon: &DesignArea) -> f64 {
+    let DesignArea { unit, units, array, .. } = silicon;
     let area = match design.hardware() {
         Hardware::Pipelined(_) => *array,
         Hardware::Serial(own) => {
-            let slower = design.on(own);
+            let slower = design.with_hardware(own);
             let logic = unit.lut_total_packed - unit.lut_memory_packed;
             let lanes = u64::from(slower.lanes());
             let shared = array.lut_total_packed.saturating_sub(units * unit.lut_total_packed);
-            let (luts, blocks) = slower.lane_memory().taken();
+            let (luts, blocks) = slower.lane_memory().resources();
             Area {
                 lut_total_packed: shared + lanes * (logic + luts),
                 bram18: lanes * blocks,
@@ -63,29 +63,29 @@ pub(super) fn expected(design: &Design, silicon: &Silicon) -> f64 {
         }
         Hardware::Raster(_) => Area { lut_total_packed: array.lut_total_packed / 2, ..*array },
     };
-    Device::xcvu9p().cost(&area)
+    FpgaDevice::xcvu9p().cost(&area)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::Config;
+    use foveate_design::DesignConfig;
 
     #[test]
     fn a_design_is_folded_as_deep_as_the_low_end_of_its_clock_allows() {
         let text = "[frame]\nwidth = 64\nheight = 64\n[hardware]\norganization = \"serial\"\n";
-        let single = Config::from_toml(text).unwrap().validate().unwrap();
-        let speed = |mhz| Speed { low_clock_mhz: mhz, ..Speed::given(1000.0, 1) };
+        let single = DesignConfig::from_toml(text).unwrap().validate().unwrap();
+        let speed = |mhz| FrameRate { low_clock_mhz: mhz, ..FrameRate::at_given_clock(1000.0, 1) };
         let (low, fps) = (60.0, 500.0);
-        let fast = |design: &Design| low * 1e6 / real(design.timing().clocks_per_frame()) >= fps;
-        let all = slower(&single, &speed(low), fps);
+        let fast = |design: &Design| low * 1e6 / count_to_f64(design.timing().clocks_per_frame()) >= fps;
+        let all = slower_designs(&single, &speed(low), fps);
         assert!(all.iter().all(|design| design.slots() > 1 && fast(design)));
         let found = &all[0];
         // No fold with fewer lanes is fast enough.
         let deeper = (found.slots() + 1..=64).map(|fold| single.with_fold(fold).unwrap());
         assert!(deeper.filter(fast).all(|deeper| deeper.unit().count == found.unit().count));
-        assert!(slower(found, &speed(low), fps).is_empty(), "it is as deep already");
-        assert!(slower(found, &speed(low / 2.0), fps).is_empty(), "it is too deep already");
+        assert!(slower_designs(found, &speed(low), fps).is_empty(), "it is as deep already");
+        assert!(slower_designs(found, &speed(low / 2.0), fps).is_empty(), "it is too deep already");
     }
 
     /// About 1,574 clocks take two pixels per clock, about 3,110 clocks take one.
@@ -93,15 +93,15 @@ mod tests {
     fn a_raster_core_takes_fewer_pixels_per_clock_where_its_clock_allows() {
         let text = "[frame]\nwidth = 64\nheight = 48\n[hardware]\norganization = \"raster\"\n\
                     pixels_per_clock = 2\n";
-        let double = Config::from_toml(text).unwrap().validate().unwrap();
-        let speed = Speed { low_clock_mhz: 60.0, ..Speed::given(1000.0, 1) };
-        let single = slower(&double, &speed, 15_000.0);
+        let double = DesignConfig::from_toml(text).unwrap().validate().unwrap();
+        let speed = FrameRate { low_clock_mhz: 60.0, ..FrameRate::at_given_clock(1000.0, 1) };
+        let single = slower_designs(&double, &speed, 15_000.0);
         assert_eq!(
-            single.iter().map(|d| d.raster().unwrap().pixels_per_clock()).collect::<Vec<_>>(),
+            single.iter().map(|d| d.as_raster().unwrap().pixels_per_clock()).collect::<Vec<_>>(),
             [1]
         );
-        assert!(slower(&double, &speed, 30_000.0).is_empty(), "one pixel at a clock is too slow");
-        assert!(slower(&single[0], &speed, 1.0).is_empty(), "there are no fewer");
+        assert!(slower_designs(&double, &speed, 30_000.0).is_empty(), "one pixel at a clock is too slow");
+        assert!(slower_designs(&single[0], &speed, 1.0).is_empty(), "there are no fewer");
     }
 
     /// Four lanes of 16 regions are derived from eight lanes of 8: their logic is half, and each
@@ -110,14 +110,14 @@ mod tests {
     fn a_slower_design_has_fewer_lanes_and_the_memory_of_its_fold() {
         let text =
             "[frame]\nwidth = 64\nheight = 64\n[hardware]\norganization = \"serial\"\nfold = 8\n";
-        let eight = Config::from_toml(text).unwrap().validate().unwrap();
+        let eight = DesignConfig::from_toml(text).unwrap().validate().unwrap();
         let unit = Area { lut_total_packed: 168, lut_memory_packed: 128, ..Area::default() };
         let array = Area { lut_total_packed: 300 + 8 * 168, ff: 80, ..Area::default() };
-        let silicon = Silicon { unit, units: 8, array, levels: 7 };
-        let cost = |fold: u32| expected(&eight.with_fold(fold).unwrap(), &silicon);
+        let silicon = DesignArea { unit, units: 8, array, logic_levels: 7 };
+        let cost = |fold: u32| expected_cost(&eight.with_fold(fold).unwrap(), &silicon);
         let area =
             |lut_total_packed, bram18, ff| Area { lut_total_packed, bram18, ff, ..Area::default() };
-        let device = Device::xcvu9p();
+        let device = FpgaDevice::xcvu9p();
         assert!((cost(16) - device.cost(&area(300 + 4 * 40, 4, 40))).abs() < 1e-12);
         assert!((cost(8) - device.cost(&array)).abs() < 1e-12);
     }

@@ -3,25 +3,25 @@
 
 use foveate_camera::Camera;
 use foveate_engine::Engine;
-use foveate_footage::Source;
-use foveate_frame::Plane;
+use foveate_footage::FrameSource;
+use foveate_frame::FramePixels;
 
-use crate::depths::Depths;
-use crate::footage::Footage;
-use crate::{ExploreError, Progress};
+use crate::depths::FrameDepths;
+use crate::footage::ExplorationFootage;
+use crate::{ExploreError, ExploreProgress};
 
 /// A camera that sees a clip, and its receiver.
-pub(super) struct Receiver<'a> {
-    footage: &'a Footage<'a>,
-    source: Box<dyn Source>,
+pub(super) struct ClipReceiver<'a> {
+    footage: &'a ExplorationFootage<'a>,
+    source: Box<dyn FrameSource>,
     engine: Engine,
     /// The number of the next frame.
     next: u64,
 }
 
-impl<'a> Receiver<'a> {
+impl<'a> ClipReceiver<'a> {
     pub(super) fn new(
-        footage: &'a Footage<'a>,
+        footage: &'a ExplorationFootage<'a>,
         clip: usize,
         camera: &Camera,
     ) -> Result<Self, ExploreError> {
@@ -31,17 +31,17 @@ impl<'a> Receiver<'a> {
 
     /// Returns the screen after frame `number`, which must not be before the last one; `None` if
     /// the clip has ended. `asked` is the number of cameras so far, for progress.
-    pub(super) fn screen(
+    pub(super) fn screen_after(
         &mut self,
         number: u64,
         asked: usize,
-    ) -> Result<Option<Plane<'_>>, ExploreError> {
+    ) -> Result<Option<FramePixels<'_>>, ExploreError> {
         while self.next <= number {
-            self.footage.go_on(Progress::Asking { cameras: asked })?;
+            self.footage.report_progress(ExploreProgress::RunningNetwork { cameras: asked })?;
             let Some(current) = self.source.next_frame()? else { return Ok(None) };
-            let frames = Depths::of(&current.frame, [self.engine.camera().pixel_bits()])?;
-            frames.show(&mut self.engine, self.source.kind())?;
-            self.source.give_back(current);
+            let frames = FrameDepths::from_frame(&current.frame, [self.engine.camera().pixel_bits()])?;
+            frames.step_engine(&mut self.engine, self.source.kind())?;
+            self.source.recycle(current);
             self.next += 1;
         }
         Ok(Some(self.engine.rendered()))

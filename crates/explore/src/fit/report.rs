@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The result of a fit, for people and programs.
 
-use foveate_design::Config;
-use foveate_estimate::Speed;
-use foveate_fidelity::Figures;
+use foveate_design::DesignConfig;
+use foveate_estimate::FrameRate;
+use foveate_fidelity::FidelityFigures;
 use serde::Serialize;
 
-use super::build::Built;
-use super::constraints::{Held, all_hold};
-use super::held_out::Halves;
-use super::looks::Search;
+use super::build::SynthesizedDesigns;
+use super::constraints::{ConstraintCheck, all_met};
+use super::halves::ClipHalves;
+use super::search::CameraSearch;
 use super::network::FittedNetwork;
-use super::{FitRequest, frames, why};
-use crate::cost::Silicon;
+use super::{FitRequest, frames_of_halves, reasons};
+use crate::cost::DesignArea;
 use crate::row::bytes_per_frame;
 
 /// The thresholds for a wanted share of active regions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Target {
+pub struct ActivityTarget {
     /// The wanted share, 0..=1.
     pub wanted: f64,
     /// The nearest share that was possible, on the first half.
@@ -28,10 +28,10 @@ pub struct Target {
 
 /// The chosen design.
 #[derive(Clone, Debug, Serialize)]
-pub struct Design {
+pub struct FittedDesign {
     /// The configuration, for `generate`.
     #[serde(skip)]
-    pub config: Config,
+    pub config: DesignConfig,
     /// The configuration as TOML.
     pub toml: String,
     /// A summary in a few words.
@@ -40,24 +40,24 @@ pub struct Design {
     pub clocks_per_frame: u64,
     /// The frames per second, at the clock of the request or at the clock that is estimated from
     /// the netlist.
-    pub speed: Option<Speed>,
+    pub speed: Option<FrameRate>,
     /// The area.
-    pub silicon: Silicon,
+    pub silicon: DesignArea,
     /// The bytes per frame that the camera sends, on the first half and on the second half.
     pub bytes_per_frame: (f64, f64),
     /// The figures on the first half, on which the design was fitted.
-    pub fitted: Figures,
+    pub fitted: FidelityFigures,
     /// The constraints on the first half.
-    pub fitted_held: Vec<Held>,
+    pub fitted_held: Vec<ConstraintCheck>,
     /// The figures on the second half, which influenced no choice.
-    pub held_out: Figures,
+    pub held_out: FidelityFigures,
     /// The constraints on the second half.
-    pub held_out_held: Vec<Held>,
+    pub held_out_held: Vec<ConstraintCheck>,
 }
 
 /// The result of a fit.
 #[derive(Clone, Debug, Serialize)]
-pub struct Fit {
+pub struct FitResult {
     /// The version of the JSON format; it changes if a field changes its meaning or is removed.
     pub format_version: u32,
     /// The numbers of frames of the first halves and of the second halves.
@@ -65,7 +65,7 @@ pub struct Fit {
     /// The camera that designs are compared with, as TOML.
     pub task: String,
     /// The thresholds of the task, if a share of active regions was wanted.
-    pub target: Option<Target>,
+    pub target: Option<ActivityTarget>,
     /// The clock in Hz, if one was given.
     pub clock_hz: Option<u64>,
     /// The numbers of candidate cameras, of synthesized designs, and of less promising designs that
@@ -81,53 +81,53 @@ pub struct Fit {
     /// The agreement of a network, if one was given.
     pub network: Option<FittedNetwork>,
     /// The cheapest design, or the nearest one if no design meets all limits.
-    pub design: Design,
+    pub design: FittedDesign,
     /// The reasons why this design was chosen.
     pub why: Vec<String>,
     /// The clips that ended early, with the reasons.
     pub problems: Vec<String>,
 }
 
-pub(super) fn fit(
+pub(super) fn fit_result(
     request: &FitRequest<'_>,
-    search: &Search<'_>,
+    search: &CameraSearch<'_>,
     (asked, mut reasons): (usize, Vec<String>),
-    built: &Built,
-    target: Option<Target>,
-    ((held_out, mut held), network): ((Figures, Vec<Held>), Option<FittedNetwork>),
-    halves: &Halves,
-) -> Fit {
+    built: &SynthesizedDesigns,
+    target: Option<ActivityTarget>,
+    ((held_out, mut held), network): ((FidelityFigures, Vec<ConstraintCheck>), Option<FittedNetwork>),
+    halves: &ClipHalves,
+) -> FitResult {
     let chosen = built.chosen();
-    reasons.extend(why::why(search, built, chosen, request));
-    held.extend(request.constraints.on_speed(chosen.speed.as_ref()));
-    held.extend(request.constraints.on_silicon(&chosen.silicon));
+    reasons.extend(reasons::reason_lines(search, built, chosen, request));
+    held.extend(request.constraints.check_speed(chosen.speed.as_ref()));
+    held.extend(request.constraints.check_area(&chosen.silicon));
     let agreement =
-        |network: &FittedNetwork| Held::agreement(network.held_out.share, network.min_agreement);
+        |network: &FittedNetwork| ConstraintCheck::check_agreement(network.held_out.share, network.min_agreement);
     held.extend(network.as_ref().map(agreement));
     let config = chosen.design.config();
-    let bytes = |figures: &Figures| bytes_per_frame(&chosen.design, figures);
-    Fit {
+    let bytes = |figures: &FidelityFigures| bytes_per_frame(&chosen.design, figures);
+    FitResult {
         format_version: 3,
-        frames: frames(halves),
-        task: Config { camera: search.task().clone(), ..Config::default() }.to_toml(),
+        frames: frames_of_halves(halves),
+        task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }.to_toml(),
         target,
         clock_hz: request.clock_hz,
-        considered: (search.all().count().max(asked), built.all().len(), built.left_out),
-        feasible: chosen.holds(),
-        borne_out: all_hold(&held),
-        binding: why::binding(built),
+        considered: (search.all().count().max(asked), built.designs().len(), built.left_out_designs),
+        feasible: chosen.meets_limits(),
+        borne_out: all_met(&held),
+        binding: reasons::binding_limits(built),
         why: reasons,
         problems: halves.problems.clone(),
         network,
-        design: Design {
+        design: FittedDesign {
             toml: config.to_toml(),
-            summary: why::summary(&chosen.design),
+            summary: reasons::design_text(&chosen.design),
             clocks_per_frame: chosen.clocks_per_frame,
             speed: chosen.speed,
             silicon: chosen.silicon.clone(),
             bytes_per_frame: (bytes(&chosen.look.figures), bytes(&held_out)),
             fitted: chosen.look.figures.clone(),
-            fitted_held: chosen.held.clone(),
+            fitted_held: chosen.checks.clone(),
             held_out,
             held_out_held: held,
             config,

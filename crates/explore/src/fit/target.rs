@@ -6,28 +6,28 @@
 //! set, because whole grey levels are too coarse for some shares.
 
 use foveate_camera::{CameraConfig, Decimal, Neighborhood};
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 
 use super::FitRequest;
-use super::held_out::Halves;
-use super::report::Target;
+use super::halves::ClipHalves;
+use super::report::ActivityTarget;
 use crate::ExploreError;
-use crate::footage::Footage;
+use crate::footage::ExplorationFootage;
 
 /// The steps of the factor: quarters of a power of two, from 1/32 to 32.
 const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
 
 /// Returns the task with thresholds for the wanted share, and the share that was found. Without a
 /// wanted share it returns the task unchanged.
-pub(super) fn aim(
+pub(super) fn task_for_target(
     request: &FitRequest<'_>,
-    footage: &Footage<'_>,
-    halves: &Halves,
-) -> Result<(CameraConfig, Option<Target>), ExploreError> {
-    let Config { camera: own, hardware } = request.task;
+    footage: &ExplorationFootage<'_>,
+    halves: &ClipHalves,
+) -> Result<(CameraConfig, Option<ActivityTarget>), ExploreError> {
+    let DesignConfig { camera: own, hardware } = request.task;
     let Some(wanted) = request.target_active else { return Ok((own.clone(), None)) };
-    let scaled = STEPS.map(|step| scaled(own, f64::from(step) / 4.0)).collect();
-    let (task, _) = nearest(footage, halves, scaled, wanted)?;
+    let scaled = STEPS.map(|step| scale_thresholds(own, f64::from(step) / 4.0)).collect();
+    let (task, _) = nearest_task(footage, halves, scaled, wanted)?;
     let n = task.region.size * task.region.size;
     let counts = (1..=n).filter(|count| *count <= 16 || count % (n / 16).max(1) == 0);
     let counted = counts.map(|count| {
@@ -37,16 +37,16 @@ pub(super) fn aim(
     });
     // The best task so far is also tried, so that the result cannot get worse.
     let all = std::iter::once(task.clone()).chain(counted).collect();
-    let (task, found) = nearest(footage, halves, all, wanted)?;
-    let whole = Config { camera: task.clone(), hardware: hardware.clone() };
-    let target = Target { wanted, found, task: whole.to_toml() };
+    let (task, found) = nearest_task(footage, halves, all, wanted)?;
+    let whole = DesignConfig { camera: task.clone(), hardware: hardware.clone() };
+    let target = ActivityTarget { wanted, found, task: whole.to_toml() };
     Ok((task, Some(target)))
 }
 
 /// Returns the task whose share of active regions on the first halves is nearest to the wanted one.
-fn nearest(
-    footage: &Footage<'_>,
-    halves: &Halves,
+fn nearest_task(
+    footage: &ExplorationFootage<'_>,
+    halves: &ClipHalves,
     tasks: Vec<CameraConfig>,
     wanted: f64,
 ) -> Result<(CameraConfig, f64), ExploreError> {
@@ -54,12 +54,12 @@ fn nearest(
     let camera = |task: &CameraConfig| {
         let mut exact = task.clone();
         exact.region.neighborhood = Neighborhood::Shared;
-        exact.for_frames(width, height)
+        exact.validate_for_frames(width, height)
     };
     // A scaled threshold can be out of range; such a task is left out.
     let (tasks, cameras): (Vec<CameraConfig>, Vec<_>) =
         tasks.into_iter().filter_map(|task| Some((task.clone(), camera(&task).ok()?))).unzip();
-    let shares = footage.first_halves(&cameras, &halves.frames, 0)?;
+    let shares = footage.measure_first_halves(&cameras, &halves.frames, 0)?;
     let found = tasks.into_iter().zip(shares.iter().map(|(figures, _)| figures.active));
     let best = found
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
@@ -70,25 +70,25 @@ fn nearest(
 }
 
 /// Multiplies every threshold of the task in grey levels by `2^octaves`.
-fn scaled(task: &CameraConfig, octaves: f64) -> CameraConfig {
-    scaled_by(task, octaves, octaves)
+fn scale_thresholds(task: &CameraConfig, octaves: f64) -> CameraConfig {
+    scale_thresholds_by(task, octaves, octaves)
 }
 
 /// Multiplies the thresholds of features by `2^spatial` and the temporal level by `2^temporal`.
-pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> CameraConfig {
-    let scale = |octaves: f64| move |level: u32| rounded(f64::from(level) * octaves.exp2());
+pub(super) fn scale_thresholds_by(task: &CameraConfig, spatial: f64, temporal: f64) -> CameraConfig {
+    let scale = |octaves: f64| move |level: u32| round_to_level(f64::from(level) * octaves.exp2());
     let (level, changed) = (scale(spatial), scale(temporal));
     let factor = spatial.exp2();
     let mut config = task.clone();
     let bits = task.frame.pixel_bits;
-    config.temporal.level = Some(changed(config.temporal.level_at(bits)));
+    config.temporal.level = Some(changed(config.temporal.level_or_default(bits)));
     for entry in &mut config.spatial {
         *entry = entry.with_defaults(bits);
-        let measure = entry.feature.measure();
+        let measure = entry.feature.score_unit();
         entry.level = entry.level.map(level);
         if !measure.is_count() {
             // Deviations scale with the contrast, and their squares with its square.
-            let factor = (0..measure.power()).map(|_| factor).product::<f64>();
+            let factor = (0..measure.scaling_exponent()).map(|_| factor).product::<f64>();
             let scale = |score: Decimal| {
                 let score: f64 = score.to_string().parse().expect("a decimal is a number");
                 Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)
@@ -101,7 +101,7 @@ pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> Cam
 
 /// Returns the nearest whole number, within the range of a level.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
-fn rounded(value: f64) -> u32 {
+fn round_to_level(value: f64) -> u32 {
     value.round().clamp(0.0, f64::from(u32::MAX)) as u32
 }
 
@@ -113,12 +113,12 @@ mod tests {
     use foveate_toolchain::{Cache, Toolchain};
 
     use super::*;
-    use crate::{Constraints, Hooks, Progress, Synthesizer};
+    use crate::{Constraints, ExploreHooks, ExploreProgress, Synthesizer};
 
-    struct Quiet;
+    struct SilentHooks;
 
-    impl Hooks for Quiet {
-        fn progress(&self, _: Progress) {}
+    impl ExploreHooks for SilentHooks {
+        fn progress(&self, _: ExploreProgress) {}
 
         fn cancelled(&self) -> bool {
             false
@@ -129,7 +129,7 @@ mod tests {
     fn thresholds_meet_the_wanted_share() {
         let share = |wanted: f64| {
             let request = FitRequest {
-                task: &Config::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap(),
+                task: &DesignConfig::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap(),
                 inputs: &[PathBuf::from("scene:street")],
                 input: &InputOptions { frames: Some(16), ..InputOptions::default() },
                 constraints: &Constraints::default(),
@@ -139,17 +139,17 @@ mod tests {
                 network: None,
                 synthesizer: &Synthesizer {
                     toolchain: Toolchain::system(),
-                    cache: Cache::throw_away().unwrap(),
+                    cache: Cache::temporary().unwrap(),
                 },
-                most: 1,
+                max_designs: 1,
             };
             let footage =
-                Footage::new(request.inputs, request.input, &request.task.camera, &Quiet).unwrap();
-            let halves = Halves { frames: vec![(8, 16)], ..Halves::default() };
-            let (task, target) = aim(&request, &footage, &halves).unwrap();
+                ExplorationFootage::new(request.inputs, request.input, &request.task.camera, &SilentHooks).unwrap();
+            let halves = ClipHalves { frames: vec![(8, 16)], ..ClipHalves::default() };
+            let (task, target) = task_for_target(&request, &footage, &halves).unwrap();
             let target = target.unwrap();
             assert!((target.found - wanted).abs() < 0.05, "{wanted}: {}", target.found);
-            let whole = Config { camera: task, ..request.task.clone() };
+            let whole = DesignConfig { camera: task, ..request.task.clone() };
             assert_eq!(target.task, whole.to_toml());
             target.found
         };
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn scaling_is_of_grey_levels_and_of_their_squares() {
         let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
-        let twice = scaled(&CameraConfig::from_toml(text).unwrap(), 1.0);
+        let twice = scale_thresholds(&CameraConfig::from_toml(text).unwrap(), 1.0);
         assert_eq!((twice.temporal.level, twice.temporal.min_count), (Some(16), 5));
         assert_eq!(twice.spatial[0].level, Some(200));
         let scores: Vec<String> =

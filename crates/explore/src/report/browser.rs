@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of the page in Chromium. Without Chromium they are skipped and say so.
 
-use foveate_pictures::page::browser::{Tip, chromium, probe};
+use foveate_pictures::page::browser::{ExpectedMark, chromium, probe_page};
 
-use super::page;
-use super::sample::exploration;
+use super::render_page;
+use super::sample::sample_exploration;
 
 /// Marks show the number and the error of their point, and link to its row and its configuration.
-const TIP: Tip = Tip { told: r"/^Point \d+: .*\n.*% flipped/", links: 2 };
+const TIP: ExpectedMark = ExpectedMark { figures: r"/^Point \d+: .*\n.*% flipped/", links: 2 };
 
 #[test]
 fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
@@ -15,11 +15,11 @@ fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
         eprintln!("skipped: there is no Chromium in PATH");
         return;
     };
-    let spaces = [crate::BUILT_IN[0].toml, crate::BUILT_IN[1].toml];
+    let spaces = [crate::BUILT_IN_SPACES[0].toml, crate::BUILT_IN_SPACES[1].toml];
     for (space, widths) in spaces.into_iter().zip([[1600, 1280, 500], [1280, 768, 500]]) {
-        let page = page(&exploration(space, true)).unwrap();
+        let page = render_page(&sample_exploration(space, true)).unwrap();
         for width in widths {
-            let found = probe(&program, &page, width, TIP);
+            let found = probe_page(&program, &page, width, TIP);
             assert!(found["rows"].as_u64().unwrap() > 20, "{width}: {found}");
             assert_eq!(
                 (&found["hidden"], &found["wider"]),

@@ -2,14 +2,14 @@
 //! The card of a point, with all its figures.
 
 use foveate_estimate::ramb36;
-use foveate_pictures::page::number::{grouped, percent, real};
+use foveate_pictures::page::number_text::{grouped, percent, real_number};
 
-use super::setting::Settings;
-use super::table::decibels;
+use super::setting::PointSettings;
+use super::table::psnr_cell;
 use crate::DesignRow;
 
 /// The card of a point on the page.
-pub(crate) struct Card {
+pub(crate) struct PointCard {
     pub(crate) number: usize,
     pub(crate) front: bool,
     /// The settings of the point.
@@ -20,8 +20,8 @@ pub(crate) struct Card {
     pub(crate) toml: String,
 }
 
-impl Card {
-    pub(crate) fn new(row: &DesignRow, settings: &Settings) -> Self {
+impl PointCard {
+    pub(crate) fn new(row: &DesignRow, settings: &PointSettings) -> Self {
         let figures = &row.figures;
         let share = |value: f64| format!("{} %", percent(value));
         let mut facts = vec![
@@ -34,8 +34,8 @@ impl Card {
                 "PSNR and SSIM to the input",
                 format!(
                     "{} dB, {}",
-                    decibels(figures.psnr_input).text,
-                    real(figures.ssim_input, 4)
+                    psnr_cell(figures.psnr_input).text,
+                    real_number(figures.ssim_input, 4)
                 ),
             ),
             (
@@ -43,7 +43,7 @@ impl Card {
                 format!(
                     "{} of the relevant regions; by up to {} grey levels, for up to {} frames",
                     share(figures.staleness.share),
-                    real(figures.staleness.max, 0),
+                    real_number(figures.staleness.max, 0),
                     grouped(figures.staleness.longest)
                 ),
             ),
@@ -63,13 +63,13 @@ impl Card {
                     grouped(array.ff),
                     grouped(array.dsp),
                     ramb36(array.bram18),
-                    silicon.levels
+                    silicon.logic_levels
                 ),
             ));
         }
         let facts = facts.into_iter().map(|(name, text)| (name.to_owned(), text));
         let scores = figures.scores.iter().map(|score| {
-            let [max, mean, rms] = [score.max, score.mean, score.rms].map(short);
+            let [max, mean, rms] = [score.max, score.mean, score.rms].map(error_text);
             let text = format!("max {max}, mean {mean}, rms {rms} ({})", score.unit);
             (format!("Error of {}", score.feature), text)
         });
@@ -77,7 +77,7 @@ impl Card {
         Self {
             number: row.number,
             front: row.front.all,
-            settings: settings.described(row, None),
+            settings: settings.settings_text(row, None),
             facts: facts.chain(scores).chain([fingerprint]).collect(),
             toml: row.config.to_toml(),
         }
@@ -85,13 +85,13 @@ impl Card {
 }
 
 /// Returns the text of the mark of a point.
-pub(crate) fn title(row: &DesignRow, settings: &Settings) -> String {
+pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
     let figures = &row.figures;
-    let area = row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
+    let area = row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0))).unwrap_or_default();
     format!(
         "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{}, {} bytes/frame{area}",
         row.number,
-        settings.described(row, None),
+        settings.settings_text(row, None),
         percent(figures.action_flips),
         percent(figures.missed),
         percent(figures.false_alarms),
@@ -99,17 +99,17 @@ pub(crate) fn title(row: &DesignRow, settings: &Settings) -> String {
             || format!("{} clocks per frame", grouped(row.clocks_per_frame)),
             |speed| speed.text()
         ),
-        real(row.bytes_per_frame, 0),
+        real_number(row.bytes_per_frame, 0),
     )
 }
 
 /// Formats the error of a score with two or three significant digits.
-fn short(value: f64) -> String {
+fn error_text(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
         size if size < 0.001 => format!("{value:.1e}"),
-        size if size < 1.0 => real(value, 4),
-        size if size < 100.0 => real(value, 2),
-        _ => real(value, 0),
+        size if size < 1.0 => real_number(value, 4),
+        size if size < 100.0 => real_number(value, 2),
+        _ => real_number(value, 0),
     }
 }

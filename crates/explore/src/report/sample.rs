@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Made-up explorations, for tests of the page.
 
-use foveate_estimate::{Area, ClockEstimate, LogicPath, Speed};
-use foveate_fidelity::{Figures, ScoreError, Staleness};
+use foveate_estimate::{Area, ClockEstimate, LogicPath, FrameRate};
+use foveate_fidelity::{FidelityFigures, ScoreError, Staleness};
 
 use crate::objective::mark_fronts;
-use crate::row::real;
-use crate::{ClipRow, DesignRow, Exploration, Fronts, Refused, Silicon, Space};
+use crate::row::count_to_f64;
+use crate::{ClipRow, DesignRow, Exploration, FrontMembership, RefusedCombination, DesignArea, DesignSpace};
 
 fn clock(mhz: f64) -> ClockEstimate {
     let (low_mhz, high_mhz) = (mhz / 1.25, mhz / 0.75);
@@ -14,13 +14,13 @@ fn clock(mhz: f64) -> ClockEstimate {
 }
 
 /// Returns an exploration with every design of a space, with figures that follow from its settings.
-pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
-    let space = Space::from_toml(space).unwrap();
+pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
+    let space = DesignSpace::from_toml(space).unwrap();
     let (points, refused) = space.points(224, 224);
     let mut rows = Vec::new();
     for (index, point) in points.into_iter().enumerate() {
         let design = point.config.validate().unwrap();
-        let noise = real(u64::try_from(index * 37 % 11).unwrap()) / 11.0;
+        let noise = count_to_f64(u64::try_from(index * 37 % 11).unwrap()) / 11.0;
         let clocks = design.timing().clocks_per_frame();
         let bits = f64::from(design.pixel_bits());
         let of = |axis: &str| {
@@ -34,7 +34,7 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
         } else {
             0.0004 * (9.0 - bits).powi(3) * (1.0 + noise) + (level - 100.0).abs() / 900.0
         };
-        let fold = real(clocks).log10();
+        let fold = count_to_f64(clocks).log10();
         let luts = 20_000.0 * bits / fold * (1.0 + 0.1 * noise);
         #[allow(
             clippy::cast_possible_truncation,
@@ -58,14 +58,14 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
             bytes_per_frame: 196.0 + 6000.0 * bits * (0.2 + noise / 30.0),
             clocks_per_frame: clocks,
             // Each design has its own clock, as a synthesis would find it.
-            speed: areas.then(|| Speed::estimated(&clock(40.0 + 2.0 * bits), clocks)),
-            silicon: areas.then(|| Silicon {
+            speed: areas.then(|| FrameRate::at_estimated_clock(&clock(40.0 + 2.0 * bits), clocks)),
+            silicon: areas.then(|| DesignArea {
                 unit: area(0.01),
                 units: 784,
                 array: area(1.0),
-                levels: 9,
+                logic_levels: 9,
             }),
-            front: Fronts::default(),
+            front: FrontMembership::default(),
         });
     }
     mark_fronts(&mut rows);
@@ -89,11 +89,11 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
     }
 }
 
-fn refused_sample() -> Refused {
-    Refused { settings: "region.size = 65".to_owned(), reason: "<65> is more than 64".to_owned() }
+fn refused_sample() -> RefusedCombination {
+    RefusedCombination { settings: "region.size = 65".to_owned(), reason: "<65> is more than 64".to_owned() }
 }
 
-fn figures(flips: f64, bits: f64, active: f64) -> Figures {
+fn figures(flips: f64, bits: f64, active: f64) -> FidelityFigures {
     let score = |feature: &str, unit: &str, max: f64| ScoreError {
         feature: feature.to_owned(),
         unit: unit.to_owned(),
@@ -101,7 +101,7 @@ fn figures(flips: f64, bits: f64, active: f64) -> Figures {
         mean: max / 30.0,
         rms: max / 12.0,
     };
-    Figures {
+    FidelityFigures {
         frames: 1500,
         scores: vec![
             score("edge", "share of pixels", 0.125),

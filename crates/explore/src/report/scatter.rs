@@ -4,22 +4,22 @@
 
 use std::collections::BTreeMap;
 
-use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, rings, staircase, text};
+use foveate_pictures::page::{PlotAxis, PlotAxes, PlotLine, PlotMark, PagePlot, group_look, nest_marks, front_path, coordinate_text};
 
-use super::colour::Grouping;
-use crate::objective::{Better, Objective, speed, unbeaten};
+use super::colour::PointGrouping;
+use crate::objective::{BetterDirection, Objective, speed_objective, unbeaten_rows};
 use crate::{DesignRow, Exploration};
 
 /// A plot of two objectives, with the front of both.
-struct Scatter {
+struct ScatterPlot {
     id: &'static str,
     title: &'static str,
-    x: Measure,
-    y: Measure,
+    x: ObjectiveAxis,
+    y: ObjectiveAxis,
 }
 
 /// An objective as an axis.
-struct Measure {
+struct ObjectiveAxis {
     objective: Objective,
     title: String,
     /// The factor from the unit of the objective to that of the axis; positive, so that the order
@@ -27,9 +27,9 @@ struct Measure {
     scale: f64,
 }
 
-impl Measure {
+impl ObjectiveAxis {
     /// Creates the axis of an objective, in a unit that people use.
-    fn of(objective: Objective, clock_mhz: Option<u32>) -> Self {
+    fn from_objective(objective: Objective, clock_mhz: Option<u32>) -> Self {
         let (title, scale) = match objective {
             Objective::Error => ("flipped actions, %".to_owned(), 100.0),
             Objective::Speed => match clock_mhz {
@@ -40,26 +40,26 @@ impl Measure {
             Objective::Luts => ("LUTs of the array".to_owned(), 1.0),
             Objective::Stale => ("stale relevant regions, %".to_owned(), 100.0),
             Objective::Bytes => ("bytes per frame".to_owned(), 1.0),
-            Objective::Likeness => ("SSIM to the ideal's screen".to_owned(), 1.0),
+            Objective::Ssim => ("SSIM to the ideal's screen".to_owned(), 1.0),
         };
         Self { objective, title, scale }
     }
 
     fn value(&self, row: &DesignRow) -> Option<f64> {
-        self.objective.of(row).map(|value| value * self.scale)
+        self.objective.value_of(row).map(|value| value * self.scale)
     }
 
-    fn axis(&self, rows: &[&DesignRow]) -> Axis {
+    fn axis(&self, rows: &[&DesignRow]) -> PlotAxis {
         let values = rows.iter().filter_map(|row| self.value(row));
         match self.objective {
-            Objective::Error | Objective::Stale => Axis::from_zero(values),
-            _ => Axis::free(values),
+            Objective::Error | Objective::Stale => PlotAxis::starting_at_zero(values),
+            _ => PlotAxis::with_free_start(values),
         }
     }
 
     /// Returns whether the better end of the axis is its low one.
-    fn low(&self) -> bool {
-        self.objective.better() == Better::Smaller
+    fn is_low_better(&self) -> bool {
+        self.objective.better_direction() == BetterDirection::Smaller
     }
 }
 
@@ -67,33 +67,33 @@ impl Measure {
 pub(crate) fn plots(
     exploration: &Exploration,
     rows: &[&DesignRow],
-    groupings: &[Grouping],
+    groupings: &[PointGrouping],
     titles: &[String],
-) -> Vec<Plot> {
-    use Objective::{Bytes, Error, Likeness, Luts, Stale};
+) -> Vec<PagePlot> {
+    use Objective::{Bytes, Error, Ssim, Luts, Stale};
     let scatter = |id, title, x, y| {
-        let [x, y] = [x, y].map(|objective| Measure::of(objective, exploration.clock_mhz));
-        Scatter { id, title, x, y }
+        let [x, y] = [x, y].map(|objective| ObjectiveAxis::from_objective(objective, exploration.clock_mhz));
+        ScatterPlot { id, title, x, y }
     };
     let mut scatters =
-        vec![scatter("speed", "Error against speed", speed(rows.iter().copied()), Error)];
+        vec![scatter("speed", "Error against speed", speed_objective(rows.iter().copied()), Error)];
     if rows.iter().any(|row| row.silicon.is_some()) {
         scatters.push(scatter("area", "Error against area", Luts, Error));
     }
     scatters.push(scatter("stale", "Staleness against bytes", Bytes, Stale));
-    scatters.push(scatter("picture", "Picture against bytes", Bytes, Likeness));
+    scatters.push(scatter("picture", "Picture against bytes", Bytes, Ssim));
     scatters.iter().map(|scatter| scatter.plot(rows, groupings, titles)).collect()
 }
 
-impl Scatter {
-    fn plot(&self, rows: &[&DesignRow], groupings: &[Grouping], titles: &[String]) -> Plot {
-        let field = Field { x: self.x.axis(rows), y: self.y.axis(rows) };
-        let on_front = unbeaten(rows, [self.x.objective, self.y.objective]);
+impl ScatterPlot {
+    fn plot(&self, rows: &[&DesignRow], groupings: &[PointGrouping], titles: &[String]) -> PagePlot {
+        let field = PlotAxes { x: self.x.axis(rows), y: self.y.axis(rows) };
+        let on_front = unbeaten_rows(rows, [self.x.objective, self.y.objective]);
         let mut marks = Vec::new();
         let mut steps = Vec::new();
         for (index, row) in rows.iter().enumerate() {
             let Some((x, y)) = self.x.value(row).zip(self.y.value(row)) else { continue };
-            let Some((x, y)) = field.place(x, y) else { continue };
+            let Some((x, y)) = field.coordinates(x, y) else { continue };
             if on_front[index] {
                 steps.push((x, y));
             }
@@ -102,23 +102,23 @@ impl Scatter {
         }
         // Marks that are drawn later lie above the others.
         marks.sort_by_key(|mark| mark.front);
-        stack(&mut marks);
-        let path = staircase(&steps, self.x.low(), self.y.low());
-        let logarithmic = |axis: Axis, measure: &Measure| {
-            let scale = if axis.logarithmic() { " (log)" } else { "" };
+        stack_marks(&mut marks);
+        let path = front_path(&steps, self.x.is_low_better(), self.y.is_low_better());
+        let logarithmic = |axis: PlotAxis, measure: &ObjectiveAxis| {
+            let scale = if axis.is_logarithmic() { " (log)" } else { "" };
             format!("{}{scale}", measure.title)
         };
-        Plot {
+        PagePlot {
             id: self.id.to_owned(),
             title: self.title.to_owned(),
             x_title: logarithmic(field.x, &self.x),
             y_title: logarithmic(field.y, &self.y),
             x_ticks: field.x_ticks(),
             y_ticks: field.y_ticks(),
-            lines: vec![Line { path, class: "front".to_owned(), shape: "", label: String::new() }],
+            lines: vec![PlotLine { path, class: "front".to_owned(), shape: "", label: String::new() }],
             marks,
             by_axis: true,
-            ..Plot::default()
+            ..PagePlot::default()
         }
     }
 }
@@ -129,17 +129,17 @@ fn mark(
     index: usize,
     (x, y): (f64, f64),
     front: bool,
-    groupings: &[Grouping],
+    groupings: &[PointGrouping],
     title: String,
-) -> Mark {
-    let group = |grouping: &Grouping| grouping.of_row[index];
+) -> PlotMark {
+    let group = |grouping: &PointGrouping| grouping.of_row[index];
     let groups: Vec<String> = groupings.iter().map(|one| group(one).to_string()).collect();
-    let chosen = groupings.iter().find(|grouping| grouping.chosen);
-    let (class, shape) = look(chosen.map_or(0, group));
-    Mark {
+    let chosen = groupings.iter().find(|grouping| grouping.is_chosen);
+    let (class, shape) = group_look(chosen.map_or(0, group));
+    PlotMark {
         id: row.number.to_string(),
-        x: text(x),
-        y: text(y),
+        x: coordinate_text(x),
+        y: coordinate_text(y),
         front,
         scale: None,
         class,
@@ -151,8 +151,8 @@ fn mark(
 
 /// Adds to every mark the names of other marks at the same place. Marks with different looks become
 /// rings around each other.
-pub(crate) fn stack(marks: &mut [Mark]) {
-    let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
+pub(crate) fn stack_marks(marks: &mut [PlotMark]) {
+    let place = |mark: &PlotMark| (mark.x.clone(), mark.y.clone());
     let mut at: BTreeMap<_, Vec<String>> = BTreeMap::new();
     for mark in marks.iter() {
         at.entry(place(mark)).or_default().push(mark.id.clone());
@@ -170,5 +170,5 @@ pub(crate) fn stack(marks: &mut [Mark]) {
         let more = if others.len() > named.len() { " and more" } else { "" };
         mark.title += &format!("\nat the same place: {}{more}", named.join(", "));
     }
-    rings(marks, 1.0);
+    nest_marks(marks, 1.0);
 }

@@ -3,18 +3,18 @@
 
 use std::cmp::Ordering;
 
-use foveate_pictures::page::Fact;
-use foveate_pictures::page::number::{NONE, grouped, percent, real, things};
+use foveate_pictures::page::HeadingFigure;
+use foveate_pictures::page::number_text::{MISSING, grouped, percent, real_number, counted};
 
-use super::setting::Settings;
+use super::setting::PointSettings;
 use crate::{DesignRow, Exploration, objective};
 
 /// Returns the title of the page.
 pub(crate) fn title(exploration: &Exploration) -> String {
-    let points = things(exploration.rows.len(), "design");
+    let points = counted(exploration.rows.len(), "design");
     match exploration.clips.as_slice() {
         [clip] => format!("{points} over {}", clip.name),
-        clips => format!("{points} over {}", things(clips.len(), "clip")),
+        clips => format!("{points} over {}", counted(clips.len(), "clip")),
     }
 }
 
@@ -28,13 +28,13 @@ pub(crate) fn clips(exploration: &Exploration) -> String {
 }
 
 /// Returns the figures of the heading.
-pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
+pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
     let Exploration { rows, refused, clips, axes, .. } = exploration;
     let frames = clips.iter().map(|clip| clip.frames).sum();
     let front = rows.iter().filter(|row| row.front.all).count();
     let area = rows.iter().any(|row| row.silicon.is_some());
     let (width, height) = exploration.size;
-    let fact = |name, value, note| Fact { name, value, note };
+    let fact = |name, value, note| HeadingFigure { name, value, note };
     let count = |count: usize| grouped(count as u64);
     vec![
         fact(
@@ -42,7 +42,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
             count(rows.len()),
             match axes.as_slice() {
                 [] => "nothing varies".to_owned(),
-                axes => format!("{} varied", things(axes.len(), "setting")),
+                axes => format!("{} varied", counted(axes.len(), "setting")),
             },
         ),
         fact(
@@ -51,32 +51,32 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
             if area { "of error, speed and area" } else { "of error and speed" }.to_owned(),
         ),
         fact("Refused", count(refused.len()), "combinations".to_owned()),
-        fact("Frames", grouped(frames), things(clips.len(), "clip")),
+        fact("Frames", grouped(frames), counted(clips.len(), "clip")),
         fact("Frame", format!("{width}×{height}"), "pixels".to_owned()),
         clock(exploration),
     ]
 }
 
 /// Returns the clock of the frame rates.
-fn clock(exploration: &Exploration) -> Fact {
+fn clock(exploration: &Exploration) -> HeadingFigure {
     let of_rows = || exploration.rows.iter().filter_map(|row| row.speed);
     let (value, note) = match (exploration.clock_mhz, of_rows().next()) {
         (Some(mhz), _) => (format!("{mhz} MHz"), "as the space gives it"),
         (None, Some(_)) => {
             let slowest = of_rows().map(|speed| speed.clock_mhz).fold(f64::INFINITY, f64::min);
             let fastest = of_rows().map(|speed| speed.clock_mhz).fold(0.0, f64::max);
-            let [slowest, fastest] = [slowest, fastest].map(|mhz| real(mhz, 0));
+            let [slowest, fastest] = [slowest, fastest].map(|mhz| real_number(mhz, 0));
             let both = format!("{slowest} to {fastest} MHz");
             let value = if slowest == fastest { format!("{slowest} MHz") } else { both };
             (value, "estimated for each design")
         }
-        (None, None) => (NONE.to_owned(), "not known without synthesis"),
+        (None, None) => (MISSING.to_owned(), "not known without synthesis"),
     };
-    Fact { name: "Clock", value, note: note.to_owned() }
+    HeadingFigure { name: "Clock", value, note: note.to_owned() }
 }
 
 /// Describes the ends of the front.
-pub(crate) fn findings(rows: &[DesignRow], settings: &Settings) -> Vec<String> {
+pub(crate) fn findings(rows: &[DesignRow], settings: &PointSettings) -> Vec<String> {
     let front = || rows.iter().filter(|row| row.front.all);
     let by_error = |one: &&DesignRow, other: &&DesignRow| {
         one.figures.action_flips.total_cmp(&other.figures.action_flips)
@@ -88,20 +88,20 @@ pub(crate) fn findings(rows: &[DesignRow], settings: &Settings) -> Vec<String> {
     let flips =
         |row: &DesignRow| format!("{} % flipped actions", percent(row.figures.action_flips));
     let luts = |row: &DesignRow| {
-        row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default()
+        row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0))).unwrap_or_default()
     };
     let mut found = Vec::new();
     let mut say = |what: &str, row: Option<&DesignRow>| {
         found.extend(row.map(|row| {
-            let settings = settings.described(row, None);
+            let settings = settings.settings_text(row, None);
             let (flips, speed, luts) = (flips(row), speed(row), luts(row));
             format!("{what}: point {} ({settings}), {flips} at {speed}{luts}.", row.number)
         }));
     };
     say("Smallest error", front().min_by(by_error));
-    let fast = objective::speed(rows);
+    let fast = objective::speed_objective(rows);
     let fastest = front().max_by(|one, other| {
-        let order = fast.of(one).partial_cmp(&fast.of(other));
+        let order = fast.value_of(one).partial_cmp(&fast.value_of(other));
         order.unwrap_or(Ordering::Equal).then_with(|| by_error(other, one))
     });
     say("Fastest", fastest);

@@ -2,12 +2,12 @@
 //! The points as rows of a table.
 
 use foveate_estimate::ramb36;
-use foveate_pictures::page::number::real;
-use foveate_pictures::page::{Cell, Column, Row};
+use foveate_pictures::page::number_text::real_number;
+use foveate_pictures::page::{TableCell, TableColumn, TableRow};
 
-use super::setting::{Settings, set};
-use crate::row::real as number;
-use crate::{DesignRow, Silicon};
+use super::setting::{PointSettings, axes_set};
+use crate::row::count_to_f64 as number;
+use crate::{DesignRow, DesignArea};
 
 /// The name, unit and meaning of every figure of the table.
 const FIGURES: [(&str, &str, &str); 8] = [
@@ -31,19 +31,19 @@ const AREA: [(&str, &str, &str); 5] = [
 ];
 
 /// Returns the headings after the number; with `area` also those of the area.
-pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
-    let axis = |name: &str, title: &str| Column {
+pub(crate) fn columns(settings: &PointSettings, area: bool) -> Vec<TableColumn> {
+    let axis = |name: &str, title: &str| TableColumn {
         name: name.to_owned(),
         unit: "",
         title: title.to_owned(),
         numbers: false,
     };
-    let axes: Vec<Column> = if settings.one_at_a_time {
+    let axes: Vec<TableColumn> = if settings.is_one_at_a_time {
         vec![axis("what is changed", "the one setting that differs from the start")]
     } else {
         settings.names.iter().zip(&settings.keys).map(|(name, key)| axis(name, key)).collect()
     };
-    let figure = |(name, unit, title): (&str, &'static str, &str)| Column {
+    let figure = |(name, unit, title): (&str, &'static str, &str)| TableColumn {
         name: name.to_owned(),
         unit,
         title: title.to_owned(),
@@ -61,40 +61,40 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
 }
 
 /// Returns the row of a point, with as many cells as there are headings.
-pub(crate) fn line(row: &DesignRow, settings: &Settings, area: bool) -> Row {
+pub(crate) fn point_row(row: &DesignRow, settings: &PointSettings, area: bool) -> TableRow {
     let figures = &row.figures;
     let setting = |text: String, set: bool| {
         let class = if set { "" } else { "start" };
-        Cell { class, ..Cell::words(text) }
+        TableCell { class, ..TableCell::text(text) }
     };
     let is_set = |axis: usize| row.settings.get(axis).is_some_and(|text| !text.is_empty());
-    let mut cells: Vec<Cell> = if settings.one_at_a_time {
-        vec![setting(settings.described(row, None), set(row).next().is_some())]
+    let mut cells: Vec<TableCell> = if settings.is_one_at_a_time {
+        vec![setting(settings.settings_text(row, None), axes_set(row).next().is_some())]
     } else {
         let axes = 0..settings.names.len();
         axes.map(|axis| setting(settings.value(row, axis), is_set(axis))).collect()
     };
     cells.extend([
-        Cell::share(figures.action_flips),
-        Cell::share(figures.missed),
-        Cell::share(figures.false_alarms),
-        Cell::number(real(figures.active_iou, 4), Some(figures.active_iou)),
-        decibels(figures.psnr_ideal),
-        Cell::number(real(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
-        Cell::number(real(figures.staleness.mean, 2), Some(figures.staleness.mean)),
-        Cell::number(real(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
+        TableCell::share(figures.action_flips),
+        TableCell::share(figures.missed),
+        TableCell::share(figures.false_alarms),
+        TableCell::number(real_number(figures.active_iou, 4), Some(figures.active_iou)),
+        psnr_cell(figures.psnr_ideal),
+        TableCell::number(real_number(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
+        TableCell::number(real_number(figures.staleness.mean, 2), Some(figures.staleness.mean)),
+        TableCell::number(real_number(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
     ]);
     cells.extend(match row.speed {
         Some(speed) => [
-            Cell::number(real(speed.clock_mhz, 0), Some(speed.clock_mhz)),
-            Cell::number(speed.rate_text(), Some(speed.frames_per_second)),
+            TableCell::number(real_number(speed.clock_mhz, 0), Some(speed.clock_mhz)),
+            TableCell::number(speed.rate_text(), Some(speed.frames_per_second)),
         ],
-        None => [Cell::none(), Cell::none()],
+        None => [TableCell::missing(), TableCell::missing()],
     });
     if area {
-        let of = |take: fn(&Silicon) -> u64| match &row.silicon {
-            Some(silicon) => Cell::count(take(silicon)),
-            None => Cell::none(),
+        let of = |take: fn(&DesignArea) -> u64| match &row.silicon {
+            Some(silicon) => TableCell::count(take(silicon)),
+            None => TableCell::missing(),
         };
         cells.extend([
             of(|silicon| silicon.unit.lut_total_packed),
@@ -102,20 +102,20 @@ pub(crate) fn line(row: &DesignRow, settings: &Settings, area: bool) -> Row {
             of(|silicon| silicon.array.ff),
             of(|silicon| silicon.array.lut_memory_packed),
             match &row.silicon {
-                Some(Silicon { array, .. }) => {
-                    Cell::number(ramb36(array.bram18), Some(number(array.bram18)))
+                Some(DesignArea { array, .. }) => {
+                    TableCell::number(ramb36(array.bram18), Some(number(array.bram18)))
                 }
-                None => Cell::none(),
+                None => TableCell::missing(),
             },
         ]);
     }
-    Row { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
+    TableRow { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
 }
 
 /// Formats a PSNR. Equal frames have no PSNR and are the best.
-pub(crate) fn decibels(psnr: Option<f64>) -> Cell {
+pub(crate) fn psnr_cell(psnr: Option<f64>) -> TableCell {
     match psnr {
-        Some(psnr) => Cell::number(real(psnr, 1), Some(psnr)),
-        None => Cell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
+        Some(psnr) => TableCell::number(real_number(psnr, 1), Some(psnr)),
+        None => TableCell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::sample::exploration;
+use super::sample::sample_exploration;
 use super::*;
 use crate::objective::mark_fronts;
 
@@ -36,8 +36,8 @@ fn classed<'a>(document: &'a Document<'_>, class: &'static str) -> Vec<Node<'a, 
 
 #[test]
 fn every_point_is_there_with_its_configuration_rows_and_marks() {
-    let sample = exploration(GRID, true);
-    let page = page(&sample).unwrap();
+    let sample = sample_exploration(GRID, true);
+    let page = render_page(&sample).unwrap();
     let document = tree(&page);
     let texts: Vec<&str> = named(&document, "pre").iter().filter_map(Node::text).collect();
     let marks = classed(&document, "mark").len();
@@ -69,18 +69,18 @@ fn every_point_is_there_with_its_configuration_rows_and_marks() {
 
 #[test]
 fn what_a_user_wrote_is_text() {
-    let mut sample = exploration(GRID, true);
+    let mut sample = sample_exploration(GRID, true);
     let bad = "\"><script>alert('&amp;')</script>";
     sample.axes[0] = bad.to_owned();
     sample.rows[1].settings[1] = bad.to_owned();
     sample.rows[2].fingerprint = bad.to_owned();
     sample.rows[3].figures.scores[0].feature = bad.to_owned();
     sample.problems.push(bad.to_owned());
-    sample.refused.push(Refused { settings: bad.to_owned(), reason: bad.to_owned() });
+    sample.refused.push(RefusedCombination { settings: bad.to_owned(), reason: bad.to_owned() });
     sample.ideal = bad.to_owned();
     sample.program = bad.to_owned();
     sample.clips.truncate(1);
-    let page = page(&sample).unwrap();
+    let page = render_page(&sample).unwrap();
     assert!(!page.contains("<script>alert"));
     let document = tree(&page);
     assert_eq!(named(&document, "script").len(), 1);
@@ -90,7 +90,7 @@ fn what_a_user_wrote_is_text() {
 
 #[test]
 fn nothing_is_loaded_from_elsewhere() {
-    let page = page(&exploration(GRID, true)).unwrap();
+    let page = render_page(&sample_exploration(GRID, true)).unwrap();
     let document = tree(&page);
     for node in document.descendants() {
         assert!(!["link", "img", "iframe", "object"].contains(&node.tag_name().name()));
@@ -110,9 +110,9 @@ fn nothing_is_loaded_from_elsewhere() {
 
 /// Returns explorations whose plots are hard to draw.
 fn hard() -> Vec<(&'static str, Exploration)> {
-    let each = exploration(crate::BUILT_IN[0].toml, false);
-    let one = exploration("", false);
-    let mut equal = exploration(GRID, true);
+    let each = sample_exploration(crate::BUILT_IN_SPACES[0].toml, false);
+    let one = sample_exploration("", false);
+    let mut equal = sample_exploration(GRID, true);
     let first = equal.rows[0].clone();
     for row in &mut equal.rows {
         row.figures = first.figures.clone();
@@ -120,7 +120,7 @@ fn hard() -> Vec<(&'static str, Exploration)> {
         row.clocks_per_frame = first.clocks_per_frame;
         row.bytes_per_frame = first.bytes_per_frame;
     }
-    let mut faultless = exploration(GRID, true);
+    let mut faultless = sample_exploration(GRID, true);
     for row in &mut faultless.rows {
         row.figures.action_flips = 0.0;
         row.figures.psnr_ideal = None;
@@ -129,13 +129,13 @@ fn hard() -> Vec<(&'static str, Exploration)> {
         row.figures.ideal_active = 0.0;
         row.figures.staleness.share = 0.0;
     }
-    let mut broken = exploration(GRID, true);
+    let mut broken = sample_exploration(GRID, true);
     broken.rows[0].figures.action_flips = f64::NAN;
     broken.rows[1].figures.staleness.share = f64::INFINITY;
     broken.rows[2].bytes_per_frame = f64::NEG_INFINITY;
     broken.rows[3].clocks_per_frame = 0;
     broken.rows[4].silicon = None;
-    let mut none = exploration(GRID, false);
+    let mut none = sample_exploration(GRID, false);
     none.rows.clear();
     none.clips.clear();
     let mut all = vec![
@@ -153,7 +153,7 @@ fn hard() -> Vec<(&'static str, Exploration)> {
 #[test]
 fn pictures_have_numbers_whatever_the_data() {
     for (name, sample) in hard() {
-        let page = page(&sample).unwrap();
+        let page = render_page(&sample).unwrap();
         let document = tree(&page);
         let pictures = named(&document, "svg");
         for node in pictures.iter().flat_map(Node::descendants) {
@@ -184,7 +184,7 @@ const BETTER: [(&str, f64, f64); 4] = [
 
 #[test]
 fn large_marks_are_those_that_no_mark_beats_on_the_picture() {
-    let page = page(&exploration(GRID, true)).unwrap();
+    let page = render_page(&sample_exploration(GRID, true)).unwrap();
     let document = tree(&page);
     for (id, right, down) in BETTER {
         let figure = document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
@@ -213,8 +213,8 @@ fn large_marks_are_those_that_no_mark_beats_on_the_picture() {
 
 #[test]
 fn the_table_of_the_front_has_the_points_of_the_files() {
-    let sample = exploration(GRID, true);
-    let page = page(&sample).unwrap();
+    let sample = sample_exploration(GRID, true);
+    let page = render_page(&sample).unwrap();
     let document = tree(&page);
     let rows = document.descendants().filter_map(|node| node.attribute("id"));
     let shown: Vec<String> = rows
@@ -230,22 +230,22 @@ fn the_table_of_the_front_has_the_points_of_the_files() {
 
 #[test]
 fn pages_are_the_same_every_time() {
-    let sample = exploration(GRID, true);
-    assert_eq!(page(&sample).unwrap(), page(&sample).unwrap());
+    let sample = sample_exploration(GRID, true);
+    assert_eq!(render_page(&sample).unwrap(), render_page(&sample).unwrap());
 }
 
 #[test]
 fn of_very_many_points_the_fronts_are_shown() {
-    let mut sample = exploration(GRID, true);
+    let mut sample = sample_exploration(GRID, true);
     let row = sample.rows[0].clone();
     let fronts: usize = sample.rows.iter().map(|row| usize::from(row.front.all)).sum();
     let more = (0..5000).map(|index| {
-        let front = crate::Fronts { speed: false, area: false, all: false };
+        let front = crate::FrontMembership { speed: false, area: false, all: false };
         DesignRow { number: 1000 + index, front, ..row.clone() }
     });
     sample.rows.extend(more);
-    let rows = shown(&sample.rows);
-    assert!((1000..=POINTS).contains(&rows.len()), "{}", rows.len());
+    let rows = points_shown(&sample.rows);
+    assert!((1000..=MAX_POINTS_SHOWN).contains(&rows.len()), "{}", rows.len());
     assert_eq!(rows.iter().filter(|row| row.front.all).count(), fronts);
 }
 
@@ -256,9 +256,9 @@ fn samples_can_be_looked_at() {
     let Some(folder) = std::env::var_os("FOVEATE_PAGES").map(std::path::PathBuf::from) else {
         return;
     };
-    let designs = ("designs", exploration(crate::BUILT_IN[1].toml, true));
-    for (name, sample) in hard().into_iter().chain([("grid", exploration(GRID, true)), designs]) {
+    let designs = ("designs", sample_exploration(crate::BUILT_IN_SPACES[1].toml, true));
+    for (name, sample) in hard().into_iter().chain([("grid", sample_exploration(GRID, true)), designs]) {
         let name = name.replace(' ', "-") + ".html";
-        std::fs::write(folder.join(name), page(&sample).unwrap()).unwrap();
+        std::fs::write(folder.join(name), render_page(&sample).unwrap()).unwrap();
     }
 }

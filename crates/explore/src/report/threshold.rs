@@ -3,18 +3,18 @@
 
 use std::collections::BTreeMap;
 
-use foveate_pictures::page::number::percent;
-use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, text, through};
+use foveate_pictures::page::number_text::percent;
+use foveate_pictures::page::{PlotAxis, PlotAxes, PlotLine, PlotMark, PagePlot, group_look, coordinate_text, line_path};
 
-use super::scatter::stack;
-use super::setting::{Settings, set};
+use super::scatter::stack_marks;
+use super::setting::{PointSettings, axes_set};
 use crate::DesignRow;
 
 /// The most lines of a plot, which can be told apart.
-const LINES: usize = 8;
+const MAX_LINES: usize = 8;
 
 /// A line: points that differ only in the threshold, sorted by it.
-struct Sweep<'a> {
+struct ThresholdLine<'a> {
     points: Vec<(f64, &'a DesignRow, usize)>,
     /// The number of other set axes whose values differ from the ideal's, and the number of other
     /// set axes.
@@ -23,7 +23,7 @@ struct Sweep<'a> {
 }
 
 /// Returns a plot for every axis that is a threshold and has several values.
-pub(crate) fn plots(settings: &Settings, rows: &[&DesignRow], titles: &[String]) -> Vec<Plot> {
+pub(crate) fn plots(settings: &PointSettings, rows: &[&DesignRow], titles: &[String]) -> Vec<PagePlot> {
     let keys = settings.keys.iter().enumerate();
     let thresholds = keys.filter(|(_, key)| {
         let last = key.rsplit('.').next().unwrap_or(key);
@@ -32,13 +32,13 @@ pub(crate) fn plots(settings: &Settings, rows: &[&DesignRow], titles: &[String])
     thresholds.filter_map(|(axis, _)| plot(settings, rows, titles, axis)).collect()
 }
 
-fn plot(settings: &Settings, rows: &[&DesignRow], titles: &[String], axis: usize) -> Option<Plot> {
-    let mut sweeps = sweeps(settings, rows, axis);
+fn plot(settings: &PointSettings, rows: &[&DesignRow], titles: &[String], axis: usize) -> Option<PagePlot> {
+    let mut sweeps = threshold_lines(settings, rows, axis);
     sweeps.sort_by_key(|sweep| {
         (sweep.distance, sweep.points.iter().map(|(_, row, _)| row.number).min())
     });
     let all = sweeps.len();
-    sweeps.truncate(LINES);
+    sweeps.truncate(MAX_LINES);
     let points = || sweeps.iter().flat_map(|sweep| &sweep.points);
     let mut ideals: Vec<f64> = Vec::new();
     for (_, row, _) in points() {
@@ -49,39 +49,39 @@ fn plot(settings: &Settings, rows: &[&DesignRow], titles: &[String], axis: usize
     }
     points().next()?;
     let active = |row: &DesignRow| 100.0 * row.figures.active;
-    let threshold = settings.ideal(axis).and_then(|text| text.parse::<f64>().ok());
+    let threshold = settings.ideal_value(axis).and_then(|text| coordinate_text.parse::<f64>().ok());
     let xs = points().map(|(x, _, _)| *x).chain(threshold);
     let ys = points().map(|(_, row, _)| active(row)).chain(ideals.iter().copied());
-    let field = Field { x: Axis::free(xs), y: Axis::from_zero(ys) };
+    let field = PlotAxes { x: PlotAxis::with_free_start(xs), y: PlotAxis::starting_at_zero(ys) };
     let name = &settings.names[axis];
-    let mut plot = Plot {
+    let mut plot = PagePlot {
         id: format!("threshold-{axis}"),
         title: format!("Active regions against {name}"),
         x_title: title(&settings.keys[axis], field.x),
         y_title: title("active area, %", field.y),
         x_ticks: field.x_ticks(),
         y_ticks: field.y_ticks(),
-        ..Plot::default()
+        ..PagePlot::default()
     };
     let label = |ideal: f64| format!("ideal camera, {} %", percent(ideal / 100.0));
-    plot.rules = ideals.iter().take(3).filter_map(|y| field.rule(*y, label(*y))).collect();
+    plot.rules = ideals.iter().take(3).filter_map(|y| field.horizontal_line(*y, label(*y))).collect();
     plot.posts =
-        threshold.and_then(|x| field.post(x, format!("{name} of the ideal"))).into_iter().collect();
-    if all > LINES {
+        threshold.and_then(|x| field.vertical_line(x, format!("{name} of the ideal"))).into_iter().collect();
+    if all > MAX_LINES {
         plot.note = format!(
-            "{LINES} of {all} lines are shown: their other settings are nearest to the ideal's."
+            "{MAX_LINES} of {all} lines are shown: their other settings are nearest to the ideal's."
         );
     }
     for (index, sweep) in sweeps.iter().enumerate() {
-        let (class, shape) = look(index);
+        let (class, shape) = group_look(index);
         let mut places = Vec::new();
         for (x, row, of_row) in &sweep.points {
-            let Some(place) = field.place(*x, active(row)) else { continue };
+            let Some(place) = field.coordinates(*x, active(row)) else { continue };
             places.push(place);
-            plot.marks.push(Mark {
+            plot.marks.push(PlotMark {
                 id: row.number.to_string(),
-                x: text(place.0),
-                y: text(place.1),
+                x: coordinate_text(place.0),
+                y: coordinate_text(place.1),
                 front: false,
                 scale: None,
                 class: class.clone(),
@@ -91,41 +91,41 @@ fn plot(settings: &Settings, rows: &[&DesignRow], titles: &[String], axis: usize
             });
         }
         let class = if index % 2 == 1 { class + " dashed" } else { class };
-        plot.lines.push(Line { path: through(&places), class, shape, label: sweep.label.clone() });
+        plot.lines.push(PlotLine { path: line_path(&places), class, shape, label: sweep.label.clone() });
     }
-    stack(&mut plot.marks);
+    stack_marks(&mut plot.marks);
     Some(plot)
 }
 
-fn title(text: &str, axis: Axis) -> String {
-    format!("{text}{}", if axis.logarithmic() { " (log)" } else { "" })
+fn title(text: &str, axis: PlotAxis) -> String {
+    format!("{text}{}", if axis.is_logarithmic() { " (log)" } else { "" })
 }
 
 /// Returns the lines of an axis, without single points.
-fn sweeps<'a>(settings: &Settings, rows: &[&'a DesignRow], axis: usize) -> Vec<Sweep<'a>> {
-    let mut groups: BTreeMap<Vec<&str>, Sweep<'_>> = BTreeMap::new();
+fn threshold_lines<'a>(settings: &PointSettings, rows: &[&'a DesignRow], axis: usize) -> Vec<ThresholdLine<'a>> {
+    let mut groups: BTreeMap<Vec<&str>, ThresholdLine<'_>> = BTreeMap::new();
     for (index, row) in rows.iter().enumerate() {
         let Ok(x) = settings.value(row, axis).parse::<f64>() else { continue };
         let others = row.settings.iter().enumerate().filter(|(other, _)| *other != axis);
-        let others: Vec<&str> = others.map(|(_, text)| text.as_str()).collect();
+        let others: Vec<&str> = others.map(|(_, text)| coordinate_text.as_str()).collect();
         let new = || {
-            let set = || set(row).filter(|other| *other != axis);
+            let set = || axes_set(row).filter(|other| *other != axis);
             let as_ideal = |other: &usize| {
-                settings.ideal(*other) == Some(settings.value(row, *other).as_str())
+                settings.ideal_value(*other) == Some(settings.value(row, *other).as_str())
             };
-            Sweep {
+            ThresholdLine {
                 points: Vec::new(),
                 distance: (set().filter(|other| !as_ideal(other)).count(), set().count()),
-                label: settings.described(row, Some(axis)),
+                label: settings.settings_text(row, Some(axis)),
             }
         };
         groups.entry(others).or_insert_with(new).points.push((x, row, index));
     }
-    let mut sweeps: Vec<Sweep<'_>> = groups.into_values().collect();
+    let mut sweeps: Vec<ThresholdLine<'_>> = groups.into_values().collect();
     for sweep in &mut sweeps {
         sweep.points.sort_by(|one, other| one.0.total_cmp(&other.0));
     }
-    let several = |sweep: &Sweep<'_>| {
+    let several = |sweep: &ThresholdLine<'_>| {
         sweep.points.first().map(|point| point.0) < sweep.points.last().map(|point| point.0)
     };
     sweeps.retain(several);

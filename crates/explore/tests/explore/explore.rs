@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer, explore,
+    Exploration, ExploreError, ExploreHooks, ExploreProgress, ExploreRequest, DesignSpace, Synthesizer, explore,
 };
 use foveate_footage::InputOptions;
 use foveate_toolchain::testing::require_tools;
@@ -22,19 +22,19 @@ pub(crate) const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nfra
      temporal.reference = ['previous']\ntemporal.min_count = [5, 10]\nhardware.organization = ['serial']\n";
 
 /// Counts frames, and cancels after some of them.
-pub(crate) struct Watch {
+pub(crate) struct CountingHooks {
     pub(crate) frames: AtomicUsize,
     most: usize,
 }
 
-impl Watch {
+impl CountingHooks {
     pub(crate) fn new(most: usize) -> Self {
         Self { frames: AtomicUsize::new(0), most }
     }
 }
 
-impl Hooks for Watch {
-    fn progress(&self, _: Progress) {
+impl ExploreHooks for CountingHooks {
+    fn progress(&self, _: ExploreProgress) {
         self.frames.fetch_add(1, Ordering::Relaxed);
     }
 
@@ -47,13 +47,13 @@ pub(crate) fn run(
     text: &str,
     inputs: &[&str],
     output: &Path,
-    hooks: &Watch,
+    hooks: &CountingHooks,
 ) -> Result<Exploration, ExploreError> {
-    let space = Space::from_toml(text).unwrap();
+    let space = DesignSpace::from_toml(text).unwrap();
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(12), ..InputOptions::default() };
     explore(
-        &Request { space: &space, inputs: &inputs, input: &input, synthesizer: None },
+        &ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesizer: None },
         output,
         hooks,
     )
@@ -68,7 +68,7 @@ fn every_figure_is_in_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let found =
-        run(SPACE, &["scene:street", "scene:shake"], &output, &Watch::new(usize::MAX)).unwrap();
+        run(SPACE, &["scene:street", "scene:shake"], &output, &CountingHooks::new(usize::MAX)).unwrap();
     // The start also has 8 bits and a count of 5, and a serial array computes the same as the
     // start.
     assert_eq!(found.rows.len(), 7);
@@ -93,7 +93,7 @@ fn every_figure_is_in_its_file() {
     assert!(lines(&output.join("pareto.csv")).len() > 1);
     for row in &found.rows {
         let toml = fs::read_to_string(output.join(format!("designs/{}.toml", row.number))).unwrap();
-        let design = foveate_design::Config::from_toml(&toml).unwrap().validate().unwrap();
+        let design = foveate_design::DesignConfig::from_toml(&toml).unwrap().validate().unwrap();
         assert_eq!(design.fingerprint(), row.fingerprint);
     }
     let parquet = fs::read(output.join("points.parquet")).unwrap();
@@ -114,16 +114,16 @@ fn a_point_has_the_clock_of_its_netlist() {
     let inputs = [PathBuf::from("scene:street")];
     let input = InputOptions { frames: Some(3), ..InputOptions::default() };
     for (clock, name) in [("", "own"), ("clock_mhz = 50\n", "given")] {
-        let space = &Space::from_toml(&format!("{clock}{TINY}")).unwrap();
+        let space = &DesignSpace::from_toml(&format!("{clock}{TINY}")).unwrap();
         let output = folder.path().join(name);
         let tools = &synthesizer;
-        let request = Request { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
-        let found = explore(&request, &output, &Watch::new(usize::MAX)).unwrap();
+        let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+        let found = explore(&request, &output, &CountingHooks::new(usize::MAX)).unwrap();
         let points = lines(&output.join("points.csv"));
         let at = points[0].split(',').position(|column| column == "clock_mhz").unwrap();
         for (row, line) in found.rows.iter().zip(&points[1..]) {
             let design = row.config.validate().unwrap();
-            let job = EstimateJob::of(&design, Top::Rcm);
+            let job = EstimateJob::for_design(&design, Top::Rcm);
             let clock = estimate(&tools.toolchain, &tools.cache, &job).unwrap().clock.unwrap();
             let expected = if name == "own" { clock.mhz } else { 50.0 };
             let speed = row.speed.unwrap();
@@ -149,18 +149,18 @@ fn a_core_on_axi_is_counted_as_a_whole() {
     let synthesizer =
         Synthesizer { toolchain: Toolchain::system(), cache: Cache::from_env().unwrap() };
     let folder = tempfile::tempdir().unwrap();
-    let space = &Space::from_toml(ON_AXI).unwrap();
+    let space = &DesignSpace::from_toml(ON_AXI).unwrap();
     let inputs = [PathBuf::from("scene:street")];
     let input = InputOptions { frames: Some(2), ..InputOptions::default() };
     let tools = &synthesizer;
-    let request = Request { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
-    let found = explore(&request, &folder.path().join("out"), &Watch::new(usize::MAX)).unwrap();
+    let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+    let found = explore(&request, &folder.path().join("out"), &CountingHooks::new(usize::MAX)).unwrap();
     let design = found.rows[0].config.validate().unwrap();
-    let job = EstimateJob::of(&design, Top::Rcm);
+    let job = EstimateJob::for_design(&design, Top::Rcm);
     let report = estimate(&tools.toolchain, &tools.cache, &job).unwrap();
     let silicon = found.rows[0].silicon.as_ref().unwrap();
     assert_eq!(
-        (silicon.array, silicon.levels),
+        (silicon.array, silicon.logic_levels),
         (report.bus.as_ref().unwrap().whole, report.levels())
     );
     assert!(silicon.array.lut_total > report.rcm.lut_total && report.rcm.lut_total > 0);
@@ -184,7 +184,7 @@ fn strings_are_plain_in_every_table() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let space = "[design]\nframe.width = 48\nframe.height = 32\n[vary]\nhardware.organization = ['pipelined', 'serial']\n";
-    let found = run(space, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let found = run(space, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
     let expected = ["pipelined", "serial"];
     for table in ["points.csv", "pareto.csv"] {
         let lines = lines(&output.join(table));
@@ -197,20 +197,20 @@ fn strings_are_plain_in_every_table() {
     assert_eq!(cells, expected);
     let settings: Vec<&[String]> = found.rows.iter().map(|row| row.settings.as_slice()).collect();
     assert_eq!(settings, [["pipelined"], ["serial"]]);
-    assert_eq!(found.described(&found.rows[1]), "hardware.organization = serial");
+    assert_eq!(found.settings_text(&found.rows[1]), "hardware.organization = serial");
 }
 
 #[test]
 fn a_rerun_does_only_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let whole = run(SPACE, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
-    let again = Watch::new(0);
+    let whole = run(SPACE, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
+    let again = CountingHooks::new(0);
     let same = run(SPACE, &["scene:street"], &output, &again).unwrap();
     assert_eq!(again.frames.load(Ordering::Relaxed), 0);
     assert_eq!(serde_json::to_string(&same).unwrap(), serde_json::to_string(&whole).unwrap());
     let larger = SPACE.replace("[8, 6, 3]", "[8, 7, 6, 3]");
-    let more = Watch::new(usize::MAX);
+    let more = CountingHooks::new(usize::MAX);
     assert_eq!(run(&larger, &["scene:street"], &output, &more).unwrap().rows.len(), 8);
     assert_eq!(more.frames.load(Ordering::Relaxed), 12);
 }
@@ -220,15 +220,15 @@ fn an_interrupted_run_keeps_what_is_finished() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     // The run is stopped after all frames of the first clip and some of the second.
-    let stopped = run(SPACE, &["scene:street", "scene:fade"], &output, &Watch::new(15));
+    let stopped = run(SPACE, &["scene:street", "scene:fade"], &output, &CountingHooks::new(15));
     assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
     assert_eq!(fs::read_dir(output.join("measured")).unwrap().count(), 6);
-    let rest = Watch::new(usize::MAX);
+    let rest = CountingHooks::new(usize::MAX);
     let whole = run(SPACE, &["scene:street", "scene:fade"], &output, &rest).unwrap();
     assert_eq!((whole.rows.len(), rest.frames.load(Ordering::Relaxed)), (7, 12));
     let fresh = folder.path().join("fresh");
     let at_once =
-        run(SPACE, &["scene:street", "scene:fade"], &fresh, &Watch::new(usize::MAX)).unwrap();
+        run(SPACE, &["scene:street", "scene:fade"], &fresh, &CountingHooks::new(usize::MAX)).unwrap();
     let figures =
         |found: &Exploration| found.rows.iter().map(|row| row.figures.clone()).collect::<Vec<_>>();
     assert_eq!(figures(&whole), figures(&at_once));
@@ -238,11 +238,11 @@ fn an_interrupted_run_keeps_what_is_finished() {
 fn a_damaged_result_is_done_again() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let whole = run(SPACE, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let whole = run(SPACE, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
     for file in fs::read_dir(output.join("measured")).unwrap() {
         fs::write(file.unwrap().path(), "{").unwrap();
     }
-    let again = run(SPACE, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let again = run(SPACE, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
     assert_eq!(whole.rows[3].figures, again.rows[3].figures);
 }
 
@@ -252,9 +252,9 @@ fn what_cannot_be_explored_is_refused_before_work() {
     let taken = folder.path().join("taken");
     fs::create_dir(&taken).unwrap();
     fs::write(taken.join("mine.txt"), "mine").unwrap();
-    let never = Watch::new(0);
+    let never = CountingHooks::new(0);
     let occupied = run(SPACE, &["scene:street"], &taken, &never).unwrap_err();
-    assert!(matches!(occupied, ExploreError::Occupied { .. }), "{occupied}");
+    assert!(matches!(occupied, ExploreError::OtherFolder { .. }), "{occupied}");
     let none = "[vary]\nregion.size = [1]\n";
     let output = folder.path().join("out");
     let refused = run(none, &["scene:street"], &output, &never).unwrap_err();
@@ -269,7 +269,7 @@ fn a_camera_of_any_depth_sees_about_as_much() {
     let folder = tempfile::tempdir().unwrap();
     let space = "[design]\nframe.width = 128\nframe.height = 96\ntemporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [16, 12, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1]\n";
     let output = folder.path().join("out");
-    let found = run(space, &["scene:street"], &output, &Watch::new(usize::MAX)).unwrap();
+    let found = run(space, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
     let active =
         |bits: &str| found.rows.iter().find(|row| row.settings[0] == bits).unwrap().figures.active;
     for row in &found.rows {

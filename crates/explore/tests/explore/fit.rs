@@ -3,33 +3,33 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_emit::Top;
 use foveate_engine::Engine;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    Cheapest, Constraints, ExploreError, Fit, FitRequest, Held, Hooks, NetworkGoal, Progress,
+    CostObjective, Constraints, ExploreError, FitResult, FitRequest, ConstraintCheck, ExploreHooks, NetworkGoal, ExploreProgress,
     Synthesizer, fit,
 };
 use foveate_footage::{InputOptions, open};
-use foveate_inference::{Framing, Mapping, Viewing};
+use foveate_inference::{Framing, PixelMapping, VisionOptions};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
-struct Quiet;
+struct QuietHooks;
 
-impl Hooks for Quiet {
-    fn progress(&self, _: Progress) {}
+impl ExploreHooks for QuietHooks {
+    fn progress(&self, _: ExploreProgress) {}
 
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-struct Cancelled;
+struct CancelledHooks;
 
-impl Hooks for Cancelled {
-    fn progress(&self, _: Progress) {}
+impl ExploreHooks for CancelledHooks {
+    fn progress(&self, _: ExploreProgress) {}
 
     fn cancelled(&self) -> bool {
         true
@@ -40,8 +40,8 @@ fn run(
     frames: u32,
     constraints: &Constraints,
     most: usize,
-    hooks: &dyn Hooks,
-) -> Result<Fit, ExploreError> {
+    hooks: &dyn ExploreHooks,
+) -> Result<FitResult, ExploreError> {
     run_with(&[], frames, constraints, Some(1_000_000), most, hooks)
 }
 
@@ -51,12 +51,12 @@ fn run_with(
     constraints: &Constraints,
     clock_hz: Option<u64>,
     most: usize,
-    hooks: &dyn Hooks,
-) -> Result<Fit, ExploreError> {
+    hooks: &dyn ExploreHooks,
+) -> Result<FitResult, ExploreError> {
     let task = "[frame]\nwidth = 32\nheight = 24\n[temporal]\nreference = \"last-sent\"\n";
     fit(
         &FitRequest {
-            task: &Config::from_toml(task).unwrap(),
+            task: &DesignConfig::from_toml(task).unwrap(),
             inputs: &[PathBuf::from("scene:street")],
             input: &InputOptions { frames: Some(frames), ..InputOptions::default() },
             constraints,
@@ -68,7 +68,7 @@ fn run_with(
                 toolchain: Toolchain::system(),
                 cache: Cache::from_env().unwrap(),
             },
-            most,
+            max_designs: most,
         },
         hooks,
     )
@@ -80,15 +80,15 @@ fn fit_to_denoiser(
     input: &Path,
     frames: u32,
     min_agreement: f64,
-    cheapest: Cheapest,
+    cheapest: CostObjective,
     max_bytes: Option<f64>,
-) -> Fit {
+) -> FitResult {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
-    let mapping = Mapping { mean: vec![0.0], scale: vec![1.0] };
-    let viewing = Viewing { framing: Framing::Same, mapping, detector: None };
+    let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
+    let viewing = VisionOptions { framing: Framing::Same, mapping, detector: None };
     let task = "[frame]\nwidth = 48\nheight = 32\n[temporal]\nreference = \"last-sent\"\n";
     let request = FitRequest {
-        task: &Config::from_toml(task).unwrap(),
+        task: &DesignConfig::from_toml(task).unwrap(),
         inputs: &[input.to_owned()],
         input: &InputOptions { frames: Some(4 * frames), ..InputOptions::default() },
         constraints: &Constraints { max_bytes, ..Constraints::default() },
@@ -106,9 +106,9 @@ fn fit_to_denoiser(
             toolchain: Toolchain::system(),
             cache: Cache::from_env().unwrap(),
         },
-        most: 1,
+        max_designs: 1,
     };
-    fit(&request, &Quiet).unwrap()
+    fit(&request, &QuietHooks).unwrap()
 }
 
 /// The denoiser's outputs behind the camera must be near those of whole frames, with as few bytes
@@ -121,7 +121,7 @@ fn a_network_cannot_tell_the_design_from_whole_frames() {
     let fitted = |min_agreement, cheapest, max_bytes| {
         fit_to_denoiser(Path::new("scene:street"), 3, min_agreement, cheapest, max_bytes)
     };
-    let found = fitted(0.9, Cheapest::Bytes, None);
+    let found = fitted(0.9, CostObjective::Bytes, None);
     let network = found.network.as_ref().unwrap();
     assert!(found.feasible && network.fitted.expected >= 0.9, "{network:?}");
     assert!(network.confirmed.expected >= 0.9, "{network:?}");
@@ -132,13 +132,13 @@ fn a_network_cannot_tell_the_design_from_whole_frames() {
     let held = found.design.held_out_held.iter().find(|held| held.name == "min-agreement").unwrap();
     assert_eq!((held.value, held.limit), (network.held_out.share, 0.9));
     // More agreement costs more bytes.
-    let near = fitted(0.97, Cheapest::Bytes, None);
+    let near = fitted(0.97, CostObjective::Bytes, None);
     assert!(near.design.bytes_per_frame.0 > found.design.bytes_per_frame.0);
     let agreed = near.network.as_ref().unwrap().fitted;
     assert!(agreed.share > agreed.expected && agreed.expected >= 0.97, "{agreed:?}");
     assert!(near.why.iter().any(|line| line.contains(": agreement ")), "{:?}", near.why);
     // The limit of 8 bytes leaves room for little more than two bits for each of 24 regions.
-    let none = fitted(0.9, Cheapest::Area, Some(8.0));
+    let none = fitted(0.9, CostObjective::Area, Some(8.0));
     assert!(!none.feasible);
     let held = |name| none.design.fitted_held.iter().find(|held| held.name == name).unwrap().holds;
     assert!(!held("max-bytes") || !held("min-agreement"), "{:?}", none.design.fitted_held);
@@ -164,7 +164,7 @@ fn a_camera_that_only_the_searched_frames_agree_with_is_not_confirmed() {
             [b"P5\n48 32\n255\n".to_vec(), pixels.map(|(x, y)| pixel(x, y)).collect()].concat();
         std::fs::write(dir.path().join(format!("{number:02}.pgm")), file).unwrap();
     }
-    let found = fit_to_denoiser(dir.path(), 9, 0.9, Cheapest::Bytes, None);
+    let found = fit_to_denoiser(dir.path(), 9, 0.9, CostObjective::Bytes, None);
     let network = found.network.as_ref().unwrap();
     assert!(found.feasible && network.confirmed.expected >= 0.9, "{network:?}");
     assert!(network.held_out.share >= 0.9, "{network:?}");
@@ -183,7 +183,7 @@ fn the_design_holds_what_was_asked_and_is_one() {
         max_lut: Some(200),
         ..Constraints::default()
     };
-    let found = run(8, &constraints, 2, &Quiet).unwrap();
+    let found = run(8, &constraints, 2, &QuietHooks).unwrap();
     assert_eq!(found.frames, (4, 4));
     assert!(found.feasible && found.binding.is_empty(), "{:?}", found.design.fitted_held);
     let design = &found.design;
@@ -192,7 +192,7 @@ fn the_design_holds_what_was_asked_and_is_one() {
     assert_eq!(design.held_out.frames, 4);
     assert!(design.speed.unwrap().frames_per_second >= 50.0);
     // The written configuration is the design that was measured.
-    let read = Config::from_toml(&design.toml).unwrap().validate().unwrap();
+    let read = DesignConfig::from_toml(&design.toml).unwrap().validate().unwrap();
     assert_eq!(read.timing().clocks_per_frame(), design.clocks_per_frame);
     assert_eq!(found.borne_out, design.held_out_held.iter().all(|held| held.holds));
     assert!(found.why.iter().any(|line| line.contains("regions")), "{:?}", found.why);
@@ -209,11 +209,11 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     }
     let min_fps = 2000.0;
     let constraints = Constraints { min_fps: Some(min_fps), ..Constraints::default() };
-    let found = run_with(&[], 8, &constraints, None, 1, &Quiet).unwrap();
+    let found = run_with(&[], 8, &constraints, None, 1, &QuietHooks).unwrap();
     let design = &found.design;
     let chosen = design.config.validate().unwrap();
     let tools = (Toolchain::system(), Cache::from_env().unwrap());
-    let report = estimate(&tools.0, &tools.1, &EstimateJob::of(&chosen, Top::Rcm)).unwrap();
+    let report = estimate(&tools.0, &tools.1, &EstimateJob::for_design(&chosen, Top::Rcm)).unwrap();
     let clock = report.clock.unwrap();
     let clocks = |design: &Design| u32::try_from(design.timing().clocks_per_frame()).unwrap();
     let rate = |design: &Design| clock.low_mhz * 1e6 / f64::from(clocks(design));
@@ -223,7 +223,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     assert_eq!(design.speed.unwrap().clock_mhz, clock.mhz);
 
     let impossible = Constraints { min_fps: Some(1e8), ..Constraints::default() };
-    let found = run_with(&[], 8, &impossible, None, 1, &Quiet).unwrap();
+    let found = run_with(&[], 8, &impossible, None, 1, &QuietHooks).unwrap();
     assert!(!found.feasible && found.binding == ["min-fps"], "{:?}", found.binding);
 }
 
@@ -238,7 +238,7 @@ fn where_nothing_holds_it_says_what_binds() {
         max_lut: Some(1),
         ..Constraints::default()
     };
-    let found = run(8, &constraints, 1, &Quiet).unwrap();
+    let found = run(8, &constraints, 1, &QuietHooks).unwrap();
     assert!(!found.feasible);
     assert_eq!(found.binding, ["max-lut"]);
     let broken: Vec<_> = found.design.fitted_held.iter().filter(|held| !held.holds).collect();
@@ -247,9 +247,9 @@ fn where_nothing_holds_it_says_what_binds() {
 
 #[test]
 fn a_clip_must_have_halves_and_a_run_can_be_stopped() {
-    let short = run(3, &Constraints::default(), 1, &Quiet).unwrap_err();
-    assert!(matches!(short, ExploreError::Short { frames: 3, .. }), "{short}");
-    let stopped = run(8, &Constraints::default(), 1, &Cancelled).unwrap_err();
+    let short = run(3, &Constraints::default(), 1, &QuietHooks).unwrap_err();
+    assert!(matches!(short, ExploreError::TooFewFrames { frames: 3, .. }), "{short}");
+    let stopped = run(8, &Constraints::default(), 1, &CancelledHooks).unwrap_err();
     assert!(matches!(stopped, ExploreError::Cancelled), "{stopped}");
 }
 
@@ -264,7 +264,7 @@ fn counted(design: &Design, frames: std::ops::Range<usize>) -> f64 {
     let (mut all, mut sent) = (0.0, 0.0);
     for number in 0..frames.end {
         let frame = source.next_frame().unwrap().unwrap();
-        let active = &engine.step_raster(&frame.frame).unwrap().active;
+        let active = &engine.step_byte_frame(&frame.frame).unwrap().active;
         for [x, y] in BOXES.into_iter().filter(|_| number > 0 && frames.contains(&number)) {
             let side = design.region_size();
             let inside = |at: &u32| {
@@ -295,10 +295,10 @@ fn objects_are_counted_and_bind_where_they_are_lost() {
         std::fs::write(&boxes[0], text).unwrap();
         let (max_flips, min_recall) = (Some(0.0), Some(share));
         let constraints = Constraints { max_flips, min_recall, ..Constraints::default() };
-        run_with(&boxes, 8, &constraints, Some(1_000_000), 1, &Quiet)
+        run_with(&boxes, 8, &constraints, Some(1_000_000), 1, &QuietHooks)
     };
     let found = fitted(rows(1..=8), 0.01).unwrap();
-    let recall = |held: &[Held]| held.iter().find(|held| held.name == "min-recall").unwrap().value;
+    let recall = |held: &[ConstraintCheck]| held.iter().find(|held| held.name == "min-recall").unwrap().value;
     let design = found.design.config.validate().unwrap();
     assert_eq!(recall(&found.design.fitted_held), counted(&design, 0..4));
     assert_eq!(recall(&found.design.held_out_held), counted(&design, 4..8));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spaces as files define them.
 
-use foveate_design::{Config, Decimal};
-use foveate_explore::{BUILT_IN, Space};
+use foveate_design::{DesignConfig, Decimal};
+use foveate_explore::{BUILT_IN_SPACES, DesignSpace};
 
-fn points(text: &str) -> (Vec<Config>, Vec<String>) {
-    let (points, refused) = Space::from_toml(text).unwrap().points(64, 48);
+fn points(text: &str) -> (Vec<DesignConfig>, Vec<String>) {
+    let (points, refused) = DesignSpace::from_toml(text).unwrap().points(64, 48);
     let configs = points.into_iter().map(|point| point.config).collect();
     (
         configs,
@@ -14,7 +14,7 @@ fn points(text: &str) -> (Vec<Config>, Vec<String>) {
 }
 
 fn problem(text: &str) -> String {
-    Space::from_toml(text).unwrap_err().to_string()
+    DesignSpace::from_toml(text).unwrap_err().to_string()
 }
 
 #[test]
@@ -33,9 +33,9 @@ fn a_grid_has_every_combination_that_is_a_design() {
 #[test]
 fn the_start_is_judged_with_the_size_of_the_clips() {
     let text = "[design]\nhardware.organization = 'serial'\nhardware.fold = 1200\n[vary]\nframe.pixel_bits = [8, 6]\n";
-    let (points, refused) = Space::from_toml(text).unwrap().points(320, 240);
+    let (points, refused) = DesignSpace::from_toml(text).unwrap().points(320, 240);
     assert_eq!((points.len(), refused.len()), (2, 0));
-    let (points, refused) = Space::from_toml(text).unwrap().points(224, 224);
+    let (points, refused) = DesignSpace::from_toml(text).unwrap().points(224, 224);
     assert_eq!((points.len(), refused.len()), (0, 2));
     assert!(refused[0].reason.contains("1..=784"), "{refused:?}");
 }
@@ -43,10 +43,10 @@ fn the_start_is_judged_with_the_size_of_the_clips() {
 #[test]
 fn one_at_a_time_starts_from_the_start() {
     let text = "method = 'each'\n[design]\nregion.size = 4\n[vary]\nregion.size = [4, 8]\nframe.pixel_bits = [5]\n";
-    let space = Space::from_toml(text).unwrap();
+    let space = DesignSpace::from_toml(text).unwrap();
     let (points, refused) = space.points(64, 48);
     let described: Vec<String> =
-        points.iter().map(|point| space.described(&point.settings)).collect();
+        points.iter().map(|point| space.settings_of_point(&point.settings)).collect();
     // The point with regions of 4 equals the start.
     assert_eq!(described, ["the start", "region.size = 8", "frame.pixel_bits = 5"]);
     assert!(refused.is_empty());
@@ -57,7 +57,7 @@ fn thresholds_are_in_grey_levels_of_the_start() {
     let text = "[design]\nspatial = [{ feature = 'edge', level = 101, min_score = 5 }, { feature = 'mad', min_score = 5 }, { feature = 'variance', min_score = 50 }]\n\
                 temporal.level = 9\n[vary]\nframe.pixel_bits = [8, 5, 10]\n";
     let (configs, _) = points(text);
-    let of = |config: &Config| {
+    let of = |config: &DesignConfig| {
         let [edge, mad, variance] = config.camera.spatial.as_slice() else {
             panic!("three features")
         };
@@ -70,7 +70,7 @@ fn thresholds_are_in_grey_levels_of_the_start() {
             score(variance),
         )
     };
-    let whole = Decimal::whole;
+    let whole = Decimal::from_whole;
     assert_eq!(of(&configs[0]), (101, 9, whole(5), whole(5), whole(50)));
     let eighths = |value| Decimal::from_f64(value).unwrap();
     assert_eq!(of(&configs[1]), (12, 1, whole(5), eighths(0.625), eighths(0.78125)));
@@ -81,7 +81,7 @@ fn thresholds_are_in_grey_levels_of_the_start() {
     let levels: Vec<u32> =
         points(text).0.iter().map(|config| config.camera.temporal.level.unwrap()).collect();
     assert_eq!(levels, [2, 10, 1, 5]);
-    assert_eq!(Space::from_toml(text).unwrap().ideal.temporal.level, Some(12));
+    assert_eq!(DesignSpace::from_toml(text).unwrap().ideal.temporal.level, Some(12));
 }
 
 #[test]
@@ -112,8 +112,8 @@ fn what_is_wrong_is_said_with_its_place() {
 
 #[test]
 fn spaces_of_the_program_are_spaces() {
-    for space in BUILT_IN {
-        let read = Space::from_toml(space.toml).unwrap();
+    for space in BUILT_IN_SPACES {
+        let read = DesignSpace::from_toml(space.toml).unwrap();
         let (points, _) = read.points(224, 224);
         assert!(points.len() > 10, "{}", space.name);
     }

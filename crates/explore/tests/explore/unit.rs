@@ -6,15 +6,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use foveate_explore::{ExploreError, Request, Space, Unit, measure_unit, plan};
+use foveate_explore::{ExploreError, ExploreRequest, DesignSpace, WorkUnit, measure_unit, plan_units};
 use foveate_footage::InputOptions;
 
-use crate::explore::{SPACE, Watch, run};
+use crate::explore::{SPACE, CountingHooks, run};
 
 const CLIPS: [&str; 2] = ["scene:street", "scene:shake"];
 
 /// Returns a space with more designs than see a clip together, of which some have equal cameras.
-fn large() -> String {
+fn large_space() -> String {
     let counts: Vec<String> = (1..=20).map(|count| count.to_string()).collect();
     format!(
         "[design]\nframe.width = 48\nframe.height = 32\n[vary]\ntemporal.min_count = [{}]\n\
@@ -23,25 +23,25 @@ fn large() -> String {
     )
 }
 
-fn with<T>(space: &str, inputs: &[&str], then: impl FnOnce(&Request<'_>) -> T) -> T {
-    let space = Space::from_toml(space).unwrap();
+fn with_request<T>(space: &str, inputs: &[&str], then: impl FnOnce(&ExploreRequest<'_>) -> T) -> T {
+    let space = DesignSpace::from_toml(space).unwrap();
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(12), ..InputOptions::default() };
-    then(&Request { space: &space, inputs: &inputs, input: &input, synthesizer: None })
+    then(&ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesizer: None })
 }
 
-fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<Unit> {
-    with(space, inputs, |request| plan(request, output, &Watch::new(usize::MAX))).unwrap()
+fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<WorkUnit> {
+    with_request(space, inputs, |request| plan_units(request, output, &CountingHooks::new(usize::MAX))).unwrap()
 }
 
-fn only(
+fn measure_only(
     space: &str,
     inputs: &[&str],
     unit: &str,
     output: &Path,
-    watch: &Watch,
-) -> Result<Unit, ExploreError> {
-    with(space, inputs, |request| measure_unit(request, unit, output, watch))
+    watch: &CountingHooks,
+) -> Result<WorkUnit, ExploreError> {
+    with_request(space, inputs, |request| measure_unit(request, unit, output, watch))
 }
 
 /// Returns every file of a folder by its name, sorted.
@@ -63,7 +63,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 fn a_plan_has_every_clip_and_design_once_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let found = units(&large(), &CLIPS, &output);
+    let found = units(&large_space(), &CLIPS, &output);
     assert!(!output.exists());
     let seen: Vec<_> =
         found.iter().map(|unit| (unit.clip.as_str(), unit.combinations.len())).collect();
@@ -71,30 +71,30 @@ fn a_plan_has_every_clip_and_design_once_and_writes_nothing() {
     assert_eq!(seen, [("street", 16), ("street", 4), ("shake", 16), ("shake", 4)]);
     for unit in &found {
         assert_eq!(unit.inputs, [format!("scene:{}", unit.clip)]);
-        assert!(unit.file.ends_with(&format!("units/{}.json", unit.unit)), "{unit:?}");
+        assert!(unit.file.ends_with(&format!("units/{}.json", unit.name)), "{unit:?}");
     }
-    assert_eq!(units(&large(), &CLIPS, &output), found);
+    assert_eq!(units(&large_space(), &CLIPS, &output), found);
     // A unit does not depend on the other clips.
-    assert_eq!(units(&large(), &CLIPS[1..], &output), found[2..]);
+    assert_eq!(units(&large_space(), &CLIPS[1..], &output), found[2..]);
 }
 
 #[test]
 fn units_in_any_order_are_the_whole_run_byte_for_byte() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, apart) = (folder.path().join("whole"), folder.path().join("apart"));
-    let never_ends = || Watch::new(usize::MAX);
-    run(&large(), &CLIPS, &whole, &never_ends()).unwrap();
-    for unit in units(&large(), &CLIPS, &apart).iter().rev() {
+    let never_ends = || CountingHooks::new(usize::MAX);
+    run(&large_space(), &CLIPS, &whole, &never_ends()).unwrap();
+    for unit in units(&large_space(), &CLIPS, &apart).iter().rev() {
         let inputs: Vec<&str> = unit.inputs.iter().map(String::as_str).collect();
         // Units are named by their name or by their line.
         let line = serde_json::to_string(unit).unwrap();
-        let which = if unit.clip == "street" { &unit.unit } else { &line };
-        let done = only(&large(), &inputs, which, &apart, &never_ends()).unwrap();
+        let which = if unit.clip == "street" { &unit.name } else { &line };
+        let done = measure_only(&large_space(), &inputs, which, &apart, &never_ends()).unwrap();
         assert_eq!(&done, unit);
         assert!(Path::new(&done.file).is_file());
     }
     let collecting = never_ends();
-    run(&large(), &CLIPS, &apart, &collecting).unwrap();
+    run(&large_space(), &CLIPS, &apart, &collecting).unwrap();
     assert_eq!(collecting.frames.load(Ordering::Relaxed), 0, "nothing is measured again");
     for below in ["", "measured", "designs"] {
         let (whole, apart) = (files(&whole.join(below)), files(&apart.join(below)));
@@ -108,14 +108,14 @@ fn a_unit_is_done_by_many_at_once_and_again() {
     let output = folder.path().join("out");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
     std::thread::scope(|scope| {
-        let work = || only(SPACE, &CLIPS, &unit.unit, &output, &Watch::new(usize::MAX)).unwrap();
+        let work = || measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(usize::MAX)).unwrap();
         let all: Vec<_> = (0..8).map(|_| scope.spawn(work)).collect();
         all.into_iter().for_each(|one| drop(one.join().unwrap()));
     });
     let measured = files(&output.join("measured"));
     assert_eq!((measured.len(), files(&output.join("units")).len()), (unit.combinations.len(), 1));
-    let again = Watch::new(0);
-    only(SPACE, &CLIPS, &unit.unit, &output, &again).unwrap();
+    let again = CountingHooks::new(0);
+    measure_only(SPACE, &CLIPS, &unit.name, &output, &again).unwrap();
     assert_eq!(again.frames.load(Ordering::Relaxed), 0);
     assert_eq!(files(&output.join("measured")), measured);
 }
@@ -125,7 +125,7 @@ fn a_stopped_unit_is_not_done() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
-    let stopped = only(SPACE, &CLIPS, &unit.unit, &output, &Watch::new(3));
+    let stopped = measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(3));
     assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
     assert!(files(&output.join("measured")).is_empty() && !output.join("units").exists());
 }
@@ -142,9 +142,9 @@ fn a_unit_of_another_plan_is_refused() {
     beyond.combinations.remove(0);
     let beyond = serde_json::to_string(&beyond).unwrap();
     for (space, which) in
-        [(other.as_str(), &unit.unit), (&other, &line), (SPACE, &beyond), (SPACE, &"{}".to_owned())]
+        [(other.as_str(), &unit.name), (&other, &line), (SPACE, &beyond), (SPACE, &"{}".to_owned())]
     {
-        let refused = only(space, &CLIPS, which, &output, &Watch::new(0)).unwrap_err();
+        let refused = measure_only(space, &CLIPS, which, &output, &CountingHooks::new(0)).unwrap_err();
         assert!(matches!(refused, ExploreError::NoUnit { .. }), "{refused}");
         assert!(refused.to_string().contains("plan again"), "{refused}");
     }
@@ -163,9 +163,9 @@ fn a_folder_of_something_else_is_refused_also_by_a_plan() {
     fs::create_dir(output.join("units")).unwrap();
     assert_eq!(units(SPACE, &CLIPS, &output)[0], unit);
     fs::write(output.join("notes.txt"), "mine").unwrap();
-    let planned = with(SPACE, &CLIPS, |request| plan(request, &output, &Watch::new(0)));
-    let done = only(SPACE, &CLIPS, &unit.unit, &output, &Watch::new(0));
+    let planned = with_request(SPACE, &CLIPS, |request| plan_units(request, &output, &CountingHooks::new(0)));
+    let done = measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(0));
     for error in [planned.unwrap_err(), done.unwrap_err()] {
-        assert!(matches!(error, ExploreError::Occupied { .. }), "{error}");
+        assert!(matches!(error, ExploreError::OtherFolder { .. }), "{error}");
     }
 }

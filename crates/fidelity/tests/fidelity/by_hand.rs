@@ -3,15 +3,15 @@
 
 use foveate_camera::{Camera, CameraConfig, Decimal, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_fidelity::{ErrorTally, Fidelity, FidelityError};
-use foveate_frame::{Plane, Raster};
-use foveate_scenes::{Scene, SceneSize};
+use foveate_frame::{FramePixels, ByteFrame};
+use foveate_scenes::{Scene, SceneParameters};
 
-use crate::made::{blank, blank_ideal, config, pixels, raster, run, tally};
+use crate::results::{blank_outcome, blank_ideal, config, pixels, frame_from_words, run, tally};
 
-fn scene(scene: Scene, camera: &Camera, frames: u32) -> Vec<Raster> {
+fn scene(scene: Scene, camera: &Camera, frames: u32) -> Vec<ByteFrame> {
     let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
-    let size = SceneSize { width, height, bits, region_size: camera.region_size(), frames };
-    scene.frames(size).map(|frame| Raster::from(&frame)).collect()
+    let size = SceneParameters { width, height, bits, region_size: camera.region_size(), frames };
+    scene.frames(size).map(|frame| ByteFrame::from(&frame)).collect()
 }
 
 /// Returns a configuration with all four features, windows over the whole frame, and an exact mean.
@@ -106,16 +106,16 @@ fn scores_of_fewer_bits_are_scaled_up() {
         .map(SpatialConfig::new)
         .to_vec();
     other.spatial[0].mean_fraction_bits = Some(1);
-    other.spatial[1].min_score = Some(Decimal::whole(1));
+    other.spatial[1].min_score = Some(Decimal::from_whole(1));
     let [own, other] = [own, other].map(|config| config.validate().unwrap());
-    let (mut ideal, mut candidate) = (blank_ideal(&own), blank(&other));
+    let (mut ideal, mut candidate) = (blank_ideal(&own), blank_outcome(&other));
     // The score 24 / (4 * 2) = 3 grey levels of 6 bits is 12 levels of 8 bits; 80 / 16 = 5 squared
     // levels are 80.
     (ideal.scores[1][0], candidate.scores[0][0]) = (12.5, 24);
     (ideal.scores[0][0], candidate.scores[2][0]) = (82.0, 80);
     let mut fidelity = Fidelity::new(&own, &other).unwrap();
-    let input = raster(&own, vec![0; 4]);
-    fidelity.add(&input, &ideal, &candidate, Plane::Bytes(&[0; 4])).unwrap();
+    let input = frame_from_words(&own, vec![0; 4]);
+    fidelity.add(&input, &ideal, &candidate, FramePixels::Bytes(&[0; 4])).unwrap();
     let figures = fidelity.tally().figures();
     let seen = figures.scores.iter().map(|score| (&*score.feature, &*score.unit, score.max));
     let expected = [
@@ -134,20 +134,20 @@ fn what_does_not_belong_together_is_refused() {
     assert!(text.contains("16x8") && text.contains("16x9"), "{text}");
 
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
-    let (ideal, candidate) = (blank_ideal(&camera), blank(&camera));
-    let (input, black) = (raster(&camera, vec![0; pixels(&camera)]), vec![0_u8; 128]);
-    let mut refused = |input: &Raster, screen: Plane<'_>| {
+    let (ideal, candidate) = (blank_ideal(&camera), blank_outcome(&camera));
+    let (input, black) = (frame_from_words(&camera, vec![0; pixels(&camera)]), vec![0_u8; 128]);
+    let mut refused = |input: &ByteFrame, screen: FramePixels<'_>| {
         fidelity.add(input, &ideal, &candidate, screen).unwrap_err()
     };
-    let tall = raster(&other, vec![0; 144]);
-    assert!(matches!(refused(&tall, Plane::Bytes(&black)), FidelityError::FrameKind { .. }));
-    assert!(matches!(refused(&input, Plane::Words(&[0; 128])), FidelityError::LaneWidth { .. }));
-    let short = refused(&input, Plane::Bytes(&black[1..]));
-    assert!(matches!(short, FidelityError::Length { given: 127, expected: 128, .. }));
+    let tall = frame_from_words(&other, vec![0; 144]);
+    assert!(matches!(refused(&tall, FramePixels::Bytes(&black)), FidelityError::FrameFormat { .. }));
+    assert!(matches!(refused(&input, FramePixels::Words(&[0; 128])), FidelityError::PixelType { .. }));
+    let short = refused(&input, FramePixels::Bytes(&black[1..]));
+    assert!(matches!(short, FidelityError::ResultLength { given: 127, expected: 128, .. }));
     let mut less = candidate.clone();
     less.scores[0].pop();
-    let error = fidelity.add(&input, &ideal, &less, Plane::Bytes(&black)).unwrap_err();
-    assert_eq!(error, FidelityError::Length { what: "candidate, scores", given: 1, expected: 2 });
+    let error = fidelity.add(&input, &ideal, &less, FramePixels::Bytes(&black)).unwrap_err();
+    assert_eq!(error, FidelityError::ResultLength { what: "candidate, scores", given: 1, expected: 2 });
     assert_eq!(fidelity.tally().frames(), 0);
-    fidelity.add(&input, &ideal, &candidate, Plane::Bytes(&black)).unwrap();
+    fidelity.add(&input, &ideal, &candidate, FramePixels::Bytes(&black)).unwrap();
 }

@@ -7,29 +7,29 @@ use std::path::Path;
 use std::process::Command;
 
 use foveate_camera::Camera;
-use foveate_fidelity::{Fidelity, FidelityError, Figures, Likeness};
-use foveate_frame::{Plane, Raster};
-use foveate_scenes::{Scene, SceneSize};
+use foveate_fidelity::{Fidelity, FidelityError, FidelityFigures, FrameSimilarity};
+use foveate_frame::{FramePixels, ByteFrame};
+use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-use crate::made::{blank, blank_ideal, config, greys};
+use crate::results::{blank_outcome, blank_ideal, config, greys};
 
 const FRAMES: u32 = 6;
 
-fn scene(scene: Scene, camera: &Camera) -> Vec<Raster> {
+fn scene(scene: Scene, camera: &Camera) -> Vec<ByteFrame> {
     let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
-    let size = SceneSize { width, height, bits, region_size: 8, frames: FRAMES };
-    scene.frames(size).map(|frame| Raster::from(&frame)).collect()
+    let size = SceneParameters { width, height, bits, region_size: 8, frames: FRAMES };
+    scene.frames(size).map(|frame| ByteFrame::from(&frame)).collect()
 }
 
 /// Writes pixels in ffmpeg's format `gray` or `gray10le`.
-fn write(path: &Path, frames: &[Raster]) {
+fn write(path: &Path, frames: &[ByteFrame]) {
     let bytes: Vec<u8> = frames
         .iter()
-        .flat_map(|frame| match frame.plane() {
-            Plane::Bytes(pixels) => pixels.to_vec(),
-            Plane::Words(pixels) => pixels.iter().flat_map(|pixel| pixel.to_le_bytes()).collect(),
+        .flat_map(|frame| match frame.borrowed_pixels() {
+            FramePixels::Bytes(pixels) => pixels.to_vec(),
+            FramePixels::Words(pixels) => pixels.iter().flat_map(|pixel| pixel.to_le_bytes()).collect(),
         })
         .collect();
     fs::write(path, bytes).unwrap();
@@ -78,29 +78,29 @@ fn assert_ssim(own: f64, theirs: &str, context: &str) {
 }
 
 /// Returns the PSNR and SSIM without cameras.
-fn likeness(camera: &Camera, input: &[Raster], shown: &[Raster]) -> (Option<f64>, f64) {
-    let mut likeness = Likeness::new(camera.width(), camera.height());
+fn likeness(camera: &Camera, input: &[ByteFrame], shown: &[ByteFrame]) -> (Option<f64>, f64) {
+    let mut likeness = FrameSimilarity::new(camera.width(), camera.height());
     for (input, shown) in input.iter().zip(shown) {
-        let (Plane::Bytes(input), Plane::Bytes(shown)) = (input.plane(), shown.plane()) else {
+        let (FramePixels::Bytes(input), FramePixels::Bytes(shown)) = (input.borrowed_pixels(), shown.borrowed_pixels()) else {
             unreachable!("8 bits are bytes");
         };
         likeness.add(shown, input).unwrap();
         let short = likeness.add(&shown[1..], input);
-        assert!(matches!(short, Err(FidelityError::Length { .. })));
+        assert!(matches!(short, Err(FidelityError::ResultLength { .. })));
     }
     assert_eq!(likeness.frames(), input.len() as u64);
     (likeness.psnr(), likeness.ssim())
 }
 
-fn compare(camera: &Camera, input: &[Raster], ideal: &[Raster], shown: &[Raster]) {
+fn compare(camera: &Camera, input: &[ByteFrame], ideal: &[ByteFrame], shown: &[ByteFrame]) {
     let mut whole = Fidelity::new(camera, camera).unwrap();
-    let mut single: Vec<Figures> = Vec::new();
+    let mut single: Vec<FidelityFigures> = Vec::new();
     for ((input, ideal), shown) in input.iter().zip(ideal).zip(shown) {
         let mut seen = blank_ideal(camera);
-        seen.rendered = greys(&ideal.plane().to_words());
+        seen.rendered = greys(&ideal.borrowed_pixels().to_words());
         let mut alone = Fidelity::new(camera, camera).unwrap();
         for fidelity in [&mut whole, &mut alone] {
-            fidelity.add(input, &seen, &blank(camera), shown.plane()).unwrap();
+            fidelity.add(input, &seen, &blank_outcome(camera), shown.borrowed_pixels()).unwrap();
         }
         single.push(alone.tally().figures());
     }
@@ -112,7 +112,7 @@ fn compare(camera: &Camera, input: &[Raster], ideal: &[Raster], shown: &[Raster]
     write(&folder.path().join("screen"), shown);
     for (name, other) in [("ideal", ideal), ("input", input)] {
         write(&folder.path().join("other"), other);
-        let own = |figures: &Figures| match name {
+        let own = |figures: &FidelityFigures| match name {
             "ideal" => (figures.psnr_ideal, figures.ssim_ideal),
             _ => (figures.psnr_input, figures.ssim_input),
         };

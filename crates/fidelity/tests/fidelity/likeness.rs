@@ -2,17 +2,17 @@
 //! PSNR and SSIM from their definitions, pixel by pixel.
 
 use foveate_camera::Camera;
-use foveate_fidelity::Figures;
+use foveate_fidelity::FidelityFigures;
 
-use crate::made::greys;
-use crate::naive::Frame;
+use crate::results::greys;
+use crate::naive::MadeUpFrame;
 
 pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.iter().map(|_| 1.0).sum::<f64>()
 }
 
 /// Returns the SSIM of one window from its pixels, by mean, variance and covariance.
-fn alike(a: &[f64], b: &[f64], peak: f64) -> f64 {
+fn window_ssim(a: &[f64], b: &[f64], peak: f64) -> f64 {
     let n: f64 = a.iter().map(|_| 1.0).sum();
     let (ma, mb) = (mean(a), mean(b));
     let products = |x: &[f64], mx: f64, y: &[f64], my: f64| {
@@ -30,7 +30,7 @@ fn ssim(a: &[f64], b: &[f64], camera: &Camera) -> f64 {
     let (width, height) = (camera.width() as usize, camera.height() as usize);
     let peak = f64::from(camera.pixel_max());
     if width < 8 || height < 8 {
-        return alike(a, b, peak);
+        return window_ssim(a, b, peak);
     }
     let mut windows = Vec::new();
     for top in (0..=height - 8).step_by(4) {
@@ -38,7 +38,7 @@ fn ssim(a: &[f64], b: &[f64], camera: &Camera) -> f64 {
             let cut = |plane: &[f64]| -> Vec<f64> {
                 (0..64).map(|at| plane[(top + at / 8) * width + left + at % 8]).collect()
             };
-            windows.push(alike(&cut(a), &cut(b), peak));
+            windows.push(window_ssim(&cut(a), &cut(b), peak));
         }
     }
     mean(&windows)
@@ -46,13 +46,13 @@ fn ssim(a: &[f64], b: &[f64], camera: &Camera) -> f64 {
 
 /// Checks the PSNR and SSIM of both comparisons; `shown` are the screens at the depth of the ideal.
 pub(crate) fn check_pictures(
-    figures: &Figures,
-    frames: &[Frame],
+    figures: &FidelityFigures,
+    frames: &[MadeUpFrame],
     shown: &[Vec<u16>],
     own: &Camera,
 ) {
-    let rendered = |frame: &Frame| frame.ideal.rendered.clone();
-    let input = |frame: &Frame| greys(&frame.input);
+    let rendered = |frame: &MadeUpFrame| frame.ideal.rendered.clone();
+    let input = |frame: &MadeUpFrame| greys(&frame.input);
     let rendered: Vec<_> = frames.iter().map(rendered).collect();
     let input: Vec<_> = frames.iter().map(input).collect();
     check(figures.psnr_ideal, figures.ssim_ideal, (&rendered, shown), own);

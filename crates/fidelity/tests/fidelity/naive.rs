@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every figure against a count pixel by pixel, for made-up results of any two cameras.
 
-use foveate_camera::Action;
+use foveate_camera::RegionAction;
 use foveate_camera::Camera;
 use foveate_engine::FrameOutcome;
-use foveate_fidelity::{Fidelity, Figures};
-use foveate_frame::{Raster, convert_depth};
+use foveate_fidelity::{Fidelity, FidelityFigures};
+use foveate_frame::{ByteFrame, convert_depth};
 use foveate_ideal::IdealOutcome;
 use proptest::prelude::*;
 
 use crate::likeness::{check_pictures, mean};
-use crate::made::{Random, blank, blank_ideal, config, greys, pixels, raster};
+use crate::results::{RandomNumbers, blank_outcome, blank_ideal, config, greys, pixels, frame_from_words};
 
 /// The data that is added for one frame.
-pub(crate) struct Frame {
+pub(crate) struct MadeUpFrame {
     pub(crate) input: Vec<u16>,
     pub(crate) ideal: IdealOutcome,
     candidate: FrameOutcome,
@@ -23,38 +23,38 @@ pub(crate) struct Frame {
 
 /// Returns pixels of which half equal those of `base`, so that no figure is at the end of its
 /// range.
-fn near(random: &mut Random, base: &[u16], from: u32, to: u32) -> Vec<u16> {
+fn nearby_pixels(random: &mut RandomNumbers, base: &[u16], from: u32, to: u32) -> Vec<u16> {
     let max = (1_u32 << to) - 1;
     base.iter()
-        .map(|&pixel| match random.yes() {
+        .map(|&pixel| match random.coin() {
             true => convert_depth(pixel, from, to),
             false => random.pixel(max),
         })
         .collect()
 }
 
-fn made_up(random: &mut Random, own: &Camera, other: &Camera) -> Frame {
+fn made_up(random: &mut RandomNumbers, own: &Camera, other: &Camera) -> MadeUpFrame {
     let (bits, max) = (own.pixel_bits(), own.pixel_max());
     let input: Vec<u16> = (0..pixels(own)).map(|_| random.pixel(max)).collect();
-    let actions = [Action::Forward, Action::Hold, Action::Blank];
+    let actions = [RegionAction::Forward, RegionAction::Hold, RegionAction::Blank];
     let mut ideal = blank_ideal(own);
     for region in 0..ideal.srs.len() {
-        (ideal.srs[region], ideal.trs[region]) = (random.below(3) > 0, random.yes());
+        (ideal.srs[region], ideal.trs[region]) = (random.below(3) > 0, random.coin());
         ideal.actions[region] = actions[random.below(2) as usize];
         ideal.scores[0][region] = f64::from(random.below(own.region_pixels()));
         ideal.changed[region] = f64::from(random.below(own.region_pixels()));
     }
-    ideal.denoised = greys(&near(random, &input, bits, bits));
-    ideal.rendered = greys(&near(random, &input, bits, bits));
-    let mut candidate = blank(other);
+    ideal.denoised = greys(&nearby_pixels(random, &input, bits, bits));
+    ideal.rendered = greys(&nearby_pixels(random, &input, bits, bits));
+    let mut candidate = blank_outcome(other);
     for region in 0..candidate.srs.len() {
-        (candidate.srs[region], candidate.trs[region]) = (random.yes(), random.below(3) > 0);
+        (candidate.srs[region], candidate.trs[region]) = (random.coin(), random.below(3) > 0);
         candidate.actions[region] = actions[random.below(2) as usize];
         candidate.scores[0][region] = random.below(other.region_pixels()).into();
         candidate.temporal_count[region] = random.below(other.region_pixels());
     }
-    let screen = near(random, &input, bits, other.pixel_bits());
-    Frame { input, ideal, candidate, screen }
+    let screen = nearby_pixels(random, &input, bits, other.pixel_bits());
+    MadeUpFrame { input, ideal, candidate, screen }
 }
 
 /// Returns the number of the region of a pixel.
@@ -68,10 +68,10 @@ fn share(part: f64, whole: f64, empty: f64) -> f64 {
 }
 
 /// Checks the figures of decisions, pixel by pixel.
-fn check_decisions(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camera) {
+fn check_decisions(figures: &FidelityFigures, frames: &[MadeUpFrame], own: &Camera, other: &Camera) {
     let mut counts = [0.0; 8];
     let [all, srs, trs, action, mine, theirs, both, either] = &mut counts;
-    for Frame { ideal, candidate, .. } in frames {
+    for MadeUpFrame { ideal, candidate, .. } in frames {
         for (x, y) in (0..own.height()).flat_map(|y| (0..own.width()).map(move |x| (x, y))) {
             let (a, b) = (region(own, x, y), region(other, x, y));
             let one = |yes: bool| f64::from(u8::from(yes));
@@ -103,11 +103,11 @@ fn check_decisions(figures: &Figures, frames: &[Frame], own: &Camera, other: &Ca
 }
 
 /// Checks the staleness, pixel by pixel; `shown` are the screens at the depth of the ideal.
-fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own: &Camera) {
+fn check_staleness(figures: &FidelityFigures, frames: &[MadeUpFrame], shown: &[Vec<u16>], own: &Camera) {
     let (mut max, mut sum, mut seen) = (0.0_f64, 0.0, 0.0);
     let (mut relevant, mut stale, mut longest) = (0.0, 0.0, 0);
     let mut runs = vec![0_u64; own.regions() as usize];
-    for (Frame { ideal, .. }, shown) in frames.iter().zip(shown) {
+    for (MadeUpFrame { ideal, .. }, shown) in frames.iter().zip(shown) {
         let mut above = vec![0; runs.len()];
         let mut inside = vec![0; runs.len()];
         for (at, (&scene, &shown)) in ideal.denoised.iter().zip(shown).enumerate() {
@@ -137,7 +137,7 @@ fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own:
     assert_eq!((staleness.longest, staleness.share), (longest, share(stale, relevant, 0.0)));
 }
 
-fn check_scores(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camera) {
+fn check_scores(figures: &FidelityFigures, frames: &[MadeUpFrame], own: &Camera, other: &Camera) {
     if own.region_size() != other.region_size() {
         assert!(figures.scores.is_empty());
         return;
@@ -145,7 +145,7 @@ fn check_scores(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camer
     let n = f64::from(own.region_pixels());
     let real = |score: u64| f64::from(u32::try_from(score).unwrap());
     let (mut edge, mut temporal) = (Vec::new(), Vec::new());
-    for Frame { ideal, candidate, .. } in frames {
+    for MadeUpFrame { ideal, candidate, .. } in frames {
         for region in 0..ideal.srs.len() {
             edge.push((ideal.scores[0][region] - real(candidate.scores[0][region])).abs() / n);
             let count = f64::from(candidate.temporal_count[region]);
@@ -168,17 +168,17 @@ fn check_scores(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camer
 }
 
 fn check(own: &Camera, other: &Camera, seed: u64, count: usize) {
-    let mut random = Random(seed);
-    let frames: Vec<Frame> = (0..count).map(|_| made_up(&mut random, own, other)).collect();
+    let mut random = RandomNumbers(seed);
+    let frames: Vec<MadeUpFrame> = (0..count).map(|_| made_up(&mut random, own, other)).collect();
     let mut fidelity = Fidelity::new(own, other).unwrap();
     for frame in &frames {
-        let input: Raster = raster(own, frame.input.clone());
-        let shown = raster(other, frame.screen.clone());
-        fidelity.add(&input, &frame.ideal, &frame.candidate, shown.plane()).unwrap();
+        let input: ByteFrame = frame_from_words(own, frame.input.clone());
+        let shown = frame_from_words(other, frame.screen.clone());
+        fidelity.add(&input, &frame.ideal, &frame.candidate, shown.borrowed_pixels()).unwrap();
     }
     let figures = fidelity.into_tally().figures();
     let depths = (other.pixel_bits(), own.pixel_bits());
-    let shown = |frame: &Frame| -> Vec<u16> {
+    let shown = |frame: &MadeUpFrame| -> Vec<u16> {
         frame.screen.iter().map(|&pixel| convert_depth(pixel, depths.0, depths.1)).collect()
     };
     let shown: Vec<_> = frames.iter().map(shown).collect();

@@ -2,16 +2,16 @@
 //! A candidate that equals the ideal, and then has one fault at a time: the figure for this fault
 //! gets the value that follows from it.
 
-use foveate_camera::Action;
+use foveate_camera::RegionAction;
 use foveate_camera::Camera;
 use foveate_engine::FrameOutcome;
-use foveate_fidelity::{Fidelity, Figures};
-use foveate_frame::Raster;
+use foveate_fidelity::{Fidelity, FidelityFigures};
+use foveate_frame::ByteFrame;
 use foveate_ideal::IdealOutcome;
 
-use crate::made::{blank, blank_ideal, config, greys, pixels, raster};
+use crate::results::{blank_outcome, blank_ideal, config, greys, pixels, frame_from_words};
 
-struct Results {
+struct PlantedResults {
     ideal: IdealOutcome,
     candidate: FrameOutcome,
     screen: Vec<u16>,
@@ -23,34 +23,34 @@ fn camera() -> Camera {
 
 /// Returns equal results of both cameras for a ramp; all eight regions are relevant, and the first
 /// four are active.
-fn alike() -> Results {
+fn equal_results() -> PlantedResults {
     let camera = camera();
     let screen: Vec<u16> = (0..512).map(|at| at % 200).collect();
     let mut ideal = blank_ideal(&camera);
-    let mut candidate = blank(&camera);
+    let mut candidate = blank_outcome(&camera);
     for region in 0..8 {
         let active = region < 4;
         (ideal.srs[region], candidate.srs[region]) = (true, true);
         (ideal.trs[region], candidate.trs[region]) = (active, active);
-        let action = if active { Action::Forward } else { Action::Hold };
+        let action = if active { RegionAction::Forward } else { RegionAction::Hold };
         (ideal.actions[region], candidate.actions[region]) = (action, action);
         (ideal.scores[0][region], candidate.scores[0][region]) = (10.0, 10);
         (ideal.changed[region], candidate.temporal_count[region]) = (7.0, 7);
     }
     ideal.denoised = greys(&screen);
     ideal.rendered = greys(&screen);
-    Results { ideal, candidate, screen }
+    PlantedResults { ideal, candidate, screen }
 }
 
-fn figures(fault: impl FnOnce(&mut Results)) -> Figures {
+fn figures(fault: impl FnOnce(&mut PlantedResults)) -> FidelityFigures {
     let camera = camera();
-    let mut results = alike();
-    let input = raster(&camera, results.screen.clone());
+    let mut results = equal_results();
+    let input = frame_from_words(&camera, results.screen.clone());
     fault(&mut results);
-    let Results { ideal, candidate, screen } = results;
+    let PlantedResults { ideal, candidate, screen } = results;
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
-    let screen: Raster = raster(&camera, screen);
-    fidelity.add(&input, &ideal, &candidate, screen.plane()).unwrap();
+    let screen: ByteFrame = frame_from_words(&camera, screen);
+    fidelity.add(&input, &ideal, &candidate, screen.borrowed_pixels()).unwrap();
     assert_eq!(pixels(&camera), 512);
     fidelity.tally().figures()
 }
@@ -72,14 +72,14 @@ fn nothing_is_seen_where_nothing_is_wrong() {
 
 /// Each fault is in one of eight regions.
 #[test]
-fn decisions() {
+fn flipped_decisions_are_seen() {
     let base = figures(|_| {});
     let seen = figures(|results| results.candidate.srs[5] = false);
-    assert_eq!(seen, Figures { srs_flips: 0.125, ..base.clone() });
-    let seen = figures(|results| results.candidate.actions[5] = Action::Blank);
-    assert_eq!(seen, Figures { action_flips: 0.125, ..base.clone() });
+    assert_eq!(seen, FidelityFigures { srs_flips: 0.125, ..base.clone() });
+    let seen = figures(|results| results.candidate.actions[5] = RegionAction::Blank);
+    assert_eq!(seen, FidelityFigures { action_flips: 0.125, ..base.clone() });
     let seen = figures(|results| results.candidate.trs[5] = true);
-    let expected = Figures {
+    let expected = FidelityFigures {
         trs_flips: 0.125,
         false_alarms: 0.2,
         active_iou: 0.8,
@@ -89,12 +89,12 @@ fn decisions() {
     assert_eq!(seen, expected);
     let seen = figures(|results| results.candidate.trs[0] = false);
     let expected =
-        Figures { trs_flips: 0.125, missed: 0.25, active_iou: 0.75, active: 0.375, ..base };
+        FidelityFigures { trs_flips: 0.125, missed: 0.25, active_iou: 0.75, active: 0.375, ..base };
     assert_eq!(seen, expected);
 }
 
 #[test]
-fn scores() {
+fn errors_of_scores_are_seen() {
     let seen = figures(|results| results.candidate.scores[0][3] = 26);
     let [edge, temporal] = &seen.scores[..] else { panic!("two scores") };
     assert_eq!((edge.max, edge.mean, edge.rms), (0.25, 0.25 / 8.0, (0.0625_f64 / 8.0).sqrt()));
@@ -105,7 +105,7 @@ fn scores() {
 }
 
 #[test]
-fn pictures() {
+fn errors_of_pixels_are_seen() {
     let seen = figures(|results| results.screen[100] += 20);
     let psnr = Some(10.0 * (255.0_f64 * 255.0 * 512.0 / 400.0).log10());
     assert_eq!((seen.psnr_ideal, seen.psnr_input), (psnr, psnr));

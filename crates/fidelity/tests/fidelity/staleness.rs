@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The staleness of a screen, with exact numbers by hand.
 
-use foveate_camera::{Camera, CameraConfig, Decimal, Reference};
+use foveate_camera::{Camera, CameraConfig, Decimal, ReferencePolicy};
 use foveate_fidelity::{Fidelity, Staleness};
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 
-use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
+use crate::results::{blank_outcome, blank_ideal, config, pixels, frame_from_words, tally};
 
 /// Returns a camera in which every region is relevant; a pixel has changed if it differs by more
 /// than 2.
-fn fading(reference: Reference) -> Camera {
+fn fading(reference: ReferencePolicy) -> Camera {
     let mut config = config((16, 8), 8, 8);
-    config.spatial[0].min_score = Some(Decimal::whole(0));
+    config.spatial[0].min_score = Some(Decimal::from_whole(0));
     config.temporal.level = Some(2);
     config.temporal.reference = reference;
     config.validate().unwrap()
 }
 
-fn fade(camera: &Camera, frames: u16) -> Vec<Raster> {
-    (0..frames).map(|level| raster(camera, vec![10 + level; pixels(camera)])).collect()
+fn fade(camera: &Camera, frames: u16) -> Vec<ByteFrame> {
+    (0..frames).map(|level| frame_from_words(camera, vec![10 + level; pixels(camera)])).collect()
 }
 
 /// The candidate with `previous` sends only the first of eight frames, because it never sees a
@@ -26,7 +26,7 @@ fn fade(camera: &Camera, frames: u16) -> Vec<Raster> {
 /// differ by more than 2.
 #[test]
 fn a_fade_is_stale_once_it_has_left_the_level_behind() {
-    let (ideal, candidate) = (fading(Reference::LastSent), fading(Reference::Previous));
+    let (ideal, candidate) = (fading(ReferencePolicy::LastSent), fading(ReferencePolicy::Previous));
     let figures = tally(&ideal, &candidate, &fade(&ideal, 8)).figures();
     let expected = Staleness { max: 7.0, mean: 28.0 / 8.0, longest: 5, share: 5.0 / 8.0 };
     assert_eq!(figures.staleness, expected);
@@ -40,7 +40,7 @@ fn a_fade_is_stale_once_it_has_left_the_level_behind() {
 
 #[test]
 fn what_was_sent_is_never_stale() {
-    let camera = fading(Reference::LastSent);
+    let camera = fading(ReferencePolicy::LastSent);
     let figures = tally(&camera, &camera, &fade(&camera, 8)).figures();
     // The differences are 0 1 2 0 1 2 0 1.
     let expected = Staleness { max: 2.0, mean: 7.0 / 8.0, longest: 0, share: 0.0 };
@@ -52,7 +52,7 @@ fn what_was_sent_is_never_stale() {
 fn watched(config: &CameraConfig, frames: &[(bool, usize)], cut: Option<usize>) -> Staleness {
     let camera = config.validate().unwrap();
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
-    let input = raster(&camera, vec![0; pixels(&camera)]);
+    let input = frame_from_words(&camera, vec![0; pixels(&camera)]);
     for (number, &(srs, away)) in frames.iter().enumerate() {
         if cut == Some(number) {
             fidelity.next_clip();
@@ -60,7 +60,7 @@ fn watched(config: &CameraConfig, frames: &[(bool, usize)], cut: Option<usize>) 
         let mut ideal = blank_ideal(&camera);
         ideal.srs = vec![srs];
         ideal.denoised[..away].fill(9.0);
-        fidelity.add(&input, &ideal, &blank(&camera), input.plane()).unwrap();
+        fidelity.add(&input, &ideal, &blank_outcome(&camera), input.borrowed_pixels()).unwrap();
     }
     fidelity.tally().figures().staleness
 }

@@ -2,10 +2,10 @@
 //! NumPy arrays as files, which are written frame by frame and read as a whole. The module does not
 //! depend on the meaning of the values.
 
-mod element;
+mod element_type;
 mod reader;
 mod writer;
 
-pub use element::Element;
-pub use reader::{NpyArray, NpyError, read};
-pub use writer::{NpyWriter, header};
+pub use element_type::ElementType;
+pub use reader::{NpyArray, NpyError, read_array};
+pub use writer::{NpyWriter, npy_header};

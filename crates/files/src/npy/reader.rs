@@ -37,7 +37,7 @@ pub struct NpyError {
 /// # Errors
 /// Fails if the file cannot be read or is damaged, if its array is larger than 2 GiB, or if its
 /// values are not plain numbers.
-pub fn read(path: &Path) -> Result<NpyArray, NpyError> {
+pub fn read_array(path: &Path) -> Result<NpyArray, NpyError> {
     let wrong = |problem| NpyError { path: path.to_owned(), problem };
     // Opening a FIFO would wait for a writer.
     let metadata = path.metadata().map_err(|error| wrong(error.to_string()))?;
@@ -49,11 +49,11 @@ pub fn read(path: &Path) -> Result<NpyArray, NpyError> {
 }
 
 fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
-    let header = header(file)?;
-    let (dtype, is_fortran, shape) = parse(&header).ok_or_else(|| {
+    let header = read_header(file)?;
+    let (dtype, is_fortran, shape) = parse_header(&header).ok_or_else(|| {
         format!("its header is not one that numpy.save writes: {}", header.trim_end())
     })?;
-    let width = width(&dtype)?;
+    let width = value_bytes(&dtype)?;
     let count = shape.iter().try_fold(1u64, |count, &length| count.checked_mul(length as u64));
     let wanted = count.and_then(|count| count.checked_mul(width as u64));
     let wanted = wanted
@@ -68,13 +68,13 @@ fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
         found if found > wanted => {
             Err(format!("its shape {shape:?} has {wanted} bytes, but more follow"))
         }
-        _ if is_fortran => Ok(NpyArray { bytes: turned(&bytes, &shape, width), dtype, shape }),
+        _ if is_fortran => Ok(NpyArray { bytes: to_row_major(&bytes, &shape, width), dtype, shape }),
         _ => Ok(NpyArray { dtype, shape, bytes }),
     }
 }
 
 /// Returns the text of a header.
-fn header(file: &mut impl Read) -> Result<String, String> {
+fn read_header(file: &mut impl Read) -> Result<String, String> {
     let ends = |error: io::Error| match error.kind() {
         io::ErrorKind::UnexpectedEof => "it ends in its header".to_owned(),
         _ => error.to_string(),
@@ -105,7 +105,7 @@ fn header(file: &mut impl Read) -> Result<String, String> {
 }
 
 /// Parses a header to the type, whether the array is in Fortran order, and the shape.
-fn parse(header: &str) -> Option<(String, bool, Vec<usize>)> {
+fn parse_header(header: &str) -> Option<(String, bool, Vec<usize>)> {
     let of = |key: &str| Some(header.split_once(&format!("'{key}':"))?.1.trim_start());
     // A structured type is a list, and is rejected because of its first letter.
     let dtype = of("descr")?;
@@ -125,7 +125,7 @@ fn parse(header: &str) -> Option<(String, bool, Vec<usize>)> {
 }
 
 /// Returns the number of bytes of a value of a type.
-fn width(dtype: &str) -> Result<usize, String> {
+fn value_bytes(dtype: &str) -> Result<usize, String> {
     match dtype {
         "|b1" | "|u1" | "|i1" => Ok(1),
         "<f2" | "<u2" | "<i2" => Ok(2),
@@ -140,7 +140,7 @@ fn width(dtype: &str) -> Result<usize, String> {
 }
 
 /// Converts values from Fortran order to row-major (C) order.
-fn turned(bytes: &[u8], shape: &[usize], width: usize) -> Vec<u8> {
+fn to_row_major(bytes: &[u8], shape: &[usize], width: usize) -> Vec<u8> {
     let steps: Vec<usize> = shape
         .iter()
         .scan(1, |step, &length| Some(std::mem::replace(step, *step * length)))
@@ -164,7 +164,7 @@ fn turned(bytes: &[u8], shape: &[usize], width: usize) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::npy::header as written;
+    use crate::npy::npy_header as written;
 
     fn file(words: (&str, &str), bytes: &[u8]) -> Vec<u8> {
         [&written(128, words.0, words.1)[..], bytes].concat()

@@ -6,22 +6,22 @@ use std::path::Path;
 
 use foveate_staging::{GrowingFile, StagingError};
 
-use super::Element;
+use super::ElementType;
 
 /// The smallest header in bytes; headers grow in steps of 64.
-const HEADER: usize = 128;
+const MIN_HEADER_BYTES: usize = 128;
 /// The number of bytes before the text of a header.
-const PREFIX: usize = 10;
+const PREFIX_BYTES: usize = 10;
 
 /// A file of an array of frames that all have the same shape.
 #[derive(Debug)]
 pub struct NpyWriter {
     file: GrowingFile,
-    element: Element,
+    element: ElementType,
     /// The other dimensions, as they are written in the header.
-    shape: String,
+    frame_shape: String,
     /// The number of bytes of the header, which has room for any number of frames.
-    header: usize,
+    header_bytes: usize,
     frames: u64,
 }
 
@@ -31,12 +31,12 @@ impl NpyWriter {
     ///
     /// # Errors
     /// Fails if the file cannot be written.
-    pub fn create(path: &Path, element: Element, shape: &[usize]) -> Result<Self, StagingError> {
+    pub fn create(path: &Path, element: ElementType, shape: &[usize]) -> Result<Self, StagingError> {
         let file = GrowingFile::create(path)?;
         let shape = shape.iter().map(|length| format!(" {length}")).collect::<Vec<_>>().join(",");
-        let mut writer = Self { file, element, shape, header: HEADER, frames: u64::MAX };
-        let least = PREFIX + writer.words().len() + 1;
-        writer.header = least.next_multiple_of(64).max(HEADER);
+        let mut writer = Self { file, element, frame_shape: shape, header_bytes: MIN_HEADER_BYTES, frames: u64::MAX };
+        let least = PREFIX_BYTES + writer.words().len() + 1;
+        writer.header_bytes = least.next_multiple_of(64).max(MIN_HEADER_BYTES);
         writer.frames = 0;
         let header = writer.header();
         writer.file.append(&header);
@@ -60,8 +60,8 @@ impl NpyWriter {
     /// # Errors
     /// Fails if the disk is full or the file cannot be written. Bytes that were not written are
     /// kept.
-    pub fn write_out(&mut self, all: bool) -> Result<(), StagingError> {
-        self.file.write_out(all)
+    pub fn write_pending(&mut self, all: bool) -> Result<(), StagingError> {
+        self.file.write_pending(all)
     }
 
     /// Writes the number of frames into the header.
@@ -70,33 +70,33 @@ impl NpyWriter {
     /// Fails like [`NpyWriter::write_out`].
     pub fn finish(mut self) -> Result<(), StagingError> {
         let header = self.header();
-        self.file.write_over(0, &header)
+        self.file.overwrite(0, &header)
     }
 
     fn header(&self) -> Vec<u8> {
-        framed(self.header, &self.words())
+        padded_header(self.header_bytes, &self.words())
     }
 
     fn words(&self) -> String {
-        let shape = format!("{},{}", self.frames, self.shape);
-        words(&format!("'{}'", self.element.descr()), &shape)
+        let shape = format!("{},{}", self.frames, self.frame_shape);
+        words(&format!("'{}'", self.element.numpy_name()), &shape)
     }
 }
 
 /// Returns a header of `size` bytes, a multiple of 64, for a type and a shape in the notation of
 /// Python.
 #[must_use]
-pub fn header(size: usize, descr: &str, shape: &str) -> Vec<u8> {
-    framed(size, &words(descr, shape))
+pub fn npy_header(size: usize, descr: &str, shape: &str) -> Vec<u8> {
+    padded_header(size, &words(descr, shape))
 }
 
 fn words(descr: &str, shape: &str) -> String {
     format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}")
 }
 
-fn framed(size: usize, words: &str) -> Vec<u8> {
-    let length = u16::try_from(size - PREFIX).expect("a header has a few bytes");
-    let padded = format!("{words:<0$}\n", size - PREFIX - 1);
+fn padded_header(size: usize, words: &str) -> Vec<u8> {
+    let length = u16::try_from(size - PREFIX_BYTES).expect("a header has a few bytes");
+    let padded = format!("{words:<0$}\n", size - PREFIX_BYTES - 1);
     [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], padded.as_bytes()].concat()
 }
 
@@ -114,14 +114,14 @@ mod tests {
             (vec![1, 3, 224, 224], 128),
             (vec![123_456_789; 8], 192),
         ] {
-            let writer = NpyWriter::create(&path, Element::Float32, &shape).unwrap();
+            let writer = NpyWriter::create(&path, ElementType::Float32, &shape).unwrap();
             for frames in [0, 7, u64::MAX] {
                 let header = NpyWriter {
                     frames,
-                    ..NpyWriter::create(&path, Element::Float32, &shape).unwrap()
+                    ..NpyWriter::create(&path, ElementType::Float32, &shape).unwrap()
                 }
                 .header();
-                assert_eq!((header.len(), writer.header), (size, size), "{shape:?}");
+                assert_eq!((header.len(), writer.header_bytes), (size, size), "{shape:?}");
                 assert_eq!(usize::from(header[8]) + 256 * usize::from(header[9]) + 10, size);
                 assert_eq!(header.last(), Some(&b'\n'));
             }
@@ -133,10 +133,10 @@ mod tests {
     fn frames_follow_the_header_and_are_counted_at_the_end() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("array.npy");
-        let mut writer = NpyWriter::create(&path, Element::Float32, &[1, 2]).unwrap();
+        let mut writer = NpyWriter::create(&path, ElementType::Float32, &[1, 2]).unwrap();
         for frame in [[1.0f32, -2.0], [f32::NAN, 0.5]] {
             writer.push(frame.iter().map(|value| value.to_bits().into()));
-            writer.write_out(false).unwrap();
+            writer.write_pending(false).unwrap();
         }
         writer.finish().unwrap();
         let bytes = std::fs::read(&path).unwrap();

@@ -4,10 +4,10 @@
 
 mod parquet;
 mod table;
-mod text;
+mod csv_text;
 mod value;
 
 pub use self::parquet::ParquetWriter;
-pub use table::{Cell, Cells, Table};
-pub use text::{csv, plain};
-pub use value::{Column, Kind, Value};
+pub use table::{TableCell, NamedCells, Table};
+pub use csv_text::{csv_text, escape_name};
+pub use value::{Column, ColumnType, TableValue};

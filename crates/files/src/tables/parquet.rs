@@ -15,23 +15,23 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::parser::parse_message_type;
 
-use super::{Column, Kind, Value};
+use super::{Column, ColumnType, TableValue};
 
 /// An open Parquet file.
 pub struct ParquetWriter<W: Write + Send> {
     file: SerializedFileWriter<W>,
-    columns: Vec<Pending>,
+    columns: Vec<PendingColumn>,
     rows: usize,
 }
 
 /// The values of a column that are not written yet.
-struct Pending {
-    values: Values,
+struct PendingColumn {
+    values: ColumnValues,
     /// The definition levels of an optional column: for each row, 1 with a value and 0 without.
-    levels: Option<Vec<i16>>,
+    definition_levels: Option<Vec<i16>>,
 }
 
-enum Values {
+enum ColumnValues {
     Long(Vec<i64>),
     Int(Vec<i32>),
     Real(Vec<f64>),
@@ -49,17 +49,17 @@ impl<W: Write + Send> ParquetWriter<W> {
             .set_compression(Compression::SNAPPY)
             .set_created_by(concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned())
             .build();
-        let schema = parse_message_type(&schema(message, columns)).map_err(failed)?;
+        let schema = parse_message_type(&schema(message, columns)).map_err(io_error)?;
         let file = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties));
-        let columns = columns.iter().map(Pending::new).collect();
-        Ok(Self { file: file.map_err(failed)?, columns, rows: 0 })
+        let columns = columns.iter().map(PendingColumn::new).collect();
+        Ok(Self { file: file.map_err(io_error)?, columns, rows: 0 })
     }
 
     /// Adds a row with a value for each column.
     ///
     /// # Panics
     /// Panics if the type of a value is not that of its column, or if a required value is missing.
-    pub fn push<'a>(&mut self, row: impl IntoIterator<Item = Value<'a>>) {
+    pub fn push<'a>(&mut self, row: impl IntoIterator<Item = TableValue<'a>>) {
         for (column, value) in self.columns.iter_mut().zip(row) {
             column.push(value);
         }
@@ -68,7 +68,7 @@ impl<W: Write + Send> ParquetWriter<W> {
 
     /// Returns the number of rows that are not written yet.
     #[must_use]
-    pub fn pending(&self) -> usize {
+    pub fn pending_rows(&self) -> usize {
         self.rows
     }
 
@@ -77,7 +77,7 @@ impl<W: Write + Send> ParquetWriter<W> {
     /// # Errors
     /// Fails if the file cannot be written; the file then cannot be completed.
     pub fn write_group(&mut self) -> io::Result<()> {
-        self.group().map_err(failed)
+        self.write_row_group().map_err(io_error)
     }
 
     /// Writes the remaining rows and the end of the file.
@@ -88,10 +88,10 @@ impl<W: Write + Send> ParquetWriter<W> {
         if self.rows > 0 {
             self.write_group()?;
         }
-        self.file.into_inner().map_err(failed)
+        self.file.into_inner().map_err(io_error)
     }
 
-    fn group(&mut self) -> Result<(), ParquetError> {
+    fn write_row_group(&mut self) -> Result<(), ParquetError> {
         let mut group = self.file.next_row_group()?;
         for pending in &mut self.columns {
             let mut column = group.next_column()?.expect("the schema has the same columns");
@@ -110,50 +110,50 @@ impl<W: Write + Send> fmt::Debug for ParquetWriter<W> {
     }
 }
 
-impl Pending {
+impl PendingColumn {
     fn new(column: &Column) -> Self {
         let values = match column.kind {
-            Kind::Long => Values::Long(Vec::new()),
-            Kind::Int => Values::Int(Vec::new()),
-            Kind::Real => Values::Real(Vec::new()),
-            Kind::Flag => Values::Flag(Vec::new()),
-            Kind::Text => Values::Text(Vec::new()),
+            ColumnType::Long => ColumnValues::Long(Vec::new()),
+            ColumnType::Int => ColumnValues::Int(Vec::new()),
+            ColumnType::Real => ColumnValues::Real(Vec::new()),
+            ColumnType::Flag => ColumnValues::Flag(Vec::new()),
+            ColumnType::Text => ColumnValues::Text(Vec::new()),
         };
-        Self { values, levels: column.optional.then(Vec::new) }
+        Self { values, definition_levels: column.optional.then(Vec::new) }
     }
 
-    fn push(&mut self, value: Value<'_>) {
-        let there = value != Value::None;
-        match &mut self.levels {
+    fn push(&mut self, value: TableValue<'_>) {
+        let there = value != TableValue::None;
+        match &mut self.definition_levels {
             Some(levels) => levels.push(i16::from(there)),
             None => assert!(there, "every row has a value in a column that is not optional"),
         }
         match (&mut self.values, value) {
-            (_, Value::None) => {}
-            (Values::Long(values), Value::Long(value)) => values.push(value),
-            (Values::Int(values), Value::Int(value)) => values.push(value),
-            (Values::Real(values), Value::Real(value)) => values.push(value),
-            (Values::Flag(values), Value::Flag(value)) => values.push(value),
-            (Values::Text(values), Value::Text(value)) => values.push(value.into()),
+            (_, TableValue::None) => {}
+            (ColumnValues::Long(values), TableValue::Long(value)) => values.push(value),
+            (ColumnValues::Int(values), TableValue::Int(value)) => values.push(value),
+            (ColumnValues::Real(values), TableValue::Real(value)) => values.push(value),
+            (ColumnValues::Flag(values), TableValue::Flag(value)) => values.push(value),
+            (ColumnValues::Text(values), TableValue::Text(value)) => values.push(value.into()),
             (_, value) => panic!("{value:?} is not of the type of its column"),
         }
     }
 
     fn write(&mut self, column: &mut SerializedColumnWriter<'_>) -> Result<(), ParquetError> {
-        let levels = self.levels.as_deref();
+        let levels = self.definition_levels.as_deref();
         match &mut self.values {
-            Values::Long(values) => write::<Int64Type>(column, values, levels)?,
-            Values::Int(values) => write::<Int32Type>(column, values, levels)?,
-            Values::Real(values) => write::<DoubleType>(column, values, levels)?,
-            Values::Flag(values) => write::<BoolType>(column, values, levels)?,
-            Values::Text(values) => write::<ByteArrayType>(column, values, levels)?,
+            ColumnValues::Long(values) => write_values::<Int64Type>(column, values, levels)?,
+            ColumnValues::Int(values) => write_values::<Int32Type>(column, values, levels)?,
+            ColumnValues::Real(values) => write_values::<DoubleType>(column, values, levels)?,
+            ColumnValues::Flag(values) => write_values::<BoolType>(column, values, levels)?,
+            ColumnValues::Text(values) => write_values::<ByteArrayType>(column, values, levels)?,
         }
-        self.levels.iter_mut().for_each(Vec::clear);
+        self.definition_levels.iter_mut().for_each(Vec::clear);
         Ok(())
     }
 }
 
-fn write<T: DataType>(
+fn write_values<T: DataType>(
     column: &mut SerializedColumnWriter<'_>,
     values: &mut Vec<T::T>,
     levels: Option<&[i16]>,
@@ -168,18 +168,18 @@ fn schema(message: &str, columns: &[Column]) -> String {
     let line = |Column { name, kind, optional }: &Column| {
         let presence = if *optional { "optional" } else { "required" };
         match kind {
-            Kind::Long => format!("{presence} int64 {name};"),
-            Kind::Int => format!("{presence} int32 {name};"),
-            Kind::Real => format!("{presence} double {name};"),
-            Kind::Flag => format!("{presence} boolean {name};"),
-            Kind::Text => format!("{presence} binary {name} (string);"),
+            ColumnType::Long => format!("{presence} int64 {name};"),
+            ColumnType::Int => format!("{presence} int32 {name};"),
+            ColumnType::Real => format!("{presence} double {name};"),
+            ColumnType::Flag => format!("{presence} boolean {name};"),
+            ColumnType::Text => format!("{presence} binary {name} (string);"),
         }
     };
     format!("message {message} {{ {} }}", columns.iter().map(line).collect::<String>())
 }
 
 /// Returns the error of the system if there is one, so that a full disk is recognized.
-fn failed(error: ParquetError) -> io::Error {
+fn io_error(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(cause) => {
             cause.downcast::<io::Error>().map_or_else(io::Error::other, |cause| *cause)
@@ -194,27 +194,27 @@ mod tests {
 
     use super::*;
 
-    fn column(name: &str, kind: Kind, optional: bool) -> Column {
+    fn column(name: &str, kind: ColumnType, optional: bool) -> Column {
         Column { name: name.to_owned(), kind, optional }
     }
 
     #[test]
     fn every_kind_of_value_can_be_read_again_from_every_group() {
-        let kinds = [Kind::Long, Kind::Int, Kind::Real, Kind::Flag, Kind::Text];
+        let kinds = [ColumnType::Long, ColumnType::Int, ColumnType::Real, ColumnType::Flag, ColumnType::Text];
         let columns: Vec<Column> =
             (0..).zip(kinds).map(|(at, kind)| column(&format!("c{at}"), kind, true)).collect();
         let full = [
-            Value::Long(-1 << 40),
-            Value::Int(-7),
-            Value::Real(0.5),
-            Value::Flag(true),
-            Value::Text("a \u{fc}"),
+            TableValue::Long(-1 << 40),
+            TableValue::Int(-7),
+            TableValue::Real(0.5),
+            TableValue::Flag(true),
+            TableValue::Text("a \u{fc}"),
         ];
         let to = tempfile::tempfile().unwrap();
         let mut file = ParquetWriter::new(to, "rows", &columns).unwrap();
         file.push(full);
-        file.push([Value::None; 5]);
-        assert_eq!(file.pending(), 2);
+        file.push([TableValue::None; 5]);
+        assert_eq!(file.pending_rows(), 2);
         file.write_group().unwrap();
         file.push(full);
         let reader = SerializedFileReader::new(file.finish().unwrap()).unwrap();
@@ -232,14 +232,14 @@ mod tests {
     #[should_panic(expected = "every row has a value")]
     fn a_value_that_must_be_there_is() {
         let mut file =
-            ParquetWriter::new(Vec::new(), "rows", &[column("a", Kind::Int, false)]).unwrap();
-        file.push([Value::None]);
+            ParquetWriter::new(Vec::new(), "rows", &[column("a", ColumnType::Int, false)]).unwrap();
+        file.push([TableValue::None]);
     }
 
     #[test]
     fn a_full_disk_is_told_from_other_errors() {
         let cause = io::Error::from(io::ErrorKind::StorageFull);
-        assert_eq!(failed(ParquetError::External(cause.into())).kind(), io::ErrorKind::StorageFull);
-        assert_eq!(failed(ParquetError::General("x".to_owned())).kind(), io::ErrorKind::Other);
+        assert_eq!(io_error(ParquetError::External(cause.into())).kind(), io::ErrorKind::StorageFull);
+        assert_eq!(io_error(ParquetError::General("x".to_owned())).kind(), io::ErrorKind::Other);
     }
 }

@@ -9,14 +9,14 @@ pub struct Column {
     /// The name of the column.
     pub name: String,
     /// The type of its values.
-    pub kind: Kind,
+    pub kind: ColumnType,
     /// Whether a row may have no value.
     pub optional: bool,
 }
 
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnType {
     /// A signed integer of 64 bits.
     Long,
     /// A signed integer of 32 bits.
@@ -31,7 +31,7 @@ pub enum Kind {
 
 /// A value of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value<'a> {
+pub enum TableValue<'a> {
     /// No value: null in Parquet, and empty as text.
     None,
     /// A value of [`Kind::Long`].
@@ -46,7 +46,7 @@ pub enum Value<'a> {
     Text(&'a str),
 }
 
-impl fmt::Display for Value<'_> {
+impl fmt::Display for TableValue<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::None => Ok(()),

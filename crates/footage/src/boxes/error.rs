@@ -52,7 +52,7 @@ pub enum BoxError {
     #[error(
         "{files} files of boxes are given for {clips} clips; give one for each in their order, or one for all"
     )]
-    Count {
+    FileCount {
         /// The number of files that are given.
         files: usize,
         /// The number of clips.
@@ -100,7 +100,7 @@ pub enum BoxError {
     },
     /// No frame of the clip has an entry in the file.
     #[error("no frame of the clip `{clip}` has an entry in `{}`, which {holds}; check that they belong together", path.display())]
-    NoneFit {
+    NoEntry {
         /// The path of the file or folder.
         path: PathBuf,
         /// The name of the clip.

@@ -12,16 +12,16 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::error::BoxError;
-use super::format::{Format, coco, mot, table, yolo};
-use super::labelled::Labelled;
-use super::name::endings;
-use super::view::View;
-use crate::{Crop, Origin, SourceFrame};
+use super::format::{BoxFormat, coco, mot, csv_table, yolo};
+use super::labelled_box::LabelledBox;
+use super::image_name::path_endings;
+use super::view::BoxView;
+use crate::{CropRect, FrameOrigin, SourceFrame};
 use foveate_frame::Rect;
 
 /// The properties of a frame by which its boxes are found.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<'a> {
+pub struct FrameKey<'a> {
     /// The path of the frame's file, or another name.
     pub name: &'a Path,
     /// `name` is the path of a file that holds only this frame.
@@ -32,51 +32,51 @@ pub struct Place<'a> {
     pub size: (u32, u32),
 }
 
-impl<'a> Place<'a> {
+impl<'a> FrameKey<'a> {
     /// Makes the key of a frame that a source returned with this origin.
     #[must_use]
-    pub fn of(frame: &'a SourceFrame, origin: &Origin) -> Self {
+    pub fn from_source_frame(frame: &'a SourceFrame, origin: &FrameOrigin) -> Self {
         let name = Path::new(&frame.name);
         Self { name, own_file: origin.own_file, number: origin.number, size: origin.size }
     }
 }
 
 /// The boxes of a frame, or `None` if the file has no entry for it.
-pub type Found = Option<Vec<Labelled>>;
+pub type FrameBoxes = Option<Vec<LabelledBox>>;
 
 /// The boxes of a file or folder.
 #[derive(Debug)]
-pub struct Boxes {
+pub struct BoxFile {
     path: PathBuf,
-    format: Format,
-    entries: Entries,
+    format: BoxFormat,
+    entries: BoxEntries,
     /// The image that took the boxes of each name.
-    taken: Mutex<HashMap<String, PathBuf>>,
+    assigned_images: Mutex<HashMap<String, PathBuf>>,
 }
 
 #[derive(Debug)]
-enum Entries {
-    Numbers(BTreeMap<u64, Vec<Labelled>>),
-    Names(HashMap<String, Vec<Labelled>>),
+enum BoxEntries {
+    Numbers(BTreeMap<u64, Vec<LabelledBox>>),
+    Names(HashMap<String, Vec<LabelledBox>>),
     /// The entries are files of a folder, which are read when an image needs them.
     Folder,
 }
 
-impl Boxes {
+impl BoxFile {
     /// Reads a file, or opens a folder of YOLO files without reading them.
     ///
     /// # Errors
     /// Fails if the file cannot be read. The message names the file, and the line if the format has
     /// lines.
     pub fn read(path: &Path) -> Result<Self, BoxError> {
-        let format = Format::of(path)?;
+        let format = BoxFormat::detect(path)?;
         let entries = match format {
-            Format::Mot => Entries::Numbers(mot::read(path)?),
-            Format::Coco => Entries::Names(coco::read(path)?),
-            Format::Csv => Entries::Names(table::read(path)?),
-            Format::Yolo => Entries::Folder,
+            BoxFormat::Mot => BoxEntries::Numbers(mot::read(path)?),
+            BoxFormat::Coco => BoxEntries::Names(coco::read(path)?),
+            BoxFormat::Csv => BoxEntries::Names(csv_table::read(path)?),
+            BoxFormat::Yolo => BoxEntries::Folder,
         };
-        Ok(Self { path: path.to_owned(), format, entries, taken: Mutex::default() })
+        Ok(Self { path: path.to_owned(), format, entries, assigned_images: Mutex::default() })
     }
 
     /// Returns the path of the file or folder.
@@ -87,14 +87,14 @@ impl Boxes {
 
     /// Returns the format.
     #[must_use]
-    pub fn format(&self) -> Format {
+    pub fn format(&self) -> BoxFormat {
         self.format
     }
 
     /// Returns true if the boxes go by frame numbers and therefore belong to one clip.
     #[must_use]
-    pub fn are_of_one_clip(&self) -> bool {
-        matches!(self.entries, Entries::Numbers(_))
+    pub fn is_for_one_clip(&self) -> bool {
+        matches!(self.entries, BoxEntries::Numbers(_))
     }
 
     /// Returns the boxes of a frame.
@@ -102,20 +102,20 @@ impl Boxes {
     /// # Errors
     /// Fails if a file of a YOLO folder cannot be read, a name fits two images, or an image has the
     /// number 0 although frames are numbered from 1.
-    pub fn at(&self, place: &Place<'_>) -> Result<Found, BoxError> {
+    pub fn boxes_of_frame(&self, place: &FrameKey<'_>) -> Result<FrameBoxes, BoxError> {
         match &self.entries {
-            Entries::Numbers(frames) => Ok(frames.get(&self.number(place)?).cloned()),
-            Entries::Names(images) => {
-                let found = endings(place.name)
+            BoxEntries::Numbers(frames) => Ok(frames.get(&self.frame_number(place)?).cloned()),
+            BoxEntries::Names(images) => {
+                let found = path_endings(place.name)
                     .into_iter()
                     .find_map(|name| images.get(&name).map(|boxes| (name, boxes.clone())));
-                found.map(|(name, boxes)| self.take(name, place).map(|()| boxes)).transpose()
+                found.map(|(name, boxes)| self.assign_name(name, place).map(|()| boxes)).transpose()
             }
-            Entries::Folder => {
-                let Some(file) = yolo::file_of(&self.path, &endings(place.name)) else {
+            BoxEntries::Folder => {
+                let Some(file) = yolo::find_file(&self.path, &path_endings(place.name)) else {
                     return Ok(None);
                 };
-                self.take(file.display().to_string(), place)?;
+                self.assign_name(file.display().to_string(), place)?;
                 yolo::read(&file, place.size).map(Some)
             }
         }
@@ -127,35 +127,35 @@ impl Boxes {
     ///
     /// # Errors
     /// The errors are those of [`Boxes::at`].
-    pub fn objects(
+    pub fn object_rects(
         &self,
         frame: &SourceFrame,
-        origin: &Origin,
-        crop: Option<Crop>,
+        origin: &FrameOrigin,
+        crop: Option<CropRect>,
     ) -> Result<Option<Vec<Rect>>, BoxError> {
-        let view = View::of(frame, origin, crop);
-        let found = self.at(&Place::of(frame, origin))?;
-        Ok(found.map(|found| found.iter().filter_map(|one| view.see(&one.rect)).collect()))
+        let view = BoxView::from_source_frame(frame, origin, crop);
+        let found = self.boxes_of_frame(&FrameKey::from_source_frame(frame, origin))?;
+        Ok(found.map(|found| found.iter().filter_map(|one| view.transform_and_cut(&one.rect)).collect()))
     }
 
     /// Returns the error for a clip of which no frame has an entry.
     #[must_use]
-    pub fn none_fit(&self, clip: &str) -> BoxError {
+    pub fn no_entry_error(&self, clip: &str) -> BoxError {
         let first = match &self.entries {
-            Entries::Numbers(frames) => frames.keys().next().map(|frame| format!("frame {frame}")),
-            Entries::Names(images) => images.keys().min().map(|name| format!("`{name}`")),
-            Entries::Folder => None,
+            BoxEntries::Numbers(frames) => frames.keys().next().map(|frame| format!("frame {frame}")),
+            BoxEntries::Names(images) => images.keys().min().map(|name| format!("`{name}`")),
+            BoxEntries::Folder => None,
         };
         let holds = match (&self.entries, first) {
             (_, Some(first)) => format!("begins with {first}"),
-            (Entries::Folder, _) => "needs a file for each, with its name and .txt".to_owned(),
+            (BoxEntries::Folder, _) => "needs a file for each, with its name and .txt".to_owned(),
             _ => "has none at all".to_owned(),
         };
-        BoxError::NoneFit { path: self.path.clone(), clip: clip.to_owned(), holds }
+        BoxError::NoEntry { path: self.path.clone(), clip: clip.to_owned(), holds }
     }
 
     /// Returns the number of a frame, counted from 1.
-    fn number(&self, place: &Place<'_>) -> Result<u64, BoxError> {
+    fn frame_number(&self, place: &FrameKey<'_>) -> Result<u64, BoxError> {
         let stem = place.name.file_stem().and_then(|stem| stem.to_str());
         let digits = stem.filter(|stem| stem.bytes().all(|byte| byte.is_ascii_digit()));
         match digits.filter(|_| place.own_file).and_then(|digits| digits.parse().ok()) {
@@ -169,8 +169,8 @@ impl Boxes {
     }
 
     /// Assigns the boxes of a name to an image, unless another image has them.
-    fn take(&self, name: String, place: &Place<'_>) -> Result<(), BoxError> {
-        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+    fn assign_name(&self, name: String, place: &FrameKey<'_>) -> Result<(), BoxError> {
+        let mut taken = self.assigned_images.lock().unwrap_or_else(PoisonError::into_inner);
         let owner = taken.entry(name.clone()).or_insert_with(|| place.name.to_owned());
         if owner == place.name {
             return Ok(());

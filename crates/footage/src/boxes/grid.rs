@@ -15,7 +15,7 @@ use foveate_frame::Rect;
 /// The grid of regions of a frame. Regions are squares from the upper left corner, cut at the right
 /// and lower border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grid {
+pub struct RegionGrid {
     /// The side of a region in pixels.
     pub side: u32,
     /// The width of the frame in pixels.
@@ -24,10 +24,10 @@ pub struct Grid {
     pub height: u32,
 }
 
-impl Grid {
+impl RegionGrid {
     /// Returns how many regions of a box have their vote set, and how many regions the box has.
     #[must_use]
-    pub fn votes(&self, rect: &Rect, votes: &[bool]) -> (u64, u64) {
+    pub fn count_votes(&self, rect: &Rect, votes: &[bool]) -> (u64, u64) {
         self.regions(rect)
             .fold((0, 0), |(yes, all), region| (yes + u64::from(votes[region]), all + 1))
     }
@@ -35,8 +35,8 @@ impl Grid {
     /// Returns the regions of a box, numbered row by row. The box must lie in the frame and have an
     /// area.
     pub fn regions(&self, rect: &Rect) -> impl Iterator<Item = usize> + use<> {
-        let columns = lines((rect.x0, rect.x1), self.side, self.width);
-        let rows = lines((rect.y0, rect.y1), self.side, self.height);
+        let columns = covered_lines((rect.x0, rect.x1), self.side, self.width);
+        let rows = covered_lines((rect.y0, rect.y1), self.side, self.height);
         let per_row = self.width.div_ceil(self.side) as usize;
         rows.flat_map(move |row| {
             columns.clone().map(move |column| row as usize * per_row + column as usize)
@@ -46,12 +46,12 @@ impl Grid {
 
 /// Returns the columns of a box from its left and right side, or the rows from its upper and lower
 /// side, in a frame of this size.
-fn lines((from, to): (f64, f64), side: u32, size: u32) -> Range<u32> {
+fn covered_lines((from, to): (f64, f64), side: u32, size: u32) -> Range<u32> {
     let begin = |line: u32| f64::from(line * side);
     let end = |line: u32| f64::from((line * side).saturating_add(side).min(size));
     let inside = |line: u32| to.min(end(line)) - from.max(begin(line));
     let count = size.div_ceil(side);
-    let touched = line_of(from, side, count)..line_of(to, side, count) + 1;
+    let touched = line_at(from, side, count)..line_at(to, side, count) + 1;
     let half = |line: &u32| 2.0 * inside(*line) >= end(*line) - begin(*line);
     let first = touched.clone().find(half);
     match first.zip(touched.clone().rfind(half)) {
@@ -67,7 +67,7 @@ fn lines((from, to): (f64, f64), side: u32, size: u32) -> Range<u32> {
 /// Returns the row or column in which a coordinate lies. A coordinate at the far border belongs to
 /// the last one.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the frame")]
-fn line_of(at: f64, side: u32, count: u32) -> u32 {
+fn line_at(at: f64, side: u32, count: u32) -> u32 {
     ((at / f64::from(side)).floor() as u32).min(count - 1)
 }
 
@@ -75,10 +75,10 @@ fn line_of(at: f64, side: u32, count: u32) -> u32 {
 mod tests {
     use super::*;
 
-    const GRID: Grid = Grid { side: 8, width: 36, height: 20 };
+    const GRID: RegionGrid = RegionGrid { side: 8, width: 36, height: 20 };
 
     fn of(corners: [f64; 4]) -> Vec<usize> {
-        GRID.regions(&Rect::of_corners(corners).unwrap()).collect()
+        GRID.regions(&Rect::from_corners(corners).unwrap()).collect()
     }
 
     #[test]

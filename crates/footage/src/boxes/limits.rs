@@ -27,6 +27,6 @@ pub(crate) fn open(path: &Path) -> Result<BufReader<LimitedReader<File>>, BoxErr
 }
 
 /// Returns the message for a file with too many boxes.
-pub(crate) fn too_many() -> String {
+pub(crate) fn too_many_boxes() -> String {
     format!("more than {MAX_BOXES} boxes, which is the limit; split it by clip")
 }

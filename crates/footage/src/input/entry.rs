@@ -6,10 +6,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::content::{Content, content};
-use super::reason::SkipReason;
+use super::content_kind::{ContentKind, content};
+use super::skip_reason::SkipReason;
 use crate::FootageError;
-use crate::extension::{is_image_name, is_note, is_other_video, is_video_name, other_image};
+use crate::extension::{is_image_name, is_note, is_other_video, is_video_name, unread_image_type_by_name};
 use crate::natural_order;
 
 /// The kind of an entry of a folder.
@@ -39,32 +39,32 @@ pub(crate) fn entry_kind(path: &Path) -> EntryKind {
     }
     let (image, video) = (is_image_name(path), is_video_name(path));
     if !known.is_file() {
-        return EntryKind::Skipped((image || video).then_some(SkipReason::NoFile));
+        return EntryKind::Skipped((image || video).then_some(SkipReason::NotAFile));
     }
     match (image, video) {
         (true, _) => EntryKind::Image,
         (_, true) => EntryKind::Video,
-        _ => EntryKind::Skipped(reason(path)),
+        _ => EntryKind::Skipped(skip_reason(path)),
     }
 }
 
 /// Returns the reason why a file without the name of an image or a video may have been meant as
 /// one.
-fn reason(path: &Path) -> Option<SkipReason> {
-    if let Some(name) = other_image(path) {
+fn skip_reason(path: &Path) -> Option<SkipReason> {
+    if let Some(name) = unread_image_type_by_name(path) {
         return Some(SkipReason::ImageType { name });
     }
     if is_other_video(path) {
-        return Some(SkipReason::VideoName);
+        return Some(SkipReason::VideoExtension);
     }
     if is_note(path) {
         return None;
     }
     match content(path) {
-        Ok(Content::Image | Content::Video) => Some(SkipReason::OtherName),
-        Ok(Content::OtherImage(name)) => Some(SkipReason::ImageType { name }),
-        Ok(Content::DataSet) => Some(SkipReason::DataSet),
-        Ok(Content::Text | Content::Unknown) => {
+        Ok(ContentKind::Image | ContentKind::Video) => Some(SkipReason::OtherExtension),
+        Ok(ContentKind::OtherImage(name)) => Some(SkipReason::ImageType { name }),
+        Ok(ContentKind::DataSet) => Some(SkipReason::DataSet),
+        Ok(ContentKind::Text | ContentKind::Unknown) => {
             path.extension().is_none().then_some(SkipReason::NoExtension)
         }
         Err(error) => Some(SkipReason::Unreadable { problem: error.to_string() }),
@@ -82,11 +82,11 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         entries.push(entry.map_err(unreadable)?.path());
     }
-    Ok(in_order(entries))
+    Ok(in_natural_order(entries))
 }
 
 /// Sorts paths in natural order, and removes hidden ones and those that operating systems create.
-pub(crate) fn in_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
+pub(crate) fn in_natural_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
     paths.retain(|path| !is_hidden(path));
     paths.sort_by(|a, b| natural_order(a, b));
     paths

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 use glob::{MatchOptions, Pattern};
 
-use super::entry::{EntryKind, entry_kind, in_order};
-use super::reason::{SkipReason, SkippedInput};
-use super::skipped::in_clip;
+use super::entry::{EntryKind, entry_kind, in_natural_order};
+use super::skip_reason::{SkipReason, SkippedInput};
+use super::skipped_entries::collect_skipped_of_clip;
 use crate::FootageError;
-use crate::source::files::ImageFile;
+use crate::source::file_feeds::ImageFile;
 
 /// Returns true if a name that is not that of a file is a pattern.
 pub(crate) fn is_pattern(text: &str) -> bool {
@@ -18,14 +18,14 @@ pub(crate) fn is_pattern(text: &str) -> bool {
 }
 
 /// Returns the images that a pattern matches.
-pub(super) fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
-    let files = matches(text, true)?;
+pub(super) fn pattern_images(text: &str) -> Result<Vec<ImageFile>, FootageError> {
+    let files = pattern_matches(text, true)?;
     let of = |kind: EntryKind| -> Vec<&PathBuf> {
         files.iter().filter(|path| entry_kind(path) == kind).collect()
     };
     let (images, videos) = (of(EntryKind::Image), of(EntryKind::Video));
     match (images.as_slice(), videos.as_slice()) {
-        ([], []) => Err(no_match(text, &files)),
+        ([], []) => Err(no_match_error(text, &files)),
         ([], [video, ..]) => Err(FootageError::Option {
             option: "the pattern",
             problem: format!(
@@ -49,7 +49,7 @@ pub(super) fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
     }
 }
 
-fn no_match(text: &str, files: &[PathBuf]) -> FootageError {
+fn no_match_error(text: &str, files: &[PathBuf]) -> FootageError {
     let other = files.iter().find_map(|path| match entry_kind(path) {
         EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
             Some(FootageError::ImageType { path: path.clone(), name })
@@ -61,11 +61,11 @@ fn no_match(text: &str, files: &[PathBuf]) -> FootageError {
 
 /// Returns the files that a pattern matches and that are not read.
 pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
-    let Ok(files) = matches(text, true) else { return Vec::new() };
+    let Ok(files) = pattern_matches(text, true) else { return Vec::new() };
     let mut found = Vec::new();
-    in_clip(&files, &mut found);
+    collect_skipped_of_clip(&files, &mut found);
     let own: HashSet<&PathBuf> = files.iter().collect();
-    let others = matches(text, false).unwrap_or_default();
+    let others = pattern_matches(text, false).unwrap_or_default();
     let others =
         others.iter().filter(|path| !own.contains(path) && entry_kind(path) == EntryKind::Image);
     found.extend(others.map(|path: &PathBuf| SkippedInput::new(path, SkipReason::OtherCase)));
@@ -73,7 +73,7 @@ pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
 }
 
 /// Returns all paths that a pattern matches.
-fn matches(text: &str, case_sensitive: bool) -> Result<Vec<PathBuf>, FootageError> {
+fn pattern_matches(text: &str, case_sensitive: bool) -> Result<Vec<PathBuf>, FootageError> {
     let invalid = |error: glob::PatternError| FootageError::Pattern {
         pattern: text.to_owned(),
         problem: error.to_string(),
@@ -88,5 +88,5 @@ fn matches(text: &str, case_sensitive: bool) -> Result<Vec<PathBuf>, FootageErro
             problem: error.error().to_string(),
         })?);
     }
-    Ok(in_order(files))
+    Ok(in_natural_order(files))
 }

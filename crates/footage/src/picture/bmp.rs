@@ -2,12 +2,12 @@
 //! The check of run-length coded BMP files: the runs must fill the rows. The decoder draws black
 //! for missing pixels, and does not require the end code.
 
-use super::fault::PictureFault;
+use super::damage::PictureFault;
 
 /// Follows the runs of a file whose header the decoder has read. Files without runs have nothing to
 /// check.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
-    let Some(RunLengthReader { width, height, half, mut codes }) = runs(bytes) else {
+    let Some(RunLengthReader { width, height, is_four_bit: half, mut codes }) = run_length_reader(bytes) else {
         return Ok(());
     };
     let short = || PictureFault::truncated("its runs of pixels have no end");
@@ -52,11 +52,11 @@ struct RunLengthReader<'a> {
     width: u32,
     height: u32,
     /// A pixel has four bits instead of eight.
-    half: bool,
+    is_four_bit: bool,
     codes: &'a [u8],
 }
 
-fn runs(bytes: &[u8]) -> Option<RunLengthReader<'_>> {
+fn run_length_reader(bytes: &[u8]) -> Option<RunLengthReader<'_>> {
     let word = |at: usize| Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?));
     let (offset, header, compression) = (word(10)?, word(14)?, word(30)?);
     let half = match compression {
@@ -67,5 +67,5 @@ fn runs(bytes: &[u8]) -> Option<RunLengthReader<'_>> {
     // Shorter headers do not have the field `compression`.
     (header >= 40).then_some(())?;
     let height = i32::from_le_bytes(word(22)?.to_le_bytes()).unsigned_abs();
-    Some(RunLengthReader { width: word(18)?, height, half, codes: bytes.get(offset as usize..)? })
+    Some(RunLengthReader { width: word(18)?, height, is_four_bit: half, codes: bytes.get(offset as usize..)? })
 }

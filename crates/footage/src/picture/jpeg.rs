@@ -14,10 +14,10 @@ mod huffman;
 mod scan;
 
 use self::bits::marker_at;
-use self::frame::{Component, FrameHeader, Process};
+use self::frame::{FrameComponent, FrameHeader, CodingProcess};
 use self::huffman::HuffmanTable;
 use self::scan::{HuffmanTables, ScanHeader};
-use super::fault::PictureFault;
+use super::damage::PictureFault;
 
 /// Finds damage between the start marker and the end marker; bytes after the end marker are
 /// ignored. Kinds of JPEG that the decoder does not support either, such as lossless ones, are left
@@ -37,7 +37,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
         };
         at = next;
         match marker {
-            0xD9 => return whole(frame.as_ref()),
+            0xD9 => return check_complete(frame.as_ref()),
             // A restart marker may also end the last run, and TEM has no content.
             0x01 | 0xD0..=0xD7 => continue,
             0xD8 => return Err(PictureFault::damaged("a second picture begins inside it (SOI)")),
@@ -51,7 +51,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
             }
             0xC0..=0xC2 => {
                 let progressive = marker == 0xC2;
-                let process = if progressive { Process::Progressive } else { Process::Sequential };
+                let process = if progressive { CodingProcess::Progressive } else { CodingProcess::Sequential };
                 frame = FrameHeader::read(process, segment)?;
                 if frame.is_none() {
                     return Ok(());
@@ -108,9 +108,9 @@ fn huffman_tables(mut segment: &[u8], tables: &mut HuffmanTables) -> Result<(), 
 }
 
 /// Checks at the end marker that every component has been sent down to its lowest bits.
-fn whole(frame: Option<&FrameHeader>) -> Result<(), PictureFault> {
+fn check_complete(frame: Option<&FrameHeader>) -> Result<(), PictureFault> {
     let frame = frame.ok_or_else(|| PictureFault::damaged("it has no frame (SOF)"))?;
-    let lacks = |component: &Component| {
+    let lacks = |component: &FrameComponent| {
         component.sent[0].is_none() || component.sent.iter().flatten().any(|&low| low > 0)
     };
     if frame.components.iter().any(lacks) {

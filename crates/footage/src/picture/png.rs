@@ -7,13 +7,13 @@ use std::io::{self, Read};
 
 use flate2::bufread::ZlibDecoder;
 
-use super::fault::PictureFault;
+use super::damage::PictureFault;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 
 const SIGNATURE: usize = 8;
 
 /// A chunk with its name and its data.
-struct Chunk<'a> {
+struct PngChunk<'a> {
     name: [u8; 4],
     data: &'a [u8],
 }
@@ -24,7 +24,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let mut header = None;
     let mut pixels: Vec<&[u8]> = Vec::new();
     loop {
-        let chunk = next(&mut rest)?;
+        let chunk = next_chunk(&mut rest)?;
         match &chunk.name {
             b"IHDR" => header = Some(chunk.data),
             b"IDAT" => pixels.push(chunk.data),
@@ -40,7 +40,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
 }
 
 /// Takes the next chunk from the front: length, name, data, checksum.
-fn next<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, PictureFault> {
+fn next_chunk<'a>(rest: &mut &'a [u8]) -> Result<PngChunk<'a>, PictureFault> {
     let short = || PictureFault::truncated("it has no end chunk (IEND)");
     let (length, body) = rest.split_first_chunk().ok_or_else(short)?;
     let length = u32::from_be_bytes(*length) as usize;
@@ -52,7 +52,7 @@ fn next<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, PictureFault> {
         return Err(PictureFault::damaged(format!("the checksum of its chunk {name} is wrong")));
     }
     *rest = after;
-    Ok(Chunk { name: *name, data })
+    Ok(PngChunk { name: *name, data })
 }
 
 /// Returns the number of bytes of all rows with their filter bytes, according to the header.

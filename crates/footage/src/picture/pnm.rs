@@ -3,11 +3,11 @@
 //! nothing after the last pixel. The decoder reads larger samples as white, and ignores what
 //! follows.
 
-use super::fault::PictureFault;
+use super::damage::PictureFault;
 use crate::limits::MAX_SIDE;
 
 /// The fields of the header of a PNM.
-struct Header {
+struct PnmHeader {
     /// The digit after the `P`.
     kind: u8,
     width: u64,
@@ -20,12 +20,12 @@ struct Header {
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let Some((header, raster)) = header(bytes) else { return Ok(()) };
     match header.kind {
-        b'1'..=b'3' => text(&header, raster),
-        _ => binary(&header, raster),
+        b'1'..=b'3' => check_text(&header, raster),
+        _ => check_binary(&header, raster),
     }
 }
 
-fn binary(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
+fn check_binary(header: &PnmHeader, raster: &[u8]) -> Result<(), PictureFault> {
     let row = match header.kind {
         b'4' => header.width.div_ceil(8),
         _ => header.width * header.samples * if header.largest > 255 { 2 } else { 1 },
@@ -49,10 +49,10 @@ fn binary(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
         _ => pixels.iter().map(|&byte| u64::from(byte)).find(beyond),
     };
     refuse_sample(header, sample)?;
-    refuse_more(after)
+    refuse_trailing_bytes(after)
 }
 
-fn text(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
+fn check_text(header: &PnmHeader, raster: &[u8]) -> Result<(), PictureFault> {
     let needed = header.width * header.height * header.samples;
     let mut rest = raster;
     let mut found = 0;
@@ -77,10 +77,10 @@ fn text(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
         rest = &rest[length..];
         found += 1;
     }
-    refuse_more(rest)
+    refuse_trailing_bytes(rest)
 }
 
-fn refuse_sample(header: &Header, sample: Option<u64>) -> Result<(), PictureFault> {
+fn refuse_sample(header: &PnmHeader, sample: Option<u64>) -> Result<(), PictureFault> {
     let largest = header.largest;
     sample.map_or(Ok(()), |value| {
         Err(PictureFault::damaged(format!(
@@ -90,7 +90,7 @@ fn refuse_sample(header: &Header, sample: Option<u64>) -> Result<(), PictureFaul
 }
 
 /// Refuses everything but white space after the pixels.
-fn refuse_more(after: &[u8]) -> Result<(), PictureFault> {
+fn refuse_trailing_bytes(after: &[u8]) -> Result<(), PictureFault> {
     match after.trim_ascii_start() {
         [] => Ok(()),
         [b'P', b'1'..=b'7', ..] => Err(PictureFault::damaged(
@@ -101,10 +101,10 @@ fn refuse_more(after: &[u8]) -> Result<(), PictureFault> {
 }
 
 /// Returns the header and the bytes after it.
-fn header(bytes: &[u8]) -> Option<(Header, &[u8])> {
+fn header(bytes: &[u8]) -> Option<(PnmHeader, &[u8])> {
     let (&[b'P', kind @ b'1'..=b'7'], mut rest) = bytes.split_first_chunk()? else { return None };
     if kind == b'7' {
-        return arbitrary(rest);
+        return pam_header(rest);
     }
     let width = number(&mut rest)?;
     let height = number(&mut rest)?;
@@ -112,11 +112,11 @@ fn header(bytes: &[u8]) -> Option<(Header, &[u8])> {
     let samples = if matches!(kind, b'3' | b'6') { 3 } else { 1 };
     // One white space ends the header.
     let raster = rest.split_first().map_or(rest, |(_, raster)| raster);
-    known(Header { kind, width, height, samples, largest }, raster)
+    within_limits(PnmHeader { kind, width, height, samples, largest }, raster)
 }
 
 /// Returns the header if it is within the limits.
-fn known(header: Header, raster: &[u8]) -> Option<(Header, &[u8])> {
+fn within_limits(header: PnmHeader, raster: &[u8]) -> Option<(PnmHeader, &[u8])> {
     let sides = header.width.max(header.height) <= u64::from(MAX_SIDE);
     (sides && header.samples <= 4 && (1..=65_535).contains(&header.largest))
         .then_some((header, raster))
@@ -141,7 +141,7 @@ fn number(rest: &mut &[u8]) -> Option<u64> {
 }
 
 /// Reads the header of a PAM, in which every line begins with a name.
-fn arbitrary(mut rest: &[u8]) -> Option<(Header, &[u8])> {
+fn pam_header(mut rest: &[u8]) -> Option<(PnmHeader, &[u8])> {
     let mut values = [None; 4];
     loop {
         let end = rest.iter().position(|&byte| byte == b'\n')?;
@@ -158,6 +158,6 @@ fn arbitrary(mut rest: &[u8]) -> Option<(Header, &[u8])> {
     }
     let [width, height, samples, largest] = values;
     let header =
-        Header { kind: b'7', width: width?, height: height?, samples: samples?, largest: largest? };
-    known(header, rest)
+        PnmHeader { kind: b'7', width: width?, height: height?, samples: samples?, largest: largest? };
+    within_limits(header, rest)
 }

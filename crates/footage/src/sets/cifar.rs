@@ -7,12 +7,12 @@ use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_frame::{Frame, Raster, convert_depth, luma};
+use foveate_frame::{Frame, ByteFrame, convert_depth, luma};
 
 use super::{damaged, unreadable};
-use crate::source::feed::Feed;
-use crate::source::form::{Labels, SetFiles, SetForm};
-use crate::{FootageError, Kind, SourceFrame, picture};
+use crate::source::feed::FrameFeed;
+use crate::source::set_form::{SetLabels, SetFiles, SetForm};
+use crate::{FootageError, SourceKind, SourceFrame, picture};
 
 const SIDE: u32 = 32;
 const AREA: usize = 1024;
@@ -29,7 +29,7 @@ pub(crate) fn labels_in_batch(length: u64) -> Option<usize> {
 }
 
 /// The images of a binary batch.
-pub(crate) struct Batch {
+pub(crate) struct CifarBatch {
     path: PathBuf,
     file: BufReader<File>,
     record: Vec<u8>,
@@ -38,7 +38,7 @@ pub(crate) struct Batch {
     bits: u32,
 }
 
-impl Batch {
+impl CifarBatch {
     pub(crate) fn open(path: &Path, bits: u32) -> Result<Self, FootageError> {
         let file = File::open(path).map_err(unreadable(path))?;
         let length = file.metadata().map_err(unreadable(path))?.len();
@@ -54,7 +54,7 @@ impl Batch {
     }
 }
 
-impl Feed for Batch {
+impl FrameFeed for CifarBatch {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         if self.next == self.total {
             return Ok(None);
@@ -82,7 +82,7 @@ impl Feed for Batch {
         let pixels = red.iter().zip(green).zip(blue).map(mix).collect();
         let name = format!("{}[{}]", self.path.display(), self.next);
         self.next += 1;
-        let frame = Raster::from_words(SIDE, SIDE, self.bits, pixels)?;
+        let frame = ByteFrame::from_words(SIDE, SIDE, self.bits, pixels)?;
         Ok(Some(SourceFrame { name, time_us: 0, label: labels.last().map(u8::to_string), frame }))
     }
 
@@ -90,23 +90,23 @@ impl Feed for Batch {
         Some(self.total)
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Set
+    fn kind(&self) -> SourceKind {
+        SourceKind::Set
     }
 
     fn form(&self) -> SetForm {
-        SetForm { files: SetFiles::Records, labels: Labels::Numbers }
+        SetForm { files: SetFiles::Records, labels: SetLabels::Numbers }
     }
 }
 
 /// The images of a sheet.
-pub(crate) struct Sheet {
+pub(crate) struct CifarSheet {
     path: PathBuf,
     sheet: Frame,
     next: u32,
 }
 
-impl Sheet {
+impl CifarSheet {
     pub(crate) fn open(path: &Path, bits: u32) -> Result<Self, FootageError> {
         let sheet = picture::read(path, bits)?;
         if sheet.width() as usize != AREA {
@@ -119,7 +119,7 @@ impl Sheet {
     }
 }
 
-impl Feed for Sheet {
+impl FrameFeed for CifarSheet {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         if self.next == self.sheet.height() {
             return Ok(None);
@@ -127,7 +127,7 @@ impl Feed for Sheet {
         let pixels = self.sheet.row(self.next).to_vec();
         let name = format!("{}[{}]", self.path.display(), self.next);
         self.next += 1;
-        let frame = Raster::from_words(SIDE, SIDE, self.sheet.bits(), pixels)?;
+        let frame = ByteFrame::from_words(SIDE, SIDE, self.sheet.bits(), pixels)?;
         Ok(Some(SourceFrame { name, time_us: 0, label: None, frame }))
     }
 
@@ -135,11 +135,11 @@ impl Feed for Sheet {
         Some(self.sheet.height().into())
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Set
+    fn kind(&self) -> SourceKind {
+        SourceKind::Set
     }
 
     fn form(&self) -> SetForm {
-        SetForm { files: SetFiles::Records, labels: Labels::None }
+        SetForm { files: SetFiles::Records, labels: SetLabels::None }
     }
 }

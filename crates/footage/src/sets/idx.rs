@@ -4,11 +4,11 @@
 use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
 
-use super::{cut, damaged, end, is_packed, open_unpacked};
-use crate::samples::Layout;
-use crate::source::feed::Feed;
-use crate::source::form::{IdxFile, Labels, SetFiles, SetForm};
-use crate::{FootageError, Kind, MAX_SIDE, SourceFrame};
+use super::{compressed_data_error, damaged, expect_end, is_packed, open_unpacked};
+use crate::samples::SampleLayout;
+use crate::source::feed::FrameFeed;
+use crate::source::set_form::{IdxFile, SetLabels, SetFiles, SetForm};
+use crate::{FootageError, SourceKind, MAX_SIDE, SourceFrame};
 
 /// The first bytes of a file of images: unsigned bytes in three dimensions.
 pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
@@ -18,7 +18,7 @@ pub(crate) const LABEL_MAGIC: [u8; 4] = [0, 0, 8, 1];
 const MAX_LABELS: u32 = 1 << 28;
 
 /// The images of a file.
-pub(crate) struct Idx {
+pub(crate) struct IdxImages {
     path: PathBuf,
     input: Box<dyn BufRead + Send>,
     labels: Option<Vec<u8>>,
@@ -29,7 +29,7 @@ pub(crate) struct Idx {
     form: SetForm,
 }
 
-impl Idx {
+impl IdxImages {
     /// Opens a file of images. `labels` is the file of labels; without it, the usual file of labels
     /// in the same folder is used, if it exists.
     pub(crate) fn open(
@@ -49,7 +49,7 @@ impl Idx {
                 format!("its images have {width}x{height} pixels; sides are 1..={MAX_SIDE}");
             return Err(damaged(path, problem));
         }
-        let labels = labels.map(Path::to_owned).or_else(|| beside(path));
+        let labels = labels.map(Path::to_owned).or_else(|| find_labels(path));
         let form = form_of(path, labels.as_deref())?;
         let labels = labels.map(|file| labels_of(&file, total)).transpose()?;
         Ok(Self {
@@ -65,20 +65,20 @@ impl Idx {
     }
 }
 
-impl Feed for Idx {
+impl FrameFeed for IdxImages {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         if self.next == self.total {
-            end(&mut *self.input, &self.path, "the last image")?;
+            expect_end(&mut *self.input, &self.path, "the last image")?;
             return Ok(None);
         }
         let (width, height) = self.size;
         let mut bytes = Vec::new();
         let size = u64::from(width) * u64::from(height);
         // Memory grows with the bytes that exist, not with the size in the header.
-        (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(cut(&self.path))?;
-        let layout = Layout::flat(width, height, 8);
+        (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(compressed_data_error(&self.path))?;
+        let layout = SampleLayout::luma(width, height, 8);
         let frame = layout
-            .raster(bytes, self.bits)
+            .byte_frame(bytes, self.bits)
             .map_err(|_| damaged(&self.path, "it ends before its last image"))?;
         let index = self.next;
         self.next += 1;
@@ -95,8 +95,8 @@ impl Feed for Idx {
         Some(self.total.into())
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Set
+    fn kind(&self) -> SourceKind {
+        SourceKind::Set
     }
 
     fn form(&self) -> SetForm {
@@ -110,13 +110,13 @@ fn form_of(images: &Path, labels: Option<&Path>) -> Result<SetForm, FootageError
         Ok(IdxFile { name, packed: is_packed(path)? })
     };
     let files = SetFiles::Idx { images: file(images)?, labels: labels.map(file).transpose()? };
-    let labels = if labels.is_some() { Labels::Numbers } else { Labels::None };
+    let labels = if labels.is_some() { SetLabels::Numbers } else { SetLabels::None };
     Ok(SetForm { files, labels })
 }
 
 /// Returns true if a file starts as an IDX file of another kind: two zeros, a type of number, and
 /// the number of dimensions.
-pub(crate) fn is_other(start: &[u8]) -> bool {
+pub(crate) fn is_other_idx(start: &[u8]) -> bool {
     let known = matches!(start, [0, 0, 0x08 | 0x09 | 0x0B..=0x0E, 1..=4, ..]);
     known && !start.starts_with(&MAGIC)
 }
@@ -124,7 +124,7 @@ pub(crate) fn is_other(start: &[u8]) -> bool {
 /// Returns true for a file of images that has no file of labels in its folder.
 pub(crate) fn lacks_labels(path: &Path) -> bool {
     let start = || read(&mut *open_unpacked(path)?, path);
-    path.is_file() && beside(path).is_none() && start().is_ok_and(|start: [u8; 4]| start == MAGIC)
+    path.is_file() && find_labels(path).is_none() && start().is_ok_and(|start: [u8; 4]| start == MAGIC)
 }
 
 /// Returns the usual name of the file of labels, if the file of images has its usual name.
@@ -136,7 +136,7 @@ pub(crate) fn labels_name(path: &Path) -> Option<String> {
 }
 
 /// Finds the labels of `train-images-idx3-ubyte.gz` in `train-labels-idx1-ubyte`, gzipped or not.
-fn beside(path: &Path) -> Option<PathBuf> {
+fn find_labels(path: &Path) -> Option<PathBuf> {
     let labels = labels_name(path)?;
     let names = [labels.clone(), labels + ".gz"];
     names.iter().map(|name| path.with_file_name(name)).find(|file| file.is_file())
@@ -159,11 +159,11 @@ fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
         ));
     }
     let mut labels = Vec::new();
-    (&mut *input).take(total.into()).read_to_end(&mut labels).map_err(cut(path))?;
+    (&mut *input).take(total.into()).read_to_end(&mut labels).map_err(compressed_data_error(path))?;
     if labels.len() < total as usize {
         return Err(damaged(path, "it ends before its last label"));
     }
-    end(&mut *input, path, "the last label")?;
+    expect_end(&mut *input, path, "the last label")?;
     Ok(labels)
 }
 
@@ -178,7 +178,7 @@ fn read<const SIZE: usize>(
     let mut bytes = [0; SIZE];
     input.read_exact(&mut bytes).map_err(|error| match error.kind() {
         io::ErrorKind::UnexpectedEof => damaged(path, "it ends inside its header"),
-        _ => cut(path)(error),
+        _ => compressed_data_error(path)(error),
     })?;
     Ok(bytes)
 }

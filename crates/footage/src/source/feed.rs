@@ -3,15 +3,15 @@
 //! their times, cropped, scaled, and checked to have one size, in the same way for every kind of
 //! input.
 
-use super::form::SetForm;
-use super::resize;
-use super::select::{Selection, Selector, Verdict};
-use super::{Kind, Origin, Source, SourceFrame};
-use crate::limits::Crop;
+use super::set_form::SetForm;
+use super::scaling;
+use super::selection::{FrameSelection, FrameSelector, SelectionDecision};
+use super::{SourceKind, FrameOrigin, FrameSource, SourceFrame};
+use crate::limits::CropRect;
 use crate::{FootageError, InputOptions};
 
 /// A kind of input. It returns frames as they come, of any size.
-pub(crate) trait Feed: Send {
+pub(crate) trait FrameFeed: Send {
     /// Returns the next frame, or `None` after the last.
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError>;
 
@@ -19,8 +19,8 @@ pub(crate) trait Feed: Send {
     fn total(&self) -> Option<u64>;
 
     /// Returns the relation between the frames.
-    fn kind(&self) -> Kind {
-        Kind::Clip
+    fn kind(&self) -> SourceKind {
+        SourceKind::Clip
     }
 
     /// Returns the kind of the files and of the labels of a set.
@@ -34,13 +34,13 @@ pub(crate) trait Feed: Send {
     }
 
     /// Takes back the memory of a frame that is no longer needed.
-    fn give_back(&mut self, _bytes: Vec<u8>) {}
+    fn recycle(&mut self, _bytes: Vec<u8>) {}
 
     /// Ends the input, since no more frames are needed.
     fn stop(&mut self) {}
 
     /// Returns true if every frame is a file with its own name.
-    fn is_of_files(&self) -> bool {
+    fn is_file_per_frame(&self) -> bool {
         false
     }
 
@@ -52,16 +52,16 @@ pub(crate) trait Feed: Send {
 
 /// The selection, cropping and scaling of frames.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Adjustment {
-    pub(crate) selection: Selection,
-    pub(crate) crop: Option<Crop>,
+pub(crate) struct FrameAdjustment {
+    pub(crate) selection: FrameSelection,
+    pub(crate) crop: Option<CropRect>,
     pub(crate) size: Option<(u32, u32)>,
     pub(crate) frames: Option<u32>,
 }
 
-impl Adjustment {
+impl FrameAdjustment {
     /// Returns the adjustment that the options ask for.
-    pub(crate) fn of(options: &InputOptions) -> Self {
+    pub(crate) fn from_options(options: &InputOptions) -> Self {
         Self {
             selection: options.selection,
             crop: options.crop,
@@ -72,32 +72,32 @@ impl Adjustment {
 }
 
 /// A source that adjusts the frames of a feed, and checks that all have one size.
-pub(crate) struct Input {
+pub(crate) struct AdjustedSource {
     names: Vec<String>,
-    feed: Box<dyn Feed>,
-    adjustment: Adjustment,
-    selector: Selector,
+    feed: Box<dyn FrameFeed>,
+    adjustment: FrameAdjustment,
+    selector: FrameSelector,
     /// The first frame, which was read early to learn the size.
     first: Option<SourceFrame>,
     first_name: String,
     size: (u32, u32),
     /// The number of frames that the feed has returned, selected or not.
-    given: u64,
-    taken: u64,
+    frames_returned: u64,
+    frames_selected: u64,
     /// The origin of the frame that was selected last.
-    origin: Option<Origin>,
+    origin: Option<FrameOrigin>,
     problem: Option<String>,
     ended: bool,
 }
 
-impl Input {
+impl AdjustedSource {
     pub(crate) fn new(
         names: Vec<String>,
-        feed: Box<dyn Feed>,
-        adjustment: Adjustment,
+        feed: Box<dyn FrameFeed>,
+        adjustment: FrameAdjustment,
     ) -> Result<Self, FootageError> {
         adjustment.selection.check()?;
-        if feed.kind() == Kind::Set && !adjustment.selection.is_all() {
+        if feed.kind() == SourceKind::Set && !adjustment.selection.is_all() {
             return Err(FootageError::Option {
                 option: "--start, --end and --input-fps",
                 problem: format!(
@@ -110,17 +110,17 @@ impl Input {
             names,
             feed,
             adjustment,
-            selector: Selector::new(adjustment.selection),
+            selector: FrameSelector::new(adjustment.selection),
             first: None,
             first_name: String::new(),
             size: (0, 0),
-            given: 0,
-            taken: 0,
+            frames_returned: 0,
+            frames_selected: 0,
             origin: None,
             problem: None,
             ended: false,
         };
-        let Some(first) = input.take()? else {
+        let Some(first) = input.next_selected()? else {
             return Err(FootageError::NoFrames { inputs: input.inputs_in_words() });
         };
         input.size = (first.frame.width(), first.frame.height());
@@ -135,30 +135,30 @@ impl Input {
     }
 
     /// Returns the next selected frame, cropped and scaled.
-    fn take(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+    fn next_selected(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         let limit = self.adjustment.frames.map(u64::from);
-        while !self.ended && limit.is_none_or(|limit| self.taken < limit) {
+        while !self.ended && limit.is_none_or(|limit| self.frames_selected < limit) {
             let Some(mut next) = self.feed.next()? else {
                 self.problem = self.feed.problem();
                 break;
             };
-            let number = self.given;
-            self.given += 1;
-            match self.selector.judge(next.time_us) {
-                Verdict::Skip => {}
-                Verdict::End => break,
-                Verdict::Take => {
+            let number = self.frames_returned;
+            self.frames_returned += 1;
+            match self.selector.decide(next.time_us) {
+                SelectionDecision::Skip => {}
+                SelectionDecision::End => break,
+                SelectionDecision::Take => {
                     let size = (next.frame.width(), next.frame.height());
-                    let own_file = self.feed.is_of_files();
-                    self.origin = Some(Origin { number, size, own_file });
+                    let own_file = self.feed.is_file_per_frame();
+                    self.origin = Some(FrameOrigin { number, size, own_file });
                     if let Some(part) = self.adjustment.crop {
-                        next.frame = resize::crop(&next.frame, part)?;
+                        next.frame = scaling::crop(&next.frame, part)?;
                     }
                     if let Some((width, height)) = self.adjustment.size {
-                        next.frame = resize::resize(next.frame, width, height)?;
+                        next.frame = scaling::resize(next.frame, width, height)?;
                     }
-                    self.taken += 1;
-                    if limit.is_some_and(|limit| self.taken >= limit) {
+                    self.frames_selected += 1;
+                    if limit.is_some_and(|limit| self.frames_selected >= limit) {
                         self.end();
                     }
                     return Ok(Some(next));
@@ -176,7 +176,7 @@ impl Input {
 
     /// Handles a frame of another size. A stream ends there and keeps the frames before; images are
     /// refused.
-    fn other_size(&mut self, other: &SourceFrame) -> Result<Option<SourceFrame>, FootageError> {
+    fn handle_other_size(&mut self, other: &SourceFrame) -> Result<Option<SourceFrame>, FootageError> {
         let other_size = (other.frame.width(), other.frame.height());
         if !self.feed.is_stream() {
             return Err(FootageError::MixedSizes {
@@ -200,7 +200,7 @@ impl Input {
     }
 }
 
-impl Source for Input {
+impl FrameSource for AdjustedSource {
     fn size(&self) -> (u32, u32) {
         self.size
     }
@@ -221,26 +221,26 @@ impl Source for Input {
         if let Some(first) = self.first.take() {
             return Ok(Some(first));
         }
-        match self.take()? {
+        match self.next_selected()? {
             Some(next) if (next.frame.width(), next.frame.height()) != self.size => {
-                self.other_size(&next)
+                self.handle_other_size(&next)
             }
             next => Ok(next),
         }
     }
 
-    fn give_back(&mut self, frame: SourceFrame) {
+    fn recycle(&mut self, frame: SourceFrame) {
         if let Some(bytes) = frame.frame.into_bytes() {
-            self.feed.give_back(bytes);
+            self.feed.recycle(bytes);
         }
     }
 
     /// The first frame is read early. Until it is returned, there is no origin.
-    fn origin(&self) -> Option<Origin> {
+    fn origin(&self) -> Option<FrameOrigin> {
         self.origin.filter(|_| self.first.is_none())
     }
 
-    fn kind(&self) -> Kind {
+    fn kind(&self) -> SourceKind {
         self.feed.kind()
     }
 

@@ -4,58 +4,58 @@
 
 use std::io::{self, Read};
 
-use foveate_toolchain::{Interrupt, Invocation, Located, Stream, ToolError};
+use foveate_toolchain::{Interrupt, Invocation, LocatedTool, ProgramReader, ToolError};
 
-use super::log::{FfmpegLog, Info, Shown};
-use super::{Medium, NETWORK_TIMEOUT_US};
-use crate::samples::Layout;
+use super::ffmpeg_log::{FfmpegLog, LogEntry, AnnouncedFrame};
+use super::{VideoMedium, NETWORK_TIMEOUT_US};
+use crate::samples::SampleLayout;
 
 /// The parameters of the decoding of a video.
-pub(super) struct Ffmpeg {
-    pub(super) found: Located,
-    pub(super) medium: Medium,
+pub(super) struct DecodingParameters {
+    pub(super) found: LocatedTool,
+    pub(super) medium: VideoMedium,
     /// The filter that leaves luma, or the colours from which luma is computed.
     pub(super) conversion: String,
     pub(super) interrupt: Interrupt,
 }
 
-impl Ffmpeg {
+impl DecodingParameters {
     /// Returns the command line up to and including the input.
-    pub(super) fn input(&self, start: Start<'_>) -> Invocation {
+    pub(super) fn input(&self, start: StartPosition<'_>) -> Invocation {
         let input = Invocation::new(&self.found.path)
             .args(["-hide_banner", "-nostdin", "-nostats", "-loglevel", "repeat+level+info"])
             .arg("-noautorotate");
         let input = match self.medium {
             // Before ffmpeg 5.0 the option was called `-stimeout`, and `-timeout` made ffmpeg wait
             // for a caller.
-            Medium::Network(_) if self.reaches(5, 0) => {
+            VideoMedium::Network(_) if self.is_version_or_later(5, 0) => {
                 input.args(["-timeout", NETWORK_TIMEOUT_US])
             }
-            Medium::Network(_) => input.args(["-stimeout", NETWORK_TIMEOUT_US]),
-            Medium::File(_) | Medium::Camera(_) => input,
+            VideoMedium::Network(_) => input.args(["-stimeout", NETWORK_TIMEOUT_US]),
+            VideoMedium::File(_) | VideoMedium::Camera(_) => input,
         };
         let input = match start {
-            Start::Plain => input,
-            Start::First => input.arg("-copyts"),
-            Start::At(place) => input.args(["-copyts", "-noaccurate_seek", "-ss", place]),
+            StartPosition::BeginningWithOwnTimes => input,
+            StartPosition::BeginningWithContainerTimes => input.arg("-copyts"),
+            StartPosition::SeekTo(place) => input.args(["-copyts", "-noaccurate_seek", "-ss", place]),
         };
         input.args(self.medium.arguments()).args(["-map", "0:v:0"])
     }
 
     /// Returns true if ffmpeg has this version or a later one. Builds between releases have no
     /// version, and count as new.
-    fn reaches(&self, major: u32, minor: u32) -> bool {
-        self.found.version.as_ref().is_none_or(|version| version.reaches(major, minor))
+    fn is_version_or_later(&self, major: u32, minor: u32) -> bool {
+        self.found.version.as_ref().is_none_or(|version| version.is_at_least(major, minor))
     }
 
-    fn decoding(&self, start: Start<'_>) -> Invocation {
-        self.frames(self.input(start))
+    fn decoding(&self, start: StartPosition<'_>) -> Invocation {
+        self.with_frame_output(self.input(start))
     }
 
     /// Completes a command line so that every frame is announced and written to the pipe.
-    pub(super) fn frames(&self, input: Invocation) -> Invocation {
+    pub(super) fn with_frame_output(&self, input: Invocation) -> Invocation {
         // The option has another name before ffmpeg 5.1.
-        let passthrough = if self.reaches(5, 1) { "-fps_mode" } else { "-vsync" };
+        let passthrough = if self.is_version_or_later(5, 1) { "-fps_mode" } else { "-vsync" };
         input
             .arg("-vf")
             .arg(format!("{},showinfo=checksum=0", self.conversion))
@@ -69,32 +69,32 @@ impl Ffmpeg {
 
 /// The position at which decoding starts, and the origin of the times of frames.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Start<'a> {
+pub(super) enum StartPosition<'a> {
     /// Starts at the beginning, with times from there.
-    Plain,
+    BeginningWithOwnTimes,
     /// Starts at the beginning, with the container's own times.
-    First,
+    BeginningWithContainerTimes,
     /// Starts at the last possible position before this many seconds, with the container's own
     /// times.
-    At(&'a str),
+    SeekTo(&'a str),
 }
 
 /// A running ffmpeg.
-pub(super) struct Decoder {
-    stream: Stream,
+pub(super) struct VideoDecoder {
+    stream: ProgramReader,
     log: FfmpegLog,
     /// A frame that was announced but not taken.
-    ahead: Option<Shown>,
+    announced_frame: Option<AnnouncedFrame>,
 }
 
-impl Decoder {
-    pub(super) fn start(ffmpeg: &Ffmpeg, start: Start<'_>) -> Result<Self, ToolError> {
-        Self::of(&ffmpeg.decoding(start), &ffmpeg.interrupt)
+impl VideoDecoder {
+    pub(super) fn start(ffmpeg: &DecodingParameters, start: StartPosition<'_>) -> Result<Self, ToolError> {
+        Self::from_invocation(&ffmpeg.decoding(start), &ffmpeg.interrupt)
     }
 
-    pub(super) fn of(decoding: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
-        let stream = Stream::start(decoding, interrupt)?;
-        Ok(Self { stream, log: FfmpegLog::default(), ahead: None })
+    pub(super) fn from_invocation(decoding: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+        let stream = ProgramReader::start(decoding, interrupt)?;
+        Ok(Self { stream, log: FfmpegLog::default(), announced_frame: None })
     }
 
     /// Returns the next frame that ffmpeg announces, or `None` if no more frames follow, or none
@@ -102,14 +102,14 @@ impl Decoder {
     ///
     /// # Errors
     /// Fails on an interrupt.
-    pub(super) fn announced(&mut self) -> Result<Option<Shown>, ToolError> {
-        if let Some(shown) = self.ahead.take() {
+    pub(super) fn next_announced(&mut self) -> Result<Option<AnnouncedFrame>, ToolError> {
+        if let Some(shown) = self.announced_frame.take() {
             return Ok(Some(shown));
         }
         while let Some(line) = self.stream.next_line()? {
-            match self.log.take(&line) {
-                Some(Info::Frame(shown)) => return Ok(Some(shown)),
-                Some(Info::Unknown(problem)) => {
+            match self.log.read_line(&line) {
+                Some(LogEntry::Frame(shown)) => return Ok(Some(shown)),
+                Some(LogEntry::UntakableFrame(problem)) => {
                     // ffmpeg would wait until the frame is taken.
                     self.stream.stop();
                     self.log.refuse(problem);
@@ -125,13 +125,13 @@ impl Decoder {
     ///
     /// # Errors
     /// Fails on an interrupt.
-    pub(super) fn peek(&mut self) -> Result<Option<Shown>, ToolError> {
-        self.ahead = self.announced()?;
-        Ok(self.ahead)
+    pub(super) fn peek(&mut self) -> Result<Option<AnnouncedFrame>, ToolError> {
+        self.announced_frame = self.next_announced()?;
+        Ok(self.announced_frame)
     }
 
     /// Reads the pixels of the frame that was announced last.
-    pub(super) fn pixels(&mut self, layout: Layout, bytes: &mut Vec<u8>) -> io::Result<()> {
+    pub(super) fn pixels(&mut self, layout: SampleLayout, bytes: &mut Vec<u8>) -> io::Result<()> {
         bytes.resize(layout.bytes(), 0);
         self.stream.read_exact(bytes)
     }
@@ -149,7 +149,7 @@ impl Decoder {
     ///
     /// # Errors
     /// Fails on an interrupt.
-    pub(super) fn conclude(&mut self) -> Result<Option<String>, ToolError> {
+    pub(super) fn finish(&mut self) -> Result<Option<String>, ToolError> {
         let problem = self.log.problem();
         match self.stream.finish() {
             Ok((true, _)) => Ok(problem),

@@ -7,7 +7,7 @@ use std::time::Duration;
 use foveate_toolchain::{Invocation, Tool, Toolchain};
 use serde::Deserialize;
 
-use super::{Medium, formats};
+use super::{VideoMedium, formats};
 use crate::FootageError;
 
 /// The time limit of ffprobe. A file that takes longer cannot be read.
@@ -15,7 +15,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 
 /// The properties of a video.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Probe {
+pub(super) struct VideoProperties {
     /// The number of frames, if the container states it.
     pub(super) frames: Option<u64>,
     /// The names of the container, separated by commas.
@@ -27,21 +27,21 @@ pub(super) struct Probe {
 }
 
 #[derive(Deserialize)]
-struct Answer {
+struct FfprobeAnswer {
     #[serde(default)]
-    streams: Vec<Stream>,
+    streams: Vec<FfprobeStream>,
     #[serde(default)]
-    format: Container,
+    format: FfprobeContainer,
 }
 
 #[derive(Default, Deserialize)]
-struct Container {
+struct FfprobeContainer {
     #[serde(default)]
     format_name: String,
 }
 
 #[derive(Deserialize)]
-struct Stream {
+struct FfprobeStream {
     #[serde(default)]
     pix_fmt: String,
     #[serde(default)]
@@ -49,9 +49,9 @@ struct Stream {
     nb_frames: Option<String>,
 }
 
-impl Probe {
+impl VideoProperties {
     /// Runs ffprobe. A camera is not probed, since it may refuse to be opened twice.
-    pub(super) fn of(tools: &Toolchain, medium: &Medium) -> Result<Self, FootageError> {
+    pub(super) fn probe(tools: &Toolchain, medium: &VideoMedium) -> Result<Self, FootageError> {
         if medium.is_camera() {
             return Ok(Self::default());
         }
@@ -63,11 +63,11 @@ impl Probe {
             .args(medium.arguments())
             .timeout(LIMIT);
         let output = tools.run(&ask)?;
-        let refused = |problem: String| medium.refused(problem);
+        let refused = |problem: String| medium.no_frame_error(problem);
         if !output.is_success() {
             let said = String::from_utf8_lossy(&output.stderr).into_owned();
             if formats::is_refusal(&said) {
-                return Err(refused(other_format(tools, &ffprobe, medium)?));
+                return Err(refused(unread_format_problem(tools, &ffprobe, medium)?));
             }
             let said =
                 said.lines().last().unwrap_or("ffprobe refuses it").replace(char::is_control, " ");
@@ -76,7 +76,7 @@ impl Probe {
                 said.rsplit_once(": ").map_or(said.as_str(), |(_, reason)| reason).to_owned();
             return Err(refused(said));
         }
-        let answer: Answer = serde_json::from_slice(&output.stdout)
+        let answer: FfprobeAnswer = serde_json::from_slice(&output.stdout)
             .map_err(|error| refused(format!("ffprobe's answer cannot be read: {error}")))?;
         let stream = answer.streams.into_iter().next();
         let stream = stream.ok_or_else(|| refused("it has no video stream".to_owned()))?;
@@ -92,10 +92,10 @@ impl Probe {
 
 /// Returns a text that names the format of a file that is not read. ffprobe names it only among its
 /// debug messages. The list of formats holds for this run, too, so that no other file is opened.
-fn other_format(
+fn unread_format_problem(
     tools: &Toolchain,
     ffprobe: &Path,
-    medium: &Medium,
+    medium: &VideoMedium,
 ) -> Result<String, FootageError> {
     let ask =
         Invocation::new(ffprobe).args(["-v", "debug"]).args(medium.arguments()).timeout(LIMIT);

@@ -7,11 +7,11 @@ use super::MAGIC;
 use crate::{FrameRate, MAX_SIDE};
 
 /// The largest length of a header line in bytes.
-const LINE: u64 = 1024;
+const MAX_LINE: u64 = 1024;
 
 /// The fields of the header.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Header {
+pub(super) struct Y4mHeader {
     pub(super) width: u32,
     pub(super) height: u32,
     /// The number of bits per sample.
@@ -21,16 +21,16 @@ pub(super) struct Header {
     pub(super) rate: Option<FrameRate>,
 }
 
-pub(super) fn line(input: &mut dyn BufRead) -> Result<String, String> {
+pub(super) fn read_line(input: &mut dyn BufRead) -> Result<String, String> {
     let mut bytes = Vec::new();
-    input.take(LINE).read_until(b'\n', &mut bytes).map_err(|error| error.to_string())?;
+    input.take(MAX_LINE).read_until(b'\n', &mut bytes).map_err(|error| error.to_string())?;
     match bytes.pop() {
         Some(b'\n') => String::from_utf8(bytes).map_err(|_| "a header is not text".to_owned()),
         _ => Err("it ends inside a header, or is not YUV4MPEG2".to_owned()),
     }
 }
 
-impl Header {
+impl Y4mHeader {
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let mut words = text.split(' ');
         if words.next().map(str::as_bytes) != Some(MAGIC) {
@@ -40,10 +40,10 @@ impl Header {
         for word in words.filter(|word| word.is_ascii()) {
             let (key, value) = word.split_at(word.len().min(1));
             match key {
-                "W" => width = Some(side(value)?),
-                "H" => height = Some(side(value)?),
+                "W" => width = Some(parse_side(value)?),
+                "H" => height = Some(parse_side(value)?),
                 "C" => colour = value,
-                "F" => rate = self::rate(value),
+                "F" => rate = self::parse_rate(value),
                 _ => {}
             }
         }
@@ -51,25 +51,25 @@ impl Header {
             return Err("its header lacks width or height".to_owned());
         };
         let unknown = || format!("its colour space `{colour}` is not known");
-        let (others, depth) = layout(colour, width.into(), height.into()).ok_or_else(unknown)?;
+        let (others, depth) = chroma_samples_and_depth(colour, width.into(), height.into()).ok_or_else(unknown)?;
         Ok(Self { width, height, depth, others, rate })
     }
 }
 
-fn side(text: &str) -> Result<u32, String> {
+fn parse_side(text: &str) -> Result<u32, String> {
     let limit = || format!("a side of `{text}` pixels is not in 1..={MAX_SIDE}");
     text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or_else(limit)
 }
 
 /// Parses a rate such as `30:1`. The rate `0:0` is unknown.
-fn rate(text: &str) -> Option<FrameRate> {
+fn parse_rate(text: &str) -> Option<FrameRate> {
     let (frames, seconds) = text.split_once(':')?;
     FrameRate::new(frames.parse().ok()?, seconds.parse().ok()?).ok()
 }
 
 /// Returns the number of samples that are not luma, and the bits of each sample, for a colour space
 /// such as `420`, `420jpeg`, `422p10`, `444alpha` or `mono12`.
-fn layout(name: &str, width: u64, height: u64) -> Option<(u64, u32)> {
+fn chroma_samples_and_depth(name: &str, width: u64, height: u64) -> Option<(u64, u32)> {
     let halves = |size: u64, parts: u64| size.div_ceil(parts);
     let (others, rest) = if let Some(rest) = name.strip_prefix("420") {
         (2 * halves(width, 2) * halves(height, 2), rest)

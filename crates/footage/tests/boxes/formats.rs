@@ -2,7 +2,7 @@
 //! Known files of every format.
 
 use crate::support::{at, file, frame, image, labelled};
-use foveate_footage::boxes::{Boxes, Format, Place};
+use foveate_footage::boxes::{BoxFile, BoxFormat, FrameKey};
 
 const MOT: &str = "1,7,11,21,30,40,1,1,0.9\n\
                    1,8,11,21,30,40,0,1,1\n\
@@ -56,23 +56,23 @@ fn yolo_has_a_file_for_every_image_with_objects() {
     file(folder.path(), "classes.txt", "cat\ndog\n");
     file(folder.path(), "a.txt", "0 0.5 0.5 0.25 0.5\n\n3  .125 0.25 .25 .5\n");
     file(folder.path(), "val/a.txt", "");
-    let boxes = Boxes::read(folder.path()).unwrap();
-    assert_eq!(boxes.format(), Format::Yolo);
+    let boxes = BoxFile::read(folder.path()).unwrap();
+    assert_eq!(boxes.format(), BoxFormat::Yolo);
     let expected = vec![labelled([75., 25., 125., 75.], None), labelled([0., 0., 50., 50.], None)];
-    assert_eq!(boxes.at(&image("images/a.png")).unwrap(), Some(expected));
-    assert_eq!(boxes.at(&image("images/val/a.png")).unwrap(), Some(vec![]));
-    assert_eq!(boxes.at(&image("images/b.png")).unwrap(), None);
+    assert_eq!(boxes.boxes_of_frame(&image("images/a.png")).unwrap(), Some(expected));
+    assert_eq!(boxes.boxes_of_frame(&image("images/val/a.png")).unwrap(), Some(vec![]));
+    assert_eq!(boxes.boxes_of_frame(&image("images/b.png")).unwrap(), None);
 }
 
 #[test]
 fn a_name_is_of_one_image() {
     let folder = tempfile::tempdir().unwrap();
     let table = file(folder.path(), "boxes.csv", "file,x0,y0,x1,y1\na.jpg,0,0,1,1\n");
-    let boxes = Boxes::read(&table).unwrap();
+    let boxes = BoxFile::read(&table).unwrap();
     for _ in 0..2 {
-        assert!(boxes.at(&image("one/a.jpg")).unwrap().is_some());
+        assert!(boxes.boxes_of_frame(&image("one/a.jpg")).unwrap().is_some());
     }
-    let message = boxes.at(&image("other/a.jpg")).unwrap_err().to_string();
+    let message = boxes.boxes_of_frame(&image("other/a.jpg")).unwrap_err().to_string();
     for part in ["`a.jpg`", "boxes.csv", "`one/a.jpg`", "`other/a.jpg`", "folders"] {
         assert!(message.contains(part), "{part}: {message}");
     }
@@ -81,8 +81,8 @@ fn a_name_is_of_one_image() {
 #[test]
 fn a_clip_without_any_entry_is_refused_with_what_there_is() {
     let folder = tempfile::tempdir().unwrap();
-    let mot = Boxes::read(&file(folder.path(), "gt.txt", "12,7,1,1,3,4,1,1,1\n")).unwrap();
-    assert!(mot.at(&Place { number: 12, ..frame(0) }).unwrap().is_none());
-    let message = mot.none_fit("street").to_string();
+    let mot = BoxFile::read(&file(folder.path(), "gt.txt", "12,7,1,1,3,4,1,1,1\n")).unwrap();
+    assert!(mot.boxes_of_frame(&FrameKey { number: 12, ..frame(0) }).unwrap().is_none());
+    let message = mot.no_entry_error("street").to_string();
     assert!(message.contains("`street`") && message.contains("frame 12"), "{message}");
 }

@@ -2,7 +2,7 @@
 //! Tests of box files, and of the regions that belong to a box.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod assigned;
+mod assignment;
 mod formats;
 mod mistakes;
 mod properties;

@@ -2,7 +2,7 @@
 //! Every mistake in a file gives one line that names the file, the place, and what is expected.
 
 use crate::support::{at, file, frame, image};
-use foveate_footage::boxes::Boxes;
+use foveate_footage::boxes::BoxFile;
 
 #[test]
 fn damaged_files_are_refused_in_one_line() {
@@ -57,7 +57,7 @@ fn text_that_is_no_text_is_refused() {
         ("a.csv", &b"file,x0,y0,x1,y1\n\xff,1,2,3,4\n"[..], "line 2"),
         ("a.json", &b"{\"images\": \"\xff\"}"[..], "a.json"),
     ] {
-        let message = Boxes::read(&file(folder.path(), name, bytes)).unwrap_err().to_string();
+        let message = BoxFile::read(&file(folder.path(), name, bytes)).unwrap_err().to_string();
         assert!(message.contains(part) && message.contains(name), "{message}");
     }
 }
@@ -75,8 +75,8 @@ fn a_damaged_file_of_a_yolo_folder_names_itself() {
         (&long, ["line 1", "4096 bytes or more"]),
     ] {
         file(folder.path(), "a.txt", text);
-        let boxes = Boxes::read(folder.path()).unwrap();
-        let message = boxes.at(&image("a.jpg")).unwrap_err().to_string();
+        let boxes = BoxFile::read(folder.path()).unwrap();
+        let message = boxes.boxes_of_frame(&image("a.jpg")).unwrap_err().to_string();
         for part in parts.into_iter().chain(["a.txt"]) {
             assert!(message.contains(part), "{part}: {message}");
         }

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use crate::support::{at, file, frame, image};
-use foveate_footage::boxes::{Boxes, Grid, Labelled, Place};
+use foveate_footage::boxes::{BoxFile, RegionGrid, LabelledBox, FrameKey};
 use foveate_frame::Rect;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -48,8 +48,8 @@ proptest! {
             .prop_flat_map(|(s, w, h)| (Just(s), Just(w), Just(h), spans(w, h))),
     ) {
         let [x0, y0, x1, y1] = corners;
-        let rect = Rect::of_corners(corners.map(|half| f64::from(half) / 2.0)).unwrap();
-        let found: Vec<usize> = Grid { side, width, height }.regions(&rect).collect();
+        let rect = Rect::from_corners(corners.map(|half| f64::from(half) / 2.0)).unwrap();
+        let found: Vec<usize> = RegionGrid { side, width, height }.regions(&rect).collect();
         let columns = covered(x0, x1, side, width);
         let rows = lines(&covered(y0, y1, side, height));
         let expected: Vec<usize> = rows
@@ -86,9 +86,9 @@ proptest! {
             (file(path, "a.json", coco), image("a.jpg")),
             (path.join("yolo"), image("a.jpg")),
         ] {
-            let found = Boxes::read(&from).unwrap().at(&place).unwrap().unwrap();
+            let found = BoxFile::read(&from).unwrap().boxes_of_frame(&place).unwrap().unwrap();
             prop_assert_eq!(found.len(), expected.len());
-            for (Labelled { rect, .. }, corners) in found.iter().zip(&expected) {
+            for (LabelledBox { rect, .. }, corners) in found.iter().zip(&expected) {
                 let own = [rect.x0, rect.y0, rect.x1, rect.y1];
                 prop_assert!(own.iter().zip(corners).all(|(a, b)| (a - b).abs() < 1e-9), "{from:?}");
             }
@@ -117,8 +117,8 @@ proptest! {
         }
         let folder = tempfile::tempdir().unwrap();
         let path = file(folder.path(), "boxes", &bytes);
-        match Boxes::read(&path).and_then(|boxes| boxes.at(&Place { number: 0, ..image("a") })) {
-            Ok(found) => for Labelled { rect, .. } in found.into_iter().flatten() {
+        match BoxFile::read(&path).and_then(|boxes| boxes.boxes_of_frame(&FrameKey { number: 0, ..image("a") })) {
+            Ok(found) => for LabelledBox { rect, .. } in found.into_iter().flatten() {
                 prop_assert!(rect.width() >= 0.0 && rect.height() >= 0.0 && rect.area().is_finite());
             },
             Err(error) => {
@@ -133,6 +133,6 @@ proptest! {
         let _ = at(&text, &frame(0));
         let folder = tempfile::tempdir().unwrap();
         file(folder.path(), "a.txt", &text);
-        let _ = Boxes::read(folder.path()).unwrap().at(&image("a.jpg"));
+        let _ = BoxFile::read(folder.path()).unwrap().boxes_of_frame(&image("a.jpg"));
     }
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use foveate_footage::boxes::{BoxError, Boxes, Found, Labelled, Place};
+use foveate_footage::boxes::{BoxError, BoxFile, FrameBoxes, LabelledBox, FrameKey};
 use foveate_frame::Rect;
 
 /// Writes a file into a folder.
@@ -16,21 +16,21 @@ pub(crate) fn file(folder: &Path, name: &str, text: impl AsRef<[u8]>) -> PathBuf
 }
 
 /// Returns an image of 200 x 100 pixels, the first of its input.
-pub(crate) fn image(name: &str) -> Place<'_> {
-    Place { name: Path::new(name), own_file: true, number: 0, size: (200, 100) }
+pub(crate) fn image(name: &str) -> FrameKey<'_> {
+    FrameKey { name: Path::new(name), own_file: true, number: 0, size: (200, 100) }
 }
 
 /// Returns a frame of a video.
-pub(crate) fn frame(number: u64) -> Place<'static> {
-    Place { name: Path::new("04.mp4"), own_file: false, number, size: (200, 100) }
+pub(crate) fn frame(number: u64) -> FrameKey<'static> {
+    FrameKey { name: Path::new("04.mp4"), own_file: false, number, size: (200, 100) }
 }
 
 /// Returns the boxes of a frame from a file with this text.
-pub(crate) fn at(text: &str, place: &Place<'_>) -> Result<Found, BoxError> {
+pub(crate) fn at(text: &str, place: &FrameKey<'_>) -> Result<FrameBoxes, BoxError> {
     let folder = tempfile::tempdir().unwrap();
-    Boxes::read(&file(folder.path(), "boxes", text))?.at(place)
+    BoxFile::read(&file(folder.path(), "boxes", text))?.boxes_of_frame(place)
 }
 
-pub(crate) fn labelled(corners: [f64; 4], track: Option<u64>) -> Labelled {
-    Labelled { rect: Rect::of_corners(corners).unwrap(), track }
+pub(crate) fn labelled(corners: [f64; 4], track: Option<u64>) -> LabelledBox {
+    LabelledBox { rect: Rect::from_corners(corners).unwrap(), track }
 }

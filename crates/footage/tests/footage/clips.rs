@@ -6,7 +6,7 @@ use std::process::Command;
 
 use foveate_camera::CameraConfig;
 use foveate_footage::FootageError;
-use foveate_footage::{InputOptions, Source, SourceFrame, open};
+use foveate_footage::{InputOptions, FrameSource, SourceFrame, open};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
@@ -32,7 +32,7 @@ pub(crate) fn opened(
     path: &Path,
     bits: u32,
     options: &InputOptions,
-) -> Result<Box<dyn Source>, FootageError> {
+) -> Result<Box<dyn FrameSource>, FootageError> {
     let bits = format!("frame.pixel_bits={bits}");
     let overrides = [bits.as_str(), "spatial.0.level=0"];
     open(&[path], &CameraConfig::from_toml_with("", &overrides).unwrap(), options)

@@ -143,7 +143,7 @@ fn grey_with_high_bytes_first_is_read_bit_by_bit() {
         assert_eq!((seen.len(), problem), (10, None), "{name}");
         for (frame, expected) in seen.iter().zip(bytes.chunks(2 * 640 * 480)) {
             let words = expected.chunks(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
-            assert!(frame.frame.plane().to_words().into_iter().eq(words), "{name}");
+            assert!(frame.frame.borrowed_pixels().to_words().into_iter().eq(words), "{name}");
         }
     }
 }

@@ -12,9 +12,9 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb, Rgba};
 const CASES: u64 = 5_000;
 
 /// The generator xorshift64*, which gives the same cases on every machine.
-struct Chance(u64);
+struct RandomNumbers(u64);
 
-impl Chance {
+impl RandomNumbers {
     fn below(&mut self, bound: usize) -> usize {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -80,7 +80,7 @@ fn word(value: u32) -> u16 {
     u16::try_from(value * 5_003 % 65_536).unwrap()
 }
 
-fn mutate(bytes: &mut Vec<u8>, chance: &mut Chance) {
+fn mutate(bytes: &mut Vec<u8>, chance: &mut RandomNumbers) {
     for _ in 0..=chance.below(4) {
         let at = chance.below(bytes.len());
         match chance.below(6) {
@@ -138,7 +138,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 #[test]
 fn no_image_makes_the_reader_panic() {
     let cases = std::env::var("FOVEATE_FUZZ_CASES").map_or(CASES, |text| text.parse().unwrap());
-    let mut chance = Chance(0x5EED_F00D_1234_5678);
+    let mut chance = RandomNumbers(0x5EED_F00D_1234_5678);
     for (name, seed) in seeds() {
         assert!(decode(&seed, Path::new(name), 8).is_ok(), "{name} is valid before mutation");
         let (mut accepted, mut refused) = (0, 0);

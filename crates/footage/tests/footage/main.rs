@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod clips;
-mod damage;
+mod damaged_images;
 mod formats;
 mod fuzz;
 mod memory;
@@ -11,4 +11,4 @@ mod pictures;
 mod seek;
 mod sets;
 mod video;
-mod waiting;
+mod waits;

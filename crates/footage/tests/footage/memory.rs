@@ -4,17 +4,17 @@
 use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, Kind, Source, in_memory, open};
-use foveate_frame::Raster;
+use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, SourceKind, FrameSource, source_from_memory, open};
+use foveate_frame::ByteFrame;
 
 const SIZE: (u32, u32) = (9, 6);
 
-fn frames() -> Vec<Raster> {
+fn frames() -> Vec<ByteFrame> {
     let pixels = |frame: u8| (0..54).map(|at| at * 3 + frame * 17).collect();
-    (0..6).map(|frame| Raster::from_bytes(SIZE.0, SIZE.1, 8, pixels(frame)).unwrap()).collect()
+    (0..6).map(|frame| ByteFrame::from_bytes(SIZE.0, SIZE.1, 8, pixels(frame)).unwrap()).collect()
 }
 
-fn all(mut source: Box<dyn Source>) -> Vec<(u64, Raster)> {
+fn all(mut source: Box<dyn FrameSource>) -> Vec<(u64, ByteFrame)> {
     std::iter::from_fn(|| source.next_frame().unwrap())
         .map(|frame| (frame.time_us, frame.frame))
         .collect()
@@ -28,7 +28,7 @@ fn options_are_those_of_files() {
     for frame in frames() {
         bytes.extend(b"FRAME\n");
         bytes
-            .extend(frame.plane().to_words().into_iter().map(|pixel| u8::try_from(pixel).unwrap()));
+            .extend(frame.borrowed_pixels().to_words().into_iter().map(|pixel| u8::try_from(pixel).unwrap()));
     }
     std::fs::write(&path, bytes).unwrap();
     let rate = FrameRate::new(25, 1).unwrap();
@@ -37,29 +37,29 @@ fn options_are_those_of_files() {
     late.selection.start_us = Some(80_000);
     let few = InputOptions { frames: Some(2), ..plain.clone() };
     let part = InputOptions {
-        crop: Some(Crop { size: (6, 4), at: (2, 1) }),
+        crop: Some(CropRect { size: (6, 4), origin: (2, 1) }),
         resize: Some((3, 2)),
         ..plain.clone()
     };
     for (options, count) in [(plain, 6), (late, 4), (few, 2), (part, 6)] {
         let expected = all(open(&[&path], &CameraConfig::default(), &options).unwrap());
-        let found = all(in_memory("array", frames(), &options).unwrap());
+        let found = all(source_from_memory("array", frames(), &options).unwrap());
         assert_eq!((found.len(), found), (count, expected));
     }
 }
 
 #[test]
 fn a_set_has_no_times_and_what_belongs_to_files_is_refused() {
-    let set = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
-    let mut source = in_memory("array", frames(), &set).unwrap();
-    assert_eq!((source.kind(), source.frames(), source.size()), (Kind::Set, Some(6), SIZE));
+    let set = InputOptions { images: ImageRelation::Set, ..InputOptions::default() };
+    let mut source = source_from_memory("array", frames(), &set).unwrap();
+    assert_eq!((source.kind(), source.frames(), source.size()), (SourceKind::Set, Some(6), SIZE));
     source.next_frame().unwrap();
     let second = source.next_frame().unwrap().unwrap();
     assert_eq!((second.name.as_str(), second.time_us), ("array[1]", 0));
     let refused = |frames, options: &InputOptions| {
-        in_memory("array", frames, options).map(|_| ()).unwrap_err().to_string()
+        source_from_memory("array", frames, options).map(|_| ()).unwrap_err().to_string()
     };
-    let sheet = InputOptions { images: ImagesAs::CifarSheet, ..InputOptions::default() };
+    let sheet = InputOptions { images: ImageRelation::CifarSheet, ..InputOptions::default() };
     assert!(refused(frames(), &sheet).contains("CIFAR sheets are files, and `array` is none"));
     let labels = InputOptions { labels: Some(PathBuf::from("l")), ..InputOptions::default() };
     assert!(refused(frames(), &labels).contains("labelled images are files"));

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use crate::clips::{all, ffmpeg, frames, opened, tools};
-use foveate_footage::{Crop, FrameRate, InputOptions, Origin, Selection};
+use foveate_footage::{CropRect, FrameRate, InputOptions, FrameOrigin, FrameSelection};
 
 /// Makes a clip of 200 frames at 25 per second. Its first second is already larger than a pipe's
 /// buffer.
@@ -17,7 +17,7 @@ fn moving(folder: &Path, name: &str, more: &[&str]) -> std::path::PathBuf {
 }
 
 fn from(start_us: u64) -> InputOptions {
-    let selection = Selection { start_us: Some(start_us), ..Selection::default() };
+    let selection = FrameSelection { start_us: Some(start_us), ..FrameSelection::default() };
     InputOptions { selection, ..InputOptions::default() }
 }
 
@@ -92,8 +92,8 @@ fn frames_are_numbered_whatever_is_taken() {
     let path =
         moving(dir.path(), "a.mp4", &["-c:v", "libx264", "-preset", "ultrafast", "-g", "20"]);
     let rate = Some(FrameRate::new(5, 1).unwrap());
-    let selection = Selection { start_us: Some(5_000_000), end_us: Some(5_700_000), rate };
-    let crop = Some(Crop { size: (64, 48), at: (8, 8) });
+    let selection = FrameSelection { start_us: Some(5_000_000), end_us: Some(5_700_000), rate };
+    let crop = Some(CropRect { size: (64, 48), origin: (8, 8) });
     let resize = Some((32, 24));
     let options =
         InputOptions { selection, crop, resize, numbered: true, ..InputOptions::default() };
@@ -104,7 +104,7 @@ fn frames_are_numbered_whatever_is_taken() {
         origins.extend(source.origin());
     }
     let expected =
-        [125, 130, 135, 140].map(|number| Origin { number, size: (160, 120), own_file: false });
+        [125, 130, 135, 140].map(|number| FrameOrigin { number, size: (160, 120), own_file: false });
     assert_eq!(origins, expected);
 }
 
@@ -117,7 +117,7 @@ fn ffmpeg_ends_with_the_last_frame_that_is_wanted() {
     let dir = tempfile::tempdir().unwrap();
     let path = moving(dir.path(), "a.mkv", &["-c:v", "mjpeg"]);
     let limit = InputOptions { frames: Some(3), ..InputOptions::default() };
-    let end = Selection { end_us: Some(120_000), ..Selection::default() };
+    let end = FrameSelection { end_us: Some(120_000), ..FrameSelection::default() };
     let end = InputOptions { selection: end, ..InputOptions::default() };
     for options in [limit, end] {
         let mut source = opened(&path, 8, &options).unwrap();

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::clips::{all, clip, ffmpeg, frames, opened, tools};
-use foveate_footage::{Crop, FrameRate, InputOptions, Selection, SourceFrame};
+use foveate_footage::{CropRect, FrameRate, InputOptions, FrameSelection, SourceFrame};
 use foveate_frame::{convert_depth, luma};
 use foveate_toolchain::testing::data_folder;
 
@@ -102,7 +102,7 @@ fn luma_is_the_coded_plane_whatever_way_it_comes() {
                     _ => u16::from(sample[0]),
                 });
                 let expected: Vec<u16> = luma.map(|v| convert_depth(v, depth, bits)).collect();
-                assert_eq!(frame.frame.plane().to_words(), expected, "{format} at {bits} bits");
+                assert_eq!(frame.frame.borrowed_pixels().to_words(), expected, "{format} at {bits} bits");
             }
         }
         if format != "nv12" {
@@ -130,7 +130,7 @@ fn rgb_video_is_mixed_as_images_are() {
     for (number, frame) in (1..).zip(&seen) {
         let png = image::open(dir.path().join(format!("{number}.png"))).unwrap().into_rgb8();
         let mix = |p: &image::Rgb<u8>| luma(p.0[0].into(), p.0[1].into(), p.0[2].into());
-        assert_eq!(frame.frame.plane().to_words(), png.pixels().map(mix).collect::<Vec<_>>());
+        assert_eq!(frame.frame.borrowed_pixels().to_words(), png.pixels().map(mix).collect::<Vec<_>>());
     }
     assert_eq!(seen.len(), 3);
 }
@@ -143,12 +143,12 @@ fn frames_are_chosen_by_their_times_and_keep_them() {
     let dir = tempfile::tempdir().unwrap();
     let path = clip(dir.path(), "a.mp4", &["-pix_fmt", "yuv420p"]);
     let whole = all(&path).0;
-    let selection = Selection {
+    let selection = FrameSelection {
         start_us: Some(1_000_000),
         end_us: Some(3_000_000),
         rate: Some(FrameRate::new(5, 1).unwrap()),
     };
-    let crop = Some(Crop { size: (40, 30), at: (8, 6) });
+    let crop = Some(CropRect { size: (40, 30), origin: (8, 6) });
     let options =
         InputOptions { selection, crop, resize: Some((20, 15)), ..InputOptions::default() };
     let (some, problem) = frames(&path, 8, &options);

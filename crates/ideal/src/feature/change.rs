@@ -2,13 +2,13 @@
 //! The temporal score: the number of pixels of a region that differ from its reference by more than
 //! a level.
 
-use super::{Scratch, add_up, pixels_of};
+use super::{ScoreBuffers, add_row_to_sums, pixels_per_region};
 use crate::view::FrameView;
 
 /// Counts the changed pixels of every region. A region without a valid reference counts all its
 /// pixels.
-pub(crate) fn changed(level: f64, view: &FrameView, scratch: &mut Scratch, changed: &mut [f64]) {
-    let FrameView { grid, now, before } = *view;
+pub(crate) fn count_changed_pixels(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, changed: &mut [f64]) {
+    let FrameView { grid, denoised: now, references: before } = *view;
     let [hits, ..] = &mut scratch.lines;
     hits.resize(now.width(), 0.0);
     changed.fill(0.0);
@@ -17,11 +17,11 @@ pub(crate) fn changed(level: f64, view: &FrameView, scratch: &mut Scratch, chang
         for (hit, (now, then)) in hits.iter_mut().zip(pairs) {
             *hit = if (now - then).abs() > level { 1.0 } else { 0.0 };
         }
-        add_up(hits, grid.side, &mut changed[grid.across(y)]);
+        add_row_to_sums(hits, grid.side, &mut changed[grid.regions_of_row(y)]);
     }
     for (changed, valid) in changed.iter_mut().zip(&before.valid) {
         if !valid {
-            *changed = pixels_of(grid);
+            *changed = pixels_per_region(grid);
         }
     }
 }

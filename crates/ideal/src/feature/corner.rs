@@ -2,20 +2,20 @@
 //! `corner` (FAST 5/8): the number of pixels that have at least five contiguous neighbors on the
 //! ring of eight that are all brighter than `p + level`, or all darker than `p - level`.
 
-use super::{Scratch, add_up};
+use super::{ScoreBuffers, add_row_to_sums};
 use crate::view::FrameView;
 
-pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
-    let FrameView { grid, now: plane, .. } = *view;
+pub(super) fn score(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, scores: &mut [f64]) {
+    let FrameView { grid, denoised: plane, .. } = *view;
     let [hits, ..] = &mut scratch.lines;
     hits.resize(plane.width(), 0.0);
     scores.fill(0.0);
     for y in 0..plane.height() {
-        let lines = plane.around(y).map(|line| &line[..hits.len() + 2]);
+        let lines = plane.window_lines(y).map(|line| &line[..hits.len() + 2]);
         for (x, hit) in hits.iter_mut().enumerate() {
             *hit = if is_corner(lines, x, level) { 1.0 } else { 0.0 };
         }
-        add_up(hits, grid.side, &mut scores[grid.across(y)]);
+        add_row_to_sums(hits, grid.side, &mut scores[grid.regions_of_row(y)]);
     }
 }
 

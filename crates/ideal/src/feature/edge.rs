@@ -7,20 +7,20 @@
 //!      -1  0 +1          +1 +2 +1
 //! ```
 
-use super::{Scratch, add_up};
+use super::{ScoreBuffers, add_row_to_sums};
 use crate::view::FrameView;
 
 /// Counts the hits of every region. Each filter is a smoothing along one axis and a difference
 /// along the other, so the vertical part is computed once per column.
-pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
-    let FrameView { grid, now: plane, .. } = *view;
+pub(super) fn score(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, scores: &mut [f64]) {
+    let FrameView { grid, denoised: plane, .. } = *view;
     let [smooth, slope, hits] = &mut scratch.lines;
     smooth.resize(plane.width() + 2, 0.0);
     slope.resize(plane.width() + 2, 0.0);
     hits.resize(plane.width(), 0.0);
     scores.fill(0.0);
     for y in 0..plane.height() {
-        let [above, own, below] = plane.around(y);
+        let [above, own, below] = plane.window_lines(y);
         let out = smooth.iter_mut().zip(slope.iter_mut());
         for ((smooth, slope), (a, (b, c))) in out.zip(above.iter().zip(own.iter().zip(below))) {
             *smooth = a + 2.0 * b + c;
@@ -32,6 +32,6 @@ pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores:
             let gy = slope[x] + 2.0 * slope[x + 1] + slope[x + 2];
             *hit = if gx.abs() + gy.abs() > level { 1.0 } else { 0.0 };
         }
-        add_up(hits, grid.side, &mut scores[grid.across(y)]);
+        add_row_to_sums(hits, grid.side, &mut scores[grid.regions_of_row(y)]);
     }
 }

@@ -10,15 +10,15 @@ mod variance;
 
 use foveate_camera::FeatureKind;
 
-use crate::grid::Grid;
-use crate::plane::Plane;
+use crate::grid::RegionGrid;
+use crate::plane::PaddedPlane;
 use crate::view::FrameView;
 
-pub(crate) use change::changed;
+pub(crate) use change::count_changed_pixels;
 
 /// Reused buffers for lines of values and for values per region.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
+pub(crate) struct ScoreBuffers {
     lines: [Vec<f64>; 3],
     regions: [Vec<f64>; 2],
 }
@@ -28,7 +28,7 @@ pub(crate) struct Scratch {
 pub(crate) fn score(
     (kind, level): (FeatureKind, f64),
     view: &FrameView,
-    scratch: &mut Scratch,
+    scratch: &mut ScoreBuffers,
     scores: &mut [f64],
 ) {
     match kind {
@@ -40,23 +40,23 @@ pub(crate) fn score(
 }
 
 /// Adds the values of one row to the sums of the regions that the row crosses.
-fn add_up(values: &[f64], side: usize, sums: &mut [f64]) {
+fn add_row_to_sums(values: &[f64], side: usize, sums: &mut [f64]) {
     for (part, sum) in values.chunks_exact(side).zip(sums) {
         *sum += part.iter().sum::<f64>();
     }
 }
 
 /// Sums the pixels of every region.
-fn pixel_sums(plane: &Plane, grid: &Grid, sums: &mut Vec<f64>) {
+fn pixel_sums(plane: &PaddedPlane, grid: &RegionGrid, sums: &mut Vec<f64>) {
     sums.clear();
     sums.resize(grid.regions(), 0.0);
     for y in 0..plane.height() {
-        add_up(plane.row(y), grid.side, &mut sums[grid.across(y)]);
+        add_row_to_sums(plane.row(y), grid.side, &mut sums[grid.regions_of_row(y)]);
     }
 }
 
 /// Returns n, the number of pixels of a region.
-fn pixels_of(grid: &Grid) -> f64 {
+fn pixels_per_region(grid: &RegionGrid) -> f64 {
     let side = f64::from(u32::try_from(grid.side).expect("a region is at most 64 pixels wide"));
     side * side
 }

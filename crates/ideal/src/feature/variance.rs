@@ -7,21 +7,21 @@
 //! division rounds. The only exception is a region of 64x64 pixels of 16 bits that spans the whole
 //! range.
 
-use super::{Scratch, pixel_sums, pixels_of};
+use super::{ScoreBuffers, pixel_sums, pixels_per_region};
 use crate::view::FrameView;
 
-pub(super) fn score(view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
-    let FrameView { grid, now: plane, .. } = *view;
+pub(super) fn score(view: &FrameView, scratch: &mut ScoreBuffers, scores: &mut [f64]) {
+    let FrameView { grid, denoised: plane, .. } = *view;
     let [sums, squares] = &mut scratch.regions;
     pixel_sums(plane, grid, sums);
     squares.clear();
     squares.resize(grid.regions(), 0.0);
-    let n = pixels_of(grid);
+    let n = pixels_per_region(grid);
     for (center, sum) in scores.iter_mut().zip(sums.iter()) {
         *center = (sum / n).round();
     }
     for y in 0..plane.height() {
-        let regions = squares[grid.across(y)].iter_mut().zip(&scores[grid.across(y)]);
+        let regions = squares[grid.regions_of_row(y)].iter_mut().zip(&scores[grid.regions_of_row(y)]);
         for (part, (square, center)) in plane.row(y).chunks_exact(grid.side).zip(regions) {
             *square += part.iter().map(|x| (x - center) * (x - center)).sum::<f64>();
         }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scores that a person can check by hand.
 
-use foveate_camera::Action;
+use foveate_camera::RegionAction;
 use foveate_camera::{
-    Camera, CameraConfig, Decimal, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
+    Camera, CameraConfig, Decimal, FeatureKind, DenoiseFilter, Neighborhood, ReferencePolicy, SpatialConfig,
 };
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
 
 /// Returns a configuration with all four features, in the order of `FeatureKind::ALL`, and without
@@ -14,26 +14,26 @@ fn config(width: u32, height: u32, side: u32) -> CameraConfig {
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     config.region.size = side;
-    config.denoise.filter = Filter::None;
+    config.denoise.filter = DenoiseFilter::None;
     config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     config
 }
 
-fn frame(camera: &Camera, pixel: impl Fn(u32, u32) -> u8) -> Raster {
+fn frame(camera: &Camera, pixel: impl Fn(u32, u32) -> u8) -> ByteFrame {
     let (width, height) = (camera.width(), camera.height());
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = pixels.map(|(x, y)| pixel(x, y)).collect();
-    Raster::from_bytes(width, height, 8, pixels).unwrap()
+    ByteFrame::from_bytes(width, height, 8, pixels).unwrap()
 }
 
-fn seen(config: &CameraConfig, pixel: impl Fn(u32, u32) -> u8) -> IdealOutcome {
+fn outcome_of_first_frame(config: &CameraConfig, pixel: impl Fn(u32, u32) -> u8) -> IdealOutcome {
     let camera = config.validate().unwrap();
     IdealCamera::new(&camera).step(&frame(&camera, pixel)).unwrap().clone()
 }
 
 #[test]
 fn a_constant_frame_scores_nothing() {
-    let outcome = seen(&config(20, 13, 8), |_, _| 77);
+    let outcome = outcome_of_first_frame(&config(20, 13, 8), |_, _| 77);
     assert_eq!(outcome.scores, vec![vec![0.0; 6]; 4]);
     assert_eq!(outcome.changed, vec![64.0; 6], "no reference: all pixels");
     assert_eq!((outcome.srs, outcome.trs), (vec![false; 6], vec![true; 6]));
@@ -44,7 +44,7 @@ fn a_constant_frame_scores_nothing() {
 /// step.
 #[test]
 fn a_step_is_an_edge_two_pixels_wide() {
-    let outcome = seen(&config(16, 8, 8), |x, _| if x < 8 { 0 } else { 30 });
+    let outcome = outcome_of_first_frame(&config(16, 8, 8), |x, _| if x < 8 { 0 } else { 30 });
     assert_eq!(outcome.scores[0], [8.0, 8.0], "one column in each region, across their border");
     assert_eq!(outcome.scores[1], [0.0, 0.0], "three neighbors are no arc");
     assert_eq!(
@@ -52,7 +52,7 @@ fn a_step_is_an_edge_two_pixels_wide() {
         (&[0.0, 0.0][..], &[0.0, 0.0][..])
     );
     // The step lies inside one region: half of the pixels are 15 above the mean, half 15 below.
-    let outcome = seen(&config(8, 8, 8), |x, _| if x < 4 { 0 } else { 30 });
+    let outcome = outcome_of_first_frame(&config(8, 8, 8), |x, _| if x < 4 { 0 } else { 30 });
     let scores: Vec<f64> = outcome.scores.iter().map(|scores| scores[0]).collect();
     assert_eq!(scores, [16.0, 0.0, 15.0, 225.0]);
 }
@@ -66,7 +66,7 @@ fn hardware_does_not_matter() {
     shared.region.neighborhood = Neighborhood::Shared;
     shared.spatial[2].mean_fraction_bits = Some(6);
     let pixel = |x: u32, y: u32| u8::try_from((x * 37 + y * 101 + x * y * 7) % 256).unwrap();
-    assert_eq!(seen(&isolated, pixel), seen(&shared, pixel));
+    assert_eq!(outcome_of_first_frame(&isolated, pixel), outcome_of_first_frame(&shared, pixel));
 }
 
 /// The checkerboard of 0 and 200 has mean 100; every pixel is 100 away from it, and the variance is
@@ -74,13 +74,13 @@ fn hardware_does_not_matter() {
 #[test]
 fn a_checkerboard_has_the_variance_of_its_swing() {
     let pixel = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 0 } else { 200 };
-    let outcome = seen(&config(8, 8, 8), pixel);
+    let outcome = outcome_of_first_frame(&config(8, 8, 8), pixel);
     assert_eq!((outcome.scores[2][0], outcome.scores[3][0]), (100.0, 10_000.0));
     // Inside the region Gx and Gy are 0. At the border the window repeats a line, so |G| is 0 along
     // a side, too.
     assert_eq!(outcome.scores[1][0], 0.0, "neighbors alternate");
     // Of these 3x3 pixels five are 0: the mean is 800/9, which is no binary fraction.
-    let outcome = seen(&config(3, 3, 3), pixel);
+    let outcome = outcome_of_first_frame(&config(3, 3, 3), pixel);
     let (mean, n) = (800.0 / 9.0, 9.0);
     let mad = (5.0 * mean + 4.0 * (200.0 - mean)) / n;
     let variance = 4.0 * 200.0 * 200.0 / n - mean * mean;
@@ -91,11 +91,11 @@ fn a_checkerboard_has_the_variance_of_its_swing() {
 #[test]
 fn a_bright_pixel_is_five_of_eight_for_itself_only() {
     let mut config = config(9, 9, 9);
-    let outcome = seen(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
+    let outcome = outcome_of_first_frame(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
     assert_eq!(outcome.scores[1][0], 1.0);
     assert_eq!(outcome.scores[0][0], 8.0, "the eight around it, |G| = 500; its own is 0");
-    config.denoise.filter = Filter::Median3x3;
-    let outcome = seen(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
+    config.denoise.filter = DenoiseFilter::Median3x3;
+    let outcome = outcome_of_first_frame(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
     assert_eq!((outcome.scores[1][0], outcome.denoised), (0.0, vec![0.0; 81]));
 }
 
@@ -107,7 +107,7 @@ fn thresholds_are_those_of_the_configuration() {
         config.spatial = vec![SpatialConfig::new(FeatureKind::Mad)];
         config.spatial[0].min_score = Decimal::from_f64(minimum);
         config.temporal.min_count = 1;
-        let outcome = seen(&config, |x, _| if x < 2 { 9 } else { 3 * u8::from(x == 2) });
+        let outcome = outcome_of_first_frame(&config, |x, _| if x < 2 { 9 } else { 3 * u8::from(x == 2) });
         assert_eq!(outcome.scores, [[0.0, 1.5]]);
         assert_eq!(outcome.srs, [false, srs]);
     }
@@ -117,15 +117,15 @@ fn thresholds_are_those_of_the_configuration() {
 fn a_fade_is_sent_once_it_has_gone_far_enough() {
     let mut config = config(8, 8, 8);
     config.spatial = vec![SpatialConfig::new(FeatureKind::Mad)];
-    config.spatial[0].min_score = Some(Decimal::whole(0));
-    config.temporal.reference = Reference::LastSent;
+    config.spatial[0].min_score = Some(Decimal::from_whole(0));
+    config.temporal.reference = ReferencePolicy::LastSent;
     config.temporal.level = Some(2);
     let camera = config.validate().unwrap();
     let mut ideal = IdealCamera::new(&camera);
     let mut sent = Vec::new();
     for level in 0..7 {
         let outcome = ideal.step(&frame(&camera, |_, _| 10 + level)).unwrap();
-        sent.push(outcome.actions[0] == Action::Forward);
+        sent.push(outcome.actions[0] == RegionAction::Forward);
         assert!((outcome.rendered[0] - f64::from(10 + level)).abs() <= 2.0);
     }
     assert_eq!(sent, [true, false, false, true, false, false, true]);
@@ -136,9 +136,9 @@ fn other_frames_are_refused_and_change_nothing() {
     let camera = config(8, 8, 8).validate().unwrap();
     let mut ideal = IdealCamera::new(&camera);
     let before = ideal.step(&frame(&camera, |_, _| 9)).unwrap().clone();
-    let other = Raster::from_bytes(8, 7, 8, vec![0; 56]).unwrap();
+    let other = ByteFrame::from_bytes(8, 7, 8, vec![0; 56]).unwrap();
     let error = ideal.step(&other).unwrap_err();
     let [given, expected] = ["8x7 pixels of 8 bits", "8x8 pixels of 8 bits"].map(str::to_owned);
-    assert_eq!(error, IdealError::FrameKind { given, expected });
+    assert_eq!(error, IdealError::FrameFormat { given, expected });
     assert_eq!(ideal.outcome(), &before);
 }

@@ -4,4 +4,4 @@
 
 mod by_hand;
 mod model;
-mod recipe;
+mod generators;

@@ -2,17 +2,17 @@
 //! The ideal camera against the functional model: they agree wherever the model does not round.
 #![allow(clippy::cast_precision_loss, reason = "scores are below 2^53, or compared within 1e-12")]
 
-use crate::recipe;
-use crate::recipe::{Script, cameras, film};
+use crate::generators;
+use crate::generators::{ChangeScript, cameras, script_frames};
 use foveate_camera::{Camera, FeatureKind};
 use foveate_frame::Frame;
-use foveate_frame::Raster;
+use foveate_frame::ByteFrame;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
 /// Converts a score of the model to the unit of the ideal camera.
-fn natural(camera: &Camera, feature: usize, score: u64) -> f64 {
+fn score_in_ideal_unit(camera: &Camera, feature: usize, score: u64) -> f64 {
     let n = f64::from(camera.region_pixels());
     let feature = &camera.features()[feature];
     match feature.kind() {
@@ -53,11 +53,11 @@ fn check_exact(camera: &Camera, frames: &[Frame]) {
         for (number, frame) in frames.iter().enumerate() {
             let context = format!("round {round}, frame {number}, {:?}", camera.config());
             let model = model.step(frame).unwrap();
-            let ideal = ideal.step(&Raster::from(frame)).unwrap();
+            let ideal = ideal.step(&ByteFrame::from(frame)).unwrap();
             assert_decisions(ideal, model, camera, &context);
             for (feature, (own, other)) in ideal.scores.iter().zip(&model.scores).enumerate() {
                 for (&own, &score) in own.iter().zip(other) {
-                    let expected = natural(camera, feature, score);
+                    let expected = score_in_ideal_unit(camera, feature, score);
                     // Above 2^53 the ideal camera itself has to round.
                     let near = score >= 1 << 53 && (own - expected).abs() <= expected * 1e-12;
                     assert!(own == expected || near, "{own} for {expected}, {context}");
@@ -79,7 +79,7 @@ proptest! {
     fn it_equals_the_model_where_nothing_is_rounded(
         (camera, seed, script) in cameras(false).prop_flat_map(with_script),
     ) {
-        check_exact(&camera, &film(&camera, seed, &script));
+        check_exact(&camera, &script_frames(&camera, seed, &script));
     }
 
     /// The model's mean is `floor(v + h)` quanta of 2^-f for the real mean v, a multiple of 1/n,
@@ -91,16 +91,16 @@ proptest! {
     ) {
         let mut ideal = IdealCamera::new(&camera);
         let mut model = FunctionalCamera::new(&camera);
-        for frame in film(&camera, seed, &script) {
+        for frame in script_frames(&camera, seed, &script) {
             let model = model.step(&frame).unwrap();
-            let ideal = ideal.step(&Raster::from(&frame)).unwrap();
+            let ideal = ideal.step(&ByteFrame::from(&frame)).unwrap();
             for (feature, kind) in camera.features().iter().enumerate() {
                 let Some(mean) = kind.mean() else { continue };
                 let n = camera.region_pixels();
                 let quantum = 1.0 / f64::from(1_u32 << mean.fraction_bits);
                 let bound = f64::from(n / 2) / f64::from(n) * quantum;
                 for (&own, &score) in ideal.scores[feature].iter().zip(&model.scores[feature]) {
-                    let other = natural(&camera, feature, score);
+                    let other = score_in_ideal_unit(&camera, feature, score);
                     prop_assert!((own - other).abs() <= bound * (1.0 + 1e-9), "{own} {other}");
                 }
             }
@@ -108,6 +108,6 @@ proptest! {
     }
 }
 
-fn with_script(camera: Camera) -> impl Strategy<Value = (Camera, u64, Script)> {
-    (Just(camera), any::<u64>(), recipe::scripts())
+fn with_script(camera: Camera) -> impl Strategy<Value = (Camera, u64, ChangeScript)> {
+    (Just(camera), any::<u64>(), generators::scripts())
 }

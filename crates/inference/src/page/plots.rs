@@ -2,61 +2,61 @@
 //! The charts as plots of the page: the same lines, with a mark for every point that shows its
 //! figures.
 
-use crate::charts::Drawn;
-use foveate_pictures::chart::Shape;
-use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, rings, text, through};
+use crate::charts::ChartWithIds;
+use foveate_pictures::chart::ChartData;
+use foveate_pictures::page::{PlotAxis, PlotAxes, PlotLine, PlotMark, PagePlot, group_look, nest_marks, coordinate_text, line_path};
 use std::collections::BTreeMap;
 
 /// The number of points of a line above which its marks are smaller.
-const MANY: usize = 80;
+const MAX_LARGE_MARKS: usize = 80;
 
 /// Converts a chart to a plot. `titles` has the figures of every id; `note` says which frames are
 /// left out.
-pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> Plot {
+pub(super) fn plot(drawn: &ChartWithIds, titles: &BTreeMap<&str, &str>, note: &str) -> PagePlot {
     let (lines, is_joined) = match &drawn.chart.shape {
-        Shape::Lines(lines) => (lines, true),
-        Shape::Points(points) => (points, false),
-        _ => return Plot::default(),
+        ChartData::Lines(lines) => (lines, true),
+        ChartData::Points(points) => (points, false),
+        _ => return PagePlot::default(),
     };
     let xs = || lines.iter().flat_map(|line| line.points.iter().map(|&(x, _)| x));
     let ys = || lines.iter().flat_map(|line| line.points.iter().map(|&(_, y)| y));
-    let is_frames = ["frames", "saved"].contains(&&drawn.chart.file[..]);
-    let is_tuning = drawn.chart.file == "tuning";
+    let is_frames = ["frames", "saved"].contains(&&drawn.chart.file_stem[..]);
+    let is_tuning = drawn.chart.file_stem == "tuning";
     let field = if is_tuning {
-        Field { x: Axis::even(xs().chain([0.0])), y: Axis::from_zero(ys()) }
+        PlotAxes { x: PlotAxis::always_linear(xs().chain([0.0])), y: PlotAxis::starting_at_zero(ys()) }
     } else if !is_joined {
-        Field { x: Axis::even(xs().chain([0.0])), y: Axis::even(ys().chain([0.0])) }
+        PlotAxes { x: PlotAxis::always_linear(xs().chain([0.0])), y: PlotAxis::always_linear(ys().chain([0.0])) }
     } else {
-        Field { x: Axis::even(xs()), y: Axis::even(ys().chain([0.0])) }
+        PlotAxes { x: PlotAxis::always_linear(xs()), y: PlotAxis::always_linear(ys().chain([0.0])) }
     };
     // The axis of the tuning plot has no room for the words of the chart.
-    let y_title = if is_tuning { "error [% of variation]" } else { &drawn.chart.y };
-    let logarithmic = if field.y.logarithmic() { " (log)" } else { "" };
-    let mut plot = Plot {
-        id: drawn.chart.file.clone(),
+    let y_title = if is_tuning { "error [% of variation]" } else { &drawn.chart.y_title };
+    let logarithmic = if field.y.is_logarithmic() { " (log)" } else { "" };
+    let mut plot = PagePlot {
+        id: drawn.chart.file_stem.clone(),
         title: drawn.chart.title.clone(),
         note: if is_frames { note.to_owned() } else { String::new() },
-        x_title: drawn.chart.x.clone(),
+        x_title: drawn.chart.x_title.clone(),
         y_title: format!("{y_title}{logarithmic}"),
         x_ticks: field.x_ticks(),
         y_ticks: field.y_ticks(),
-        ..Plot::default()
+        ..PagePlot::default()
     };
     if !is_tuning && is_joined {
         // Numbers of layers and frames are whole.
         plot.x_ticks.retain(|tick| !tick.label.contains('.'));
     }
     for (index, (line, ids)) in lines.iter().zip(&drawn.ids).enumerate() {
-        let (class, shape) = look(index);
+        let (class, shape) = group_look(index);
         let mut places = Vec::new();
         for (&(x, y), id) in line.points.iter().zip(ids) {
-            let Some(place) = field.place(x, y) else { continue };
+            let Some(place) = field.coordinates(x, y) else { continue };
             places.push(place);
             let figures = titles.get(id.as_str()).copied().unwrap_or_default();
-            plot.marks.push(Mark {
+            plot.marks.push(PlotMark {
                 id: id.clone(),
-                x: text(place.0),
-                y: text(place.1),
+                x: coordinate_text(place.0),
+                y: coordinate_text(place.1),
                 front: false,
                 scale: None,
                 class: class.clone(),
@@ -67,10 +67,10 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
         }
         // Every second line is dashed, so that a line below it shows through its gaps.
         let class = if is_joined && index % 2 == 1 { class + " dashed" } else { class };
-        let path = if is_joined { through(&places) } else { String::new() };
-        plot.lines.push(Line { path, class, shape, label: line.name.clone() });
+        let path = if is_joined { line_path(&places) } else { String::new() };
+        plot.lines.push(PlotLine { path, class, shape, label: line.name.clone() });
     }
-    let is_many = lines.iter().any(|line| line.points.len() > MANY);
-    rings(&mut plot.marks, if is_many { 0.5 } else { 1.0 });
+    let is_many = lines.iter().any(|line| line.points.len() > MAX_LARGE_MARKS);
+    nest_marks(&mut plot.marks, if is_many { 0.5 } else { 1.0 });
     plot
 }

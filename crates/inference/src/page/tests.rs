@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 use super::*;
-use crate::cost::{Accelerated, FrameCost};
+use crate::cost::{AcceleratorSummary, FrameCost};
 use crate::macs::Macs;
-use crate::summary::{Clip, Error, Outputs, Tried, Tuning};
-use crate::{FrameTraffic, Framing, Layer, Mapping, Recorded};
-use foveate_design::Config;
-use foveate_pictures::page::browser::{Tip, chromium, probe};
+use crate::summary::{ClipSummary, WholeComputationError, OutputCloseness, TuningTrial, TuningSummary};
+use crate::{FrameTraffic, Framing, LayerSummary, PixelMapping, RecordedOutput};
+use foveate_design::DesignConfig;
+use foveate_pictures::page::browser::{ExpectedMark, chromium, probe_page};
 use roxmltree::{Document, Node, ParsingOptions};
 
 const BAD: &str = "\"><script>alert('&amp;')</script>";
 
 /// A run, its counted frames and its design.
-type Sample = (Summary, Vec<Frame>, Design);
+type RunSample = (InferenceSummary, Vec<FrameFigures>, Design);
 
 /// Marks show their name and the needed share, and link to their rows.
-const TIP: Tip = Tip { told: r"/^(Layer|Frame|Limits).*\n.* needed/", links: 1 };
+const TIP: ExpectedMark = ExpectedMark { figures: r"/^(Layer|Frame|Limits).*\n.* needed/", links: 1 };
 
-fn outputs(error: f64, psnr: Option<f64>) -> Outputs {
-    Outputs {
+fn outputs(error: f64, psnr: Option<f64>) -> OutputCloseness {
+    OutputCloseness {
         agreement: 0.75,
         cosine: 0.9,
         psnr,
@@ -37,9 +37,9 @@ fn cost(scale: f64) -> FrameCost {
     }
 }
 
-fn layer(number: u32) -> Layer {
+fn layer(number: u32) -> LayerSummary {
     let part = 0.1 + f64::from(number) / 8.0;
-    Layer {
+    LayerSummary {
         name: format!("/block.{number}/Conv"),
         operator: if number == 2 { "Add".to_owned() } else { "Conv+Relu".to_owned() },
         shape: vec![1, 12, 224, 224],
@@ -63,21 +63,21 @@ fn layer(number: u32) -> Layer {
     }
 }
 
-fn clip(name: &str, counted: u32) -> Clip {
-    Clip {
+fn clip(name: &str, counted: u32) -> ClipSummary {
+    ClipSummary {
         name: name.to_owned(),
         frames: u64::from(counted) + 1,
         counted_frames: counted.into(),
         active_share: 0.07,
         changed_share: 0.08,
-        macs: Macs { dense: 100.0, needed: 12.5, scheduled: 13.5, whole: 100.0 },
+        macs: Macs { whole_frame: 100.0, needed: 12.5, scheduled: 13.5, whole_blocks: 100.0 },
         problem: None,
     }
 }
 
 /// Returns a run over three clips, of which the last stopped at its first frame. Limits were chosen
 /// on two other clips.
-fn of_clips() -> Sample {
+fn of_clips() -> RunSample {
     let mut sample = sample(20);
     let names = ["a", "b", "c"];
     sample.0.inputs = names.map(|name| format!("{name}.mp4")).to_vec();
@@ -88,7 +88,7 @@ fn of_clips() -> Sample {
     for (place, frame) in (1..).zip(&mut sample.1) {
         let (clip, before) = if place < 11 { ("a", 0) } else { ("b", 11) };
         clip.clone_into(&mut frame.clip);
-        (frame.place, frame.number) = (place + before / 11, place + before / 11 - before);
+        (frame.index_in_run, frame.number) = (place + before / 11, place + before / 11 - before);
     }
     sample
 }
@@ -120,15 +120,15 @@ fn several_clips_have_a_table_and_their_frames_names() {
 }
 
 /// Returns a made-up run with everything that a page can show.
-fn sample(frames: u32) -> Sample {
-    let macs = Macs { dense: 140_894_208.0, needed: 14e6, scheduled: 15e6, whole: 141e6 };
-    let tried = |relative_limit, needed_share, error| Tried {
+fn sample(frames: u32) -> RunSample {
+    let macs = Macs { whole_frame: 140_894_208.0, needed: 14e6, scheduled: 15e6, whole_blocks: 141e6 };
+    let tried = |relative_limit, needed_share, error| TuningTrial {
         relative_limit,
         needed_share,
         outputs: outputs(error, (error > 0.0).then_some(40.0 - error)),
         holds: error < 0.05,
     };
-    let uniform: Vec<Tried> = (0..12)
+    let uniform: Vec<TuningTrial> = (0..12)
         .map(|power| {
             tried(
                 Some(2f64.powi(power - 10)),
@@ -137,7 +137,7 @@ fn sample(frames: u32) -> Sample {
             )
         })
         .collect();
-    let summary = Summary {
+    let summary = InferenceSummary {
         format_version: 1,
         foveate_version: "0.1.0",
         complete: true,
@@ -147,7 +147,7 @@ fn sample(frames: u32) -> Sample {
         network: "networks/denoiser.onnx".to_owned(),
         layout: "nchw",
         mode: "tuned to psnr=40".to_owned(),
-        mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
+        mapping: PixelMapping { mean: vec![0.0], scale: vec![1.0] },
         framing: Framing::Same,
         sight: None,
         every: std::num::NonZeroU32::MIN,
@@ -169,17 +169,17 @@ fn sample(frames: u32) -> Sample {
         mask_bytes: 25_000,
         seconds_per_frame: 0.0012,
         overhead_seconds_per_frame: 0.000_06,
-        accelerator: Some(Accelerated {
+        accelerator: Some(AcceleratorSummary {
             name: "eyeriss".to_owned(),
             whole: cost(4.0),
             masked: cost(0.5),
         }),
-        error: Some(Error {
+        error: Some(WholeComputationError {
             different_frames: 7,
             outputs: outputs(0.012, Some(41.5)),
             dense_seconds_per_frame: 0.0055,
         }),
-        tuning: Some(Tuning {
+        tuning: Some(TuningSummary {
             goal: "psnr=40".to_owned(),
             clips: vec!["street".to_owned()],
             frames: 14,
@@ -190,7 +190,7 @@ fn sample(frames: u32) -> Sample {
             frozen: tried(None, 0.0, 0.4),
             holds: true,
         }),
-        outputs: vec![Recorded {
+        outputs: vec![RecordedOutput {
             name: "output".to_owned(),
             shape: vec![1, 1, 224, 224],
             dtype: "float32",
@@ -199,37 +199,37 @@ fn sample(frames: u32) -> Sample {
         }],
         clips: vec![clip("street", frames)],
         design: "0123456789abcdef".to_owned(),
-        configuration: Config::default(),
+        configuration: DesignConfig::default(),
         layers: (0..5).map(layer).collect(),
     };
     let frame = |number: u32| {
         let share = 0.05 + 0.04 * f64::from(number * 37 % 11) / 11.0;
-        Frame {
-            place: u64::from(number) + 1,
+        FrameFigures {
+            index_in_run: u64::from(number) + 1,
             clip: "street".to_owned(),
             number: u64::from(number) + 1,
             name: format!("frame {number}"),
-            active: share,
-            changed: 1.1 * share,
+            active_share: share,
+            changed_share: 1.1 * share,
             macs: Macs {
-                needed: 1.5 * share * macs.dense,
-                scheduled: 1.6 * share * macs.dense,
+                needed: 1.5 * share * macs.whole_frame,
+                scheduled: 1.6 * share * macs.whole_frame,
                 ..macs
             },
             seconds: 0.001,
             relative_rms: Some(0.01 * share),
             is_counted: true,
-            ..Frame::default()
+            ..FrameFigures::default()
         }
     };
-    let design = Config::default().for_frames(224, 224).unwrap();
+    let design = DesignConfig::default().validate_for_frames(224, 224).unwrap();
     (summary, (0..frames).map(frame).collect(), design)
 }
 
-fn rendered((summary, frames, design): &Sample) -> String {
+fn rendered((summary, frames, design): &RunSample) -> String {
     let command =
         ["foveate", "infer", "my net.onnx", "scene:street", "-o", "out"].map(str::to_owned);
-    page(summary, frames, None, design, &command).unwrap()
+    render_page(summary, frames, None, design, &command).unwrap()
 }
 
 /// Parses the page as XML, so that every element is closed and every character is escaped.
@@ -284,7 +284,7 @@ fn every_figure_is_there() {
     }
     for frame in frames {
         let cells = sorted_by(&document, &format!("pf{}", frame.number));
-        let shares = [frame.active, frame.changed, frame.macs.needed / frame.macs.dense];
+        let shares = [frame.active_share, frame.changed_share, frame.macs.needed / frame.macs.whole_frame];
         assert_eq!(cells[2..5], shares.map(|share| share.to_string()));
     }
     let tuning = summary.tuning.as_ref().unwrap();
@@ -353,7 +353,7 @@ fn what_a_user_wrote_is_text() {
     summary.problem = Some(BAD.to_owned());
     summary.tuning.as_mut().unwrap().goal = BAD.to_owned();
     summary.accelerator.as_mut().unwrap().name = BAD.to_owned();
-    let page = page(&summary, &frames, None, &design, &[BAD.to_owned()]).unwrap();
+    let page = render_page(&summary, &frames, None, &design, &[BAD.to_owned()]).unwrap();
     assert!(!page.contains("<script>alert"));
     let document = tree(&page);
     let scripts = document.descendants().filter(|node| node.tag_name().name() == "script");
@@ -382,13 +382,13 @@ fn nothing_is_loaded_from_elsewhere() {
 }
 
 /// Returns runs that are hard to show on a page.
-fn hard() -> Vec<(&'static str, Sample)> {
+fn hard() -> Vec<(&'static str, RunSample)> {
     let mut none = sample(0);
     none.0.tuning = None;
     let mut dense = sample(4);
     dense.0.mode = "dense".to_owned();
     (dense.0.tuning, dense.0.error, dense.0.accelerator) = (None, None, None);
-    dense.0.macs.needed = dense.0.macs.dense;
+    dense.0.macs.needed = dense.0.macs.whole_frame;
     for layer in &mut dense.0.layers {
         (layer.whole_cost, layer.masked_cost, layer.limit, layer.relative_rms) =
             (None, None, None, None);
@@ -396,7 +396,7 @@ fn hard() -> Vec<(&'static str, Sample)> {
     }
     let mut exact = sample(6);
     exact.0.tuning = None;
-    exact.0.error = Some(Error {
+    exact.0.error = Some(WholeComputationError {
         different_frames: 0,
         outputs: outputs(0.0, None),
         dense_seconds_per_frame: 0.005,
@@ -404,7 +404,7 @@ fn hard() -> Vec<(&'static str, Sample)> {
     let mut odd = sample(5);
     odd.0.warnings.push("outputs hold infinite values, or such that are no numbers".to_owned());
     odd.0.problem = Some("it was interrupted".to_owned());
-    odd.0.error = Some(Error {
+    odd.0.error = Some(WholeComputationError {
         different_frames: 5,
         outputs: outputs(f64::NAN, Some(f64::NAN)),
         dense_seconds_per_frame: 0.0,
@@ -482,7 +482,7 @@ fn without_a_counted_frame_no_share_is_told() {
 fn of_very_many_frames_the_peaks_are_shown() {
     let mut sample = sample(5000);
     sample.1[4321].macs.needed *= 3.0;
-    let shown = shown(&counted(&sample.1), 13);
+    let shown = most_expensive_frames(&counted_frames(&sample.1), 13);
     assert_eq!(shown.len(), 385);
     assert!(shown.iter().any(|frame| frame.number == 4322));
     assert!(shown.is_sorted_by_key(|frame| frame.number));
@@ -495,7 +495,7 @@ fn of_very_many_frames_the_peaks_are_shown() {
 fn how_pixels_become_inputs_is_told() {
     let mut sample = sample(3);
     assert!(rendered(&sample).contains("the same in all channels.</p>"));
-    sample.0.mapping = Mapping { mean: vec![0.485, -0.5, 0.0], scale: vec![0.25] };
+    sample.0.mapping = PixelMapping { mean: vec![0.485, -0.5, 0.0], scale: vec![0.25] };
     sample.0.layout = "nhwc";
     assert!(rendered(&sample).contains("The model takes them as [1, height, width, channels]"));
     let told = "in all channels, less the mean (0.485, -0.5, 0) and divided by the scale (0.25) of the channel.";
@@ -517,7 +517,7 @@ fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
     };
     let page = rendered(&sample(29));
     for width in [1600, 1280, 500] {
-        let found = probe(&program, &page, width, TIP);
+        let found = probe_page(&program, &page, width, TIP);
         // The rows are those of the layers, the tuning trials and the frames.
         assert_eq!(found["rows"], 5 + 15 + 29, "{width}: {found}");
         assert_eq!((&found["hidden"], &found["wider"]), (&0.into(), &0.into()), "{width}: {found}");

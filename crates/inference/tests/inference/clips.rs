@@ -2,10 +2,10 @@
 //! Runs over several clips: each clip has the results of a run of its own, and the totals are those
 //! of all clips.
 
-use crate::common::{Row, Run, is_counted, near, number, rows, text};
-use foveate_footage::{Hooks, Progress};
-use foveate_inference::{Computed, Goal};
-use foveate_network::Mode;
+use crate::common::{TableRow, RunSetup, is_counted, is_near, number, rows, text};
+use foveate_footage::{RunHooks, RunProgress};
+use foveate_inference::{Computation, TuningGoal};
+use foveate_network::ExecutionMode;
 
 /// Returns the bytes of an array after its header.
 fn values(folder: &std::path::Path) -> Vec<u8> {
@@ -13,8 +13,8 @@ fn values(folder: &std::path::Path) -> Vec<u8> {
 }
 
 /// Removes the time from the rows of a run.
-fn timeless(rows: Vec<Row>) -> Vec<Row> {
-    let strip = |mut row: Row| {
+fn timeless(rows: Vec<TableRow>) -> Vec<TableRow> {
+    let strip = |mut row: TableRow| {
         row.remove("seconds");
         row
     };
@@ -23,13 +23,13 @@ fn timeless(rows: Vec<Row>) -> Vec<Row> {
 
 /// Frames, layers and outputs of a run over clips are those of separate runs, one after the other.
 #[test]
-fn every_clip_is_as_it_is_alone() {
+fn a_run_over_clips_equals_runs_over_each_clip() {
     let dir = tempfile::tempdir().unwrap();
-    for mode in [Mode::Exact, Mode::Compare, Mode::Truncate(0.05), Mode::Fixed] {
+    for mode in [ExecutionMode::Exact, ExecutionMode::Compare, ExecutionMode::Truncate(0.05), ExecutionMode::Fixed] {
         let all = ["scene:street", "scene:shake", "scene:fade"];
         let run = |inputs: &[&str]| {
-            let computed = Computed::Mode(mode);
-            let run = Run { inputs, computed, accelerator: Some("eyeriss"), ..Run::default() };
+            let computed = Computation::Mode(mode);
+            let run = RunSetup { inputs, computed, accelerator: Some("eyeriss"), ..RunSetup::default() };
             let summary = run.write(dir.path()).unwrap();
             let tables = ["frames.parquet", "layers_frames.parquet"];
             let tables = tables.map(|table| timeless(rows(dir.path(), table)));
@@ -45,14 +45,14 @@ fn every_clip_is_as_it_is_alone() {
             needed += alone.macs.needed;
             assert_eq!(format!("scene:{}", told.name), *clip);
             assert_eq!((told.frames, told.counted_frames), (4, 3));
-            assert!(near(told.macs.needed, alone.macs.needed), "{mode:?}: {clip}");
-            assert!(near(told.changed_share, alone.changed_share), "{mode:?}: {clip}");
+            assert!(is_near(told.macs.needed, alone.macs.needed), "{mode:?}: {clip}");
+            assert!(is_near(told.changed_share, alone.changed_share), "{mode:?}: {clip}");
             assert_eq!(alone.clips.len(), 1);
         }
         assert_eq!(tables, expected, "{mode:?}");
         assert!(found == outputs, "{mode:?}");
         assert_eq!((together.frames, together.counted_frames), (12, 9));
-        assert!(near(together.macs.needed, needed / 3.0), "{mode:?}");
+        assert!(is_near(together.macs.needed, needed / 3.0), "{mode:?}");
     }
 }
 
@@ -61,9 +61,9 @@ fn every_clip_is_as_it_is_alone() {
 #[test]
 fn limits_of_some_clips_are_reported_on_the_others() {
     let dir = tempfile::tempdir().unwrap();
-    let computed = Computed::Tuned(Goal::Variation(0.3));
+    let computed = Computation::Tuned(TuningGoal::Variation(0.3));
     let all = ["scene:street", "scene:shake", "scene:fade"];
-    let run = |inputs, frames| Run { inputs, frames, computed, ..Run::default() };
+    let run = |inputs, frames| RunSetup { inputs, frames, computed, ..RunSetup::default() };
     let summary = run(&all, 3).write(dir.path()).unwrap();
     let tuning = summary.tuning.as_ref().unwrap();
     assert_eq!(
@@ -88,24 +88,24 @@ fn limits_of_some_clips_are_reported_on_the_others() {
     let far = |inputs| run(inputs, 3).write(dir.path()).unwrap().tuning.unwrap().frozen.outputs;
     let (alone, beside) =
         (far(&["scene:street", "scene:fade"]), far(&["scene:street", "scene:zero", "scene:fade"]));
-    assert!(near(alone.rms_of_variation, beside.rms_of_variation), "{alone:?} {beside:?}");
+    assert!(is_near(alone.rms_of_variation, beside.rms_of_variation), "{alone:?} {beside:?}");
     let error = run(&all, 1).write(dir.path()).unwrap_err().to_string();
     assert!(error.starts_with("no frame of the clips that it tunes on counts"), "{error}");
 }
 
 /// Cancels after some frames.
-struct Stop {
+struct CancelAfter {
     after: u64,
     done: u64,
 }
 
-impl Hooks for Stop {
-    fn progress(&mut self, progress: Progress) {
+impl RunHooks for CancelAfter {
+    fn progress(&mut self, progress: RunProgress) {
         assert_eq!(progress.total, Some(12), "frames of all clips");
         self.done = progress.done;
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.done >= self.after
     }
 }
@@ -115,13 +115,13 @@ impl Hooks for Stop {
 #[test]
 fn an_interrupted_run_keeps_the_clips_before() {
     let dir = tempfile::tempdir().unwrap();
-    let run = Run { inputs: &["scene:street", "scene:shake", "scene:fade"], ..Run::default() };
+    let run = RunSetup { inputs: &["scene:street", "scene:shake", "scene:fade"], ..RunSetup::default() };
     for (after, clips, problem) in [
         (4, 1, "clips that were not begun: 2"),
         (6, 2, "`shake`: it was interrupted; clips that were not begun: 1"),
         (10, 3, "`fade`: it was interrupted"),
     ] {
-        let summary = run.watched(dir.path(), &mut Stop { after, done: 0 }).unwrap();
+        let summary = run.write_with_hooks(dir.path(), &mut CancelAfter { after, done: 0 }).unwrap();
         assert_eq!(summary.problem.as_deref(), Some(problem), "{after}");
         assert_eq!((summary.frames, summary.clips.len()), (after, clips), "{after}");
         let frames = rows(dir.path(), "frames.parquet");
@@ -132,6 +132,6 @@ fn an_interrupted_run_keeps_the_clips_before() {
                 == after * summary.layers.len() as u64
         );
     }
-    let nothing = run.watched(dir.path(), &mut Stop { after: 0, done: 0 }).unwrap_err();
+    let nothing = run.write_with_hooks(dir.path(), &mut CancelAfter { after: 0, done: 0 }).unwrap_err();
     assert_eq!(nothing.to_string(), "interrupted; nothing was written");
 }

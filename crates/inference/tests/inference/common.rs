@@ -6,23 +6,23 @@ use std::fs::File;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
-use foveate_design::Config;
-use foveate_footage::{Hooks, InputOptions, Silent};
+use foveate_design::DesignConfig;
+use foveate_footage::{RunHooks, InputOptions, SilentHooks};
 use foveate_inference::{
-    Computed, Detector, Framing, Inference, InferenceError, Mapping, Options, Record, Summary,
-    Viewing, read_accelerator,
+    Computation, Detector, Framing, Inference, InferenceError, PixelMapping, InferenceOptions, RecordOptions, InferenceSummary,
+    VisionOptions, read_accelerator,
 };
-use foveate_network::Mode;
+use foveate_network::ExecutionMode;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
 /// A run with `frames` frames of every scene.
-pub(crate) struct Run<'a> {
+pub(crate) struct RunSetup<'a> {
     pub(crate) inputs: &'a [&'a str],
     pub(crate) frames: u32,
-    pub(crate) computed: Computed,
+    pub(crate) computed: Computation,
     pub(crate) accelerator: Option<&'a str>,
     pub(crate) reference: bool,
     pub(crate) framing: Framing,
@@ -38,12 +38,12 @@ pub(crate) struct Run<'a> {
     pub(crate) camera: &'a str,
 }
 
-impl Default for Run<'_> {
+impl Default for RunSetup<'_> {
     fn default() -> Self {
         Self {
             inputs: &["scene:street"],
             frames: 4,
-            computed: Computed::Mode(Mode::Exact),
+            computed: Computation::Mode(ExecutionMode::Exact),
             accelerator: None,
             reference: false,
             framing: Framing::Same,
@@ -57,35 +57,35 @@ impl Default for Run<'_> {
     }
 }
 
-impl Run<'_> {
+impl RunSetup<'_> {
     /// Writes the folder `out` in `folder`. Frames have 64x48 pixels.
-    pub(crate) fn write(&self, folder: &Path) -> Result<Summary, InferenceError> {
-        self.watched(folder, &mut Silent)
+    pub(crate) fn write(&self, folder: &Path) -> Result<InferenceSummary, InferenceError> {
+        self.write_with_hooks(folder, &mut SilentHooks)
     }
 
-    pub(crate) fn watched(
+    pub(crate) fn write_with_hooks(
         &self,
         folder: &Path,
-        hooks: &mut dyn Hooks,
-    ) -> Result<Summary, InferenceError> {
-        let mut config = Config::from_toml(self.camera).unwrap();
+        hooks: &mut dyn RunHooks,
+    ) -> Result<InferenceSummary, InferenceError> {
+        let mut config = DesignConfig::from_toml(self.camera).unwrap();
         (config.camera.frame.width, config.camera.frame.height) = (Some(64), Some(48));
         let input = InputOptions { frames: Some(self.frames), ..InputOptions::default() };
         let inputs: Vec<PathBuf> = self.inputs.iter().map(PathBuf::from).collect();
-        let options = Options {
-            computed: self.computed,
+        let options = InferenceOptions {
+            computation: self.computed,
             accelerator: self.accelerator.map(|name| read_accelerator(name).unwrap()),
-            reference: self.reference,
-            sight: self.sight,
+            with_whole_computation: self.reference,
+            with_whole_frames: self.sight,
             noise: self.noise.to_vec(),
-            every: NonZeroU32::MIN,
-            record: Record { arrays: true, pictures: false },
+            frame_interval: NonZeroU32::MIN,
+            record: RecordOptions { arrays: true, pictures: false },
             command: Vec::new(),
             overwrite: true,
         };
-        let viewing = Viewing {
+        let viewing = VisionOptions {
             framing: self.framing,
-            mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
+            mapping: PixelMapping { mean: vec![0.0], scale: vec![1.0] },
             detector: self.detector.clone(),
         };
         Inference::new(
@@ -100,10 +100,10 @@ impl Run<'_> {
 }
 
 /// A row by the names of its columns.
-pub(crate) type Row = BTreeMap<String, Field>;
+pub(crate) type TableRow = BTreeMap<String, Field>;
 
 /// Reads the rows of a table of `out`.
-pub(crate) fn rows(folder: &Path, table: &str) -> Vec<Row> {
+pub(crate) fn rows(folder: &Path, table: &str) -> Vec<TableRow> {
     let file = File::open(folder.join("out").join(table)).unwrap();
     let reader = SerializedFileReader::new(file).unwrap();
     let row = |row: parquet::record::Row| {
@@ -114,7 +114,7 @@ pub(crate) fn rows(folder: &Path, table: &str) -> Vec<Row> {
 
 /// Returns a number of a row.
 #[allow(clippy::cast_precision_loss, reason = "sums are compared")]
-pub(crate) fn number(row: &Row, column: &str) -> f64 {
+pub(crate) fn number(row: &TableRow, column: &str) -> f64 {
     match &row[column] {
         Field::Long(value) => *value as f64,
         Field::Double(value) => *value,
@@ -123,7 +123,7 @@ pub(crate) fn number(row: &Row, column: &str) -> f64 {
 }
 
 /// Returns a text of a row.
-pub(crate) fn text<'a>(row: &'a Row, column: &str) -> &'a str {
+pub(crate) fn text<'a>(row: &'a TableRow, column: &str) -> &'a str {
     match &row[column] {
         Field::Str(value) => value,
         other => panic!("{column} is {other}"),
@@ -131,11 +131,11 @@ pub(crate) fn text<'a>(row: &'a Row, column: &str) -> &'a str {
 }
 
 /// Returns whether the frame of a row is part of the means.
-pub(crate) fn is_counted(row: &Row) -> bool {
+pub(crate) fn is_counted(row: &TableRow) -> bool {
     row["counted"] == Field::Bool(true)
 }
 
 /// Returns whether two sums are equal except for the order of their terms.
-pub(crate) fn near(one: f64, other: f64) -> bool {
+pub(crate) fn is_near(one: f64, other: f64) -> bool {
     (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
 }

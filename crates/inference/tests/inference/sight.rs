@@ -3,12 +3,12 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::common::{Run, number, rows};
+use crate::common::{RunSetup, number, rows};
 use foveate_inference::{
-    Agreement, Computed, Detector, Framing, InferenceError, Sight, Summary, Viewing, Witness,
-    frames_of, parse_detector, parse_framing,
+    OutputAgreement, Computation, Detector, Framing, InferenceError, WholeFrameAgreement, InferenceSummary, VisionOptions, VisionNetwork,
+    frame_format_of, parse_detector, parse_framing,
 };
-use foveate_network::Mode;
+use foveate_network::ExecutionMode;
 use foveate_network::onnx::{
     AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
     TensorTypeProto, TypeProto, ValueInfoProto, data_type,
@@ -79,21 +79,21 @@ fn squares() -> Detector {
     parse_detector("fastestdet,score=0.6").unwrap()
 }
 
-fn run(folder: &Path, camera: &str, boxes: &[PathBuf]) -> Result<Summary, InferenceError> {
+fn run(folder: &Path, camera: &str, boxes: &[PathBuf]) -> Result<InferenceSummary, InferenceError> {
     let network = bright_squares(folder);
     let (network, detector) = (Some(network.as_path()), Some(squares()));
-    let run = Run { network, detector, boxes, camera, ..Run::default() };
-    Run { sight: true, frames: 6, ..run }.write(folder)
+    let run = RunSetup { network, detector, boxes, camera, ..RunSetup::default() };
+    RunSetup { sight: true, frames: 6, ..run }.write(folder)
 }
 
-fn sight(folder: &Path, camera: &str) -> Sight {
+fn sight(folder: &Path, camera: &str) -> WholeFrameAgreement {
     run(folder, camera, &[]).unwrap().sight.unwrap()
 }
 
 /// Regions without edges are black for the receiver, or show their means, and this network looks
 /// only at means.
 #[test]
-fn means_keep_what_nothing_loses() {
+fn means_keep_objects_that_black_regions_lose() {
     let dir = tempfile::tempdir().unwrap();
     let mean = "[render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 1\nlevel = 0\n[denoise]\nfilter = \"none\"\n[temporal]\nreference = \"last-sent\"\nlevel = 0\nmin_count = 1\n";
     let (nothing, means) = (sight(dir.path(), ""), sight(dir.path(), mean));
@@ -124,7 +124,7 @@ fn detections_are_lost_under_noise() {
     let network = bright_squares(dir.path());
     let (network, detector) = (Some(network.as_path()), Some(squares()));
     let noise = &[0.05, 4.0, 40.0, 255.0];
-    let run = Run { network, detector, noise, sight: true, frames: 120, ..Run::default() };
+    let run = RunSetup { network, detector, noise, sight: true, frames: 120, ..RunSetup::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     let found: Vec<_> = sight.noise.iter().map(|noisy| noisy.detections.unwrap()).collect();
     // Of 119 counted frames at most 48 get noise: every fourth, from the first.
@@ -140,7 +140,7 @@ fn detections_are_lost_under_noise() {
     }
     assert!(sight.intervals.kept.is_some() && sight.intervals.right.is_some());
     // Fewer objects give a wider interval.
-    let few = Run { frames: 3, ..run }.write(dir.path()).unwrap().sight.unwrap();
+    let few = RunSetup { frames: 3, ..run }.write(dir.path()).unwrap().sight.unwrap();
     let width = |[low, high]: [f64; 2]| high - low;
     let [few, many] = [&few, &sight].map(|sight| width(sight.intervals.agreement.unwrap()));
     assert!(few > 2.0 * many, "{few} and {many}");
@@ -152,7 +152,7 @@ fn detections_are_lost_under_noise() {
 fn places_have_no_interval() {
     let dir = tempfile::tempdir().unwrap();
     let network = bright_squares(dir.path());
-    let run = Run { network: Some(&network), noise: &[40.0], sight: true, ..Run::default() };
+    let run = RunSetup { network: Some(&network), noise: &[40.0], sight: true, ..RunSetup::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     assert!(sight.same_places.is_some_and(|share| share == sight.agreement));
     for intervals in [sight.intervals, sight.noise[0].intervals] {
@@ -188,35 +188,35 @@ fn precision_is_against_ground_truth() {
 /// The findings in two frames are compared: equal frames agree fully, and a frame with half of the
 /// objects agrees by 0.5. Frames of another size and a detector that does not fit are refused.
 #[test]
-fn a_witness_says_what_a_run_says() {
+fn half_of_the_objects_give_an_agreement_of_one_half() {
     let dir = tempfile::tempdir().unwrap();
     let network = bright_squares(dir.path());
-    let viewing = Viewing {
+    let viewing = VisionOptions {
         framing: Framing::Same,
-        mapping: foveate_inference::Mapping { mean: vec![0.0], scale: vec![1.0] },
+        mapping: foveate_inference::PixelMapping { mean: vec![0.0], scale: vec![1.0] },
         detector: Some(squares()),
     };
-    let witness = Witness::read(&network, (64, 48), &viewing).unwrap();
+    let witness = VisionNetwork::read(&network, (64, 48), &viewing).unwrap();
     let mut config = foveate_design::CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(64), Some(48));
     let camera = config.validate().unwrap();
     let bright: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 16 { 250 } else { 10 }).collect();
     let half: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 8 { 250 } else { 10 }).collect();
-    let mut looking = witness.look_at(frames_of(&camera));
+    let mut looking = witness.start_run(frame_format_of(&camera));
     let [whole, other] =
-        [&bright, &half].map(|pixels| looking.look(foveate_frame::Plane::Bytes(pixels)));
+        [&bright, &half].map(|pixels| looking.outcome(foveate_frame::FramePixels::Bytes(pixels)));
     let same = witness.compare(&whole, &whole);
-    assert_eq!((same.share(), same.found().unwrap().whole), (1.0, 12));
+    assert_eq!((same.share(), same.detection_counts().unwrap().whole), (1.0, 12));
     let less = witness.compare(&whole, &other);
-    assert_eq!((less.share(), less.found().unwrap().kept), (0.5, 6));
-    let both: Agreement = [&less, &same].into_iter().sum();
+    assert_eq!((less.share(), less.detection_counts().unwrap().kept), (0.5, 6));
+    let both: OutputAgreement = [&less, &same].into_iter().sum();
     assert_eq!(both.share(), 0.75);
     assert!(
-        Witness::read(&network, (32, 48), &viewing).unwrap_err().to_string().contains("letterbox")
+        VisionNetwork::read(&network, (32, 48), &viewing).unwrap_err().to_string().contains("letterbox")
     );
-    let viewing = Viewing { detector: Some(parse_detector("ssd").unwrap()), ..viewing };
+    let viewing = VisionOptions { detector: Some(parse_detector("ssd").unwrap()), ..viewing };
     assert!(
-        Witness::read(&network, (64, 48), &viewing)
+        VisionNetwork::read(&network, (64, 48), &viewing)
             .unwrap_err()
             .to_string()
             .contains("`found` [1, 7, 6, 8]")
@@ -230,17 +230,17 @@ fn scaled_frames_are_exact() {
     let dir = tempfile::tempdir().unwrap();
     for text in ["letterbox=48x48", "stretch=40x56", "stretch=96x72"] {
         let framing = parse_framing(text).unwrap();
-        let computed = Computed::Mode(Mode::Exact);
-        let run = Run { framing, computed, reference: true, frames: 4, ..Run::default() };
+        let computed = Computation::Mode(ExecutionMode::Exact);
+        let run = RunSetup { framing, computed, reference: true, frames: 4, ..RunSetup::default() };
         let summary = run.write(dir.path()).unwrap();
         assert_eq!(summary.error.unwrap().different_frames, 0, "{text}");
-        assert!(summary.macs.needed < summary.macs.dense, "{text}");
+        assert!(summary.macs.needed < summary.macs.whole_frame, "{text}");
         let (width, height) = (summary.layers[0].shape[3], summary.layers[0].shape[2]);
         assert!(text.ends_with(&format!("{width}x{height}")), "{text}");
         assert_eq!(serde_json::to_value(&summary).unwrap()["framing"], text);
     }
     // The denoiser takes any size, so the user must name one.
-    let problem = Run { framing: Framing::Letterbox(None), ..Run::default() }.write(dir.path());
+    let problem = RunSetup { framing: Framing::Letterbox(None), ..RunSetup::default() }.write(dir.path());
     assert!(problem.unwrap_err().to_string().contains("letterbox=416x416"));
 }
 
@@ -249,7 +249,7 @@ fn scaled_frames_are_exact() {
 fn whole_frames_agree_with_themselves() {
     let dir = tempfile::tempdir().unwrap();
     let camera = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmin_score = 0\n[temporal]\nlevel = 0\nmin_count = 0\n";
-    let run = Run { sight: true, camera, ..Run::default() };
+    let run = RunSetup { sight: true, camera, ..RunSetup::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     assert_eq!((sight.agreement, sight.relative_rms, sight.picture_psnr), (1.0, 0.0, None));
     assert!((sight.sent_share - 1.0 - 12.0 / 3072.0).abs() < 1e-9, "{}", sight.sent_share);

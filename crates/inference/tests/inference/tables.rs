@@ -2,9 +2,9 @@
 //! The table of layers and frames, summed over frames or over layers, gives the two other tables,
 //! and they give the totals.
 
-use crate::common::{Row, Run, is_counted, near, number, rows, text};
-use foveate_inference::Computed;
-use foveate_network::Mode;
+use crate::common::{TableRow, RunSetup, is_counted, is_near, number, rows, text};
+use foveate_inference::Computation;
+use foveate_network::ExecutionMode;
 use parquet::record::Field;
 
 /// The run has several clips, an approximate mode, and each accelerator in turn.
@@ -12,12 +12,12 @@ use parquet::record::Field;
 fn layers_of_frames_add_up_to_frames_layers_and_totals() {
     let dir = tempfile::tempdir().unwrap();
     for name in ["systolic-ws", "systolic-os", "eyeriss"] {
-        let run = Run {
+        let run = RunSetup {
             inputs: &["scene:street", "scene:shake"],
-            computed: Computed::Mode(Mode::Truncate(0.02)),
+            computed: Computation::Mode(ExecutionMode::Truncate(0.02)),
             accelerator: Some(name),
             reference: true,
-            ..Run::default()
+            ..RunSetup::default()
         };
         let summary = run.write(dir.path()).unwrap();
         let [details, frames, layers] =
@@ -26,7 +26,7 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
         assert_eq!(details.len(), frames.len() * layers.len());
         assert_eq!((frames.len(), summary.counted_frames), (8, 6));
         for frame in &frames {
-            let own = |row: &&Row| row["clip"] == frame["clip"] && row["frame"] == frame["frame"];
+            let own = |row: &&TableRow| row["clip"] == frame["clip"] && row["frame"] == frame["frame"];
             let sum = |column: &str| -> f64 {
                 details.iter().filter(own).map(|row| number(row, column)).sum()
             };
@@ -39,12 +39,12 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
                 "latency_seconds",
                 "energy_mj",
             ] {
-                assert!(near(sum(column), number(frame, column)), "{name}: {column} of {frame:?}");
+                assert!(is_near(sum(column), number(frame, column)), "{name}: {column} of {frame:?}");
             }
             assert!(sum("seconds") <= number(frame, "seconds"), "operators are a part of it");
         }
         for (layer, row) in (0..).zip(&layers) {
-            let own: Vec<&Row> = details
+            let own: Vec<&TableRow> = details
                 .iter()
                 .filter(|row| row["layer"] == Field::Long(layer) && is_counted(row))
                 .collect();
@@ -61,17 +61,17 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
                 "seconds",
                 "energy_mj",
             ] {
-                assert!(near(mean(column), number(row, column)), "{name}: {column} of {layer}");
+                assert!(is_near(mean(column), number(row, column)), "{name}: {column} of {layer}");
             }
             let macs = number(row, "macs");
-            assert!(near(mean("macs_needed"), macs * number(row, "needed_share")));
-            assert!(near(mean("macs_scheduled"), macs * number(row, "scheduled_share")));
+            assert!(is_near(mean("macs_needed"), macs * number(row, "needed_share")));
+            assert!(is_near(mean("macs_scheduled"), macs * number(row, "scheduled_share")));
         }
-        let counted: Vec<&Row> = frames.iter().filter(|row| is_counted(row)).collect();
+        let counted: Vec<&TableRow> = frames.iter().filter(|row| is_counted(row)).collect();
         let mean = |column: &str| counted.iter().map(|row| number(row, column)).sum::<f64>() / 6.0;
         let accelerator = summary.accelerator.as_ref().unwrap();
         for (column, total) in [
-            ("macs_dense", summary.macs.dense),
+            ("macs_dense", summary.macs.whole_frame),
             ("macs_needed", summary.macs.needed),
             ("macs_scheduled", summary.macs.scheduled),
             ("read_bytes", summary.traffic.read_bytes),
@@ -83,11 +83,11 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
             ("whole_energy_mj", accelerator.whole.energy_mj),
             ("whole_latency_seconds", accelerator.whole.seconds),
         ] {
-            assert!(near(mean(column), total), "{name}: {column}: {} {total}", mean(column));
+            assert!(is_near(mean(column), total), "{name}: {column}: {} {total}", mean(column));
         }
         for frame in &frames {
             let [whole, masked] = ["whole_energy_mj", "energy_mj"].map(|name| number(frame, name));
-            assert!(if is_counted(frame) { masked < whole } else { near(masked, whole) });
+            assert!(if is_counted(frame) { masked < whole } else { is_near(masked, whole) });
         }
     }
 }
@@ -96,7 +96,7 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
 #[test]
 fn what_was_not_counted_is_no_number() {
     let dir = tempfile::tempdir().unwrap();
-    Run::default().write(dir.path()).unwrap();
+    RunSetup::default().write(dir.path()).unwrap();
     for (table, columns) in [
         ("layers_frames.parquet", &["latency_seconds", "energy_mj"][..]),
         ("frames.parquet", &["whole_latency_seconds", "latency_seconds", "whole_energy_mj"]),

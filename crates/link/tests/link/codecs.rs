@@ -6,26 +6,26 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use foveate_link::{Codec, Effort, Encoder, Footage, check_encoders};
-use foveate_scenes::{Scene, SceneSize};
+use foveate_link::{Codec, EncoderPreset, ClipEncoder, GreyFootage, check_encoders};
+use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::testing::{MockHost, require_tools};
-use foveate_toolchain::{Output, Tool, Toolchain};
+use foveate_toolchain::{ProgramOutput, Tool, Toolchain};
 
 const FRAMES: u32 = 5;
 
-fn footage(folder: &Path, (width, height): (u32, u32)) -> Footage {
-    let size = SceneSize { width, height, bits: 8, region_size: 8, frames: FRAMES };
+fn footage(folder: &Path, (width, height): (u32, u32)) -> GreyFootage {
+    let size = SceneParameters { width, height, bits: 8, region_size: 8, frames: FRAMES };
     let frames = Scene::Street.frames(size);
     let bytes = frames.flat_map(|frame| {
         frame.pixels().iter().map(|&pixel| u8::try_from(pixel).unwrap()).collect::<Vec<_>>()
     });
     let path = folder.join("clip.gray");
     fs::write(&path, bytes.collect::<Vec<u8>>()).unwrap();
-    Footage { clip: "street".to_owned(), path, width, height, frames: FRAMES.into() }
+    GreyFootage { clip: "street".to_owned(), path, width, height, frames: FRAMES.into() }
 }
 
 /// Returns the PSNR of a stream as ffmpeg's own filter prints it.
-fn psnr(footage: &Footage, stream: &Path) -> String {
+fn psnr(footage: &GreyFootage, stream: &Path) -> String {
     let size = format!("{}x{}", footage.width, footage.height);
     let output = Command::new("ffmpeg")
         .args(["-hide_banner", "-nostdin", "-r", "30", "-i"])
@@ -52,23 +52,23 @@ fn bytes_are_those_of_the_stream_and_pictures_as_good_as_ffmpeg_says() {
         let footage = footage(folder.path(), size);
         for codec in Codec::ALL {
             let go_on = || false;
-            let mut encoder = Encoder::new(&tools, &footage, (codec, Effort::Veryfast), &go_on);
-            let encoded = encoder.at(20).unwrap().clone();
-            let stream = fs::read(encoder.stream()).unwrap();
+            let mut encoder = ClipEncoder::new(&tools, &footage, (codec, EncoderPreset::Veryfast), &go_on);
+            let encoded = encoder.encode_with(20).unwrap().clone();
+            let stream = fs::read(encoder.stream_path()).unwrap();
             let context = format!("{} {size:?}", codec.name());
             assert_eq!(encoded.packets.iter().sum::<u64>(), stream.len() as u64, "{context}");
             assert_eq!(encoded.packets.len() as u64, footage.frames, "{context}");
             let own = format!("{:.2}", encoded.quality.psnr.unwrap());
-            let theirs: f64 = psnr(&footage, encoder.stream()).parse().unwrap();
+            let theirs: f64 = psnr(&footage, encoder.stream_path()).parse().unwrap();
             assert_eq!(own, format!("{theirs:.2}"), "{context}");
             if size.0 < 160 {
                 continue;
             }
             // The clip is encoded again, and then with a coarser quantizer.
-            let mut again = Encoder::new(&tools, &footage, (codec, Effort::Veryfast), &go_on);
-            assert_eq!(again.at(20).unwrap(), &encoded, "{context}");
-            assert_eq!(fs::read(again.stream()).unwrap(), stream, "{context}");
-            let coarse = again.at(30).unwrap();
+            let mut again = ClipEncoder::new(&tools, &footage, (codec, EncoderPreset::Veryfast), &go_on);
+            assert_eq!(again.encode_with(20).unwrap(), &encoded, "{context}");
+            assert_eq!(fs::read(again.stream_path()).unwrap(), stream, "{context}");
+            let coarse = again.encode_with(30).unwrap();
             assert!(coarse.quality.psnr < encoded.quality.psnr, "{context}");
             assert!(coarse.packets.iter().sum::<u64>() < stream.len() as u64, "{context}");
             let intra = matches!(codec, Codec::Mjpeg | Codec::H264Intra | Codec::H265Intra);
@@ -86,9 +86,9 @@ fn the_finest_h264_is_lossless() {
     let folder = tempfile::tempdir().unwrap();
     let (tools, footage) = (Toolchain::system(), footage(folder.path(), (64, 48)));
     let go_on = || false;
-    let mut encoder = Encoder::new(&tools, &footage, (Codec::H264, Effort::Veryfast), &go_on);
-    assert_eq!(encoder.at(0).unwrap().quality.psnr, None);
-    assert_eq!(encoder.known().len(), 1);
+    let mut encoder = ClipEncoder::new(&tools, &footage, (Codec::H264, EncoderPreset::Veryfast), &go_on);
+    assert_eq!(encoder.encode_with(0).unwrap().quality.psnr, None);
+    assert_eq!(encoder.encoded_clips().len(), 1);
 }
 
 #[test]
@@ -97,8 +97,8 @@ fn an_interrupt_is_heard_and_a_missing_encoder_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let (tools, footage) = (Toolchain::system(), footage(folder.path(), (64, 48)));
         let stop = || true;
-        let mut encoder = Encoder::new(&tools, &footage, (Codec::Mjpeg, Effort::Veryfast), &stop);
-        let error = encoder.at(9).unwrap_err().to_string();
+        let mut encoder = ClipEncoder::new(&tools, &footage, (Codec::Mjpeg, EncoderPreset::Veryfast), &stop);
+        let error = encoder.encode_with(9).unwrap_err().to_string();
         assert_eq!(error, "interrupted; nothing was written");
     }
     let host = MockHost::new().tool(
@@ -106,7 +106,7 @@ fn an_interrupt_is_heard_and_a_missing_encoder_is_named() {
         "ffmpeg version 5.1
 ",
     );
-    let host = host.on_run(|_| Ok(Output::success(" V....D libx264    H.264\n")));
+    let host = host.on_run(|_| Ok(ProgramOutput::success(" V....D libx264    H.264\n")));
     let tools = Toolchain::with_host(host);
     check_encoders(&tools, &[Codec::H264, Codec::H264Intra]).unwrap();
     let error = check_encoders(&tools, &[Codec::H264, Codec::H265]).unwrap_err().to_string();

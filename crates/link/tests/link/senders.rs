@@ -2,8 +2,8 @@
 //! The times at which cameras send, worked out by hand from docs/timing.md, docs/serial.md and
 //! docs/raster.md.
 
-use foveate_design::{Action, Config, Design};
-use foveate_link::{Cameras, Sent, Timeline, Unit};
+use foveate_design::{RegionAction, DesignConfig, Design};
+use foveate_link::{SenderCameras, SentCounts, Timeline, LinkUnit};
 
 /// A frame of 20x12 pixels has 3x2 regions of 8; the last column is 4 pixels wide and the last row
 /// 4 pixels high.
@@ -12,13 +12,13 @@ const SIZE: &str = "frame={width=20,height=12}";
 const MEGAHERTZ: u64 = 1_000_000;
 
 /// Returns the actions of regions that are active or held.
-fn actions(active: &[bool]) -> Vec<Action> {
-    active.iter().map(|&active| if active { Action::Forward } else { Action::Hold }).collect()
+fn actions(active: &[bool]) -> Vec<RegionAction> {
+    active.iter().map(|&active| if active { RegionAction::Forward } else { RegionAction::Hold }).collect()
 }
 
 fn design(overrides: &[&str]) -> Design {
     let all: Vec<&str> = [&[SIZE][..], overrides].concat();
-    Config::from_toml_with("", &all).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with("", &all).unwrap().validate().unwrap()
 }
 
 /// Returns the timeline of two frames of 12 ms, with one row per millisecond.
@@ -28,17 +28,17 @@ fn timeline() -> Timeline {
 
 /// In the first frame region 0 (64 pixels) and the ragged region 5 (4x4 pixels) are active; in the
 /// second frame no region is.
-fn sent(design: &Design) -> [Sent; 2] {
+fn sent(design: &Design) -> [SentCounts; 2] {
     let active = [true, false, false, false, false, true];
     [
-        Sent::of(design, &actions(&active), vec![0; 12]),
-        Sent::of(design, &actions(&[false; 6]), vec![0; 12]),
+        SentCounts::from_actions(design, &actions(&active), vec![0; 12]),
+        SentCounts::from_actions(design, &actions(&[false; 6]), vec![0; 12]),
     ]
 }
 
 /// Returns the times of reading, decision and sending in us, and the bits.
-fn times(units: &[Unit]) -> Vec<(u64, u64, u64, u64)> {
-    units.iter().map(|u| (u.read / 1000, u.decided / 1000, u.sent / 1000, u.bits)).collect()
+fn times(units: &[LinkUnit]) -> Vec<(u64, u64, u64, u64)> {
+    units.iter().map(|u| (u.read_ns / 1000, u.decided_ns / 1000, u.sent_ns / 1000, u.bits)).collect()
 }
 
 #[test]
@@ -54,8 +54,8 @@ fn a_row_of_regions_is_decided_when_its_last_row_was_read() {
     // The isolated median and edge windows have latencies of (N+1) + 2 and N+1 clocks, which is 20.
     // A row of 8 pixels takes 8 clocks.
     let (design, timeline) = (design(&[]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let units = cameras.region_by_rows(&sent(&design)).unwrap();
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let units = cameras.region_units_by_rows(&sent(&design)).unwrap();
     let above = 8_000 + 8 + 20;
     // Below the frame the last row is repeated four times, so 5 rows of 8 pixels are taken.
     let below = 12_000 + 5 * 8 + 20;
@@ -73,21 +73,21 @@ fn neighbors_and_a_second_pass_are_waited_for() {
     // Shared windows of median and edge need two rows of halo; a row has 12 pixels, and the latency
     // is 2. Row 9 is the tenth row.
     let (design, timeline) = (design(&["region.neighborhood=\"shared\""]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let units = cameras.region_by_rows(&sent(&design)).unwrap();
-    assert_eq!(units[0].decided / 1000, 10_000 + 12 + 2);
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let units = cameras.region_units_by_rows(&sent(&design)).unwrap();
+    assert_eq!(units[0].decided_ns / 1000, 10_000 + 12 + 2);
     // With `mad` the decision falls when the next frame has passed, 12 ms later.
     let design = self::design(&["spatial=[{feature=\"mad\"}]", "denoise.filter=\"none\""]);
-    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let units = cameras.region_by_rows(&sent(&design)).unwrap();
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let units = cameras.region_units_by_rows(&sent(&design)).unwrap();
     // The last row takes 8 clocks, and the tail delays by 1.
-    assert_eq!(units[0].decided / 1000, 12_000 + 8_000 + 8 + 1);
+    assert_eq!(units[0].decided_ns / 1000, 12_000 + 8_000 + 8 + 1);
 }
 
 #[test]
 fn pixels_leave_the_pipelined_array_with_the_next_frame() {
     let (design, timeline) = (design(&[]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     // A frame is taken in 64 clocks after it has been read, and decided 20 clocks later.
     let decided = 12_000 + 64 + 20;
     let expected = [
@@ -95,25 +95,25 @@ fn pixels_leave_the_pipelined_array_with_the_next_frame() {
         (1_000, decided, decided + 12_000, 80 * 8),
         (13_000, decided + 12_000, decided + 12_000, 6 * 2),
     ];
-    assert_eq!(times(&cameras.region_array(&sent(&design))), expected);
+    assert_eq!(times(&cameras.region_array_units(&sent(&design))), expected);
 }
 
 #[test]
 fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     let hardware = "hardware={organization=\"serial\",fold=2}";
     let (design, timeline) = (design(&[hardware]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, Some(100 * MEGAHERTZ)).unwrap();
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(100 * MEGAHERTZ)).unwrap();
     let sent = sent(&design);
     // Region 0 is in slot 0 and region 5 in slot 1.
     assert_eq!(sent[0].slots, [64, 16]);
-    assert!(cameras.region_by_rows(&sent).is_none(), "its lanes work in step");
-    let units = cameras.region_array(&sent);
+    assert!(cameras.region_units_by_rows(&sent).is_none(), "its lanes work in step");
+    let units = cameras.region_array_units(&sent);
     // Three lanes take 2 * 64 pixels. A slot takes 64 * 83 clocks of median, 3 of count, 14 * 64 of
     // edge, 3 of score and 64 of unload.
     let (median, edge) = (64 * 83, 14 * 64);
     let (decides, slot) = (median + 3 + edge + 3, median + 3 + edge + 3 + 64);
     let clocks = |clocks: u64| 12_000_000 + (128 + clocks) * 10;
-    let ns: Vec<_> = units[..4].iter().map(|u| (u.decided, u.sent, u.bits)).collect();
+    let ns: Vec<_> = units[..4].iter().map(|u| (u.decided_ns, u.sent_ns, u.bits)).collect();
     let expected = [
         (clocks(decides), clocks(decides), 3 * 2),
         (clocks(decides), clocks(slot), 64 * 8),
@@ -131,15 +131,15 @@ fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() 
     let set =
         [core, "region.size=4", "spatial=[{feature=\"variance\"}]", "denoise.filter=\"none\""];
     let (design, timeline) = (design(&set), timeline());
-    let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
+    let at = |clock| SenderCameras::new("clip", &design, &timeline, clock).unwrap();
     // In the first row regions 0 and 4 are active, in the second row none, and in the third row 11
     // and 12.
     let mut active = [false; 15];
     [0, 4, 11, 12].iter().for_each(|&region: &usize| active[region] = true);
-    let first = Sent::of(&design, &actions(&active), vec![0; 12]);
+    let first = SentCounts::from_actions(&design, &actions(&active), vec![0; 12]);
     assert_eq!(first.rows, [32, 0, 32]);
-    let sent = [first, Sent::of(&design, &actions(&[false; 15]), vec![0; 12])];
-    assert!(at(None).region_by_rows(&sent).is_none(), "the array does it");
+    let sent = [first, SentCounts::from_actions(&design, &actions(&[false; 15]), vec![0; 12])];
+    assert!(at(None).region_units_by_rows(&sent).is_none(), "the array does it");
     // The last word of a row of regions comes with its row; with `variance` D is 9. The last region
     // does not wait: it enters the queue at 10, is held at 12, its 16 words are fetched from 13 to
     // 28, and the last word is out at 29. Region 12 comes 200 us after region 11, so it does not
@@ -155,9 +155,9 @@ fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() 
         (17_000, 20_000 + decision, 20_000 + decision, 10),
         (21_000, 24_000 + decision, 24_000 + decision, 10),
     ];
-    assert_eq!(times(&at(Some(MEGAHERTZ)).region_array(&sent)), expected);
+    assert_eq!(times(&at(Some(MEGAHERTZ)).region_array_units(&sent)), expected);
     // Without a clock, pixels that do not wait for others leave with their last word.
-    let units = at(None).region_array(&sent);
+    let units = at(None).region_array_units(&sent);
     assert_eq!(times(&units)[1], (1_000, 4_000, 4_000, 32 * 8));
     assert_eq!(times(&units)[4], (9_000, 11_600, 11_600, 32 * 8));
     // There are 240 words, and 9 clocks until the last decision, in 12 ms.
@@ -169,28 +169,28 @@ fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() 
 fn a_raster_core_with_windows_waits_for_the_rows_below() {
     let set = ["hardware.organization=\"raster\"", "region.size=4"];
     let (design, timeline) = (design(&set), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let none = [Sent::of(&design, &actions(&[false; 15]), vec![0; 12])];
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let none = [SentCounts::from_actions(&design, &actions(&[false; 15]), vec![0; 12])];
     // The median and the edges wait for two rows and two words of 50 us, and D is 11.
     let above = |rows: u64| 1_000 * (rows + 2) + 100 + 11;
     // These are two rows of 20 words and two words, one per clock.
     let below = 12_000 + 42 + 11;
     let expected = [(1_000, above(4)), (5_000, above(8)), (9_000, below)];
     let expected = expected.map(|(read, at)| (read, at, at, 10));
-    assert_eq!(times(&cameras.region_array(&none)), expected);
+    assert_eq!(times(&cameras.region_array_units(&none)), expected);
 }
 
 #[test]
 fn rows_and_frames_of_the_others() {
     let (design, timeline) = (design(&[]), timeline());
-    let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let raw = cameras.raw();
-    assert_eq!((raw.len(), raw[11].sent, raw[11].bits), (24, 12_000_000, 20 * 8));
-    assert!(raw.iter().all(|unit| unit.read == unit.sent));
+    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
+    let raw = cameras.raw_units();
+    assert_eq!((raw.len(), raw[11].sent_ns, raw[11].bits), (24, 12_000_000, 20 * 8));
+    assert!(raw.iter().all(|unit| unit.read_ns == unit.sent_ns));
     let mut sent = sent(&design);
     sent[1].events[2] = 5;
-    assert_eq!(times(&cameras.pixel(&sent)), [(15_000, 15_000, 15_000, 5 * 32)]);
-    let codec = times(&cameras.codec(&[100, 7]));
+    assert_eq!(times(&cameras.pixel_event_units(&sent)), [(15_000, 15_000, 15_000, 5 * 32)]);
+    let codec = times(&cameras.codec_units(&[100, 7]));
     assert_eq!(codec, [(1_000, 12_000, 12_000, 800), (13_000, 24_000, 24_000, 56)]);
 }
 
@@ -198,10 +198,10 @@ fn rows_and_frames_of_the_others() {
 fn an_array_that_is_too_slow_is_refused() {
     // A whole frame takes 64 clocks, but 12 rows of 8 pixels one by one take 96 clocks, in 12 ms.
     let (design, timeline) = (design(&[]), timeline());
-    assert!(Cameras::new("clip", &design, &timeline, Some(8_000)).is_ok());
-    let error = Cameras::new("clip", &design, &timeline, Some(7_999)).unwrap_err().to_string();
+    assert!(SenderCameras::new("clip", &design, &timeline, Some(8_000)).is_ok());
+    let error = SenderCameras::new("clip", &design, &timeline, Some(7_999)).unwrap_err().to_string();
     assert!(error.contains("every 12000000 ns") && error.contains("12001501 ns"), "{error}");
-    let without = Cameras::new("clip", &design, &timeline, None).unwrap();
+    let without = SenderCameras::new("clip", &design, &timeline, None).unwrap();
     assert_eq!(without.needed_clock_hz(), 8_000);
 }
 
@@ -216,19 +216,19 @@ fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
         let design = design(&[&[core, "region.size=4"], set].concat());
         let timeline = Timeline::new("clip", &[0, 12_000], design.height()).unwrap();
         let all = vec![true; design.regions() as usize];
-        let sent = [(); 2].map(|()| Sent::of(&design, &actions(&all), vec![0; 12]));
-        let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
-        let (needed, own) = (at(None).needed_clock_hz(), at(None).own_clocks());
+        let sent = [(); 2].map(|()| SentCounts::from_actions(&design, &actions(&all), vec![0; 12]));
+        let at = |clock| SenderCameras::new("clip", &design, &timeline, clock).unwrap();
+        let (needed, own) = (at(None).needed_clock_hz(), at(None).added_clocks());
         let later = |clock: u64| {
             let (without, with) =
-                (at(None).region_array(&sent), at(Some(clock)).region_array(&sent));
-            let later = with.iter().zip(&without).map(|(with, without)| with.sent - without.sent);
+                (at(None).region_array_units(&sent), at(Some(clock)).region_array_units(&sent));
+            let later = with.iter().zip(&without).map(|(with, without)| with.sent_ns - without.sent_ns);
             // The clocks of this test are far below 1 GHz, and its times are below a minute.
             (later.max().unwrap() - 1) * clock / 1_000_000_000
         };
         assert!((own - 2..=own).contains(&later(needed)), "{set:?}: {}", later(needed));
         assert!(later(100 * needed) < own, "{set:?}");
-        assert!(Cameras::new("clip", &design, &timeline, Some(needed - 1)).is_err(), "{set:?}");
+        assert!(SenderCameras::new("clip", &design, &timeline, Some(needed - 1)).is_err(), "{set:?}");
     }
 }
 
@@ -242,17 +242,17 @@ fn without_a_clock_the_clocks_of_the_array_are_left_out_and_stated() {
     for (set, expected) in [(&[][..], None), (&[serial], Some(two_slots))] {
         let (design, timeline) = (design(set), timeline());
         let sent = sent(&design);
-        let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
+        let at = |clock| SenderCameras::new("clip", &design, &timeline, clock).unwrap();
         let (without, with) = (at(None), at(Some(100 * MEGAHERTZ)));
-        let all = |cameras: &Cameras<'_>| {
-            let rows = cameras.region_by_rows(&sent).unwrap_or_default();
-            rows.into_iter().chain(cameras.region_array(&sent)).collect::<Vec<_>>()
+        let all = |cameras: &SenderCameras<'_>| {
+            let rows = cameras.region_units_by_rows(&sent).unwrap_or_default();
+            rows.into_iter().chain(cameras.region_array_units(&sent)).collect::<Vec<_>>()
         };
         let (without_clock, with_clock) = (all(&without), all(&with));
         let pairs = without_clock.iter().zip(&with_clock);
         let later =
-            pairs.map(|(one, other)| (other.sent - one.sent).max(other.decided - one.decided));
-        assert_eq!(later.max(), Some(without.own_clocks() * 10));
-        assert_eq!(without.own_clocks(), expected.unwrap_or(without.own_clocks()));
+            pairs.map(|(one, other)| (other.sent_ns - one.sent_ns).max(other.decided_ns - one.decided_ns));
+        assert_eq!(later.max(), Some(without.added_clocks() * 10));
+        assert_eq!(without.added_clocks(), expected.unwrap_or(without.added_clocks()));
     }
 }

@@ -4,8 +4,8 @@
 
 use foveate_camera::Camera;
 
-use crate::view::{FrameRegion, RegionView};
-use crate::window::{CENTER, Window};
+use crate::region_view::{FrameRegion, RegionView};
+use crate::window::{CENTER, PixelWindow};
 use foveate_frame::Frame;
 
 /// The positions of the neighbors of the center in a window, clockwise from the upper left.
@@ -20,7 +20,7 @@ const ARC: usize = 5;
 /// arc is above the level. So the best arc decides, and its difference must be at least 1 for level
 /// 0.
 #[must_use]
-pub fn strength(window: &Window) -> Option<u32> {
+pub fn corner_strength(window: &PixelWindow) -> Option<u32> {
     let center = i32::from(window[CENTER]);
     let over = RING.map(|place| i32::from(window[place]) - center);
     let arcs = (0..over.len()).map(|start| {
@@ -40,7 +40,7 @@ pub fn strength(window: &Window) -> Option<u32> {
 /// region.
 #[must_use]
 pub fn corner_strengths(camera: &Camera, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
-    FrameRegion::new(camera, denoised, region).windows().map(|window| strength(&window)).collect()
+    FrameRegion::new(camera, denoised, region).windows().map(|window| corner_strength(&window)).collect()
 }
 
 #[cfg(test)]
@@ -51,14 +51,14 @@ mod tests {
     fn five_in_a_row_are_needed_and_the_weakest_counts() {
         // The arc over the top has the upper row, the right pixel, and the lower right or the left
         // pixel.
-        assert_eq!(strength(&[9, 9, 9, 0, 2, 9, 0, 0, 9]), Some(6));
-        assert_eq!(strength(&[9, 9, 9, 0, 2, 9, 0, 0, 5]), Some(2));
-        assert_eq!(strength(&[9, 9, 9, 2, 2, 9, 2, 2, 2]), None);
+        assert_eq!(corner_strength(&[9, 9, 9, 0, 2, 9, 0, 0, 9]), Some(6));
+        assert_eq!(corner_strength(&[9, 9, 9, 0, 2, 9, 0, 0, 5]), Some(2));
+        assert_eq!(corner_strength(&[9, 9, 9, 2, 2, 9, 2, 2, 2]), None);
         // The arc goes around the end of the ring.
-        assert_eq!(strength(&[9, 9, 2, 9, 2, 2, 9, 9, 2]), Some(6));
+        assert_eq!(corner_strength(&[9, 9, 2, 9, 2, 2, 9, 9, 2]), Some(6));
         // The arc is darker than the center.
-        assert_eq!(strength(&[1, 1, 1, 5, 4, 1, 5, 5, 1]), Some(2));
-        assert_eq!(strength(&[7; 9]), None);
-        assert_eq!(strength(&[65535, 65535, 65535, 0, 0, 65535, 0, 0, 65535]), Some(65534));
+        assert_eq!(corner_strength(&[1, 1, 1, 5, 4, 1, 5, 5, 1]), Some(2));
+        assert_eq!(corner_strength(&[7; 9]), None);
+        assert_eq!(corner_strength(&[65535, 65535, 65535, 0, 0, 65535, 0, 0, 65535]), Some(65534));
     }
 }

@@ -3,8 +3,8 @@
 
 use foveate_camera::Camera;
 
-use crate::view::{FrameRegion, RegionView};
-use crate::window::Window;
+use crate::region_view::{FrameRegion, RegionView};
+use crate::window::PixelWindow;
 use foveate_frame::Frame;
 
 /// Returns the Sobel magnitude `|Gx| + |Gy|` of the center.
@@ -15,7 +15,7 @@ use foveate_frame::Frame;
 ///      -1  0 +1          +1 +2 +1
 /// ```
 #[must_use]
-pub fn magnitude(window: &Window) -> u32 {
+pub fn edge_magnitude(window: &PixelWindow) -> u32 {
     let [nw, n, ne, w, _, e, sw, s, se] = *window;
     let side = |a: u16, b: u16, c: u16| i32::from(a) + 2 * i32::from(b) + i32::from(c);
     let gx = side(ne, e, se) - side(nw, w, sw);
@@ -31,7 +31,7 @@ pub fn magnitude(window: &Window) -> u32 {
 /// region.
 #[must_use]
 pub fn edge_magnitudes(camera: &Camera, denoised: &Frame, region: u32) -> Vec<u32> {
-    FrameRegion::new(camera, denoised, region).windows().map(|window| magnitude(&window)).collect()
+    FrameRegion::new(camera, denoised, region).windows().map(|window| edge_magnitude(&window)).collect()
 }
 
 #[cfg(test)]
@@ -40,10 +40,10 @@ mod tests {
 
     #[test]
     fn a_step_a_diagonal_and_the_maximum() {
-        assert_eq!(magnitude(&[0, 0, 9, 0, 0, 9, 0, 0, 9]), 36);
-        assert_eq!(magnitude(&[9, 0, 0, 9, 0, 0, 9, 0, 0]), 36);
-        assert_eq!(magnitude(&[0, 0, 0, 0, 0, 9, 0, 9, 9]), 54);
-        assert_eq!(magnitude(&[0, 0, 0, 0, 7, 65535, 0, 65535, 65535]), 6 * 65535);
-        assert_eq!(magnitude(&[4, 4, 4, 4, 0, 4, 4, 4, 4]), 0);
+        assert_eq!(edge_magnitude(&[0, 0, 9, 0, 0, 9, 0, 0, 9]), 36);
+        assert_eq!(edge_magnitude(&[9, 0, 0, 9, 0, 0, 9, 0, 0]), 36);
+        assert_eq!(edge_magnitude(&[0, 0, 0, 0, 0, 9, 0, 9, 9]), 54);
+        assert_eq!(edge_magnitude(&[0, 0, 0, 0, 7, 65535, 0, 65535, 65535]), 6 * 65535);
+        assert_eq!(edge_magnitude(&[4, 4, 4, 4, 0, 4, 4, 4, 4]), 0);
     }
 }

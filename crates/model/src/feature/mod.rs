@@ -8,9 +8,9 @@ pub mod variance;
 
 use foveate_camera::{Camera, FeatureKind, SpatialFeature};
 
-use crate::number::count;
-use crate::view::{FrameRegion, RegionView};
-use crate::window::Window;
+use crate::conversions::count_true;
+use crate::region_view::{FrameRegion, RegionView};
+use crate::window::PixelWindow;
 use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
@@ -21,16 +21,16 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
     let sum = || region.pixels().map(u64::from).sum();
     match feature.kind() {
         kind @ (FeatureKind::Edge | FeatureKind::Corner) => {
-            count(region.windows().map(|window| is_hit(kind, &window, level))).into()
+            count_true(region.windows().map(|window| is_hit(kind, &window, level))).into()
         }
         FeatureKind::Mad => {
             let fraction_bits = feature.mean().expect("mad has a mean").fraction_bits;
-            let mean = mad::mean(sum(), region.n(), fraction_bits);
+            let mean = mad::mean(sum(), region.pixel_count(), fraction_bits);
             region.pixels().map(|pixel| mad::deviation(pixel, mean, fraction_bits)).sum()
         }
         FeatureKind::Variance => {
             let square_sum = region.pixels().map(variance::square).sum();
-            variance::score(region.n(), sum(), square_sum)
+            variance::score(region.pixel_count(), sum(), square_sum)
         }
     }
 }
@@ -42,13 +42,13 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
 /// Panics if the frame does not have the size of the padded frame of the camera, or has no such
 /// region.
 #[must_use]
-pub fn hits(
+pub fn region_hits(
     camera: &Camera,
     feature: &SpatialFeature,
     denoised: &Frame,
     region: u32,
 ) -> Option<Vec<bool>> {
-    let level = feature.level().filter(|_| feature.kind().measure().is_count())?;
+    let level = feature.level().filter(|_| feature.kind().score_unit().is_count())?;
     let region = FrameRegion::new(camera, denoised, region);
     Some(region.windows().map(|window| is_hit(feature.kind(), &window, level)).collect())
 }
@@ -56,10 +56,10 @@ pub fn hits(
 /// Returns true if the center of a window is a hit. It is never one for a feature that counts no
 /// hits.
 #[must_use]
-pub fn is_hit(kind: FeatureKind, window: &Window, level: u32) -> bool {
+pub fn is_hit(kind: FeatureKind, window: &PixelWindow, level: u32) -> bool {
     match kind {
-        FeatureKind::Edge => edge::magnitude(window) > level,
-        FeatureKind::Corner => corner::strength(window).is_some_and(|strength| level <= strength),
+        FeatureKind::Edge => edge::edge_magnitude(window) > level,
+        FeatureKind::Corner => corner::corner_strength(window).is_some_and(|strength| level <= strength),
         FeatureKind::Mad | FeatureKind::Variance => false,
     }
 }
@@ -67,10 +67,10 @@ pub fn is_hit(kind: FeatureKind, window: &Window, level: u32) -> bool {
 /// Returns a level next to which the center of a window changes between hit and no hit: the largest
 /// level at which it is a hit, or one more. Returns `None` if it is not a hit at any level.
 #[must_use]
-pub fn decisive_level(kind: FeatureKind, window: &Window) -> Option<u32> {
+pub fn decisive_level(kind: FeatureKind, window: &PixelWindow) -> Option<u32> {
     match kind {
-        FeatureKind::Edge => Some(edge::magnitude(window)),
-        FeatureKind::Corner => corner::strength(window),
+        FeatureKind::Edge => Some(edge::edge_magnitude(window)),
+        FeatureKind::Corner => corner::corner_strength(window),
         FeatureKind::Mad | FeatureKind::Variance => None,
     }
 }

@@ -11,24 +11,24 @@
 //!
 //! The values between the registers cannot be observed, so the model computes the median at once.
 
-use super::line::Line;
-use super::pixel::Pixel;
-use super::plan::RpuPlan;
-use super::window::WindowStage;
-use crate::denoise::median;
+use super::delay_line::DelayLine;
+use super::pixel::StagePixel;
+use super::rpu_parameters::RpuParameters;
+use super::window_stage::WindowStage;
+use crate::denoising::median;
 
 /// The stage that takes raw pixels and gives denoised pixels.
 #[derive(Clone, Debug)]
 pub(super) struct MedianStage {
     window: WindowStage,
-    results: Line<Pixel>,
+    results: DelayLine<StagePixel>,
 }
 
 impl MedianStage {
-    pub(super) fn new(plan: &RpuPlan) -> Self {
+    pub(super) fn new(plan: &RpuParameters) -> Self {
         Self {
             window: WindowStage::new(plan, plan.stream_side),
-            results: Line::new(plan.median_registers),
+            results: DelayLine::new(plan.median_registers),
         }
     }
 
@@ -38,12 +38,12 @@ impl MedianStage {
     }
 
     /// Applies one edge, and returns the pixel that the next stage takes at this edge.
-    pub(super) fn step(&mut self, pixel: Option<Pixel>) -> Option<Pixel> {
+    pub(super) fn step(&mut self, pixel: Option<StagePixel>) -> Option<StagePixel> {
         // The raw halo of a shared region already repeats the border of the frame.
         let no_border = 0;
         let center = self.window.step(pixel, no_border);
         let result =
-            center.map(|center| Pixel { scored: median(&center.window), raw: center.pixel.raw });
+            center.map(|center| StagePixel { scored: median(&center.window), raw: center.pixel.raw });
         self.results.step(result)
     }
 }

@@ -13,24 +13,24 @@
 //!
 //! A stage that the design does not need is left out. At an edge a stage takes one pixel or none.
 
-mod center;
-mod decide;
-mod isolated;
-mod line;
+mod window_center;
+mod relevance;
+mod isolated_window;
+mod delay_line;
 mod median;
-mod moments;
-mod periphery;
+mod region_sums;
+mod tail_summary;
 mod pixel;
-mod plan;
+mod rpu_parameters;
 mod ports;
 mod rcm;
 mod rpu;
 mod scores;
-mod shared;
-mod store;
+mod shared_window;
+mod frame_store;
 mod tail;
-mod temporal;
-mod window;
+mod temporal_counters;
+mod window_stage;
 
 pub use ports::{RpuInput, RpuOutput};
 pub use rcm::PipelinedRcm;

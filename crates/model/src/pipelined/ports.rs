@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of one RPU: the inputs at an edge, and the outputs after it.
 
-use super::plan::FEATURES;
+use super::rpu_parameters::MAX_FEATURES;
 
 /// The inputs of an RPU at one edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct RpuOutput {
     pub active: bool,
     /// Values of the score ports, by number of the feature in the design. They are 0 for numbers
     /// without a feature.
-    pub scores: [u64; FEATURES],
+    pub scores: [u64; MAX_FEATURES],
     /// Value of `temporal_count_o`.
     pub temporal_count: u32,
     /// Value of `summary_o`.

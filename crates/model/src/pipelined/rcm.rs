@@ -4,20 +4,20 @@
 use foveate_design::{FeatureKind, PipelinedDesign, PortRole};
 
 use super::{PipelinedRpu, RpuInput, RpuOutput};
-use crate::cycle::{CoreInput, CycleModel};
+use crate::cycle_model::{CoreInput, CycleModel};
 use crate::{FrameSync, region_border};
 
 /// The cycle-level model of an RCM. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
 pub struct PipelinedRcm {
-    kinds: Vec<FeatureKind>,
+    feature_kinds: Vec<FeatureKind>,
     sync: FrameSync,
-    lanes: Vec<Lane>,
+    lanes: Vec<RpuLane>,
     outputs: Vec<RpuOutput>,
 }
 
 #[derive(Clone, Debug)]
-struct Lane {
+struct RpuLane {
     rpu: PipelinedRpu,
     /// The borders of the region, or `None` for a lone RPU, whose borders are an input.
     border: Option<u8>,
@@ -28,25 +28,25 @@ impl PipelinedRcm {
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
         let border = |region| Some(region_border(&design, region));
-        Self::of(design, FrameSync::new(&design), (0..design.regions()).map(border))
+        Self::with_borders(design, FrameSync::new(&design), (0..design.regions()).map(border))
     }
 
     /// Makes module `rpu`: one RPU of the design, whose borders are an input. It has no logic that
     /// finds frames.
     #[must_use]
-    pub fn lone(design: PipelinedDesign<'_>) -> Self {
-        Self::of(design, FrameSync::absent(), std::iter::once(None))
+    pub fn lone_rpu(design: PipelinedDesign<'_>) -> Self {
+        Self::with_borders(design, FrameSync::without_sync(), std::iter::once(None))
     }
 
-    fn of(
+    fn with_borders(
         design: PipelinedDesign<'_>,
         sync: FrameSync,
         borders: impl Iterator<Item = Option<u8>>,
     ) -> Self {
         let rpu = PipelinedRpu::new(design);
-        let lanes: Vec<_> = borders.map(|border| Lane { rpu: rpu.clone(), border }).collect();
+        let lanes: Vec<_> = borders.map(|border| RpuLane { rpu: rpu.clone(), border }).collect();
         Self {
-            kinds: design.kinds(),
+            feature_kinds: design.feature_kinds(),
             sync,
             outputs: vec![RpuOutput::default(); lanes.len()],
             lanes,
@@ -87,7 +87,7 @@ impl PipelinedRcm {
     }
 
     /// Appends one value per lane.
-    fn lanes(&self, values: &mut Vec<u64>, value: impl Fn(&RpuOutput) -> u64) {
+    fn append_lanes(&self, values: &mut Vec<u64>, value: impl Fn(&RpuOutput) -> u64) {
         values.extend(self.outputs.iter().map(value));
     }
 }
@@ -97,23 +97,23 @@ impl CycleModel for PipelinedRcm {
         self.step(input);
     }
 
-    fn show(&self, role: PortRole, values: &mut Vec<u64>) {
+    fn append_output(&self, role: PortRole, values: &mut Vec<u64>) {
         match role {
             PortRole::SyncError => values.push(self.sync_error().into()),
             // All lanes decide in the same clock.
             PortRole::DecisionValid => values.push(self.outputs[0].decision_valid.into()),
-            PortRole::Srs => self.lanes(values, |shown| shown.srs.into()),
-            PortRole::Trs => self.lanes(values, |shown| shown.trs.into()),
-            PortRole::Active => self.lanes(values, |shown| shown.active.into()),
-            PortRole::Summary => self.lanes(values, |shown| shown.summary.into()),
+            PortRole::Srs => self.append_lanes(values, |shown| shown.srs.into()),
+            PortRole::Trs => self.append_lanes(values, |shown| shown.trs.into()),
+            PortRole::Active => self.append_lanes(values, |shown| shown.active.into()),
+            PortRole::Summary => self.append_lanes(values, |shown| shown.summary.into()),
             PortRole::Score(kind) => {
-                if let Some(place) = self.kinds.iter().position(|&own| own == kind) {
-                    self.lanes(values, |shown| shown.scores[place]);
+                if let Some(place) = self.feature_kinds.iter().position(|&own| own == kind) {
+                    self.append_lanes(values, |shown| shown.scores[place]);
                 }
             }
-            PortRole::TemporalCount => self.lanes(values, |shown| shown.temporal_count.into()),
-            PortRole::ForwardValid => self.lanes(values, |shown| shown.forward_valid.into()),
-            PortRole::ForwardPixel => self.lanes(values, |shown| shown.forward_pixel.into()),
+            PortRole::TemporalCount => self.append_lanes(values, |shown| shown.temporal_count.into()),
+            PortRole::ForwardValid => self.append_lanes(values, |shown| shown.forward_valid.into()),
+            PortRole::ForwardPixel => self.append_lanes(values, |shown| shown.forward_pixel.into()),
             // The other roles are inputs, or outputs that an RCM does not have.
             _ => {}
         }

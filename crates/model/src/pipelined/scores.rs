@@ -11,34 +11,34 @@
 
 use foveate_design::FeatureKind;
 
-use super::moments::Moments;
-use super::pixel::Step;
-use super::plan::{FEATURES, RpuPlan};
+use super::region_sums::RegionSums;
+use super::pixel::TailStep;
+use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
 use crate::feature::mad;
 
 /// The spatial scores of one RPU, by number of the feature.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Scores {
-    hits: [u64; FEATURES],
-    moments: Moments,
+pub(super) struct RpuScores {
+    hits: [u64; MAX_FEATURES],
+    moments: RegionSums,
     /// The score of `mad`, which the second pass sums up over the frame before.
     deviations: u64,
-    held: [u64; FEATURES],
+    hold_registers: [u64; MAX_FEATURES],
 }
 
-impl Scores {
+impl RpuScores {
     /// Applies a tail step. `before` is the pixel at this position in the frame before, or `None`
     /// if there is none.
     pub(super) fn step(
         &mut self,
-        plan: &RpuPlan,
-        step: &Step,
+        plan: &RpuParameters,
+        step: &TailStep,
         before: Option<u16>,
         last: bool,
         n: u64,
     ) {
         for (count, hit) in self.hits.iter_mut().zip(step.hits) {
-            *count += crate::number::hit(hit);
+            *count += crate::conversions::bool_as_count(hit);
         }
         if let Some(before) = before {
             self.deviations += mad::deviation(before, self.moments.mean, plan.fraction_bits);
@@ -47,19 +47,19 @@ impl Scores {
     }
 
     /// Applies the edge after done.
-    pub(super) fn finish(&mut self, plan: &RpuPlan) {
-        self.held = self.running(plan);
-        self.hits = [0; FEATURES];
+    pub(super) fn finish(&mut self, plan: &RpuParameters) {
+        self.hold_registers = self.accumulated_scores(plan);
+        self.hits = [0; MAX_FEATURES];
         self.deviations = 0;
     }
 
     /// Returns the values of the score ports.
-    pub(super) fn shown(&self, plan: &RpuPlan) -> [u64; FEATURES] {
-        let running = self.running(plan);
+    pub(super) fn port_scores(&self, plan: &RpuParameters) -> [u64; MAX_FEATURES] {
+        let running = self.accumulated_scores(plan);
         if !plan.second_pass {
             return running;
         }
-        let mut shown = self.held;
+        let mut shown = self.hold_registers;
         for ((score, running), kind) in shown.iter_mut().zip(running).zip(plan.features) {
             if kind.is_some_and(FeatureKind::has_second_pass) {
                 *score = running;
@@ -69,8 +69,8 @@ impl Scores {
     }
 
     /// Returns the current value of every score in its counter or accumulator.
-    fn running(&self, plan: &RpuPlan) -> [u64; FEATURES] {
-        let mut scores = [0; FEATURES];
+    fn accumulated_scores(&self, plan: &RpuParameters) -> [u64; MAX_FEATURES] {
+        let mut scores = [0; MAX_FEATURES];
         for ((score, hits), kind) in scores.iter_mut().zip(self.hits).zip(plan.features) {
             *score = match kind {
                 None => 0,

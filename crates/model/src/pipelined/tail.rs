@@ -14,35 +14,35 @@
 //! With `mad` the decision after edge 8 is that of frame a, and its pixels leave while frame c
 //! comes in.
 
-use foveate_design::{Action, Payload};
+use foveate_design::{RegionAction, Payload};
 
-use super::decide::Decision;
-use super::periphery::TailSummary;
-use super::pixel::{Pixel, Step};
-use super::plan::RpuPlan;
+use super::relevance::RelevanceBits;
+use super::tail_summary::TailSummary;
+use super::pixel::{StagePixel, TailStep};
+use super::rpu_parameters::RpuParameters;
 use super::ports::RpuOutput;
-use super::scores::Scores;
-use super::store::Store;
-use super::temporal::TemporalScore;
-use crate::Thresholds;
+use super::scores::RpuScores;
+use super::frame_store::RegionFrameStore;
+use super::temporal_counters::TemporalCounters;
+use crate::ThresholdInputs;
 
 /// The part of an RPU behind the windows.
 #[derive(Clone, Debug)]
-pub(super) struct Tail {
-    plan: RpuPlan,
-    store: Store,
-    registers: Registers,
+pub(super) struct RpuTail {
+    plan: RpuParameters,
+    store: RegionFrameStore,
+    registers: TailRegisters,
 }
 
 /// The state that a reset clears: everything except the frame store.
 #[derive(Clone, Debug, Default)]
-struct Registers {
+struct TailRegisters {
     /// Position of the next tail step, 0..n.
     position: usize,
     /// True if the last edge had the last tail step of a frame.
     done: bool,
-    scores: Scores,
-    temporal: TemporalScore,
+    scores: RpuScores,
+    temporal: TemporalCounters,
     periphery: TailSummary,
     /// The temporal count of the frame before, for designs with a second pass.
     held_count: u32,
@@ -51,37 +51,37 @@ struct Registers {
     forward: Option<u16>,
 }
 
-impl Tail {
-    pub(super) fn new(plan: &RpuPlan) -> Self {
-        Self { plan: *plan, store: Store::new(plan), registers: Registers::default() }
+impl RpuTail {
+    pub(super) fn new(plan: &RpuParameters) -> Self {
+        Self { plan: *plan, store: RegionFrameStore::new(plan), registers: TailRegisters::default() }
     }
 
     pub(super) fn reset(&mut self) {
-        self.registers = Registers::default();
+        self.registers = TailRegisters::default();
     }
 
     /// Applies one edge.
-    pub(super) fn step(&mut self, step: Option<Step>, thresholds: &Thresholds) {
+    pub(super) fn step(&mut self, step: Option<TailStep>, thresholds: &ThresholdInputs) {
         if self.registers.done {
             self.finish(thresholds);
         }
         self.registers.done = false;
         self.registers.forward = None;
         if let Some(step) = step {
-            self.take(&step, thresholds);
+            self.take_step(&step, thresholds);
         }
     }
 
     /// Applies the edge that ends the clock of a decision. The registers take the combinational
     /// values before the tail step of the next frame, which can be at the same edge.
-    fn finish(&mut self, thresholds: &Thresholds) {
+    fn finish(&mut self, thresholds: &ThresholdInputs) {
         let decision = self.decision(thresholds);
-        let n = self.count_of_all();
+        let n = self.region_pixel_count();
         let registers = &mut self.registers;
-        registers.held_count = registers.temporal.settled(&self.plan, decision, n);
+        registers.held_count = registers.temporal.final_count(&self.plan, decision, n);
         registers.temporal.finish(&self.plan, decision);
         registers.scores.finish(&self.plan);
-        registers.active = decision.is_some_and(Decision::active);
+        registers.active = decision.is_some_and(RelevanceBits::is_active);
         registers.periphery.finish(&self.plan, decision, thresholds.summary_level);
         if registers.active {
             self.store.send_decided(&self.plan);
@@ -90,19 +90,19 @@ impl Tail {
     }
 
     /// Applies a tail step.
-    fn take(&mut self, step: &Step, thresholds: &Thresholds) {
-        let n = u64::from(self.count_of_all());
+    fn take_step(&mut self, step: &TailStep, thresholds: &ThresholdInputs) {
+        let n = u64::from(self.region_pixel_count());
         let Self { plan, store, registers } = self;
         let position = registers.position;
         let last = position + 1 == plan.pixels;
         let before = registers.temporal.has_previous.then(|| store.previous(position));
 
-        let payload = |pixel: Pixel| match plan.payload {
+        let payload = |pixel: StagePixel| match plan.payload {
             Payload::Denoised => pixel.scored,
             Payload::Raw => pixel.raw,
         };
-        let leaving = registers.active.then(|| payload(store.leaving(plan, position)));
-        registers.forward = leaving.or_else(|| registers.periphery.leaving(plan, position));
+        let leaving = registers.active.then(|| payload(store.leaving_pixel(plan, position)));
+        registers.forward = leaving.or_else(|| registers.periphery.leaving_mean(plan, position));
         registers.periphery.step(plan, payload(step.pixel));
         registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
         registers.scores.step(plan, step, before, last, n);
@@ -112,13 +112,13 @@ impl Tail {
     }
 
     /// Returns the decision of this clock, or `None` if there is none.
-    fn decision(&self, thresholds: &Thresholds) -> Option<Decision> {
+    fn decision(&self, thresholds: &ThresholdInputs) -> Option<RelevanceBits> {
         // With a second pass, the first frame that is done only starts the second pass.
         let valid =
             self.registers.done && (!self.plan.second_pass || self.registers.temporal.has_previous);
         valid.then(|| {
-            let scores = self.registers.scores.shown(&self.plan);
-            Decision::of(&self.plan, &scores, self.temporal_count(), thresholds)
+            let scores = self.registers.scores.port_scores(&self.plan);
+            RelevanceBits::from_scores(&self.plan, &scores, self.temporal_count(), thresholds)
         })
     }
 
@@ -126,28 +126,28 @@ impl Tail {
         if self.plan.second_pass {
             self.registers.held_count
         } else {
-            self.registers.temporal.running(&self.plan)
+            self.registers.temporal.running_count(&self.plan)
         }
     }
 
     /// Returns n as a count of pixels.
-    fn count_of_all(&self) -> u32 {
+    fn region_pixel_count(&self) -> u32 {
         u32::try_from(self.plan.pixels).expect("a region has at most 4096 pixels")
     }
 
     /// Returns the values of the output ports.
-    pub(super) fn output(&self, thresholds: &Thresholds) -> RpuOutput {
+    pub(super) fn output(&self, thresholds: &ThresholdInputs) -> RpuOutput {
         let decision = self.decision(thresholds);
         RpuOutput {
             decision_valid: decision.is_some(),
             srs: decision.is_some_and(|decision| decision.srs),
             trs: decision.is_some_and(|decision| decision.trs),
-            active: decision.is_some_and(Decision::active),
+            active: decision.is_some_and(RelevanceBits::is_active),
             summary: decision.is_some_and(|decision| {
                 let level = thresholds.summary_level;
-                self.registers.periphery.action(&self.plan, decision, level) == Action::Summarize
+                self.registers.periphery.action(&self.plan, decision, level) == RegionAction::Summarize
             }),
-            scores: self.registers.scores.shown(&self.plan),
+            scores: self.registers.scores.port_scores(&self.plan),
             temporal_count: self.temporal_count(),
             forward_valid: self.registers.forward.is_some(),
             forward_pixel: self.registers.forward.unwrap_or_default(),

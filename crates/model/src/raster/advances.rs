@@ -6,7 +6,7 @@ use foveate_design::RasterTiming;
 
 /// A counter of the advances of a frame, from 0.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Advances {
+pub(super) struct AdvanceCounter {
     timing: RasterTiming,
     /// The number of the next advance.
     next: u64,
@@ -16,29 +16,29 @@ pub(super) struct Advances {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Advance {
     /// The word of the padded frame that comes in, or `None` while the windows are flushed.
-    pub(super) word: Option<Place>,
+    pub(super) word: Option<WordPosition>,
     /// The word that comes to the tail, or `None` while the windows are filled.
-    pub(super) tail: Option<Place>,
+    pub(super) tail: Option<WordPosition>,
     /// True if the advance takes the last word of a frame, so that its edge is T0.
     pub(super) is_last_taken: bool,
 }
 
 /// The position of a word in the padded frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct WordPosition {
     /// Row of pixels.
     pub(super) row: u32,
     /// Number of the word in its row.
     pub(super) column: u32,
 }
 
-impl Advances {
+impl AdvanceCounter {
     pub(super) fn new(timing: RasterTiming) -> Self {
         Self { timing, next: 0 }
     }
 
     /// Resets the counter: the next advance is the first of a frame.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.next = 0;
     }
 
@@ -49,7 +49,7 @@ impl Advances {
 
     /// Returns true if the next advance takes a word, so that it waits for one.
     pub(super) fn takes_next(&self) -> bool {
-        self.place(self.next).is_some_and(|place| self.is_taken(place))
+        self.position(self.next).is_some_and(|place| self.is_taken(place))
     }
 
     /// Applies one edge, and returns its advance. `takes` is true if the edge takes a word. There
@@ -59,26 +59,26 @@ impl Advances {
             return None;
         }
         let number = self.next;
-        let word = self.place(number);
+        let word = self.position(number);
         self.next = (number + 1) % self.timing.advances();
-        let last = Place { row: self.timing.taken_rows - 1, column: self.timing.taken_words - 1 };
+        let last = WordPosition { row: self.timing.taken_rows - 1, column: self.timing.taken_words - 1 };
         Some(Advance {
             word,
-            tail: number.checked_sub(self.timing.tail_delay()).and_then(|tail| self.place(tail)),
+            tail: number.checked_sub(self.timing.tail_delay()).and_then(|tail| self.position(tail)),
             is_last_taken: word == Some(last),
         })
     }
 
     /// Returns true if a word of the padded frame is a word of the frame itself.
-    fn is_taken(&self, place: Place) -> bool {
+    fn is_taken(&self, place: WordPosition) -> bool {
         place.column < self.timing.taken_words && place.row < self.timing.taken_rows
     }
 
     /// Returns the position of word `number` of the padded frame, or `None` beyond its end.
-    fn place(&self, number: u64) -> Option<Place> {
+    fn position(&self, number: u64) -> Option<WordPosition> {
         let length = u64::from(self.timing.row_words);
         let narrow = |value| u32::try_from(value).expect("a row and a column have 32 bits");
         (number < self.timing.words())
-            .then(|| Place { row: narrow(number / length), column: narrow(number % length) })
+            .then(|| WordPosition { row: narrow(number / length), column: narrow(number % length) })
     }
 }

@@ -2,32 +2,32 @@
 //! The delay of decisions: a fixed number of clocks after the last word of a region has come to the
 //! tail, or after its second pass.
 
-use foveate_design::{Action, RasterTiming};
+use foveate_design::{RegionAction, RasterTiming};
 
-use super::due::{Due, take_due};
-use crate::verdict::Verdict;
+use super::due_queue::{DueQueue, take_due};
+use crate::region_decision::RegionDecision;
 
 /// A region of one frame, all of whose words have come to the tail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Complete {
+pub(super) struct CompletedRegion {
     /// The number of the region.
     pub(super) region: u32,
     /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,
     /// The edge at which the last word came.
-    pub(super) came: u64,
+    pub(super) completion_edge: u64,
 }
 
 /// A region of one frame with its scores and relevance bits, before its decision is on the ports.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Judged {
+pub(super) struct ScoredRasterRegion {
     /// The number of the region.
     pub(super) region: u32,
     /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,
     /// The number of the frame since reset.
     pub(super) frame: u64,
-    pub(super) verdict: Verdict,
+    pub(super) verdict: RegionDecision,
     /// The scored pixels in row-major order.
     pub(super) scored: Vec<u16>,
     /// The pixels that the region forwards if it is active.
@@ -40,28 +40,28 @@ pub(super) struct Judged {
 
 /// A region of one frame with its action.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Decided {
-    pub(super) judged: Judged,
-    pub(super) action: Action,
+pub(super) struct DecidedRasterRegion {
+    pub(super) judged: ScoredRasterRegion,
+    pub(super) action: RegionAction,
 }
 
 /// The regions that are scored and not yet decided, in order.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Decisions {
+pub(super) struct DecisionQueue {
     timing: RasterTiming,
-    due: Due<Judged>,
+    due: DueQueue<ScoredRasterRegion>,
     /// The first edge at which a second pass may begin, after the pass before.
-    pass_free: u64,
+    next_pass: u64,
 }
 
-impl Decisions {
+impl DecisionQueue {
     pub(super) fn new(timing: RasterTiming) -> Self {
-        Self { timing, due: Due::new(), pass_free: 0 }
+        Self { timing, due: DueQueue::new(), next_pass: 0 }
     }
 
-    pub(super) fn forget(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.due.clear();
-        self.pass_free = 0;
+        self.next_pass = 0;
     }
 
     /// Returns true if no region waits for its decision.
@@ -70,14 +70,14 @@ impl Decisions {
     }
 
     /// Appends a scored region, whose last word came to the tail at edge `came`.
-    pub(super) fn push(&mut self, came: u64, judged: Judged) {
+    pub(super) fn push(&mut self, came: u64, judged: ScoredRasterRegion) {
         let due = match self.timing.second_pass {
             None => came + u64::from(self.timing.decision_latency),
             Some(pass) => {
                 let stored = came + u64::from(self.timing.store_latency);
-                let first = self.pass_free.max(stored + u64::from(pass.after_store));
+                let first = self.next_pass.max(stored + u64::from(pass.after_store));
                 let last = first + u64::from(self.timing.region_words) - 1;
-                self.pass_free = last + 1;
+                self.next_pass = last + 1;
                 last + u64::from(pass.decision_latency)
             }
         };
@@ -85,7 +85,7 @@ impl Decisions {
     }
 
     /// Returns the region whose decision is on the ports after edge `now`, or `None`.
-    pub(super) fn step(&mut self, now: u64) -> Option<Judged> {
+    pub(super) fn step(&mut self, now: u64) -> Option<ScoredRasterRegion> {
         take_due(&mut self.due, now)
     }
 }

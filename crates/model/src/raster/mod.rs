@@ -26,15 +26,15 @@
 
 mod advances;
 mod decisions;
-mod due;
-mod outside;
-mod picture;
+mod due_queue;
+mod external_store;
+mod incoming_frame;
 mod ports;
 mod rcm;
 mod readout;
 mod regions;
 mod staleness;
-mod word;
+mod forward_word;
 
 pub use ports::RasterOutput;
 pub use rcm::RasterRcm;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The output ports of the core.
 
-use foveate_design::{Action, FRAME_NUMBERS, FeatureKind, PortRole};
+use foveate_design::{RegionAction, FRAME_NUMBERS, FeatureKind, PortRole};
 
-use super::decisions::Decided;
-use super::outside::Stored;
-use super::readout::Loss;
-use super::word::Word;
+use super::decisions::DecidedRasterRegion;
+use super::external_store::StoreWord;
+use super::readout::LostRegion;
+use super::forward_word::ForwardWord;
 
 /// The outputs of the core after an edge. A port whose value has no meaning, or that the core does
 /// not have, is 0.
@@ -74,7 +74,7 @@ pub struct RasterOutput {
 
 impl RasterOutput {
     /// Makes the outputs after a reset, for words of `word_pixels` pixels.
-    pub(super) fn fresh(word_pixels: usize) -> Self {
+    pub(super) fn after_reset(word_pixels: usize) -> Self {
         Self {
             ready: true,
             sync_error: false,
@@ -109,7 +109,7 @@ impl RasterOutput {
     }
 
     /// Sets the store ports to a word that is to be stored, or to no word.
-    pub(super) fn show_stored(&mut self, word: Option<&Stored>) {
+    pub(super) fn set_store_ports(&mut self, word: Option<&StoreWord>) {
         self.store_valid = word.is_some();
         self.store_last = word.is_some_and(|word| word.is_last);
         match word {
@@ -119,25 +119,25 @@ impl RasterOutput {
     }
 
     /// Sets the decision ports to the decision of a region, or to no decision.
-    pub(super) fn show_decision(&mut self, decided: Option<&Decided>) {
+    pub(super) fn set_decision_ports(&mut self, decided: Option<&DecidedRasterRegion>) {
         let judged = decided.map(|decided| &decided.judged);
         let verdict = judged.map(|judged| judged.verdict).unwrap_or_default();
         self.decision_valid = judged.is_some();
         self.region = judged.map_or(0, |judged| judged.region);
-        (self.srs, self.trs, self.active) = (verdict.srs, verdict.trs, verdict.active());
-        self.summary = decided.is_some_and(|decided| decided.action == Action::Summarize);
+        (self.srs, self.trs, self.active) = (verdict.srs, verdict.trs, verdict.is_active());
+        self.summary = decided.is_some_and(|decided| decided.action == RegionAction::Summarize);
         (self.scores, self.temporal_count) = (verdict.scores, verdict.temporal_count);
     }
 
     /// Sets the forward ports to a word that leaves, or to no word.
-    pub(super) fn show_word(&mut self, word: Option<&Word>) {
+    pub(super) fn set_forward_ports(&mut self, word: Option<&ForwardWord>) {
         self.forward_valid = word.is_some();
         self.forward_region = word.map_or(0, |word| word.region);
         self.forward_position = word.map_or(0, |word| word.position);
         self.forward_first = word.is_some_and(|word| word.position == 0);
         self.forward_last = word.is_some_and(|word| word.is_last);
         self.forward_abort = word.is_some_and(|word| word.is_aborted);
-        self.forward_frame = word.map_or(0, |word| number(word.frame));
+        self.forward_frame = word.map_or(0, |word| frame_number_on_port(word.frame));
         self.forward_summary = word.is_some_and(|word| word.is_mean);
         match word {
             Some(word) => self.forward_pixels.copy_from_slice(&word.pixels),
@@ -146,26 +146,26 @@ impl RasterOutput {
     }
 
     /// Sets the number of regions that were lost. The port stays at its largest value.
-    pub(super) fn show_lost(&mut self, lost: u64) {
+    pub(super) fn set_lost_count(&mut self, lost: u64) {
         self.lost = lost > 0;
         self.lost_count = u16::try_from(lost).unwrap_or(u16::MAX);
     }
 
     /// Sets the loss ports to the region that was lost at this edge, or to no region.
-    pub(super) fn show_loss(&mut self, loss: Option<Loss>) {
+    pub(super) fn set_loss_ports(&mut self, loss: Option<LostRegion>) {
         self.lost_valid = loss.is_some();
         self.lost_region = loss.map_or(0, |loss| loss.region);
-        self.lost_frame = loss.map_or(0, |loss| number(loss.frame));
+        self.lost_frame = loss.map_or(0, |loss| frame_number_on_port(loss.frame));
     }
 
     /// Appends the value of the port of a role. `kinds` are the features of the design in order.
-    pub(super) fn show(&self, role: PortRole, kinds: &[FeatureKind], values: &mut Vec<u64>) {
+    pub(super) fn append_port(&self, role: PortRole, kinds: &[FeatureKind], values: &mut Vec<u64>) {
         let value = match role {
             PortRole::Ready => self.ready.into(),
             PortRole::SyncError => self.sync_error.into(),
             PortRole::ReferenceReady => self.reference_ready.into(),
             PortRole::StoreValid => self.store_valid.into(),
-            PortRole::StorePixel => return extend(values, &self.store_pixels),
+            PortRole::StorePixel => return append_pixels(values, &self.store_pixels),
             PortRole::StoreLast => self.store_last.into(),
             PortRole::Underrun => self.underrun.into(),
             PortRole::DecisionValid => self.decision_valid.into(),
@@ -182,7 +182,7 @@ impl RasterOutput {
             PortRole::ForwardValid => self.forward_valid.into(),
             PortRole::ForwardRegion => self.forward_region.into(),
             PortRole::ForwardPosition => self.forward_position.into(),
-            PortRole::ForwardPixel => return extend(values, &self.forward_pixels),
+            PortRole::ForwardPixel => return append_pixels(values, &self.forward_pixels),
             PortRole::ForwardFirst => self.forward_first.into(),
             PortRole::ForwardLast => self.forward_last.into(),
             PortRole::ForwardAbort => self.forward_abort.into(),
@@ -200,12 +200,12 @@ impl RasterOutput {
     }
 }
 
-fn extend(values: &mut Vec<u64>, word: &[u16]) {
+fn append_pixels(values: &mut Vec<u64>, word: &[u16]) {
     values.extend(word.iter().map(|&pixel| u64::from(pixel)));
 }
 
 /// Returns the number of a frame as the ports show it.
-fn number(frame: u64) -> u32 {
+fn frame_number_on_port(frame: u64) -> u32 {
     u32::try_from(frame % u64::from(FRAME_NUMBERS)).expect("a remainder of 32 bits")
 }
 
@@ -215,9 +215,9 @@ mod tests {
 
     #[test]
     fn the_count_of_lost_regions_stays_at_its_largest() {
-        let mut output = RasterOutput::fresh(1);
+        let mut output = RasterOutput::after_reset(1);
         for (lost, shown) in [(0, 0), (1, 1), (65_535, 65_535), (65_536, 65_535)] {
-            output.show_lost(lost);
+            output.set_lost_count(lost);
             assert_eq!((output.lost, output.lost_count), (lost > 0, shown));
         }
     }

@@ -3,44 +3,44 @@
 
 use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming};
 
-use super::advances::{Advances, Place};
-use super::decisions::{Complete, Decided, Decisions};
-use super::outside::Outside;
-use super::picture::IncomingFrame;
+use super::advances::{AdvanceCounter, WordPosition};
+use super::decisions::{CompletedRegion, DecidedRasterRegion, DecisionQueue};
+use super::external_store::ExternalStorePorts;
+use super::incoming_frame::IncomingFrame;
 use super::ports::RasterOutput;
 use super::readout::Readout;
-use super::regions::Regions;
-use super::staleness::Staleness;
-use crate::cycle::{CoreInput, CycleModel};
-use crate::number::index;
-use crate::{FrameSync, Thresholds};
+use super::regions::RasterRegions;
+use super::staleness::RowStaleness;
+use crate::cycle_model::{CoreInput, CycleModel};
+use crate::conversions::index;
+use crate::{FrameSync, ThresholdInputs};
 
 /// The cycle-level model of a raster core. A new one is in the state after a reset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterRcm {
-    kinds: Vec<FeatureKind>,
+    feature_kinds: Vec<FeatureKind>,
     timing: RasterTiming,
     /// Number of regions in a row of regions.
     columns: u32,
     /// Side of a region N in pixels.
     side: u32,
     /// The thresholds, if they are constants of the core.
-    constants: Option<Thresholds>,
+    constants: Option<ThresholdInputs>,
     sync: FrameSync,
-    advances: Advances,
-    picture: IncomingFrame,
-    staleness: Staleness,
-    regions: Regions,
+    advances: AdvanceCounter,
+    incoming_frame: IncomingFrame,
+    staleness: RowStaleness,
+    regions: RasterRegions,
     /// The streams of an external frame store, if the core has one.
-    outside: Option<Outside>,
-    decisions: Decisions,
+    external_store: Option<ExternalStorePorts>,
+    decisions: DecisionQueue,
     readout: Readout,
     /// The region whose decision is on the ports.
-    decided: Option<Decided>,
+    decided: Option<DecidedRasterRegion>,
     /// Number of edges since reset.
     now: u64,
     /// Number of clocks after T0 until `ready_o` may be 1 again.
-    closed: u64,
+    clocks_to_ready: u64,
     /// True if a word would be taken at the next edge, from the stream or from the core's own
     /// completion of a frame.
     is_open: bool,
@@ -51,26 +51,26 @@ impl RasterRcm {
     /// Makes the core of the design.
     #[must_use]
     pub fn new(design: RasterDesign<'_>) -> Self {
-        let timing = RasterTiming::of(design);
+        let timing = RasterTiming::from_design(design);
         Self {
-            kinds: design.kinds(),
+            feature_kinds: design.feature_kinds(),
             timing,
             columns: design.columns(),
             side: design.region_size(),
-            constants: Thresholds::constants(&design),
+            constants: ThresholdInputs::constants(&design),
             sync: FrameSync::new(&design),
-            advances: Advances::new(timing),
-            picture: IncomingFrame::new(design),
-            staleness: Staleness::new(&timing),
-            regions: Regions::new(design),
-            outside: design.frames_are_kept_outside().then(|| Outside::new(design)),
-            decisions: Decisions::new(timing),
+            advances: AdvanceCounter::new(timing),
+            incoming_frame: IncomingFrame::new(design),
+            staleness: RowStaleness::new(&timing),
+            regions: RasterRegions::new(design),
+            external_store: design.has_external_store().then(|| ExternalStorePorts::new(design)),
+            decisions: DecisionQueue::new(timing),
             readout: Readout::new(&timing),
             decided: None,
             now: 0,
-            closed: 0,
+            clocks_to_ready: 0,
             is_open: true,
-            output: RasterOutput::fresh(index(timing.word_pixels)),
+            output: RasterOutput::after_reset(index(timing.word_pixels)),
         }
     }
 
@@ -87,14 +87,14 @@ impl RasterRcm {
             return &self.output;
         }
         self.now += 1;
-        self.closed = self.closed.saturating_sub(1);
+        self.clocks_to_ready = self.clocks_to_ready.saturating_sub(1);
         self.take_reference(input);
         self.advance(input);
-        self.read(input.forward_ready);
+        self.step_readout(input.forward_ready);
         let decided = self.decisions.step(self.now);
         self.decided = decided.map(|judged| self.regions.decide(judged));
-        self.store();
-        self.show();
+        self.step_store();
+        self.update_output();
         &self.output
     }
 
@@ -129,7 +129,7 @@ impl RasterRcm {
     /// yet, or if it has words that have not left.
     #[must_use]
     pub fn is_pending(&self) -> bool {
-        self.decided.as_ref().is_some_and(|decided| self.leaves(decided))
+        self.decided.as_ref().is_some_and(|decided| self.has_words_to_send(decided))
             || self.is_deciding()
             || !self.readout.is_empty()
     }
@@ -137,135 +137,135 @@ impl RasterRcm {
     /// Returns true if a region is lost in the middle at the next edge, unless that edge has a
     /// reset. A test driver uses it to choose whether the sink is ready at that edge.
     #[must_use]
-    pub fn aborts_next(&self) -> bool {
-        self.readout.has_begun_below(self.staleness.fresh_at(self.now + 1))
+    pub fn will_abort(&self) -> bool {
+        self.readout.has_partial_region_below(self.staleness.first_fresh_row_at(self.now + 1))
     }
 
     /// Returns true if the last word of a region has come to the tail and the region is not decided
     /// yet.
     #[must_use]
     pub fn is_deciding(&self) -> bool {
-        !self.decisions.is_empty() || self.outside.as_ref().is_some_and(Outside::is_asking)
+        !self.decisions.is_empty() || self.external_store.as_ref().is_some_and(ExternalStorePorts::has_waiting_region)
     }
 
     /// Returns true if the region sends pixels or means.
-    fn leaves(&self, decided: &Decided) -> bool {
+    fn has_words_to_send(&self, decided: &DecidedRasterRegion) -> bool {
         self.timing.words_sent(decided.action).is_some()
     }
 
     fn reset(&mut self) {
         self.sync.reset();
-        self.advances.forget();
-        self.staleness.forget();
-        self.regions.forget();
-        if let Some(outside) = &mut self.outside {
-            outside.forget();
+        self.advances.reset();
+        self.staleness.reset();
+        self.regions.reset();
+        if let Some(outside) = &mut self.external_store {
+            outside.reset();
         }
-        self.decisions.forget();
+        self.decisions.reset();
         self.readout = Readout::new(&self.timing);
         self.decided = None;
-        (self.now, self.closed, self.is_open) = (0, 0, true);
-        self.output = RasterOutput::fresh(index(self.timing.word_pixels));
+        (self.now, self.clocks_to_ready, self.is_open) = (0, 0, true);
+        self.output = RasterOutput::after_reset(index(self.timing.word_pixels));
     }
 
     fn advance(&mut self, input: &CoreInput<'_>) {
         let takes = self.sync.step(input.valid, input.sof, self.is_open);
         let Some(advance) = self.advances.step(takes) else { return };
         if let Some(place) = advance.word {
-            self.picture.write(place, input.pixels);
+            self.incoming_frame.write(place, input.pixels);
         }
         if advance.is_last_taken {
-            self.closed = self.timing.edges_to_ready();
+            self.clocks_to_ready = self.timing.edges_to_ready();
         }
         if let Some(place) = advance.tail {
-            self.tail(place, input.thresholds);
+            self.take_word_in_tail(place, input.thresholds);
         }
     }
 
     /// Processes a word that comes to the tail, which may be the first of a row of regions or the
     /// last of a region.
-    fn tail(&mut self, place: Place, applied: &Thresholds) {
+    fn take_word_in_tail(&mut self, place: WordPosition, applied: &ThresholdInputs) {
         if place.row.is_multiple_of(self.side) && place.column == 0 {
             self.staleness.begin_row(self.now);
         }
-        let complete = self.complete(place);
-        match (&mut self.outside, complete) {
-            (Some(outside), _) => outside.come(self.now, place, complete, self.picture.padded()),
-            (None, Some(complete)) => self.judge(complete, applied),
+        let complete = self.completed_region(place);
+        match (&mut self.external_store, complete) {
+            (Some(outside), _) => outside.push_word(self.now, place, complete, self.incoming_frame.padded()),
+            (None, Some(complete)) => self.score_region(complete, applied),
             (None, None) => {}
         }
     }
 
     /// Returns the region whose last word is at this position, or `None`.
-    fn complete(&self, place: Place) -> Option<Complete> {
+    fn completed_region(&self, place: WordPosition) -> Option<CompletedRegion> {
         let wide = self.timing.region_row_words;
         let is_last = place.row % self.side == self.side - 1 && place.column % wide == wide - 1;
-        is_last.then(|| Complete {
+        is_last.then(|| CompletedRegion {
             region: place.row / self.side * self.columns + place.column / wide,
-            row: self.staleness.row(),
-            came: self.now,
+            row: self.staleness.current_row(),
+            completion_edge: self.now,
         })
     }
 
     /// Applies an edge of the stream of references.
     fn take_reference(&mut self, input: &CoreInput<'_>) {
-        let Some(outside) = &mut self.outside else { return };
+        let Some(outside) = &mut self.external_store else { return };
         let pixels = input.reference_pixels;
         assert_eq!(pixels.len(), index(self.timing.word_pixels), "a word has K pixels");
-        if let Some(complete) = outside.take(self.now, input.reference_valid, pixels) {
-            self.judge(complete, input.thresholds);
+        if let Some(complete) = outside.take_reference(self.now, input.reference_valid, pixels) {
+            self.score_region(complete, input.thresholds);
         }
     }
 
     /// Scores a region, all of whose references are known.
-    fn judge(&mut self, complete: Complete, applied: &Thresholds) {
+    fn score_region(&mut self, complete: CompletedRegion, applied: &ThresholdInputs) {
         let thresholds = self.constants.as_ref().unwrap_or(applied);
-        let taken = self.outside.as_ref().map(Outside::references);
-        let padded = self.picture.padded();
-        let judged = self.regions.judge(complete, padded, taken, thresholds);
-        self.decisions.push(complete.came, judged);
+        let taken = self.external_store.as_ref().map(ExternalStorePorts::references);
+        let padded = self.incoming_frame.padded();
+        let judged = self.regions.score_region(complete, padded, taken, thresholds);
+        self.decisions.push(complete.completion_edge, judged);
     }
 
     /// Applies an edge of the stream of words to store.
-    fn store(&mut self) {
-        if let Some(outside) = &mut self.outside {
-            let word = outside.store(self.now);
-            self.output.show_stored(word.as_ref());
-            self.output.reference_ready = outside.asks_after(self.now);
-            self.output.underrun = outside.underrun();
+    fn step_store(&mut self) {
+        if let Some(outside) = &mut self.external_store {
+            let word = outside.take_store_word(self.now);
+            self.output.set_store_ports(word.as_ref());
+            self.output.reference_ready = outside.is_reference_due_after(self.now);
+            self.output.underrun = outside.has_underrun();
         }
     }
 
     /// Applies an edge of the readout, which stays empty in a core without forwarding. The decision
     /// that was on the ports before the edge is removed.
-    fn read(&mut self, sink_takes: bool) {
+    fn step_readout(&mut self, sink_takes: bool) {
         if let Some(decided) = self.decided.take()
-            && self.leaves(&decided)
+            && self.has_words_to_send(&decided)
         {
-            self.readout.enter(self.now, self.regions.departing(&decided));
+            self.readout.enqueue(self.now, self.regions.departing_region(&decided));
         }
         let fresh = self.staleness.step(self.now);
         let read = self.readout.step(self.now, sink_takes, fresh);
         if read.has_fetched
-            && let Some(word) = self.readout.fetched()
+            && let Some(word) = self.readout.fetched_word()
         {
-            self.regions.send(word);
+            self.regions.record_sent_word(word);
         }
         if let Some(loss) = read.lost {
-            self.regions.lose(loss.region);
+            self.regions.record_loss(loss.region);
         }
-        self.output.show_loss(read.lost);
+        self.output.set_loss_ports(read.lost);
     }
 
-    fn show(&mut self) {
+    fn update_output(&mut self) {
         let waits = self.timing.waits_for_pending && self.advances.is_between_frames();
         self.is_open =
-            self.closed == 0 && self.advances.takes_next() && !(waits && self.is_pending());
+            self.clocks_to_ready == 0 && self.advances.takes_next() && !(waits && self.is_pending());
         self.output.ready = self.is_open && !self.sync.is_filling();
         self.output.sync_error = self.sync.is_error();
-        self.output.show_decision(self.decided.as_ref());
-        self.output.show_word(self.readout.shown());
-        self.output.show_lost(self.readout.lost());
+        self.output.set_decision_ports(self.decided.as_ref());
+        self.output.set_forward_ports(self.readout.shown_word());
+        self.output.set_lost_count(self.readout.lost_count());
     }
 }
 
@@ -274,8 +274,8 @@ impl CycleModel for RasterRcm {
         self.step(input);
     }
 
-    fn show(&self, role: PortRole, values: &mut Vec<u64>) {
-        self.output.show(role, &self.kinds, values);
+    fn append_output(&self, role: PortRole, values: &mut Vec<u64>) {
+        self.output.append_port(role, &self.feature_kinds, values);
     }
 
     fn is_ready(&self) -> bool {
@@ -286,12 +286,12 @@ impl CycleModel for RasterRcm {
         self.is_pending()
     }
 
-    fn holds_thresholds(&self) -> bool {
+    fn requires_stable_thresholds(&self) -> bool {
         self.timing.second_pass.is_some() && self.is_deciding()
     }
 
-    fn aborts_next(&self) -> bool {
-        self.aborts_next()
+    fn will_abort(&self) -> bool {
+        self.will_abort()
     }
 
     fn reference(&self, region: u32) -> Option<&[u16]> {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the core keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{Action, Camera, RasterDesign, Reference};
+use foveate_design::{RegionAction, Camera, RasterDesign, ReferencePolicy};
 use foveate_frame::Frame;
 
-use super::decisions::{Complete, Decided, Judged};
-use super::word::{Departing, Word};
-use crate::number::index;
-use crate::periphery::{Summary, no_summaries};
-use crate::verdict::Verdict;
-use crate::{RegionScorer, Thresholds, region_border, region_pixels, region_stream};
+use super::decisions::{CompletedRegion, DecidedRasterRegion, ScoredRasterRegion};
+use super::forward_word::{DepartingRegion, ForwardWord};
+use crate::conversions::index;
+use crate::periphery::{ShownSummary, no_summaries};
+use crate::region_decision::RegionDecision;
+use crate::{RegionScorer, ThresholdInputs, region_border, region_pixels, region_stream};
 
 /// The references and the summaries of all regions.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Regions {
+pub(super) struct RasterRegions {
     camera: Camera,
     scorer: RegionScorer,
     /// Number of pixels of a region, n.
@@ -23,12 +23,12 @@ pub(super) struct Regions {
     /// The references, region by region.
     references: Vec<u16>,
     /// True for every region with a valid reference.
-    referenced: Vec<bool>,
+    has_reference: Vec<bool>,
     /// The summary that each region has sent last.
-    summaries: Vec<Summary>,
+    summaries: Vec<ShownSummary>,
 }
 
-impl Regions {
+impl RasterRegions {
     pub(super) fn new(design: RasterDesign<'_>) -> Self {
         let (regions, pixels) = (index(design.regions()), index(design.region_pixels()));
         Self {
@@ -36,22 +36,22 @@ impl Regions {
             pixels,
             word_pixels: design.pixels_per_clock(),
             references: vec![0; regions * pixels],
-            referenced: vec![false; regions],
+            has_reference: vec![false; regions],
             summaries: no_summaries(&design),
             camera: design.camera().clone(),
         }
     }
 
     /// Resets the state: the next frame is the first. Pixels stay, and are never seen.
-    pub(super) fn forget(&mut self) {
-        self.referenced.fill(false);
+    pub(super) fn reset(&mut self) {
+        self.has_reference.fill(false);
         self.summaries = no_summaries(&self.camera);
     }
 
     /// Returns the reference of a region for the next frame.
     pub(super) fn reference(&self, region: u32) -> Option<&[u16]> {
         let region = index(region);
-        self.referenced[region].then(|| &self.references[region * self.pixels..][..self.pixels])
+        self.has_reference[region].then(|| &self.references[region * self.pixels..][..self.pixels])
     }
 
     /// Returns the means of a region that the screen shows, or `None` if it shows no summary.
@@ -61,81 +61,81 @@ impl Regions {
 
     /// Scores a region of a frame. With an external frame store the reference is that of `taken`,
     /// whatever its pixels are.
-    pub(super) fn judge(
+    pub(super) fn score_region(
         &mut self,
-        Complete { region, row, .. }: Complete,
+        CompletedRegion { region, row, .. }: CompletedRegion,
         padded: &Frame,
         taken: Option<&Frame>,
-        thresholds: &Thresholds,
-    ) -> Judged {
+        thresholds: &ThresholdInputs,
+    ) -> ScoredRasterRegion {
         let mut stream = Vec::new();
         region_stream(&self.camera, padded, region, &mut stream);
-        self.scorer.take(stream.into_iter(), region_border(&self.camera, region));
-        let taken = taken.map(|frame| self.pixels_of(frame, region));
+        self.scorer.load(stream.into_iter(), region_border(&self.camera, region));
+        let taken = taken.map(|frame| self.region_pixels_of(frame, region));
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
-        let verdict = Verdict::of(&self.camera, &self.scorer, reference, thresholds);
+        let verdict = RegionDecision::from_scorer(&self.camera, &self.scorer, reference, thresholds);
         let scored: Vec<u16> = self.scorer.pixels().collect();
         match self.camera.temporal().reference {
-            Reference::Previous => {
-                self.remember(region, 0, &scored);
-                self.referenced[index(region)] = true;
+            ReferencePolicy::Previous => {
+                self.write_reference(region, 0, &scored);
+                self.has_reference[index(region)] = true;
             }
-            Reference::LastSent => {}
+            ReferencePolicy::LastSent => {}
         }
         let payload: Vec<u16> = self.scorer.payload().collect();
         let frame = row / u64::from(self.camera.rows());
         let (means, summary_level) = (self.scorer.means(), thresholds.summary_level);
-        Judged { region, row, frame, verdict, scored, payload, means, summary_level }
+        ScoredRasterRegion { region, row, frame, verdict, scored, payload, means, summary_level }
     }
 
     /// Decides a region: returns its action, and updates its reference and its summary.
-    pub(super) fn decide(&mut self, judged: Judged) -> Decided {
+    pub(super) fn decide(&mut self, judged: ScoredRasterRegion) -> DecidedRasterRegion {
         let summary = &mut self.summaries[index(judged.region)];
-        let Judged { verdict, means, summary_level, .. } = &judged;
+        let ScoredRasterRegion { verdict, means, summary_level, .. } = &judged;
         let (irrelevant, level) = (self.camera.irrelevant(), *summary_level);
         let action = summary.decide(irrelevant, verdict.srs, verdict.trs, means, level);
-        let referenced = &mut self.referenced[index(judged.region)];
+        let referenced = &mut self.has_reference[index(judged.region)];
         match (self.camera.temporal().reference, action) {
-            (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}
-            (Reference::LastSent, Action::Forward) => *referenced = true,
+            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Hold) => {}
+            (ReferencePolicy::LastSent, RegionAction::Forward) => *referenced = true,
             // The screen no longer shows the pixels that were sent.
-            (Reference::LastSent, Action::Blank | Action::Summarize) => *referenced = false,
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => *referenced = false,
         }
-        Decided { judged, action }
+        DecidedRasterRegion { judged, action }
     }
 
     /// Returns the words that leave of a region that was decided.
-    pub(super) fn departing(&self, decided: &Decided) -> Departing {
-        Departing::of(decided, &self.camera, self.word_pixels)
+    pub(super) fn departing_region(&self, decided: &DecidedRasterRegion) -> DepartingRegion {
+        DepartingRegion::from_decided(decided, &self.camera, self.word_pixels)
     }
 
     /// Records a word that was fetched and will leave. The hardware writes it to the reference an
     /// edge later. That difference cannot be observed, because the next frame of the region comes
     /// later still.
-    pub(super) fn send(&mut self, word: &Word) {
+    pub(super) fn record_sent_word(&mut self, word: &ForwardWord) {
         match self.camera.temporal().reference {
-            Reference::Previous => {}
-            Reference::LastSent => self.remember(word.region, word.position, &word.scored),
+            ReferencePolicy::Previous => {}
+            ReferencePolicy::LastSent => self.write_reference(word.region, word.position, &word.scored),
         }
     }
 
     /// Records a region that was lost. It is not known how much of it was sent.
-    pub(super) fn lose(&mut self, region: u32) {
+    pub(super) fn record_loss(&mut self, region: u32) {
         self.summaries[index(region)].forget();
         match self.camera.temporal().reference {
-            Reference::Previous => {}
-            Reference::LastSent => self.referenced[index(region)] = false,
+            ReferencePolicy::Previous => {}
+            ReferencePolicy::LastSent => self.has_reference[index(region)] = false,
         }
     }
 
     /// Returns the pixels of a region of a padded frame, in row-major order.
-    fn pixels_of(&self, padded: &Frame, region: u32) -> Vec<u16> {
+    fn region_pixels_of(&self, padded: &Frame, region: u32) -> Vec<u16> {
         let mut pixels = Vec::with_capacity(self.pixels);
         region_pixels(&self.camera, padded, region, &mut pixels);
         pixels
     }
 
-    fn remember(&mut self, region: u32, position: u32, pixels: &[u16]) {
+    fn write_reference(&mut self, region: u32, position: u32, pixels: &[u16]) {
         let from = index(region) * self.pixels + index(position);
         self.references[from..from + pixels.len()].copy_from_slice(pixels);
     }

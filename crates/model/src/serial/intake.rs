@@ -1,52 +1,52 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pixels of a frame as they are taken, and the stream of each region.
 
-use foveate_design::{Feed, SerialDesign};
+use foveate_design::{PixelFeed, SerialDesign};
 
-use super::raster::Raster;
-use super::streams::Streams;
+use super::raster_feed::RasterFeedFrame;
+use super::lane_streams::LaneStreams;
 
 /// The raw pixels of one frame.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Intake {
+pub(super) struct FrameIntake {
     /// Number of pixels of this frame that have been taken.
     taken: usize,
-    frame: Frame,
+    buffer: FeedBuffer,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Frame {
-    Streams(Streams),
-    Raster(Raster),
+enum FeedBuffer {
+    Streams(LaneStreams),
+    Raster(RasterFeedFrame),
 }
 
-impl Intake {
+impl FrameIntake {
     pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let frame = match design.feed() {
-            Feed::Parallel => Frame::Streams(Streams::new(design)),
-            Feed::Raster => Frame::Raster(Raster::new(design)),
+            PixelFeed::Parallel => FeedBuffer::Streams(LaneStreams::new(design)),
+            PixelFeed::Raster => FeedBuffer::Raster(RasterFeedFrame::new(design)),
         };
-        Self { taken: 0, frame }
+        Self { taken: 0, buffer: frame }
     }
 
     /// Returns the number of pixels of the pixel port.
-    pub(super) fn width(&self) -> usize {
-        match &self.frame {
-            Frame::Streams(streams) => streams.lanes(),
-            Frame::Raster(_) => 1,
+    pub(super) fn port_pixels(&self) -> usize {
+        match &self.buffer {
+            FeedBuffer::Streams(streams) => streams.lanes(),
+            FeedBuffer::Raster(_) => 1,
         }
     }
 
     /// Resets the intake: the next pixel is the first of a frame.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.taken = 0;
     }
 
     /// Returns true if the last pixel of a frame has been taken, and none of the next frame.
     pub(super) fn is_full(&self) -> bool {
-        let frame = match &self.frame {
-            Frame::Streams(streams) => streams.clocks(),
-            Frame::Raster(raster) => raster.pixels(),
+        let frame = match &self.buffer {
+            FeedBuffer::Streams(streams) => streams.clocks(),
+            FeedBuffer::Raster(raster) => raster.pixels(),
         };
         self.taken == frame
     }
@@ -58,30 +58,30 @@ impl Intake {
         }
         let at = self.taken;
         self.taken += 1;
-        match &mut self.frame {
-            Frame::Streams(streams) => {
+        match &mut self.buffer {
+            FeedBuffer::Streams(streams) => {
                 streams.write(at, pixels);
                 1
             }
-            Frame::Raster(raster) => raster.write(at, pixels[0]),
+            FeedBuffer::Raster(raster) => raster.write(at, pixels[0]),
         }
     }
 
     /// Returns the number of clocks that writing the rest of the current frame takes, if it comes
     /// without a gap.
     pub(super) fn clocks_left(&self) -> u64 {
-        match &self.frame {
-            Frame::Streams(streams) => (streams.clocks() - self.taken) as u64,
-            Frame::Raster(raster) => raster.clocks_from(self.taken),
+        match &self.buffer {
+            FeedBuffer::Streams(streams) => (streams.clocks() - self.taken) as u64,
+            FeedBuffer::Raster(raster) => raster.clocks_from(self.taken),
         }
     }
 
     /// Writes the pixels of a region with its halo to `out`, in row-major order.
     pub(super) fn stream(&self, region: usize, out: &mut Vec<u16>) {
         out.clear();
-        match &self.frame {
-            Frame::Streams(streams) => out.extend(streams.stream(region)),
-            Frame::Raster(raster) => raster.stream(region, out),
+        match &self.buffer {
+            FeedBuffer::Streams(streams) => out.extend(streams.stream(region)),
+            FeedBuffer::Raster(raster) => raster.stream(region, out),
         }
     }
 }

@@ -21,11 +21,11 @@
 
 mod intake;
 mod ports;
-mod raster;
+mod raster_feed;
 mod rcm;
 mod regions;
 mod schedule;
-mod streams;
+mod lane_streams;
 
 pub use ports::SerialOutput;
 pub use rcm::SerialRcm;

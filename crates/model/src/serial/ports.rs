@@ -43,25 +43,25 @@ pub struct SerialOutput {
 
 impl SerialOutput {
     /// Makes outputs without a valid bit, for `width` forwarded pixels at a time.
-    pub(super) fn silent(width: usize) -> Self {
+    pub(super) fn without_valid_bits(width: usize) -> Self {
         Self { forward_valid: vec![false; width], forward_pixel: vec![0; width], ..Self::default() }
     }
 
     /// Clears the ports of forwarded pixels.
-    pub(super) fn stop_forwarding(&mut self) {
+    pub(super) fn clear_forward_ports(&mut self) {
         self.forward_valid.fill(false);
         self.forward_pixel.fill(0);
     }
 
     /// Clears all ports except those of forwarded pixels, which may be as many as there are lanes.
-    pub(super) fn stop_saying(&mut self) {
+    pub(super) fn clear_other_ports(&mut self) {
         let forward_valid = std::mem::take(&mut self.forward_valid);
         let forward_pixel = std::mem::take(&mut self.forward_pixel);
         *self = Self { forward_valid, forward_pixel, ..Self::default() };
     }
 
     /// Appends the value of the port of a role.
-    pub(super) fn show(&self, role: PortRole, values: &mut Vec<u64>) {
+    pub(super) fn append_port(&self, role: PortRole, values: &mut Vec<u64>) {
         let value = match role {
             PortRole::Ready => self.ready.into(),
             PortRole::SyncError => self.sync_error.into(),

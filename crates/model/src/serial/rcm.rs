@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: its position in a frame, and its outputs there.
 
-use foveate_design::{Action, Feed, PortRole, SerialDesign};
+use foveate_design::{RegionAction, PixelFeed, PortRole, SerialDesign};
 
-use super::intake::Intake;
+use super::intake::FrameIntake;
 use super::ports::SerialOutput;
-use super::regions::{Judged, Regions};
-use super::schedule::{Leaving, Schedule, Seen};
-use crate::cycle::{CoreInput, CycleModel};
-use crate::number::index;
-use crate::{FrameSync, Thresholds, region_border};
+use super::regions::{DecidedSerialRegion, SerialRegions};
+use super::schedule::{ForwardedKind, SerialSchedule, StepOutput};
+use crate::cycle_model::{CoreInput, CycleModel};
+use crate::conversions::index;
+use crate::{FrameSync, ThresholdInputs, region_border};
 
 /// The cycle-level model of a serial array. A new one is in the state after a reset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SerialRcm {
-    schedule: Schedule,
+    schedule: SerialSchedule,
     /// The thresholds, if they are constants of the core.
-    constants: Option<Thresholds>,
-    feed: Feed,
+    constants: Option<ThresholdInputs>,
+    feed: PixelFeed,
     borders: Vec<u8>,
     sync: FrameSync,
-    intake: Intake,
-    regions: Regions,
-    stage: Stage,
+    intake: FrameIntake,
+    regions: SerialRegions,
+    stage: SerialStage,
     output: SerialOutput,
     /// True if a `forward_valid_o` is 1.
     is_forwarding: bool,
@@ -30,7 +30,7 @@ pub struct SerialRcm {
 
 /// The position of the array in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Stage {
+enum SerialStage {
     /// The array takes pixels. The last one is still being written for `writing` clocks. `before`
     /// is the number of edges since T0 of the frame before, whose last step may be seen after the
     /// array is ready again.
@@ -39,9 +39,9 @@ enum Stage {
     Working { clock: u64 },
 }
 
-impl Stage {
+impl SerialStage {
     /// The state after a reset.
-    const EMPTY: Self = Self::Taking { writing: 0, before: None };
+    const AFTER_RESET: Self = Self::Taking { writing: 0, before: None };
 }
 
 impl SerialRcm {
@@ -49,15 +49,15 @@ impl SerialRcm {
     /// RPU.
     #[must_use]
     pub fn new(design: SerialDesign<'_>) -> Self {
-        let intake = Intake::new(design);
-        let output = SerialOutput { ready: true, ..SerialOutput::silent(intake.width()) };
+        let intake = FrameIntake::new(design);
+        let output = SerialOutput { ready: true, ..SerialOutput::without_valid_bits(intake.port_pixels()) };
         Self {
-            schedule: Schedule::new(design),
-            constants: Thresholds::constants(&design),
+            schedule: SerialSchedule::new(design),
+            constants: ThresholdInputs::constants(&design),
             feed: design.feed(),
             borders: (0..design.regions()).map(|region| region_border(&design, region)).collect(),
-            regions: Regions::new(design),
-            stage: Stage::EMPTY,
+            regions: SerialRegions::new(design),
+            stage: SerialStage::AFTER_RESET,
             is_forwarding: false,
             sync: FrameSync::new(&design),
             intake,
@@ -72,17 +72,17 @@ impl SerialRcm {
     pub fn step(&mut self, input: &CoreInput<'_>) -> &SerialOutput {
         assert_eq!(
             input.pixels.len(),
-            self.intake.width(),
+            self.intake.port_pixels(),
             "a pixel per lane of the port is needed"
         );
         if input.reset {
             self.reset();
         } else if self.sync.step(input.valid, input.sof, self.is_open()) {
-            self.take(input);
+            self.take_pixels(input);
         } else {
-            self.pass(1);
+            self.advance_clocks(1);
         }
-        self.show();
+        self.update_output();
         &self.output
     }
 
@@ -96,8 +96,8 @@ impl SerialRcm {
         if clocks > 0 {
             self.sync.step(false, false, false);
         }
-        self.pass(clocks);
-        self.show();
+        self.advance_clocks(clocks);
+        self.update_output();
         &self.output
     }
 
@@ -122,11 +122,11 @@ impl SerialRcm {
     /// stream or from its own completion of a frame.
     fn clocks_until_open(&self) -> u64 {
         match self.stage {
-            Stage::Taking { writing, .. } if self.intake.is_full() => {
+            SerialStage::Taking { writing, .. } if self.intake.is_full() => {
                 writing + self.schedule.clocks_until_ready(0)
             }
-            Stage::Taking { writing, .. } => writing,
-            Stage::Working { clock } => self.schedule.clocks_until_ready(clock),
+            SerialStage::Taking { writing, .. } => writing,
+            SerialStage::Working { clock } => self.schedule.clocks_until_ready(clock),
         }
     }
 
@@ -138,8 +138,8 @@ impl SerialRcm {
     /// the outputs stay as they are because the array works and outputs nothing.
     #[must_use]
     pub fn quiet_clocks(&self) -> u64 {
-        let Stage::Working { clock } = self.stage else { return 0 };
-        let seen = self.schedule.until_seen(clock).unwrap_or(u64::MAX);
+        let SerialStage::Working { clock } = self.stage else { return 0 };
+        let seen = self.schedule.clocks_until_output(clock).unwrap_or(u64::MAX);
         seen.min(self.clocks_until_ready()).saturating_sub(1)
     }
 
@@ -166,107 +166,107 @@ impl SerialRcm {
 
     fn reset(&mut self) {
         self.sync.reset();
-        self.intake.forget();
-        self.regions.forget();
-        self.stage = Stage::EMPTY;
+        self.intake.reset();
+        self.regions.reset();
+        self.stage = SerialStage::AFTER_RESET;
     }
 
-    fn take(&mut self, input: &CoreInput<'_>) {
+    fn take_pixels(&mut self, input: &CoreInput<'_>) {
         let clocks = self.intake.take(input.pixels);
         if self.intake.is_full() {
             // Thresholds stay constant from here on, and no score is output before it is due. So
             // the frame can be scored now.
-            self.judge(input.thresholds);
+            self.decide_frame(input.thresholds);
         }
         let before = match self.stage {
-            Stage::Taking { before, .. } => before,
-            Stage::Working { clock } => Some(clock),
+            SerialStage::Taking { before, .. } => before,
+            SerialStage::Working { clock } => Some(clock),
         };
-        self.stage = Stage::Taking { writing: clocks, before };
-        self.pass(1);
+        self.stage = SerialStage::Taking { writing: clocks, before };
+        self.advance_clocks(1);
     }
 
-    fn judge(&mut self, applied: &Thresholds) {
+    fn decide_frame(&mut self, applied: &ThresholdInputs) {
         let thresholds = self.constants.as_ref().unwrap_or(applied);
         let mut stream = Vec::new();
         for (region, &border) in self.borders.iter().enumerate() {
             self.intake.stream(region, &mut stream);
-            self.regions.judge(region, stream.iter().copied(), border, thresholds);
+            self.regions.decide(region, stream.iter().copied(), border, thresholds);
         }
     }
 
     /// Advances the time. A pixel that is written for c clocks was taken c - 1 edges before T0.
-    fn pass(&mut self, clocks: u64) {
+    fn advance_clocks(&mut self, clocks: u64) {
         self.stage = match self.stage {
-            Stage::Taking { writing, .. } if clocks >= writing && self.intake.is_full() => {
-                Stage::Working { clock: clocks - writing }
+            SerialStage::Taking { writing, .. } if clocks >= writing && self.intake.is_full() => {
+                SerialStage::Working { clock: clocks - writing }
             }
-            Stage::Taking { writing, before } => Stage::Taking {
+            SerialStage::Taking { writing, before } => SerialStage::Taking {
                 writing: writing.saturating_sub(clocks),
                 before: before.map(|clock| clock.saturating_add(clocks)),
             },
-            Stage::Working { clock } => Stage::Working { clock: clock.saturating_add(clocks) },
+            SerialStage::Working { clock } => SerialStage::Working { clock: clock.saturating_add(clocks) },
         };
     }
 
-    fn show(&mut self) {
+    fn update_output(&mut self) {
         // The ports of the lanes are written only in clocks in which they show something.
         if std::mem::take(&mut self.is_forwarding) {
-            self.output.stop_forwarding();
+            self.output.clear_forward_ports();
         }
-        self.output.stop_saying();
+        self.output.clear_other_ports();
         self.output.ready = self.is_open() && !self.sync.is_filling();
         self.output.sync_error = self.sync.is_error();
         let seen = match self.stage {
-            Stage::Taking { before, .. } => before.and_then(|clock| self.schedule.at(clock)),
-            Stage::Working { clock } => self.schedule.at(clock),
+            SerialStage::Taking { before, .. } => before.and_then(|clock| self.schedule.output_at(clock)),
+            SerialStage::Working { clock } => self.schedule.output_at(clock),
         };
         if let Some((slot, seen)) = seen {
             match seen {
-                Seen::Score { number, lane, decides } => {
+                StepOutput::Score { number, lane, decides } => {
                     if let Some(region) = self.schedule.region(lane, slot) {
                         self.show_score(region, number, decides);
                     }
                 }
-                Seen::Leaving { what, number, lane: None } => {
+                StepOutput::Forwarded { what, number, lane: None } => {
                     for lane in 0..self.schedule.lanes() {
-                        self.show_leaving(lane, slot, what, number);
+                        self.show_forwarded(lane, slot, what, number);
                     }
                 }
-                Seen::Leaving { what, number, lane: Some(lane) } => {
-                    self.show_leaving(lane, slot, what, number);
+                StepOutput::Forwarded { what, number, lane: Some(lane) } => {
+                    self.show_forwarded(lane, slot, what, number);
                 }
             }
         }
     }
 
     fn show_score(&mut self, region: u32, number: u32, decides: bool) {
-        let Judged { verdict, action, .. } = self.regions.judged(index(region));
+        let DecidedSerialRegion { verdict, action, .. } = self.regions.decided(index(region));
         let output = &mut self.output;
         output.score_valid = true;
         (output.region, output.score_index) = (region, number);
         output.score = verdict.score(number);
         if decides {
             output.decision_valid = true;
-            (output.srs, output.trs, output.active) = (verdict.srs, verdict.trs, verdict.active());
-            output.summary = *action == Action::Summarize;
+            (output.srs, output.trs, output.active) = (verdict.srs, verdict.trs, verdict.is_active());
+            output.summary = *action == RegionAction::Summarize;
         }
     }
 
     /// Writes the pixel or mean of the region of a lane to the ports, if one leaves.
-    fn show_leaving(&mut self, lane: u32, slot: u32, what: Leaving, number: u32) {
+    fn show_forwarded(&mut self, lane: u32, slot: u32, what: ForwardedKind, number: u32) {
         if let Some(region) = self.schedule.region(lane, slot)
-            && let Some((position, pixel)) = self.regions.leaving(region, what, number)
+            && let Some((position, pixel)) = self.regions.forwarded_value(region, what, number)
         {
             self.is_forwarding = true;
             let output = &mut self.output;
             output.forward_position = position;
             let port = match self.feed {
-                Feed::Parallel => {
+                PixelFeed::Parallel => {
                     output.forward_slot = slot;
                     index(lane)
                 }
-                Feed::Raster => {
+                PixelFeed::Raster => {
                     output.forward_region = region;
                     0
                 }
@@ -281,8 +281,8 @@ impl CycleModel for SerialRcm {
         self.step(input);
     }
 
-    fn show(&self, role: PortRole, values: &mut Vec<u64>) {
-        self.output.show(role, values);
+    fn append_output(&self, role: PortRole, values: &mut Vec<u64>) {
+        self.output.append_port(role, values);
     }
 
     fn is_ready(&self) -> bool {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the array keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{Action, Camera, Reference, SerialDesign};
+use foveate_design::{RegionAction, Camera, ReferencePolicy, SerialDesign};
 
-use super::schedule::Leaving;
-use crate::number::index;
-use crate::periphery::{Summary, last_of_block, no_summaries};
-use crate::verdict::Verdict;
-use crate::{RegionScorer, Thresholds};
+use super::schedule::ForwardedKind;
+use crate::conversions::index;
+use crate::periphery::{ShownSummary, last_position_of_block, no_summaries};
+use crate::region_decision::RegionDecision;
+use crate::{RegionScorer, ThresholdInputs};
 
 /// The state of all regions.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Regions {
+pub(super) struct SerialRegions {
     camera: Camera,
     scorer: RegionScorer,
     /// Number of pixels of a region, n.
@@ -22,63 +22,63 @@ pub(super) struct Regions {
     /// reference is `last-sent`.
     sent: Vec<u16>,
     /// True for every region with a valid reference.
-    referenced: Vec<bool>,
+    has_reference: Vec<bool>,
     /// The summary that each region has sent last.
-    summaries: Vec<Summary>,
-    judged: Vec<Judged>,
+    summaries: Vec<ShownSummary>,
+    decided: Vec<DecidedSerialRegion>,
 }
 
 /// The scores, the decision and the values to send of a region in the last frame.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Judged {
-    pub(super) verdict: Verdict,
-    pub(super) action: Action,
+pub(super) struct DecidedSerialRegion {
+    pub(super) verdict: RegionDecision,
+    pub(super) action: RegionAction,
     /// The pixels that the region forwards, in row-major order.
     payload: Vec<u16>,
     /// The means of the blocks of the region. They are empty if irrelevant regions send none.
     means: Vec<u16>,
 }
 
-impl Judged {
+impl DecidedSerialRegion {
     /// Makes the state before the first frame.
-    fn nothing() -> Self {
+    fn before_first_frame() -> Self {
         let (payload, means) = (Vec::new(), Vec::new());
-        Self { verdict: Verdict::default(), action: Action::Hold, payload, means }
+        Self { verdict: RegionDecision::default(), action: RegionAction::Hold, payload, means }
     }
 }
 
-impl Regions {
+impl SerialRegions {
     pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let (regions, pixels) = (index(design.regions()), index(design.region_pixels()));
         let sent = match design.temporal().reference {
-            Reference::Previous => Vec::new(),
-            Reference::LastSent => vec![0; regions * pixels],
+            ReferencePolicy::Previous => Vec::new(),
+            ReferencePolicy::LastSent => vec![0; regions * pixels],
         };
         Self {
             scorer: RegionScorer::new(&design),
             pixels,
             scored: vec![0; regions * pixels],
             sent,
-            referenced: vec![false; regions],
+            has_reference: vec![false; regions],
             summaries: no_summaries(&design),
-            judged: vec![Judged::nothing(); regions],
+            decided: vec![DecidedSerialRegion::before_first_frame(); regions],
             camera: design.camera().clone(),
         }
     }
 
     /// Resets the state: the next frame is the first. Pixels stay, and are never seen.
-    pub(super) fn forget(&mut self) {
-        self.referenced.fill(false);
+    pub(super) fn reset(&mut self) {
+        self.has_reference.fill(false);
         self.summaries = no_summaries(&self.camera);
     }
 
     /// Returns the reference of a region for the next frame.
     pub(super) fn reference(&self, region: usize) -> Option<&[u16]> {
         let from = match self.camera.temporal().reference {
-            Reference::Previous => &self.scored,
-            Reference::LastSent => &self.sent,
+            ReferencePolicy::Previous => &self.scored,
+            ReferencePolicy::LastSent => &self.sent,
         };
-        self.referenced[region].then(|| &from[region * self.pixels..][..self.pixels])
+        self.has_reference[region].then(|| &from[region * self.pixels..][..self.pixels])
     }
 
     /// Returns the means of a region that the screen shows, or `None` if it shows no summary.
@@ -87,55 +87,55 @@ impl Regions {
     }
 
     /// Returns the decision for a region in the last frame.
-    pub(super) fn judged(&self, region: usize) -> &Judged {
-        &self.judged[region]
+    pub(super) fn decided(&self, region: usize) -> &DecidedSerialRegion {
+        &self.decided[region]
     }
 
     /// Returns pixel or mean `number` of the last frame of a region with its position, or `None` if
     /// the region does not send it.
-    pub(super) fn leaving(&self, region: u32, what: Leaving, number: u32) -> Option<(u32, u16)> {
-        let Judged { action, payload, means, .. } = &self.judged[index(region)];
+    pub(super) fn forwarded_value(&self, region: u32, what: ForwardedKind, number: u32) -> Option<(u32, u16)> {
+        let DecidedSerialRegion { action, payload, means, .. } = &self.decided[index(region)];
         match (what, action) {
-            (Leaving::Pixel, Action::Forward) => Some((number, payload[index(number)])),
-            (Leaving::Mean, Action::Summarize) => {
-                let position = last_of_block(self.camera.periphery()?, number);
+            (ForwardedKind::Pixel, RegionAction::Forward) => Some((number, payload[index(number)])),
+            (ForwardedKind::Mean, RegionAction::Summarize) => {
+                let position = last_position_of_block(self.camera.periphery()?, number);
                 Some((position, means[index(number)]))
             }
-            (Leaving::Pixel, Action::Hold | Action::Blank | Action::Summarize)
-            | (Leaving::Mean, Action::Hold | Action::Blank | Action::Forward) => None,
+            (ForwardedKind::Pixel, RegionAction::Hold | RegionAction::Blank | RegionAction::Summarize)
+            | (ForwardedKind::Mean, RegionAction::Hold | RegionAction::Blank | RegionAction::Forward) => None,
         }
     }
 
     /// Scores and decides the next frame of a region, and updates its reference and its summary.
-    pub(super) fn judge(
+    pub(super) fn decide(
         &mut self,
         region: usize,
         stream: impl Iterator<Item = u16>,
         border: u8,
-        thresholds: &Thresholds,
+        thresholds: &ThresholdInputs,
     ) {
-        self.scorer.take(stream, border);
-        let verdict = Verdict::of(&self.camera, &self.scorer, self.reference(region), thresholds);
+        self.scorer.load(stream, border);
+        let verdict = RegionDecision::from_scorer(&self.camera, &self.scorer, self.reference(region), thresholds);
         let means = self.scorer.means();
         let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level);
         let summary = &mut self.summaries[region];
         let action = summary.decide(irrelevant, verdict.srs, verdict.trs, &means, level);
         let payload = self.scorer.payload().collect();
-        self.judged[region] = Judged { verdict, action, payload, means };
+        self.decided[region] = DecidedSerialRegion { verdict, action, payload, means };
         let own = region * self.pixels..(region + 1) * self.pixels;
         for (scored, pixel) in self.scored[own.clone()].iter_mut().zip(self.scorer.pixels()) {
             *scored = pixel;
         }
         match (self.camera.temporal().reference, action) {
-            (Reference::Previous, _) => self.referenced[region] = true,
-            (Reference::LastSent, Action::Forward) => {
-                self.referenced[region] = true;
+            (ReferencePolicy::Previous, _) => self.has_reference[region] = true,
+            (ReferencePolicy::LastSent, RegionAction::Forward) => {
+                self.has_reference[region] = true;
                 self.sent[own.clone()].copy_from_slice(&self.scored[own]);
             }
-            (Reference::LastSent, Action::Hold) => {}
+            (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             // The screen no longer shows the pixels that were sent.
-            (Reference::LastSent, Action::Blank | Action::Summarize) => {
-                self.referenced[region] = false;
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
+                self.has_reference[region] = false;
             }
         }
     }

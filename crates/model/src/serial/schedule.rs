@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The schedule of a frame: the step of the array in every clock, and the outputs of that step.
 
-use foveate_design::{Feed, Periphery, Phase, SerialDesign, SerialTiming};
+use foveate_design::{PixelFeed, Periphery, SerialPhase, SerialDesign, SerialTiming};
 
 /// The outputs in a step that has any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Seen {
+pub(super) enum StepOutput {
     /// Score `number` of the region of one lane is on the ports. With `decides`, the decision is
     /// too.
     Score { number: u32, lane: u32, decides: bool },
     /// Pixel or mean `number` of a slot leaves: from all lanes, or from one.
-    Leaving { what: Leaving, number: u32, lane: Option<u32> },
+    Forwarded { what: ForwardedKind, number: u32, lane: Option<u32> },
 }
 
 /// The kind of values that leave in a phase: pixels of active regions, or means of summaries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Leaving {
+pub(super) enum ForwardedKind {
     Pixel,
     Mean,
 }
 
 /// The steps of a frame.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Schedule {
+pub(super) struct SerialSchedule {
     lanes: u32,
     fold: u32,
     regions: u32,
@@ -34,71 +34,71 @@ pub(super) struct Schedule {
     steps: u64,
     /// Clocks from T0 until `ready_o` is 1 again.
     ready: u64,
-    visible: Vec<Visible>,
+    visible: Vec<VisiblePhase>,
 }
 
 /// A phase of a slot with outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Visible {
+struct VisiblePhase {
     /// Number of steps of the slot before this phase.
     start: u64,
     steps: u64,
-    what: What,
+    what: PhaseOutput,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum What {
+enum PhaseOutput {
     Rotation { number: u32, decides: bool },
-    Unload { what: Leaving, rounds: Rounds },
+    Unload { what: ForwardedKind, rounds: UnloadOrder },
 }
 
 /// The order in which the lanes output their values, number after number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Rounds {
+enum UnloadOrder {
     /// All lanes output a value together, in the last of `steps` steps.
-    Together { steps: u64 },
+    AllLanes { steps: u64 },
     /// The lanes output a value one after the other, behind a step without outputs.
-    InTurn,
+    LaneByLane,
 }
 
-impl Schedule {
+impl SerialSchedule {
     pub(super) fn new(design: SerialDesign<'_>) -> Self {
-        let timing = SerialTiming::of(design);
+        let timing = SerialTiming::from_design(design);
         Self {
             lanes: design.lanes(),
             fold: design.fold(),
             regions: design.regions(),
-            settling: timing.settling().into(),
+            settling: timing.settling_steps().into(),
             lead: timing.edges_to_step(0),
             slot_steps: timing.slot_steps(),
             steps: timing.steps(),
             ready: timing.edges_to_ready(),
-            visible: visible(design, timing.phases()),
+            visible: visible_phases(design, timing.phases()),
         }
     }
 
     /// Returns the slot and the output `clock` clocks after T0.
-    pub(super) fn at(&self, clock: u64) -> Option<(u32, Seen)> {
+    pub(super) fn output_at(&self, clock: u64) -> Option<(u32, StepOutput)> {
         let step = clock.checked_sub(self.lead).filter(|&step| step < self.steps)?;
-        let slot = narrow(step / self.slot_steps);
+        let slot = to_u32(step / self.slot_steps);
         let step = step % self.slot_steps;
         let phase = self.visible.iter().rfind(|phase| phase.start <= step)?;
         let step = step - phase.start;
         if step >= phase.steps {
             return None;
         }
-        Some((slot, self.seen(phase.what, step)?))
+        Some((slot, self.step_output(phase.what, step)?))
     }
 
     /// Returns the clocks from `clock` clocks after T0 to the first one that may have an output, or
     /// `None` after the last.
-    pub(super) fn until_seen(&self, clock: u64) -> Option<u64> {
+    pub(super) fn clocks_until_output(&self, clock: u64) -> Option<u64> {
         let lead = self.lead.saturating_sub(clock);
         let step = (clock + lead - self.lead) % self.slot_steps;
         if clock + lead - self.lead >= self.steps {
             return None;
         }
-        let to = |phase: &Visible| {
+        let to = |phase: &VisiblePhase| {
             let is_over = step >= phase.start + phase.steps;
             (!is_over).then(|| phase.start.saturating_sub(step))
         };
@@ -106,29 +106,29 @@ impl Schedule {
         self.visible.iter().find_map(to).map(|steps| lead + steps)
     }
 
-    fn seen(&self, what: What, step: u64) -> Option<Seen> {
+    fn step_output(&self, what: PhaseOutput, step: u64) -> Option<StepOutput> {
         match what {
-            What::Rotation { number, decides } => {
-                let lane = narrow(step.checked_sub(self.settling)?);
-                Some(Seen::Score { number, lane, decides })
+            PhaseOutput::Rotation { number, decides } => {
+                let lane = to_u32(step.checked_sub(self.settling)?);
+                Some(StepOutput::Score { number, lane, decides })
             }
-            What::Unload { what, rounds } => {
-                let (number, lane) = self.turn(rounds, step)?;
-                Some(Seen::Leaving { what, number, lane })
+            PhaseOutput::Unload { what, rounds } => {
+                let (number, lane) = self.round_and_lane(rounds, step)?;
+                Some(StepOutput::Forwarded { what, number, lane })
             }
         }
     }
 
     /// Returns the number of the round, and the lane that outputs a value, or `None` for all lanes.
-    fn turn(&self, rounds: Rounds, step: u64) -> Option<(u32, Option<u32>)> {
+    fn round_and_lane(&self, rounds: UnloadOrder, step: u64) -> Option<(u32, Option<u32>)> {
         match rounds {
-            Rounds::Together { steps } => {
-                (step % steps == steps - 1).then(|| (narrow(step / steps), None))
+            UnloadOrder::AllLanes { steps } => {
+                (step % steps == steps - 1).then(|| (to_u32(step / steps), None))
             }
-            Rounds::InTurn => {
+            UnloadOrder::LaneByLane => {
                 let round = u64::from(self.lanes) + 1;
                 let lane = (step % round).checked_sub(1)?;
-                Some((narrow(step / round), Some(narrow(lane))))
+                Some((to_u32(step / round), Some(to_u32(lane))))
             }
         }
     }
@@ -150,45 +150,45 @@ impl Schedule {
 
 /// Returns the phases with outputs. Scores are numbered in the order in which they pass the ports.
 /// The decision comes with the last score.
-fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
+fn visible_phases(design: SerialDesign<'_>, phases: &[(SerialPhase, u64)]) -> Vec<VisiblePhase> {
     let pixels = design.region_pixels();
-    let means = design.periphery().map_or(0, Periphery::means);
+    let means = design.periphery().map_or(0, Periphery::mean_count);
     let (mut visible, mut start, mut number) = (Vec::new(), 0, 0);
     for &(phase, steps) in phases {
         let what = match phase {
-            Phase::DenoiseTemporal
-            | Phase::Border
-            | Phase::Temporal
-            | Phase::Pass(_)
-            | Phase::Copy
-            | Phase::Means => None,
-            Phase::RotateCount | Phase::RotateScore(_) => {
+            SerialPhase::DenoiseAndCompare
+            | SerialPhase::RepeatBorder
+            | SerialPhase::CompareRaw
+            | SerialPhase::FeaturePass(_)
+            | SerialPhase::CopyReference
+            | SerialPhase::ComputeMeans => None,
+            SerialPhase::RotateCount | SerialPhase::RotateScore(_) => {
                 number += 1;
                 let decides = number == design.score_count();
-                Some(What::Rotation { number: number - 1, decides })
+                Some(PhaseOutput::Rotation { number: number - 1, decides })
             }
-            Phase::Unload => {
-                Some(What::Unload { what: Leaving::Pixel, rounds: rounds(design, steps, pixels) })
+            SerialPhase::UnloadPixels => {
+                Some(PhaseOutput::Unload { what: ForwardedKind::Pixel, rounds: unload_order(design, steps, pixels) })
             }
-            Phase::UnloadMeans => {
-                Some(What::Unload { what: Leaving::Mean, rounds: rounds(design, steps, means) })
+            SerialPhase::UnloadMeans => {
+                Some(PhaseOutput::Unload { what: ForwardedKind::Mean, rounds: unload_order(design, steps, means) })
             }
         };
-        visible.extend(what.map(|what| Visible { start, steps, what }));
+        visible.extend(what.map(|what| VisiblePhase { start, steps, what }));
         start += steps;
     }
     visible
 }
 
 /// Returns the order of a phase in which `things` values of every region leave.
-fn rounds(design: SerialDesign<'_>, steps: u64, things: u32) -> Rounds {
+fn unload_order(design: SerialDesign<'_>, steps: u64, things: u32) -> UnloadOrder {
     match design.feed() {
-        Feed::Parallel => Rounds::Together { steps: steps / u64::from(things) },
-        Feed::Raster => Rounds::InTurn,
+        PixelFeed::Parallel => UnloadOrder::AllLanes { steps: steps / u64::from(things) },
+        PixelFeed::Raster => UnloadOrder::LaneByLane,
     }
 }
 
 /// Converts the number of a slot, a lane, a pixel or a mean, which fits into 32 bits.
-fn narrow(value: u64) -> u32 {
+fn to_u32(value: u64) -> u32 {
     u32::try_from(value).expect("slots, lanes, pixels and means are numbered in 32 bits")
 }

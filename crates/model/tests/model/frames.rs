@@ -4,50 +4,50 @@
 use foveate_frame::Frame;
 use proptest::prelude::*;
 
-use crate::recipe::Recipe;
+use crate::parameters::DesignParameters;
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Content {
+pub(crate) enum FrameContent {
     Noise,
     Binary,
     AlmostFlat,
     Ramp,
     Repeat,
-    Nudge,
-    Touch,
+    SmallSteps,
+    FewChanges,
 }
 
 /// The content and the seed of each frame.
-pub(crate) type Script = Vec<(Content, u64)>;
+pub(crate) type ClipScript = Vec<(FrameContent, u64)>;
 
-pub(crate) fn scripts(most: usize) -> impl Strategy<Value = Script> {
-    use Content::{AlmostFlat, Binary, Noise, Nudge, Ramp, Repeat, Touch};
+pub(crate) fn arbitrary_scripts(most: usize) -> impl Strategy<Value = ClipScript> {
+    use FrameContent::{AlmostFlat, Binary, Noise, SmallSteps, Ramp, Repeat, FewChanges};
     let content = proptest::sample::select(vec![
-        Noise, Binary, AlmostFlat, AlmostFlat, Ramp, Repeat, Nudge, Touch, Touch,
+        Noise, Binary, AlmostFlat, AlmostFlat, Ramp, Repeat, SmallSteps, FewChanges, FewChanges,
     ]);
     proptest::collection::vec((content, any::<u64>()), 1..=most)
 }
 
 /// Returns the frames of a script.
-pub(crate) fn film(recipe: &Recipe, script: &Script) -> Vec<Frame> {
+pub(crate) fn make_clip(recipe: &DesignParameters, script: &ClipScript) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let max = recipe.pixel_max();
     let mut film: Vec<Frame> = Vec::new();
     for &(content, seed) in script {
-        let mut random = Random(seed);
+        let mut random = SeededRandom(seed);
         let base = random.below(max + 1);
         let last = film.last().cloned();
         let frame = Frame::from_fn(width, height, recipe.bits, |x, y| {
             let before = last.as_ref().map_or(base, |frame| i64::from(frame.get(x, y)));
             let value = match content {
-                Content::Noise => random.below(max + 1),
-                Content::Binary => max * random.below(2),
-                Content::AlmostFlat => base + random.below(3),
-                Content::Ramp => base / 2 + i64::from(x) * (seed % 9) as i64 + i64::from(y),
-                Content::Repeat => before,
-                Content::Nudge => before + random.below(5) - 2,
-                Content::Touch if random.below(6) == 0 => random.below(max + 1),
-                Content::Touch => before,
+                FrameContent::Noise => random.below(max + 1),
+                FrameContent::Binary => max * random.below(2),
+                FrameContent::AlmostFlat => base + random.below(3),
+                FrameContent::Ramp => base / 2 + i64::from(x) * (seed % 9) as i64 + i64::from(y),
+                FrameContent::Repeat => before,
+                FrameContent::SmallSteps => before + random.below(5) - 2,
+                FrameContent::FewChanges if random.below(6) == 0 => random.below(max + 1),
+                FrameContent::FewChanges => before,
             };
             value.clamp(0, max) as u16
         });
@@ -57,9 +57,9 @@ pub(crate) fn film(recipe: &Recipe, script: &Script) -> Vec<Frame> {
 }
 
 /// A small random generator (splitmix64), whose values depend on the seed alone.
-pub(crate) struct Random(pub(crate) u64);
+pub(crate) struct SeededRandom(pub(crate) u64);
 
-impl Random {
+impl SeededRandom {
     pub(crate) fn below(&mut self, end: i64) -> i64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

@@ -6,18 +6,18 @@ use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
-use crate::frames::{film, scripts};
-use crate::oracle::{Image, Seen, watch};
-use crate::recipe::{PeripheryRecipe, Recipe, recipes};
+use crate::frames::{make_clip, arbitrary_scripts};
+use crate::oracle::{OracleFrame, OracleOutcome, oracle_history};
+use crate::parameters::{PeripheryParameters, DesignParameters, arbitrary_parameters};
 
-fn image(frame: &Frame) -> Image {
+fn frame_values(frame: &Frame) -> OracleFrame {
     let row = |y| frame.row(y).iter().map(|&pixel| i64::from(pixel)).collect();
     (0..frame.height()).map(row).collect()
 }
 
-pub(crate) fn assert_same(recipe: &Recipe, outcome: &FunctionalOutcome, seen: &Seen) {
-    assert_eq!(image(&outcome.padded), seen.padded);
-    assert_eq!(image(&outcome.denoised), seen.denoised);
+pub(crate) fn assert_outcome_is(recipe: &DesignParameters, outcome: &FunctionalOutcome, seen: &OracleOutcome) {
+    assert_eq!(frame_values(&outcome.padded), seen.padded);
+    assert_eq!(frame_values(&outcome.denoised), seen.denoised);
     for (index, region) in seen.regions.iter().enumerate() {
         for (feature, scores) in outcome.scores.iter().enumerate() {
             let name = recipe.features[feature].name;
@@ -31,19 +31,19 @@ pub(crate) fn assert_same(recipe: &Recipe, outcome: &FunctionalOutcome, seen: &S
         let means: Vec<i64> = outcome.means[index].iter().map(|&mean| mean.into()).collect();
         assert_eq!(means, region.means, "means of region {index}");
     }
-    assert_eq!(image(&outcome.rendered), seen.rendered);
+    assert_eq!(frame_values(&outcome.rendered), seen.rendered);
 }
 
-pub(crate) fn check(recipe: &Recipe, frames: &[Frame]) {
-    let history = watch(recipe, frames);
+pub(crate) fn check(recipe: &DesignParameters, frames: &[Frame]) {
+    let history = oracle_history(recipe, frames);
     let mut camera = FunctionalCamera::new(&recipe.design());
     for (frame, seen) in frames.iter().zip(&history) {
-        assert_same(recipe, camera.step(frame).unwrap(), seen);
+        assert_outcome_is(recipe, camera.step(frame).unwrap(), seen);
     }
     // After a reset the camera decides as at the start.
     camera.reset();
     if let (Some(frame), Some(seen)) = (frames.first(), history.first()) {
-        assert_same(recipe, camera.step(frame).unwrap(), seen);
+        assert_outcome_is(recipe, camera.step(frame).unwrap(), seen);
     }
 }
 
@@ -51,23 +51,23 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
-    fn functional_equals_the_oracle(recipe in recipes(), script in scripts(7)) {
-        check(&recipe, &film(&recipe, &script));
+    fn functional_equals_the_oracle(recipe in arbitrary_parameters(), script in arbitrary_scripts(7)) {
+        check(&recipe, &make_clip(&recipe, &script));
     }
 
     /// The test checks the bound of the contract: the value that an irrelevant region shows in a
     /// block is within `level` of the mean of the block.
     #[test]
     fn every_block_that_is_shown_is_near_its_mean(
-        recipe in recipes().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
-        script in scripts(7),
+        recipe in arbitrary_parameters().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
+        script in arbitrary_scripts(7),
     ) {
         // Without padding the whole of every block is on the screen.
         let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
-        let recipe = Recipe { width, height, ..recipe };
+        let recipe = DesignParameters { width, height, ..recipe };
         let design = recipe.design();
         let mut camera = FunctionalCamera::new(&design);
-        for frame in film(&recipe, &script) {
+        for frame in make_clip(&recipe, &script) {
             let outcome = camera.step(&frame).unwrap();
             for region in 0..design.regions() {
                 if !outcome.srs[region as usize] {
@@ -78,8 +78,8 @@ proptest! {
     }
 }
 
-fn check_shown(recipe: &Recipe, outcome: &FunctionalOutcome, design: &Design, region: u32) {
-    let PeripheryRecipe { blocks, level } = recipe.periphery.unwrap();
+fn check_shown(recipe: &DesignParameters, outcome: &FunctionalOutcome, design: &Design, region: u32) {
+    let PeripheryParameters { blocks, level } = recipe.periphery.unwrap();
     let side = (recipe.side / blocks) as u32;
     let (left, top) = (
         region % design.columns() * design.region_size(),

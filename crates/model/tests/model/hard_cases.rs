@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of cases at the ends of ranges, with explicit expected numbers.
 
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_frame::Frame;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    FunctionalCamera, ModelError, PipelinedRcm, denoise::denoise, pad, region_border,
+    FunctionalCamera, ModelError, PipelinedRcm, denoising::denoise, pad, region_border,
     region_stream, temporal_differences,
 };
 
-use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
+use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
 use crate::{functional_properties, pipelined_properties};
 
 fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
 fn score(toml: &str, frame: &Frame) -> u64 {
@@ -136,7 +136,7 @@ fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
 
 /// Returns frames that are black, white, checkerboards, single pixels in each corner of a region,
 /// and a ramp.
-pub(crate) fn hard_frames(recipe: &Recipe) -> Vec<Frame> {
+pub(crate) fn hard_frames(recipe: &DesignParameters) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let (max, side) = (recipe.pixel_max() as u16, recipe.side as u32);
     let paint =
@@ -154,11 +154,11 @@ pub(crate) fn hard_frames(recipe: &Recipe) -> Vec<Frame> {
     ]
 }
 
-fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: bool) -> Recipe {
+fn recipe_with_all_features(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: bool) -> DesignParameters {
     let max = (1i64 << bits) - 1;
     let feature =
-        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 1 };
-    Recipe {
+        |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 1 };
+    DesignParameters {
         width: size.0,
         height: size.1,
         bits,
@@ -176,7 +176,7 @@ fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: b
         temporal_min: side * side / 2,
         last_sent,
         blank_irrelevant: bits.is_multiple_of(4),
-        periphery: PeripheryRecipe::number((side + size.0) as usize, side, max),
+        periphery: PeripheryParameters::from_number((side + size.0) as usize, side, max),
         raw_payload: side % 2 == 1,
         constant: false,
         deep: false,
@@ -189,10 +189,10 @@ pub(crate) fn hard_frames_at_the_ends_of_every_range() {
         for bits in [1, 10, 12, 16] {
             for (shared, last_sent) in [(false, true), (true, false), (true, true)] {
                 for size in [(1, 1), (side, side + 1), (2 * side, side - 1)] {
-                    let recipe = everything(side, bits, size, shared, last_sent);
+                    let recipe = recipe_with_all_features(side, bits, size, shared, last_sent);
                     let frames = hard_frames(&recipe);
                     functional_properties::check(&recipe, &frames);
-                    let mut rcm = PipelinedRcm::new(recipe.design().pipelined().unwrap());
+                    let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
                     pipelined_properties::check_dense(&recipe, &mut rcm, &frames);
                 }
             }
@@ -203,11 +203,11 @@ pub(crate) fn hard_frames_at_the_ends_of_every_range() {
 #[test]
 fn the_largest_region() {
     for shared in [false, true] {
-        let recipe = everything(64, 16, (65, 40), shared, shared);
+        let recipe = recipe_with_all_features(64, 16, (65, 40), shared, shared);
         let frames = hard_frames(&recipe);
         functional_properties::check(&recipe, &frames[1..]);
-        let recipe = everything(64, 16, (64, 64), shared, shared);
-        let mut rcm = PipelinedRcm::new(recipe.design().pipelined().unwrap());
+        let recipe = recipe_with_all_features(64, 16, (64, 64), shared, shared);
+        let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
         pipelined_properties::check_dense(&recipe, &mut rcm, &hard_frames(&recipe)[2..5]);
     }
 }

@@ -4,20 +4,20 @@
 
 use foveate_frame::Frame;
 
-use crate::recipe::{FeatureRecipe, Recipe};
+use crate::parameters::{FeatureParameters, DesignParameters};
 
-pub(crate) type Image = Vec<Vec<i64>>;
+pub(crate) type OracleFrame = Vec<Vec<i64>>;
 
 /// The results of the oracle for one frame. Regions are numbered row by row. Maps hold n values per
 /// region.
-pub(crate) struct Seen {
-    pub(crate) padded: Image,
-    pub(crate) denoised: Image,
-    pub(crate) regions: Vec<SeenRegion>,
-    pub(crate) rendered: Image,
+pub(crate) struct OracleOutcome {
+    pub(crate) padded: OracleFrame,
+    pub(crate) denoised: OracleFrame,
+    pub(crate) regions: Vec<OracleRegion>,
+    pub(crate) rendered: OracleFrame,
 }
 
-pub(crate) struct SeenRegion {
+pub(crate) struct OracleRegion {
     /// Hits, or deviations from the mean for `mad`, by feature and pixel.
     pub(crate) terms: Vec<Vec<i64>>,
     pub(crate) scores: Vec<i64>,
@@ -36,15 +36,15 @@ pub(crate) struct SeenRegion {
 }
 
 /// Returns the results for every frame of a clip.
-pub(crate) fn watch(recipe: &Recipe, film: &[Frame]) -> Vec<Seen> {
-    watch_changing(&vec![recipe.clone(); film.len()], film)
+pub(crate) fn oracle_history(recipe: &DesignParameters, film: &[Frame]) -> Vec<OracleOutcome> {
+    oracle_history_with_thresholds(&vec![recipe.clone(); film.len()], film)
 }
 
 /// Returns the results for every frame of a clip, with the thresholds of each frame.
-pub(crate) fn watch_changing(recipes: &[Recipe], film: &[Frame]) -> Vec<Seen> {
-    let mut history: Vec<Seen> = Vec::new();
+pub(crate) fn oracle_history_with_thresholds(recipes: &[DesignParameters], film: &[Frame]) -> Vec<OracleOutcome> {
+    let mut history: Vec<OracleOutcome> = Vec::new();
     for (recipe, frame) in recipes.iter().zip(film) {
-        let seen = look(recipe, &history, frame);
+        let seen = oracle_outcome(recipe, &history, frame);
         history.push(seen);
         let now = history.len() - 1;
         let rendered = render(recipe, &history);
@@ -53,25 +53,25 @@ pub(crate) fn watch_changing(recipes: &[Recipe], film: &[Frame]) -> Vec<Seen> {
     history
 }
 
-fn look(recipe: &Recipe, history: &[Seen], frame: &Frame) -> Seen {
-    let mut seen = begin(recipe, frame);
+fn oracle_outcome(recipe: &DesignParameters, history: &[OracleOutcome], frame: &Frame) -> OracleOutcome {
+    let mut seen = outcome_without_regions(recipe, frame);
     for region in 0..recipe.columns() * recipe.rows() {
-        seen.regions.push(look_at_region(recipe, (history, history), &seen, region));
+        seen.regions.push(oracle_region(recipe, (history, history), &seen, region));
     }
     seen
 }
 
 /// Makes the results of a frame, without its regions.
-pub(crate) fn begin(recipe: &Recipe, frame: &Frame) -> Seen {
+pub(crate) fn outcome_without_regions(recipe: &DesignParameters, frame: &Frame) -> OracleOutcome {
     let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
-    let padded: Image =
-        (0..height).map(|y| (0..width).map(|x| frame.clamped(x, y).into()).collect()).collect();
+    let padded: OracleFrame =
+        (0..height).map(|y| (0..width).map(|x| frame.get_clamped(x, y).into()).collect()).collect();
     let mut denoised = padded.clone();
     if recipe.median {
         for y in 0..height {
             for x in 0..width {
                 let mut nine: Vec<i64> = Vec::new();
-                for (dx, dy) in square() {
+                for (dx, dy) in window_offsets() {
                     nine.push(neighbor(recipe, &padded, (x, y), (dx, dy)));
                 }
                 nine.sort_unstable();
@@ -79,15 +79,15 @@ pub(crate) fn begin(recipe: &Recipe, frame: &Frame) -> Seen {
             }
         }
     }
-    Seen { padded, denoised, regions: Vec::new(), rendered: Vec::new() }
+    OracleOutcome { padded, denoised, regions: Vec::new(), rendered: Vec::new() }
 }
 
-fn square() -> impl Iterator<Item = (i64, i64)> {
+fn window_offsets() -> impl Iterator<Item = (i64, i64)> {
     (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)))
 }
 
 /// Returns the pixel next to (x, y), by the neighborhood of the region of that pixel.
-fn neighbor(recipe: &Recipe, image: &Image, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> i64 {
+fn neighbor(recipe: &DesignParameters, image: &OracleFrame, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> i64 {
     let (mut nx, mut ny) = (x + dx, y + dy);
     if !recipe.shared && nx.div_euclid(recipe.side) != x / recipe.side {
         nx = x;
@@ -101,28 +101,28 @@ fn neighbor(recipe: &Recipe, image: &Image, (x, y): (i64, i64), (dx, dy): (i64, 
 }
 
 /// Returns the positions of a region in row-major order.
-fn positions(recipe: &Recipe, region: i64) -> Vec<(i64, i64)> {
+fn positions(recipe: &DesignParameters, region: i64) -> Vec<(i64, i64)> {
     let (left, top) = (region % recipe.columns(), region / recipe.columns());
-    (0..recipe.n())
+    (0..recipe.region_pixels())
         .map(|i| (left * recipe.side + i % recipe.side, top * recipe.side + i / recipe.side))
         .collect()
 }
 
-pub(crate) fn cut(recipe: &Recipe, image: &Image, region: i64) -> Vec<i64> {
+pub(crate) fn region_values(recipe: &DesignParameters, image: &OracleFrame, region: i64) -> Vec<i64> {
     positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
 }
 
 /// Returns the results for a region of the frame after `history`. Its reference comes from the
 /// frames in `kept`.
-pub(crate) fn look_at_region(
-    recipe: &Recipe,
-    (history, kept): (&[Seen], &[Seen]),
-    frame: &Seen,
+pub(crate) fn oracle_region(
+    recipe: &DesignParameters,
+    (history, kept): (&[OracleOutcome], &[OracleOutcome]),
+    frame: &OracleOutcome,
     region: i64,
-) -> SeenRegion {
+) -> OracleRegion {
     let denoised = &frame.denoised;
     let payload = if recipe.raw_payload { &frame.padded } else { denoised };
-    let pixels = cut(recipe, denoised, region);
+    let pixels = region_values(recipe, denoised, region);
     let terms: Vec<Vec<i64>> =
         recipe.features.iter().map(|f| terms(recipe, f, denoised, region)).collect();
     let mut scores = Vec::new();
@@ -133,8 +133,8 @@ pub(crate) fn look_at_region(
             _ => terms.iter().sum(),
         };
         let unit: i128 = match feature.name {
-            "mad" => i128::from(recipe.n()) << feature.fraction_bits,
-            "variance" => i128::from(recipe.n() * recipe.n()),
+            "mad" => i128::from(recipe.region_pixels()) << feature.fraction_bits,
+            "variance" => i128::from(recipe.region_pixels() * recipe.region_pixels()),
             _ => 1,
         };
         votes.push(i128::from(score) * 1000 >= i128::from(feature.min_milli) * unit);
@@ -146,27 +146,27 @@ pub(crate) fn look_at_region(
     let temporal_hits: Vec<bool> = match reference(recipe, kept, region) {
         None => vec![true; pixels.len()],
         Some(frame) => {
-            let reference = cut(recipe, &kept[frame].denoised, region);
+            let reference = region_values(recipe, &kept[frame].denoised, region);
             let pairs = pixels.iter().zip(&reference);
             pairs.map(|(a, b)| (a - b).abs() > recipe.temporal_level).collect()
         }
     };
     let temporal_count = temporal_hits.iter().filter(|&&hit| hit).count() as i64;
     let trs = temporal_count >= recipe.temporal_min;
-    let payload = cut(recipe, payload, region);
+    let payload = region_values(recipe, payload, region);
     let active = srs && trs;
     let means = means(recipe, &payload);
     let action = match recipe.periphery {
         _ if active => "forward",
-        Some(periphery) if !srs => match shown(history, region) {
-            Some(last) if near(last, &means, periphery.level) => "hold",
+        Some(periphery) if !srs => match shown_means(history, region) {
+            Some(last) if are_near(last, &means, periphery.level) => "hold",
             _ => "summarize",
         },
         None if !srs && recipe.blank_irrelevant => "blank",
         _ => "hold",
     };
     let lost = false;
-    SeenRegion {
+    OracleRegion {
         terms,
         scores,
         temporal_hits,
@@ -182,7 +182,7 @@ pub(crate) fn look_at_region(
 }
 
 /// Returns the means of the blocks of a region, rounded to the nearest integer, halves up.
-fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
+fn means(recipe: &DesignParameters, pixels: &[i64]) -> Vec<i64> {
     let Some(periphery) = recipe.periphery else { return Vec::new() };
     let side = recipe.side / periphery.blocks;
     let mean = |block: i64| {
@@ -192,7 +192,7 @@ fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
             (left..left + side).contains(&x) && (top..top + side).contains(&y)
         };
         let own: Vec<i64> =
-            (0..recipe.n()).filter(|&i| inside(i)).map(|i| pixels[i as usize]).collect();
+            (0..recipe.region_pixels()).filter(|&i| inside(i)).map(|i| pixels[i as usize]).collect();
         let twice = 2 * own.iter().sum::<i64>() + own.len() as i64;
         twice.div_euclid(2 * own.len() as i64)
     };
@@ -201,25 +201,25 @@ fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
 
 /// Returns the means that the screen shows of a region before a frame, or `None` if it shows no
 /// summary.
-fn shown(history: &[Seen], region: i64) -> Option<&[i64]> {
+fn shown_means(history: &[OracleOutcome], region: i64) -> Option<&[i64]> {
     let regions = history.iter().rev().map(|seen| &seen.regions[region as usize]);
     let last = regions.into_iter().find(|region| matches!(region.action, "forward" | "summarize"));
     last.filter(|region| region.action == "summarize" && !region.lost)
         .map(|region| &region.means[..])
 }
 
-fn near(last: &[i64], now: &[i64], level: i64) -> bool {
+fn are_near(last: &[i64], now: &[i64], level: i64) -> bool {
     last.iter().zip(now).all(|(last, now)| (last - now).abs() <= level)
 }
 
-fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64) -> Vec<i64> {
+fn terms(recipe: &DesignParameters, feature: &FeatureParameters, denoised: &OracleFrame, region: i64) -> Vec<i64> {
     let places = positions(recipe, region);
     let at = |place: (i64, i64), offset| neighbor(recipe, denoised, place, offset);
     let hits = |hit: &dyn Fn((i64, i64)) -> bool| places.iter().map(|&p| hit(p).into()).collect();
     match feature.name {
         "edge" => hits(&|place| {
             let weighted = |weight: &dyn Fn(i64, i64) -> i64| -> i64 {
-                square().map(|(dx, dy)| weight(dx, dy) * at(place, (dx, dy))).sum()
+                window_offsets().map(|(dx, dy)| weight(dx, dy) * at(place, (dx, dy))).sum()
             };
             let gx = weighted(&|dx, dy| dx * (2 - dy.abs()));
             let gy = weighted(&|dx, dy| dy * (2 - dx.abs()));
@@ -238,9 +238,9 @@ fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64
             })
         }),
         "mad" => {
-            let pixels = cut(recipe, denoised, region);
+            let pixels = region_values(recipe, denoised, region);
             let scale = 1i64 << feature.fraction_bits;
-            let mean = (pixels.iter().sum::<i64>() * scale + recipe.n() / 2) / recipe.n();
+            let mean = (pixels.iter().sum::<i64>() * scale + recipe.region_pixels() / 2) / recipe.region_pixels();
             pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
         }
         // The variance is not a sum over pixels.
@@ -259,7 +259,7 @@ fn scaled_variance(pixels: &[i64]) -> i64 {
 }
 
 /// Returns the number of the frame that is the reference of this region for the next frame.
-fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
+fn reference(recipe: &DesignParameters, history: &[OracleOutcome], region: i64) -> Option<usize> {
     if !recipe.last_sent {
         return history.len().checked_sub(1);
     }
@@ -268,7 +268,7 @@ fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
         if region.active {
             return (!region.lost).then_some(frame);
         }
-        if recipe.forgets_irrelevant() && !region.srs {
+        if recipe.drops_irrelevant_pixels() && !region.srs {
             return None;
         }
     }
@@ -276,7 +276,7 @@ fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
 }
 
 /// Returns the screen after the last frame of the history.
-fn render(recipe: &Recipe, history: &[Seen]) -> Image {
+fn render(recipe: &DesignParameters, history: &[OracleOutcome]) -> OracleFrame {
     let pixel = |x: i64, y: i64| {
         let region = (y / recipe.side * recipe.columns() + x / recipe.side) as usize;
         for seen in history.iter().rev() {

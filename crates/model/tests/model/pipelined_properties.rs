@@ -2,21 +2,21 @@
 //! Tests that the cycle-level model shows the outputs of the schedule and the oracle after every
 //! edge, and that its decisions are those of the functional model.
 
-use foveate_design::{Action, PipelinedTiming};
+use foveate_design::{RegionAction, PipelinedTiming};
 use foveate_frame::Frame;
 use foveate_model::{
-    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, Thresholds, region_pixels, region_stream,
+    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs, region_pixels, region_stream,
 };
 use proptest::prelude::*;
 
-use crate::frames::{Random, film, scripts};
-use crate::oracle::watch;
-use crate::recipe::{Recipe, recipes};
-use crate::schedule::{Expected, expect, tail_steps};
+use crate::frames::{SeededRandom, make_clip, arbitrary_scripts};
+use crate::oracle::oracle_history;
+use crate::parameters::{DesignParameters, arbitrary_parameters};
+use crate::schedule::{ExpectedOutput, expected_outputs, tail_steps};
 
 /// The pattern of pixels and gaps of a stream.
 #[derive(Clone, Copy, Debug)]
-struct Gaps {
+struct GapPattern {
     /// Percentage of clocks inside a frame without a pixel.
     inside: i64,
     /// Longest gap between frames in clocks.
@@ -24,10 +24,10 @@ struct Gaps {
     seed: u64,
 }
 
-fn gaps() -> impl Strategy<Value = Gaps> {
+fn gaps() -> impl Strategy<Value = GapPattern> {
     let inside = prop_oneof![Just(0), Just(0), 1i64..80];
     let between = prop_oneof![Just(0), 0i64..30];
-    (inside, between, any::<u64>()).prop_map(|(inside, between, seed)| Gaps {
+    (inside, between, any::<u64>()).prop_map(|(inside, between, seed)| GapPattern {
         inside,
         between,
         seed,
@@ -35,9 +35,9 @@ fn gaps() -> impl Strategy<Value = Gaps> {
 }
 
 /// Returns the edges that take each pixel of each frame.
-fn stream_edges(recipe: &Recipe, gaps: Gaps, frames: usize) -> Vec<Vec<usize>> {
+fn stream_edges(recipe: &DesignParameters, gaps: GapPattern, frames: usize) -> Vec<Vec<usize>> {
     let pixels = recipe.design().stream_pixels();
-    let mut random = Random(gaps.seed);
+    let mut random = SeededRandom(gaps.seed);
     let mut edge = 0;
     let mut edges = Vec::new();
     for _ in 0..frames {
@@ -57,14 +57,14 @@ fn stream_edges(recipe: &Recipe, gaps: Gaps, frames: usize) -> Vec<Vec<usize>> {
 
 /// Streams a clip, and returns the outputs of every region after every edge.
 fn run(
-    recipe: &Recipe,
+    recipe: &DesignParameters,
     rcm: &mut PipelinedRcm,
     film: &[Frame],
     edges: &[Vec<usize>],
     clocks: usize,
 ) -> Vec<Vec<RpuOutput>> {
     let design = recipe.design();
-    let thresholds = Thresholds::of(&design);
+    let thresholds = ThresholdInputs::from_camera(&design);
     let streams: Vec<Vec<Vec<u16>>> = film
         .iter()
         .map(|frame| {
@@ -97,11 +97,11 @@ fn run(
     shown
 }
 
-fn observed(recipe: &Recipe, output: &RpuOutput) -> Expected {
+fn observed_output(recipe: &DesignParameters, output: &RpuOutput) -> ExpectedOutput {
     assert_eq!(output.active, output.srs && output.trs);
     assert!(output.forward_valid || output.forward_pixel == 0);
     assert!(output.scores[recipe.features.len()..].iter().all(|&score| score == 0));
-    Expected {
+    ExpectedOutput {
         valid: output.decision_valid,
         srs: output.srs,
         trs: output.trs,
@@ -113,23 +113,23 @@ fn observed(recipe: &Recipe, output: &RpuOutput) -> Expected {
 }
 
 /// Checks a clip whose frames follow each other without a gap.
-pub(crate) fn check_dense(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame]) {
-    check(recipe, rcm, film, Gaps { inside: 0, between: 0, seed: 0 });
+pub(crate) fn check_dense(recipe: &DesignParameters, rcm: &mut PipelinedRcm, film: &[Frame]) {
+    check(recipe, rcm, film, GapPattern { inside: 0, between: 0, seed: 0 });
 }
 
-fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
+fn check(recipe: &DesignParameters, rcm: &mut PipelinedRcm, film: &[Frame], gaps: GapPattern) {
     let design = recipe.design();
     let edges = stream_edges(recipe, gaps, film.len());
     let steps = tail_steps(recipe, &edges);
     let last = edges.iter().flatten().max().unwrap();
     let clocks =
-        last + PipelinedTiming::of(design.pipelined().unwrap()).decision_latency as usize + 5;
+        last + PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency as usize + 5;
     let shown = run(recipe, rcm, film, &edges, clocks);
-    let history = watch(recipe, film);
+    let history = oracle_history(recipe, film);
     for region in 0..design.regions() as usize {
-        let expected = expect(recipe, &history, &steps, region, clocks);
+        let expected = expected_outputs(recipe, &history, &steps, region, clocks);
         for (edge, (shown, expected)) in shown.iter().zip(&expected).enumerate() {
-            let observed = observed(recipe, &shown[region]);
+            let observed = observed_output(recipe, &shown[region]);
             assert_eq!(&observed, expected, "region {region} after edge {edge}");
         }
     }
@@ -139,9 +139,9 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
 
 /// Checks that the decisions are those of the functional model in order, and that the pixels that
 /// leave are, too.
-fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>]) {
+fn check_against_camera(recipe: &DesignParameters, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     let design = recipe.design();
-    let timing = PipelinedTiming::of(design.pipelined().unwrap());
+    let timing = PipelinedTiming::from_design(design.as_pipelined().unwrap());
     for region in 0..design.regions() {
         let at = region as usize;
         let ports = || shown.iter().map(|outputs| outputs[at]);
@@ -158,14 +158,14 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
             for (feature, scores) in outcome.scores.iter().enumerate() {
                 assert_eq!(decision.scores[feature], scores[at]);
             }
-            assert_eq!(decision.summary, outcome.actions[at] == Action::Summarize);
+            assert_eq!(decision.summary, outcome.actions[at] == RegionAction::Summarize);
             if index < left {
                 match outcome.actions[at] {
-                    Action::Forward => {
+                    RegionAction::Forward => {
                         region_pixels(&design, outcome.payload(&design), region, &mut leaving);
                     }
-                    Action::Summarize => leaving.extend(&outcome.means[at]),
-                    Action::Hold | Action::Blank => {}
+                    RegionAction::Summarize => leaving.extend(&outcome.means[at]),
+                    RegionAction::Hold | RegionAction::Blank => {}
                 }
             }
         }
@@ -177,11 +177,11 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
 }
 
 /// Checks that without gaps a decision is valid exactly at the clocks of `PipelinedTiming`.
-fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOutput>]) {
+fn check_latency(recipe: &DesignParameters, gaps: GapPattern, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     if gaps.inside != 0 || gaps.between != 0 {
         return;
     }
-    let timing = PipelinedTiming::of(recipe.design().pipelined().unwrap());
+    let timing = PipelinedTiming::from_design(recipe.design().as_pipelined().unwrap());
     let valid: Vec<usize> =
         (0..shown.len()).filter(|&edge| shown[edge][0].decision_valid).collect();
     let due = |frame: usize| {
@@ -200,7 +200,7 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
         let outputs = &shown[taken + departure.forward_clocks as usize];
         let left: Vec<bool> = outputs.iter().map(|output| output.forward_valid).collect();
         // At this clock the last pixel of a region or the last mean of a summary leaves.
-        let sent = |action: &Action| matches!(action, Action::Forward | Action::Summarize);
+        let sent = |action: &RegionAction| matches!(action, RegionAction::Forward | RegionAction::Summarize);
         let actions = &camera.step(frame).unwrap().actions;
         assert_eq!(left, actions.iter().map(sent).collect::<Vec<_>>());
     }
@@ -210,35 +210,35 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn every_port_after_every_edge(recipe in recipes(), script in scripts(6), gaps in gaps()) {
-        let mut rcm = PipelinedRcm::new(recipe.design().pipelined().unwrap());
-        check(&recipe, &mut rcm, &film(&recipe, &script), gaps);
+    fn every_port_after_every_edge(recipe in arbitrary_parameters(), script in arbitrary_scripts(6), gaps in gaps()) {
+        let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
+        check(&recipe, &mut rcm, &make_clip(&recipe, &script), gaps);
     }
 
     #[test]
     fn a_reset_at_any_edge_forgets_everything(
-        recipe in recipes(),
-        before in scripts(3),
-        after in scripts(4),
+        recipe in arbitrary_parameters(),
+        before in arbitrary_scripts(3),
+        after in arbitrary_scripts(4),
         gaps in gaps(),
         cut in any::<u64>(),
         held in 1usize..3,
     ) {
         let design = recipe.design();
-        let mut rcm = PipelinedRcm::new(design.pipelined().unwrap());
-        let film_before = film(&recipe, &before);
+        let mut rcm = PipelinedRcm::new(design.as_pipelined().unwrap());
+        let film_before = make_clip(&recipe, &before);
         let edges = stream_edges(&recipe, gaps, before.len());
         let end = edges.iter().flatten().max().unwrap() + 20;
         run(&recipe, &mut rcm, &film_before, &edges, cut as usize % end);
         let pixels = vec![1; design.regions() as usize];
         for edge in 0..held {
             // A pixel at an edge with reset is not taken.
-            let thresholds = &Thresholds::of(&design);
+            let thresholds = &ThresholdInputs::from_camera(&design);
             let valid = edge == 0;
             let input = CoreInput { reset: true, valid, ..CoreInput::idle(&pixels, thresholds) };
             let outputs = rcm.step(&input);
             prop_assert!(outputs.iter().all(|output| *output == RpuOutput::default()));
         }
-        check(&recipe, &mut rcm, &film(&recipe, &after), gaps);
+        check(&recipe, &mut rcm, &make_clip(&recipe, &after), gaps);
     }
 }

@@ -3,12 +3,12 @@
 //! state. Every step is an edge number that follows from other edge numbers by the rules of
 //! `docs/timing.md`.
 
-use crate::oracle::Seen;
-use crate::recipe::Recipe;
+use crate::oracle::OracleOutcome;
+use crate::parameters::DesignParameters;
 
 /// The expected outputs of the RPU of one region after an edge.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Expected {
+pub(crate) struct ExpectedOutput {
     pub(crate) valid: bool,
     pub(crate) srs: bool,
     pub(crate) trs: bool,
@@ -45,8 +45,8 @@ fn shared_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
 }
 
 /// Returns the edges of the tail steps by frame for the edges of the pixels of the stream.
-pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let windows = recipe.has("edge") || recipe.has("corner");
+pub(crate) fn tail_steps(recipe: &DesignParameters, stream: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let windows = recipe.has_feature("edge") || recipe.has_feature("corner");
     let median_delay = if recipe.deep { 3 } else { 2 };
     let tail_delay = tail_delay(recipe);
     let mut side = recipe.side as usize;
@@ -70,32 +70,32 @@ pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usiz
 }
 
 /// Returns the edges from a step of the last window to its tail step.
-pub(crate) fn tail_delay(recipe: &Recipe) -> usize {
+pub(crate) fn tail_delay(recipe: &DesignParameters) -> usize {
     match recipe.deep {
         true => 2,
-        false => usize::from(recipe.has("mad") || recipe.has("variance")),
+        false => usize::from(recipe.has_feature("mad") || recipe.has_feature("variance")),
     }
 }
 
 /// Returns the expected outputs of `region` after each of the first `edges` edges.
-pub(crate) fn expect(
-    recipe: &Recipe,
-    history: &[Seen],
+pub(crate) fn expected_outputs(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
     steps: &[Vec<usize>],
     region: usize,
     edges: usize,
-) -> Vec<Expected> {
-    (0..edges).map(|edge| expect_at(recipe, history, steps, region, edge)).collect()
+) -> Vec<ExpectedOutput> {
+    (0..edges).map(|edge| expected_output(recipe, history, steps, region, edge)).collect()
 }
 
-fn expect_at(
-    recipe: &Recipe,
-    history: &[Seen],
+fn expected_output(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
     steps: &[Vec<usize>],
     region: usize,
     edge: usize,
-) -> Expected {
-    let mad = recipe.has("mad");
+) -> ExpectedOutput {
+    let mad = recipe.has_feature("mad");
     let frame = |index: usize| &history[index].regions[region];
     let done_at = |index: usize| *steps[index].last().unwrap();
     // `done` counts the frames that are done by this edge, and `over` those whose done clock is
@@ -137,11 +137,11 @@ fn expect_at(
     let forward = match (stepping, leaving) {
         (Some(position), Some(frame)) if frame.active => Some(frame.payload[position]),
         (Some(position), Some(frame)) if frame.action == "summarize" => {
-            last_of_block(recipe, position as i64).map(|block| frame.means[block])
+            block_ending_at(recipe, position as i64).map(|block| frame.means[block])
         }
         _ => None,
     };
-    Expected {
+    ExpectedOutput {
         valid: decided.is_some(),
         srs: decided.is_some_and(|frame| frame.srs),
         trs: decided.is_some_and(|frame| frame.trs),
@@ -153,7 +153,7 @@ fn expect_at(
 }
 
 /// Returns the block whose last pixel, the lower right one, is at a position of the region.
-fn last_of_block(recipe: &Recipe, position: i64) -> Option<usize> {
+fn block_ending_at(recipe: &DesignParameters, position: i64) -> Option<usize> {
     let blocks = recipe.periphery?.blocks;
     let side = recipe.side / blocks;
     let (x, y) = (position % recipe.side + 1, position / recipe.side + 1);

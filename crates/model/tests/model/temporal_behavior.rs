@@ -2,22 +2,22 @@
 //! Tests of the two references over time: the first frame, drift, blanked regions, and long periods
 //! without changes.
 
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_frame::Frame;
-use foveate_model::{FunctionalCamera, FunctionalOutcome, PipelinedRpu, RpuInput, Thresholds};
+use foveate_model::{FunctionalCamera, FunctionalOutcome, PipelinedRpu, RpuInput, ThresholdInputs};
 
-use crate::frames::Random;
+use crate::frames::SeededRandom;
 
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 20;
 
 fn design(toml: &str) -> Design {
     let size = format!("[frame]\nwidth = {WIDTH}\nheight = {HEIGHT}\n");
-    Config::from_toml(&format!("{size}{toml}")).unwrap().validate().unwrap()
+    DesignConfig::from_toml(&format!("{size}{toml}")).unwrap().validate().unwrap()
 }
 
 /// Returns a textured frame, which is shifted to the left by `shift`.
-fn scene(shift: u32, offset: i64, mut noise: impl FnMut() -> i64) -> Frame {
+fn textured_frame(shift: u32, offset: i64, mut noise: impl FnMut() -> i64) -> Frame {
     Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| {
         let texture = i64::from((x + shift) / 3 % 2 * 90 + y / 5 % 2 * 40);
         (40 + texture + offset + noise()).clamp(0, 255) as u16
@@ -31,12 +31,12 @@ fn every_region_of_the_first_frame_is_new() {
         let toml =
             format!("[temporal]\nlevel = 254\nmin_count = 64\nreference = \"{reference}\"\n");
         let mut camera = FunctionalCamera::new(&design(&toml));
-        let outcome = camera.step(&scene(0, 0, || 0)).unwrap();
+        let outcome = camera.step(&textured_frame(0, 0, || 0)).unwrap();
         assert!(outcome.trs.iter().all(|&trs| trs));
         assert!(outcome.temporal_count.iter().all(|&count| count == 64));
-        assert!(camera.step(&scene(0, 0, || 0)).unwrap().trs.iter().all(|&trs| !trs));
+        assert!(camera.step(&textured_frame(0, 0, || 0)).unwrap().trs.iter().all(|&trs| !trs));
         camera.reset();
-        assert!(camera.step(&scene(0, 0, || 0)).unwrap().trs.iter().all(|&trs| trs));
+        assert!(camera.step(&textured_frame(0, 0, || 0)).unwrap().trs.iter().all(|&trs| trs));
     }
 }
 
@@ -48,7 +48,7 @@ fn previous_never_sees_a_slow_fade_and_last_sent_does() {
         let mut camera = FunctionalCamera::new(&design(&toml));
         let mut worst = 0;
         for step in 0..80 {
-            let outcome = camera.step(&scene(0, step, || 0)).unwrap();
+            let outcome = camera.step(&textured_frame(0, step, || 0)).unwrap();
             let (seen, shown) = (outcome.denoised.get(16, 8), outcome.rendered.get(16, 8));
             worst = worst.max(seen.abs_diff(shown));
         }
@@ -60,7 +60,7 @@ fn previous_never_sees_a_slow_fade_and_last_sent_does() {
 
 /// Returns the number of regions with SRS = 1 in which min_count or more pixels of the screen
 /// differ from the frame, and the number of inactive regions with SRS = 1.
-fn stale_regions(design: &Design, outcome: &FunctionalOutcome) -> (usize, usize) {
+fn stale_and_held_regions(design: &Design, outcome: &FunctionalOutcome) -> (usize, usize) {
     let level = design.temporal().level;
     let (mut stale, mut held) = (0, 0);
     for region in 0..design.regions() {
@@ -84,14 +84,14 @@ fn stale_regions(design: &Design, outcome: &FunctionalOutcome) -> (usize, usize)
 
 #[test]
 fn last_sent_never_drifts() {
-    let mut random = Random(3);
+    let mut random = SeededRandom(3);
     let mut rain = move || if random.below(30) == 0 { 150 } else { random.below(13) - 6 };
     let cases: Vec<(&str, Vec<Frame>)> = vec![
-        ("fade", (0..60).map(|t| scene(0, t, || 0)).collect()),
-        ("flicker", (0..60).map(|t| scene(0, t % 2, || 0)).collect()),
-        ("light step", (0..60).map(|t| scene(0, t / 15 * 30, || 0)).collect()),
-        ("shake", (0..60).map(|t| scene(t * 7 % 3, 0, || 0)).collect()),
-        ("rain", (0..60).map(|_| scene(0, 0, &mut rain)).collect()),
+        ("fade", (0..60).map(|t| textured_frame(0, t, || 0)).collect()),
+        ("flicker", (0..60).map(|t| textured_frame(0, t % 2, || 0)).collect()),
+        ("light step", (0..60).map(|t| textured_frame(0, t / 15 * 30, || 0)).collect()),
+        ("shake", (0..60).map(|t| textured_frame(t * 7 % 3, 0, || 0)).collect()),
+        ("rain", (0..60).map(|_| textured_frame(0, 0, &mut rain)).collect()),
         ("a moving pixel", (0..60).map(moving_pixel).collect()),
         ("texture comes and goes", (0..60).map(coming_and_going).collect()),
     ];
@@ -109,7 +109,7 @@ fn last_sent_never_drifts() {
                 let mut camera = FunctionalCamera::new(&design);
                 let mut all_held = 0;
                 for (index, frame) in frames.iter().enumerate() {
-                    let (stale, held) = stale_regions(&design, camera.step(frame).unwrap());
+                    let (stale, held) = stale_and_held_regions(&design, camera.step(frame).unwrap());
                     assert_eq!(stale, 0, "{name} {filter} {irrelevant}, frame {index}");
                     all_held += held;
                 }
@@ -118,7 +118,7 @@ fn last_sent_never_drifts() {
                 let design = rendering("previous");
                 let mut camera = FunctionalCamera::new(&design);
                 for frame in frames {
-                    drifted += stale_regions(&design, camera.step(frame).unwrap()).0;
+                    drifted += stale_and_held_regions(&design, camera.step(frame).unwrap()).0;
                 }
             }
             assert!(drifted > 0);
@@ -128,7 +128,7 @@ fn last_sent_never_drifts() {
 
 /// Returns a frame with one bright pixel that moves through the texture.
 fn moving_pixel(t: u32) -> Frame {
-    let scene = scene(0, 0, || 0);
+    let scene = textured_frame(0, 0, || 0);
     let bright = |x, y| (x, y) == (t % WIDTH, 3 + t / 8);
     Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| if bright(x, y) { 255 } else { scene.get(x, y) })
         .unwrap()
@@ -180,15 +180,15 @@ fn a_static_region_that_was_blanked_once() {
 #[test]
 fn ten_thousand_identical_frames_then_a_change() {
     for reference in ["previous", "last-sent"] {
-        let design = Config::from_toml(&format!(
+        let design = DesignConfig::from_toml(&format!(
             "[frame]\nwidth = 2\nheight = 2\n[region]\nsize = 2\n\
              [[spatial]]\nfeature = \"edge\"\nlevel = 0\nmin_score = 0\n\
              [temporal]\nlevel = 8\nmin_count = 4\nreference = \"{reference}\"\n"
         ));
         let design = design.unwrap().validate().unwrap();
         let mut camera = FunctionalCamera::new(&design);
-        let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
-        let thresholds = Thresholds::of(&design);
+        let mut rpu = PipelinedRpu::new(design.as_pipelined().unwrap());
+        let thresholds = ThresholdInputs::from_camera(&design);
         let mut decisions = Vec::new();
         for index in 0..10_002u32 {
             let frame = Frame::filled(2, 2, 8, if index < 10_000 { 20 } else { 29 }).unwrap();

@@ -2,18 +2,18 @@
 //! Tests against waveforms that are written by hand from `docs/timing.md`. The first is the example
 //! of that page.
 
-use foveate_design::{Config, Design};
-use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
+use foveate_design::{DesignConfig, Design};
+use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, ThresholdInputs};
 
-fn tiny(toml: &str) -> Design {
+fn tiny_design(toml: &str) -> Design {
     let head = "[frame]\nwidth = 2\nheight = 2\n[region]\nsize = 2\n[denoise]\nfilter = \"none\"\n";
-    Config::from_toml(&format!("{head}{toml}")).unwrap().validate().unwrap()
+    DesignConfig::from_toml(&format!("{head}{toml}")).unwrap().validate().unwrap()
 }
 
 /// Returns the outputs after every edge. Each edge has a pixel or none.
 fn run(design: &Design, pixels: &[Option<u16>]) -> Vec<RpuOutput> {
-    let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
-    let thresholds = Thresholds::of(design);
+    let mut rpu = PipelinedRpu::new(design.as_pipelined().unwrap());
+    let thresholds = ThresholdInputs::from_camera(design);
     let input = |pixel: Option<u16>| RpuInput {
         valid: pixel.is_some(),
         pixel: pixel.unwrap_or(99),
@@ -35,7 +35,7 @@ const EDGES: &str = "[[spatial]]\nfeature = \"edge\"\nlevel = 0\nmin_score = 1\n
 fn two_frames_back_to_back_then_silence() {
     let pixels = [10, 20, 40, 80, 90, 70, 50, 11].map(Some);
     let all: Vec<_> = pixels.into_iter().chain([None; 4]).collect();
-    let shown = run(&tiny(EDGES), &all);
+    let shown = run(&tiny_design(EDGES), &all);
     assert_eq!(column(&shown, |o| o.scores[0]), [0, 0, 0, 1, 2, 3, 4, 1, 2, 3, 4, 0]);
     let decided = [0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0].map(|bit| bit == 1);
     assert_eq!(column(&shown, |o| o.decision_valid), decided);
@@ -58,14 +58,14 @@ fn a_new_frame_ends_the_flush_and_its_own_centers_wait() {
     let mut all: Vec<_> = a.map(Some).to_vec();
     all.extend([None, None, Some(b[0]), None, None]);
     all.extend([Some(b[1]), Some(b[2]), Some(b[3]), None]);
-    let shown = run(&tiny(EDGES), &all);
+    let shown = run(&tiny_design(EDGES), &all);
     assert_eq!(column(&shown, |o| o.scores[0]), [0, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0, 1, 2]);
 
     // With one clock of silence less, the last old center waits for the next pixel of the new
     // frame.
     let mut all: Vec<_> = a.map(Some).to_vec();
     all.extend([None, Some(b[0]), None, None, Some(b[1]), Some(b[2]), None, Some(b[3]), None]);
-    let shown = run(&tiny(EDGES), &all);
+    let shown = run(&tiny_design(EDGES), &all);
     assert_eq!(column(&shown, |o| o.scores[0]), [0, 0, 0, 1, 2, 3, 3, 3, 4, 0, 0, 1, 2]);
     assert_eq!(column(&shown, |o| o.forward_pixel), [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 10, 20]);
 }
@@ -73,7 +73,7 @@ fn a_new_frame_ends_the_flush_and_its_own_centers_wait() {
 /// Tail steps are one edge behind the pixels. Frame a is decided when frame b is done.
 #[test]
 fn the_second_pass_of_mad_runs_during_the_next_frame() {
-    let design = tiny(
+    let design = tiny_design(
         "[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 2\nmin_score = 1.0\n\
          [temporal]\nlevel = 1\nmin_count = 3\n",
     );
@@ -93,7 +93,7 @@ fn the_second_pass_of_mad_runs_during_the_next_frame() {
 
 #[test]
 fn the_score_of_variance_stands_until_the_next() {
-    let design = tiny(
+    let design = tiny_design(
         "[[spatial]]\nfeature = \"variance\"\nmin_score = 0\n[temporal]\nlevel = 0\nmin_count = 0\n",
     );
     let all: Vec<_> = [1, 2, 3, 4].map(Some).into_iter().chain([None; 4]).collect();

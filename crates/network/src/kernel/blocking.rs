@@ -2,12 +2,12 @@
 //! The number of channels and positions in a pass of the inner loop: as many as have sums that fit
 //! into the registers.
 
-use foveate_lanes::Level;
+use foveate_lanes::InstructionSet;
 use std::ops::Range;
 
 /// The block sizes of the inner loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Blocking {
+pub(crate) struct BlockSizes {
     /// The positions of a panel: as many values as two registers hold.
     pub(crate) lanes: usize,
     /// The possible numbers of channels of a block, each with its measured time. The unit is a
@@ -15,13 +15,13 @@ pub(crate) struct Blocking {
     sizes: &'static [(usize, usize)],
 }
 
-impl Blocking {
+impl BlockSizes {
     pub(crate) const BITS_128: Self = Self { lanes: 8, sizes: &[(4, 40)] };
     pub(crate) const BITS_256: Self = Self { lanes: 16, sizes: &[(6, 60), (4, 46)] };
     pub(crate) const BITS_512: Self =
         Self { lanes: 32, sizes: &[(12, 120), (10, 103), (6, 62), (4, 50)] };
 
-    pub(crate) fn of(level: Level) -> Self {
+    pub(crate) fn for_instruction_set(level: InstructionSet) -> Self {
         match level.register_bits() {
             512 => Self::BITS_512,
             256 => Self::BITS_256,
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn blocks_cover_all_channels() {
-        for blocking in [Blocking::BITS_128, Blocking::BITS_256, Blocking::BITS_512] {
+        for blocking in [BlockSizes::BITS_128, BlockSizes::BITS_256, BlockSizes::BITS_512] {
             for channels in 1..300 {
                 let blocks = blocking.blocks(channels);
                 assert!(blocks.windows(2).all(|pair| pair[0].end == pair[1].start));
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn usual_numbers_of_channels_need_no_padding() {
         let sizes = |channels| {
-            Blocking::BITS_512
+            BlockSizes::BITS_512
                 .blocks(channels)
                 .into_iter()
                 .map(|block| block.len())

@@ -5,70 +5,70 @@ use crate::mask::Mask;
 use std::ops::Range;
 
 /// The number of neighboring positions of a row that are computed at once.
-pub(crate) const CHUNK: usize = 8;
+pub(crate) const CHUNK_POSITIONS: usize = 8;
 
 /// The first of [`CHUNK`] neighboring positions. In a narrower row the chunk is the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Chunk {
+pub(crate) struct PositionChunk {
     pub(crate) x: usize,
     pub(crate) y: usize,
 }
 
-impl Chunk {
+impl PositionChunk {
     /// The memory indices of its positions, if rows have `width` positions.
     #[inline(always)]
-    pub(super) fn places(self, width: usize) -> Range<usize> {
+    pub(super) fn memory_range(self, width: usize) -> Range<usize> {
         let start = self.y * width + self.x;
-        start..start + CHUNK.min(width)
+        start..start + CHUNK_POSITIONS.min(width)
     }
 }
 
 /// The share of all chunks, in sixteenths, from which computing all chunks is faster, because their
 /// inputs are neighbors. It was measured with the example `break_even`.
-const BREAK_EVEN: usize = 15;
+const BREAK_EVEN_SIXTEENTHS: usize = 15;
 
 /// Returns the positions of a mask as chunks. A chunk may hold positions that are not in the mask,
 /// and two chunks may share positions. If nearly all chunks are needed, all are returned.
-pub(crate) fn chunks(at: &Mask) -> Vec<Chunk> {
+pub(crate) fn chunks_of_mask(at: &Mask) -> Vec<PositionChunk> {
     let mut found = Vec::new();
     for y in 0..at.height() {
-        cut(at.runs(y).map(|(x, length)| x..x + length), y, at.width(), &mut found);
+        cut_runs(at.runs(y).map(|(x, length)| x..x + length), y, at.width(), &mut found);
     }
-    let all = at.height() * at.width().div_ceil(CHUNK);
-    if found.len() < all && 16 * found.len() >= BREAK_EVEN * all {
-        return chunks(&Mask::full(at.height(), at.width()));
+    let all = at.height() * at.width().div_ceil(CHUNK_POSITIONS);
+    if found.len() < all && 16 * found.len() >= BREAK_EVEN_SIXTEENTHS * all {
+        return chunks_of_mask(&Mask::full(at.height(), at.width()));
     }
     found
 }
 
 /// Returns the positions of a mask as chunks of a single row, in the order of memory. A chunk may
 /// go on in the next row of the frame.
-pub(crate) fn chunks_in_a_row(at: &Mask) -> Vec<Chunk> {
+pub(crate) fn chunks_of_flat_mask(at: &Mask) -> Vec<PositionChunk> {
     let places = at.height() * at.width();
     let mut found = Vec::new();
-    cut(at.ranges(), 0, places, &mut found);
-    let all = places.div_ceil(CHUNK);
-    if found.len() < all && 16 * found.len() >= BREAK_EVEN * all {
+    cut_runs(at.memory_ranges(), 0, places, &mut found);
+    let all = places.div_ceil(CHUNK_POSITIONS);
+    if found.len() < all && 16 * found.len() >= BREAK_EVEN_SIXTEENTHS * all {
         found.clear();
-        cut(std::iter::once(0..places), 0, places, &mut found);
+        cut_runs(std::iter::once(0..places), 0, places, &mut found);
     }
     found
 }
 
 /// Cuts the runs of positions of row `y`, which has `width` positions, into chunks.
-fn cut(
+fn cut_runs(
     runs: impl IntoIterator<Item = Range<usize>>,
     y: usize,
     width: usize,
-    found: &mut Vec<Chunk>,
+    found: &mut Vec<PositionChunk>,
 ) {
-    let last = width.saturating_sub(CHUNK);
+    let last = width.saturating_sub(CHUNK_POSITIONS);
     let mut done = 0;
     for run in runs {
         let mut x = run.start.max(done);
         while x < run.end {
-            found.push(Chunk { x: x.min(last), y });
-            x += CHUNK;
+            found.push(PositionChunk { x: x.min(last), y });
+            x += CHUNK_POSITIONS;
         }
         done = x;
     }
@@ -82,9 +82,9 @@ mod tests {
     fn nearly_all_chunks_become_all() {
         let without = |holes: usize| Mask::from_fn(32, 70, |x, y| x / 8 != 3 || y >= holes);
         // There are 288 chunks, 9 in each of 32 rows; a sixteenth is 18.
-        assert_eq!(chunks(&without(0)).len(), 288);
-        assert_eq!(chunks(&without(18)), chunks(&Mask::full(32, 70)));
-        assert_eq!(chunks(&without(19)).len(), 288 - 19);
-        assert!(chunks(&Mask::empty(32, 70)).is_empty());
+        assert_eq!(chunks_of_mask(&without(0)).len(), 288);
+        assert_eq!(chunks_of_mask(&without(18)), chunks_of_mask(&Mask::full(32, 70)));
+        assert_eq!(chunks_of_mask(&without(19)).len(), 288 - 19);
+        assert!(chunks_of_mask(&Mask::empty(32, 70)).is_empty());
     }
 }

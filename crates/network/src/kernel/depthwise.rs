@@ -7,43 +7,43 @@
 //! offset. Tiles therefore need not end with a row, so that all lanes of a tile are used in narrow
 //! inputs, too.
 
-use super::areas::Area;
-use super::gather::{Picture, Strand, copy};
-use crate::mask::Window;
-use foveate_lanes::{Level, PanelTask};
+use super::output_areas::OutputArea;
+use super::gathered_inputs::{ConvInput, StridedInputs, copy_short_run};
+use crate::mask::AxisWindow;
+use foveate_lanes::{InstructionSet, PanelTask};
 
 /// The convolution of one channel.
-pub(crate) struct Depthwise<'a, F> {
-    pub(crate) picture: Picture<'a>,
+pub(crate) struct DepthwiseChannel<'a, F> {
+    pub(crate) picture: ConvInput<'a>,
     /// The weights of the kernel in row-major order.
     pub(crate) weights: &'a [f32],
     pub(crate) bias: f32,
-    pub(crate) layouts: &'a [Layout],
+    pub(crate) layouts: &'a [AreaLayout],
     /// The channel's outputs, in rows of `width`.
     pub(crate) outputs: &'a mut [f32],
     pub(crate) width: usize,
     pub(crate) finish: F,
 }
 
-impl<F: Fn(f32) -> f32> Depthwise<'_, F> {
+impl<F: Fn(f32) -> f32> DepthwiseChannel<'_, F> {
     /// Computes the outputs of all areas.
-    pub(crate) fn convolve(self, level: Level, planes: &mut Planes) {
-        level.run_panels(Tiles(self, planes));
+    pub(crate) fn convolve(self, level: InstructionSet, planes: &mut AreaBuffers) {
+        level.run_panels(DepthwiseTask(self, planes));
     }
 }
 
 /// The convolution in tiles of two panels of outputs, which are four registers.
-struct Tiles<'a, F>(Depthwise<'a, F>, &'a mut Planes);
+struct DepthwiseTask<'a, F>(DepthwiseChannel<'a, F>, &'a mut AreaBuffers);
 
-impl<F: Fn(f32) -> f32> PanelTask for Tiles<'_, F> {
+impl<F: Fn(f32) -> f32> PanelTask for DepthwiseTask<'_, F> {
     #[inline(always)]
     fn run<const LANES: usize, const FUSED: bool>(self) {
-        let Self(Depthwise { picture, weights, bias, layouts, outputs, width, finish }, planes) =
+        let Self(DepthwiseChannel { picture, weights, bias, layouts, outputs, width, finish }, planes) =
             self;
         for layout in layouts {
-            planes.fit(layout, 2 * LANES);
+            planes.enlarge(layout, 2 * LANES);
             layout.gather(&picture, &mut planes.inputs);
-            for first in (0..layout.places).step_by(2 * LANES) {
+            for first in (0..layout.output_span).step_by(2 * LANES) {
                 let inputs = &planes.inputs[first..];
                 let sums = tile::<LANES, FUSED>(inputs, &layout.taps, weights, bias);
                 let to = planes.outputs[first..].as_chunks_mut().0;
@@ -53,7 +53,7 @@ impl<F: Fn(f32) -> f32> PanelTask for Tiles<'_, F> {
             }
             for (row, y) in layout.area.rows.clone().enumerate() {
                 let to = &mut outputs[y * width..][layout.area.columns.clone()];
-                copy(&planes.outputs[row * layout.pitch..][..to.len()], to);
+                copy_short_run(&planes.outputs[row * layout.pitch..][..to.len()], to);
             }
         }
     }
@@ -62,14 +62,14 @@ impl<F: Fn(f32) -> f32> PanelTask for Tiles<'_, F> {
 /// The buffers for the inputs and outputs of an area. Each thread keeps one, so that its memory is
 /// reused.
 #[derive(Default)]
-pub(crate) struct Planes {
+pub(crate) struct AreaBuffers {
     inputs: Vec<f32>,
     outputs: Vec<f32>,
 }
 
-impl Planes {
+impl AreaBuffers {
     /// Enlarges the buffers so that the area fits in whole tiles.
-    fn fit(&mut self, layout: &Layout, tile: usize) {
+    fn enlarge(&mut self, layout: &AreaLayout, tile: usize) {
         let room = layout.inputs + tile;
         if self.inputs.len() < room {
             self.inputs.resize(room, 0.0);
@@ -79,8 +79,8 @@ impl Planes {
 }
 
 /// The arrangement of the inputs and outputs of an area in memory.
-pub(crate) struct Layout {
-    area: Area,
+pub(crate) struct AreaLayout {
+    area: OutputArea,
     /// The rows of a plane of inputs.
     height: usize,
     /// The length of a row of inputs or outputs, in values. The values behind the outputs of a row
@@ -89,25 +89,25 @@ pub(crate) struct Layout {
     /// The number of values of all planes of inputs.
     inputs: usize,
     /// The number of values from the first output to the last.
-    places: usize,
+    output_span: usize,
     /// The offset of the inputs of each tap.
     taps: Vec<usize>,
 }
 
-impl Layout {
-    pub(crate) fn new(area: Area, rows: Window, columns: Window) -> Self {
-        let [height, pitch] = [area.rows.len() + more(rows), area.columns.len() + more(columns)];
+impl AreaLayout {
+    pub(crate) fn new(area: OutputArea, rows: AxisWindow, columns: AxisWindow) -> Self {
+        let [height, pitch] = [area.rows.len() + extra_inputs(rows), area.columns.len() + extra_inputs(columns)];
         let mut layout = Self {
             height,
             pitch,
-            inputs: planes(rows) * planes(columns) * height * pitch,
-            places: (area.rows.len() - 1) * pitch + area.columns.len(),
+            inputs: phase_count(rows) * phase_count(columns) * height * pitch,
+            output_span: (area.rows.len() - 1) * pitch + area.columns.len(),
             taps: Vec::with_capacity(rows.kernel * columns.kernel),
             area,
         };
         for row in (0..rows.kernel).map(|tap| tap * rows.dilation) {
             for column in (0..columns.kernel).map(|tap| tap * columns.dilation) {
-                layout.taps.push(layout.place([row, column], [rows, columns]));
+                layout.taps.push(layout.input_offset([row, column], [rows, columns]));
             }
         }
         layout
@@ -115,23 +115,23 @@ impl Layout {
 
     /// The offset of an input by its row and column, which count from the first input of the area.
     #[inline(always)]
-    fn place(&self, [row, column]: [usize; 2], [rows, columns]: [Window; 2]) -> usize {
-        let plane = row % rows.stride * planes(columns) + column % columns.stride;
+    fn input_offset(&self, [row, column]: [usize; 2], [rows, columns]: [AxisWindow; 2]) -> usize {
+        let plane = row % rows.stride * phase_count(columns) + column % columns.stride;
         (plane * self.height + row / rows.stride) * self.pitch + column / columns.stride
     }
 
     /// Copies the inputs of the area into the planes.
     #[inline(always)]
-    fn gather(&self, picture: &Picture<'_>, to: &mut [f32]) {
+    fn gather(&self, picture: &ConvInput<'_>, to: &mut [f32]) {
         let windows @ [rows, columns] = [picture.rows, picture.columns];
-        for column in 0..planes(columns) {
+        for column in 0..phase_count(columns) {
             let first = self.area.columns.start * columns.stride + column;
-            let strand = Strand::new(columns, first, self.pitch, picture.width);
-            for more in 0..planes(rows) {
-                let plane = &mut to[self.place([more, column], windows)..];
+            let strand = StridedInputs::new(columns, first, self.pitch, picture.width);
+            for more in 0..phase_count(rows) {
+                let plane = &mut to[self.input_offset([more, column], windows)..];
                 for (row, to) in plane.chunks_mut(self.pitch).take(self.height).enumerate() {
                     let y = (self.area.rows.start + row) * rows.stride + more;
-                    let y = y.checked_sub(rows.before).filter(|&y| y < picture.height);
+                    let y = y.checked_sub(rows.padding_before).filter(|&y| y < picture.height);
                     let from = y.map(|y| &picture.values[y * picture.width..][..picture.width]);
                     strand.gather(from, picture.padding, to);
                 }
@@ -163,11 +163,11 @@ fn tile<const LANES: usize, const FUSED: bool>(
 }
 
 /// The number of inputs of a plane along an axis beyond one per output.
-fn more(window: Window) -> usize {
+fn extra_inputs(window: AxisWindow) -> usize {
     (window.span() - 1) / window.stride
 }
 
 /// The number of planes along an axis: one for each phase of the stride that a window sees.
-fn planes(window: Window) -> usize {
+fn phase_count(window: AxisWindow) -> usize {
     window.stride.min(window.span())
 }

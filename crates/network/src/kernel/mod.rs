@@ -3,23 +3,23 @@
 //! computes it and whichever outputs are computed with it, so that a part of a tensor has the same
 //! bits as in a complete computation.
 
-mod areas;
+mod output_areas;
 mod blocking;
 mod chunks;
 mod depthwise;
-mod gather;
-mod integer;
-mod micro;
+mod gathered_inputs;
+mod byte_convolution;
+mod micro_kernel;
 mod panels;
-mod parts;
+mod thread_parts;
 mod weights;
 
-pub(crate) use areas::areas;
-pub(crate) use blocking::Blocking;
-pub(crate) use chunks::{CHUNK, Chunk, chunks, chunks_in_a_row};
-pub(crate) use depthwise::{Depthwise, Layout, Planes};
-pub(crate) use gather::Picture;
-pub(crate) use integer::{ByteWeights, DepthwiseBytes, EXACT, convolve_bytes};
-pub(crate) use panels::{Outputs, convolve, scheduled};
-pub(crate) use parts::parts;
-pub(crate) use weights::Weights;
+pub(crate) use output_areas::areas_of_chunks;
+pub(crate) use blocking::BlockSizes;
+pub(crate) use chunks::{CHUNK_POSITIONS, PositionChunk, chunks_of_mask, chunks_of_flat_mask};
+pub(crate) use depthwise::{DepthwiseChannel, AreaLayout, AreaBuffers};
+pub(crate) use gathered_inputs::ConvInput;
+pub(crate) use byte_convolution::{PackedByteWeights, DepthwiseByteTask, MAX_EXACT_PRODUCTS, convolve_bytes};
+pub(crate) use panels::{ConvOutputs, convolve, scheduled_positions};
+pub(crate) use thread_parts::thread_parts;
+pub(crate) use weights::PackedWeights;

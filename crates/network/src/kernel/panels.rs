@@ -2,31 +2,31 @@
 //! Convolution at any set of positions: the inputs are gathered into panels, which are multiplied
 //! with the weights.
 
-use super::blocking::Blocking;
-use super::chunks::{CHUNK, Chunk};
-use super::gather::{Gathered, Picture};
-use super::micro::multiply;
-use super::weights::Weights;
-use foveate_lanes::{Level, PanelTask};
+use super::blocking::BlockSizes;
+use super::chunks::{CHUNK_POSITIONS, PositionChunk};
+use super::gathered_inputs::{GatheredInputs, ConvInput};
+use super::micro_kernel::multiply;
+use super::weights::PackedWeights;
+use foveate_lanes::{InstructionSet, PanelTask};
 use std::ops::Range;
 
 /// The number of inputs of an output that are gathered and multiplied before the next ones are
 /// gathered. The inputs of a panel then stay in the nearest cache.
-const DEPTH: usize = 288;
+const GATHERED_INPUTS: usize = 288;
 /// The number of panels that share a pass over the weights.
-const GROUP: usize = 6;
+const PANELS_PER_PASS: usize = 6;
 
 /// The number of positions that are computed for so many chunks: panels are computed as a whole.
-pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
-    (chunks * CHUNK).next_multiple_of(blocking.lanes)
+pub(crate) fn scheduled_positions(chunks: usize, blocking: BlockSizes) -> usize {
+    (chunks * CHUNK_POSITIONS).next_multiple_of(blocking.lanes)
 }
 
 /// Neighboring positions of some channels of the outputs.
-pub(crate) struct Outputs<'a, T = f32> {
+pub(crate) struct ConvOutputs<'a, T = f32> {
     /// The values of these positions, by channel.
-    pub(crate) planes: Vec<&'a mut [T]>,
+    pub(crate) channels: Vec<&'a mut [T]>,
     /// The memory index of the first of these positions.
-    pub(crate) first: usize,
+    pub(crate) first_position: usize,
     /// The blocks of these channels.
     pub(crate) blocks: &'a [Range<usize>],
     /// The positions of a row.
@@ -36,25 +36,25 @@ pub(crate) struct Outputs<'a, T = f32> {
 /// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. `finish` is
 /// applied to every output.
 pub(crate) fn convolve(
-    level: Level,
-    picture: &Picture<'_>,
-    weights: &Weights,
-    chunks: &[Chunk],
-    outputs: Outputs<'_>,
+    level: InstructionSet,
+    picture: &ConvInput<'_>,
+    weights: &PackedWeights,
+    chunks: &[PositionChunk],
+    outputs: ConvOutputs<'_>,
     finish: impl Fn(f32) -> f32,
 ) {
-    level.run_panels(Work { picture, weights, chunks, outputs, finish });
+    level.run_panels(ConvTask { picture, weights, chunks, outputs, finish });
 }
 
-struct Work<'a, F> {
-    picture: &'a Picture<'a>,
-    weights: &'a Weights,
-    chunks: &'a [Chunk],
-    outputs: Outputs<'a>,
+struct ConvTask<'a, F> {
+    picture: &'a ConvInput<'a>,
+    weights: &'a PackedWeights,
+    chunks: &'a [PositionChunk],
+    outputs: ConvOutputs<'a>,
     finish: F,
 }
 
-impl<F: Fn(f32) -> f32> PanelTask for Work<'_, F> {
+impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
     #[inline(always)]
     fn run<const LANES: usize, const FUSED: bool>(self) {
         let Self { picture, weights, chunks, mut outputs, finish } = self;
@@ -64,30 +64,30 @@ impl<F: Fn(f32) -> f32> PanelTask for Work<'_, F> {
         let (first, channels) = (first.start, last.end - first.start);
         let taps = picture.columns.kernel;
         let all = weights.depth() / taps;
-        let at_once = all.min((DEPTH / taps).max(1));
-        let mut gathered = Gathered::new(picture.columns, GROUP * LANES / CHUNK, at_once);
+        let at_once = all.min((GATHERED_INPUTS / taps).max(1));
+        let mut gathered = GatheredInputs::new(picture.columns, PANELS_PER_PASS * LANES / CHUNK_POSITIONS, at_once);
         // If one gather covers all products, a sum needs room only within its block.
         let is_once = at_once == all;
         let largest = blocks.iter().map(Range::len).max().unwrap_or_default();
         let stride = if is_once { largest } else { channels };
-        let mut sums = vec![[0.0; LANES]; stride * GROUP];
-        for group in chunks.chunks(GROUP * LANES / CHUNK) {
-            gathered.choose(group);
+        let mut sums = vec![[0.0; LANES]; stride * PANELS_PER_PASS];
+        for group in chunks.chunks(PANELS_PER_PASS * LANES / CHUNK_POSITIONS) {
+            gathered.select_chunks(group);
             for from in (0..all).step_by(at_once) {
                 let rows = from..all.min(from + at_once);
                 gathered.gather(picture, &rows);
                 for block in blocks {
-                    let products = weights.of(block, &(rows.start * taps..rows.end * taps));
+                    let products = weights.block_weights(block, &(rows.start * taps..rows.end * taps));
                     let place = if is_once { 0 } else { block.start - first };
-                    let panels = sums.chunks_mut(stride).zip(group.chunks(LANES / CHUNK));
+                    let panels = sums.chunks_mut(stride).zip(group.chunks(LANES / CHUNK_POSITIONS));
                     for (panel, (sums, chunks)) in panels.enumerate() {
                         let sums = &mut sums[place..][..block.len()];
                         if from == 0 {
-                            begin(sums, weights, block.start);
+                            start_with_bias(sums, weights, block.start);
                         }
                         add_block::<LANES, FUSED>(products, &gathered, panel, sums);
                         if rows.end == all {
-                            end(sums, &finish);
+                            finish_sums(sums, &finish);
                             outputs.scatter(sums, block.start - first, chunks);
                         }
                     }
@@ -99,7 +99,7 @@ impl<F: Fn(f32) -> f32> PanelTask for Work<'_, F> {
 
 /// Starts every sum with the bias of its channel.
 #[inline(always)]
-fn begin<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &Weights, first: usize) {
+fn start_with_bias<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &PackedWeights, first: usize) {
     for (sums, channel) in sums.iter_mut().zip(first..) {
         *sums = [weights.bias(channel); LANES];
     }
@@ -108,7 +108,7 @@ fn begin<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &Weights, first
 /// Turns sums into outputs. All lanes are computed, with vector instructions, though some lanes may
 /// have no position.
 #[inline(always)]
-fn end<const LANES: usize>(sums: &mut [[f32; LANES]], finish: impl Fn(f32) -> f32) {
+fn finish_sums<const LANES: usize>(sums: &mut [[f32; LANES]], finish: impl Fn(f32) -> f32) {
     for sum in sums.as_flattened_mut() {
         *sum = finish(*sum);
     }
@@ -118,58 +118,58 @@ fn end<const LANES: usize>(sums: &mut [[f32; LANES]], finish: impl Fn(f32) -> f3
 #[inline(always)]
 pub(super) fn add_block<const LANES: usize, const FUSED: bool>(
     weights: &[f32],
-    inputs: &Gathered,
+    inputs: &GatheredInputs,
     panel: usize,
     sums: &mut [[f32; LANES]],
 ) {
     match (LANES, sums.len()) {
-        (32, 12) => add::<LANES, 12, FUSED>(weights, inputs, panel, sums),
-        (32, 10) => add::<LANES, 10, FUSED>(weights, inputs, panel, sums),
-        (16 | 32, 6) => add::<LANES, 6, FUSED>(weights, inputs, panel, sums),
-        _ => add::<LANES, 4, FUSED>(weights, inputs, panel, sums),
+        (32, 12) => add_sized_block::<LANES, 12, FUSED>(weights, inputs, panel, sums),
+        (32, 10) => add_sized_block::<LANES, 10, FUSED>(weights, inputs, panel, sums),
+        (16 | 32, 6) => add_sized_block::<LANES, 6, FUSED>(weights, inputs, panel, sums),
+        _ => add_sized_block::<LANES, 4, FUSED>(weights, inputs, panel, sums),
     }
 }
 
 /// Adds the products of a block of `CHANNELS` channels.
 #[inline(always)]
-fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
+fn add_sized_block<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
     weights: &[f32],
-    inputs: &Gathered,
+    inputs: &GatheredInputs,
     panel: usize,
     sums: &mut [[f32; LANES]],
 ) {
     let sums = sums.try_into().expect("a block has a sum for each of its channels");
     let weights = weights.as_chunks().0;
-    let places = &inputs.places[panel * LANES / CHUNK..][..LANES / CHUNK];
-    if places.windows(2).all(|pair| pair[0] + CHUNK == pair[1]) {
+    let places = &inputs.chunk_offsets[panel * LANES / CHUNK_POSITIONS..][..LANES / CHUNK_POSITIONS];
+    if places.windows(2).all(|pair| pair[0] + CHUNK_POSITIONS == pair[1]) {
         multiply::<CHANNELS, LANES, true, FUSED>(weights, inputs, places, sums);
     } else {
         multiply::<CHANNELS, LANES, false, FUSED>(weights, inputs, places, sums);
     }
 }
 
-impl Outputs<'_> {
+impl ConvOutputs<'_> {
     /// Writes the outputs of some channels to their positions.
     #[inline(always)]
     fn scatter<const LANES: usize>(
         &mut self,
         outputs: &[[f32; LANES]],
         first: usize,
-        chunks: &[Chunk],
+        chunks: &[PositionChunk],
     ) {
-        let place = |chunk: &Chunk| chunk.places(self.width).start - self.first;
-        let is_row = chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK == place(&pair[1]));
-        let is_whole = is_row && chunks.len() * CHUNK == LANES && self.width >= CHUNK;
-        for (outputs, plane) in outputs.iter().zip(&mut self.planes[first..]) {
+        let place = |chunk: &PositionChunk| chunk.memory_range(self.width).start - self.first_position;
+        let is_row = chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK_POSITIONS == place(&pair[1]));
+        let is_whole = is_row && chunks.len() * CHUNK_POSITIONS == LANES && self.width >= CHUNK_POSITIONS;
+        for (outputs, plane) in outputs.iter().zip(&mut self.channels[first..]) {
             if is_whole {
                 let to = plane[place(&chunks[0])..].first_chunk_mut();
                 *to.expect("chunks are inside") = *outputs;
                 continue;
             }
-            for (outputs, chunk) in outputs.as_chunks::<CHUNK>().0.iter().zip(chunks) {
+            for (outputs, chunk) in outputs.as_chunks::<CHUNK_POSITIONS>().0.iter().zip(chunks) {
                 let to = &mut plane[place(chunk)..];
                 match to.first_chunk_mut() {
-                    Some(to) if self.width >= CHUNK => *to = *outputs,
+                    Some(to) if self.width >= CHUNK_POSITIONS => *to = *outputs,
                     _ => to[..self.width].copy_from_slice(&outputs[..self.width]),
                 }
             }

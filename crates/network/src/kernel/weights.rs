@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Weights in the order in which the inner loop reads them.
 
-use super::blocking::Blocking;
+use super::blocking::BlockSizes;
 use std::ops::Range;
 
 /// The weights of a group of output channels, block by block. A block holds one weight per channel
 /// for the first input, then for the second, and so on. Channels that only fill the last block have
 /// weights of 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Weights<T = f32> {
-    blocking: Blocking,
+pub(crate) struct PackedWeights<T = f32> {
+    blocking: BlockSizes,
     blocks: Vec<Range<usize>>,
     /// The number of products of an output.
     depth: usize,
@@ -17,9 +17,9 @@ pub(crate) struct Weights<T = f32> {
     bias: Vec<T>,
 }
 
-impl<T: Copy + Default> Weights<T> {
+impl<T: Copy + Default> PackedWeights<T> {
     /// Packs a row of `depth` weights per channel.
-    pub(crate) fn new(rows: &[T], depth: usize, bias: &[T], blocking: Blocking) -> Self {
+    pub(crate) fn new(rows: &[T], depth: usize, bias: &[T], blocking: BlockSizes) -> Self {
         let channels = rows.len() / depth;
         let blocks = blocking.blocks(channels);
         let mut packed = Vec::with_capacity(rows.len());
@@ -35,7 +35,7 @@ impl<T: Copy + Default> Weights<T> {
         Self { blocking, blocks, depth, packed, bias: bias.to_vec() }
     }
 
-    pub(crate) fn blocking(&self) -> Blocking {
+    pub(crate) fn blocking(&self) -> BlockSizes {
         self.blocking
     }
 
@@ -49,7 +49,7 @@ impl<T: Copy + Default> Weights<T> {
     }
 
     /// The weights of a block for some inputs.
-    pub(super) fn of(&self, block: &Range<usize>, inputs: &Range<usize>) -> &[T] {
+    pub(super) fn block_weights(&self, block: &Range<usize>, inputs: &Range<usize>) -> &[T] {
         let start = block.start * self.depth;
         &self.packed[start + inputs.start * block.len()..start + inputs.end * block.len()]
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Activation functions of one value.
 
-use super::{Job, Operator, only};
-use crate::form::Form;
-use foveate_lanes::{Level, Task};
+use super::{OperatorJob, Operator, only_input};
+use crate::tensor_form::TensorForm;
+use foveate_lanes::{InstructionSet, VectorTask};
 
 /// An activation function of one value, as ONNX defines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ pub(crate) enum Activation {
 
 impl Activation {
     #[inline(always)]
-    pub(crate) fn of(self, x: f32) -> f32 {
+    pub(crate) fn apply(self, x: f32) -> f32 {
         match self {
             Self::Identity => x,
             // `max` is not used, because it would turn NaN into 0.
@@ -181,39 +181,39 @@ fn erf(x: f32) -> f32 {
 
 /// An activation as a separate node.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pointwise(pub(crate) Activation);
+pub(crate) struct ActivationOperator(pub(crate) Activation);
 
-impl Operator for Pointwise {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        only(inputs).cloned()
+impl Operator for ActivationOperator {
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        only_input(inputs).cloned()
     }
 
-    fn compute(&self, job: Job<'_>) {
+    fn compute(&self, job: OperatorJob<'_>) {
         match self.0 {
             // A function that is known at compile time needs no choice in the loop.
-            Activation::Sigmoid => apply(job, sigmoid),
-            Activation::Swish { alpha } => apply(job, |x| Activation::Swish { alpha }.of(x)),
-            Activation::HardSwish => apply(job, |x| Activation::HardSwish.of(x)),
-            Activation::Relu => apply(job, |x| Activation::Relu.of(x)),
-            other => apply(job, |x| other.of(x)),
+            Activation::Sigmoid => apply_to_job(job, sigmoid),
+            Activation::Swish { alpha } => apply_to_job(job, |x| Activation::Swish { alpha }.apply(x)),
+            Activation::HardSwish => apply_to_job(job, |x| Activation::HardSwish.apply(x)),
+            Activation::Relu => apply_to_job(job, |x| Activation::Relu.apply(x)),
+            other => apply_to_job(job, |x| other.apply(x)),
         }
     }
 }
 
-fn apply(job: Job<'_>, of: impl Fn(f32) -> f32 + Sync) {
+fn apply_to_job(job: OperatorJob<'_>, of: impl Fn(f32) -> f32 + Sync) {
     let from = job.inputs[0].values::<f32>();
-    let level = Level::detect();
-    job.fill(|run, to| level.run(Each { from: &from[run], to, of: &of }));
+    let level = InstructionSet::detect();
+    job.fill(|run, to| level.run(ActivationTask { from: &from[run], to, of: &of }));
 }
 
 /// A function of some values, applied in vector lanes.
-struct Each<'a, F> {
+struct ActivationTask<'a, F> {
     from: &'a [f32],
     to: &'a mut [f32],
     of: &'a F,
 }
 
-impl<F: Fn(f32) -> f32> Task for Each<'_, F> {
+impl<F: Fn(f32) -> f32> VectorTask for ActivationTask<'_, F> {
     #[inline(always)]
     fn run(self) {
         for (to, &from) in self.to.iter_mut().zip(self.from) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Concatenation of tensors along an axis.
 
-use super::arithmetic::repeated;
-use super::places::aligned;
-use super::{Job, Operator, moved};
-use crate::element::{Encoding, typed};
-use crate::form::Form;
+use super::binary_operator::broadcast_mask;
+use super::alignment::aligned_mask;
+use super::{OperatorJob, Operator, moved_encoding};
+use crate::element::{Encoding, with_element_type};
+use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
-use crate::values::Number;
+use crate::values::TensorNumber;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Concat {
@@ -16,9 +16,9 @@ pub(crate) struct Concat {
 }
 
 impl Operator for Concat {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         let first = *inputs.first().ok_or("it has no inputs")?;
-        let axis = first.axis(self.axis)?;
+        let axis = first.resolve_axis(self.axis)?;
         let mut shape = first.shape().to_vec();
         for form in &inputs[1..] {
             let fits = form.shape().len() == shape.len()
@@ -34,29 +34,29 @@ impl Operator for Concat {
         }
         // The positions of the output are the axes that are positions in all inputs that have
         // positions.
-        let positions = inputs.iter().map(|form| form.axes()).filter(|axes| !axes.is_empty());
+        let positions = inputs.iter().map(|form| form.position_axes()).filter(|axes| !axes.is_empty());
         let common = positions.reduce(|a, b| a.start.max(b.start)..a.end.min(b.end));
         Ok(match common.filter(|axes| !axes.is_empty()) {
-            Some(axes) => Form::at(shape, axes),
-            None => Form::whole(shape),
+            Some(axes) => TensorForm::with_positions(shape, axes),
+            None => TensorForm::without_positions(shape),
         })
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        moved(inputs)
+        moved_encoding(inputs)
     }
 
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        let axis = output.axis(self.axis).expect("the form has it");
-        if !output.axes().contains(&axis) {
-            return repeated(inputs, output);
+    fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
+        let axis = output.resolve_axis(self.axis).expect("the form has it");
+        if !output.position_axes().contains(&axis) {
+            return broadcast_mask(inputs, output);
         }
-        let is_column = axis + 1 == output.axes().end;
+        let is_column = axis + 1 == output.position_axes().end;
         let mut seen = Mask::empty(output.height(), output.width());
         let mut first = 0;
         for &(form, mask) in inputs {
-            let own = Form::at(form.shape().to_vec(), output.axes());
-            let mask = aligned((form, mask), &own, Some);
+            let own = TensorForm::with_positions(form.shape().to_vec(), output.position_axes());
+            let mask = aligned_mask((form, mask), &own, Some);
             let (left, top) = if is_column { (first, 0) } else { (0, first) };
             for y in 0..mask.height() {
                 for (x, length) in mask.runs(y) {
@@ -68,9 +68,9 @@ impl Operator for Concat {
         seen
     }
 
-    fn compute(&self, job: Job<'_>) {
-        typed!(job.form.encoding().element, T => {
-            self.join(job, |_, from: &[T], to: &mut [T]| to.copy_from_slice(from));
+    fn compute(&self, job: OperatorJob<'_>) {
+        with_element_type!(job.form.encoding().element, T => {
+            self.copy_inputs(job, |_, from: &[T], to: &mut [T]| to.copy_from_slice(from));
         });
     }
 }
@@ -78,14 +78,14 @@ impl Operator for Concat {
 impl Concat {
     /// Copies the values of every input to their place in the output. `copy` takes the number of
     /// the input.
-    pub(super) fn join<T: Number, Y: Number>(
+    pub(super) fn copy_inputs<T: TensorNumber, Y: TensorNumber>(
         &self,
-        job: Job<'_>,
+        job: OperatorJob<'_>,
         copy: impl Fn(usize, &[T], &mut [Y]) + Sync,
     ) {
         let (inputs, form) = (job.inputs, job.form);
-        let axis = form.axis(self.axis).expect("the form has it");
-        let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
+        let axis = form.resolve_axis(self.axis).expect("the form has it");
+        let behind = |form: &TensorForm| form.shape()[axis..].iter().product::<usize>();
         let whole = behind(form);
         // The end of each input in a line of the output.
         let ends: Vec<usize> = inputs

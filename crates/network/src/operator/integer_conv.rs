@@ -1,104 +1,104 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution of 8-bit values. Its sums are exact, and are either kept or requantized to 8 bits.
 
-use super::sums::{Outcome, Sums};
-use super::{Geometry, Job, Operator, Products, of_bytes, values_of};
-use crate::element::{Element, Encoding, typed_byte};
-use crate::form::Form;
+use super::requantization::{SumOutput, Requantization};
+use super::{ConvGeometry, OperatorJob, Operator, ProductKind, encoding_from_bytes, output_values};
+use crate::element::{ElementType, Encoding, with_byte_type};
+use crate::tensor_form::TensorForm;
 use crate::kernel::{
-    self, Blocking, ByteWeights, CHUNK, Chunk, DepthwiseBytes, EXACT, Outputs, Picture, chunks,
+    self, BlockSizes, PackedByteWeights, CHUNK_POSITIONS, PositionChunk, DepthwiseByteTask, MAX_EXACT_PRODUCTS, ConvOutputs, ConvInput, chunks_of_mask,
 };
 use crate::mask::Mask;
 use crate::threads;
-use crate::values::Byte;
-use foveate_lanes::Level;
+use crate::values::ByteNumber;
+use foveate_lanes::InstructionSet;
 
 /// Weights of 8 bits, with one row per channel. Unsigned weights and their zero points are stored
 /// less 128.
 #[derive(Clone, Debug)]
-pub(crate) struct Rows {
+pub(crate) struct ByteWeightRows {
     pub(crate) values: Vec<i8>,
     /// One zero point per channel.
-    pub(crate) zeros: Vec<i8>,
+    pub(crate) zero_points: Vec<i8>,
 }
 
-impl Rows {
-    pub(crate) fn bytes(&self) -> u64 {
-        (self.values.len() + self.zeros.len()) as u64
+impl ByteWeightRows {
+    pub(crate) fn byte_count(&self) -> u64 {
+        (self.values.len() + self.zero_points.len()) as u64
     }
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct IntegerConv {
-    geometry: Geometry,
-    level: Level,
-    kernels: Kernels,
+    geometry: ConvGeometry,
+    level: InstructionSet,
+    kernels: IntegerConvKernels,
     weights: u64,
     /// The zero point of the input, which is also its padding.
-    zero: i32,
-    sums: Sums,
+    zero_point: i32,
+    sums: Requantization,
 }
 
 #[derive(Clone, Debug)]
-enum Kernels {
-    Depthwise(Rows),
-    Groups(Vec<ByteWeights>),
+enum IntegerConvKernels {
+    Depthwise(ByteWeightRows),
+    Groups(Vec<PackedByteWeights>),
 }
 
 impl IntegerConv {
     pub(crate) fn new(
-        geometry: Geometry,
-        rows: Rows,
+        geometry: ConvGeometry,
+        rows: ByteWeightRows,
         zero: i32,
-        sums: Sums,
-        level: Level,
+        sums: Requantization,
+        level: InstructionSet,
     ) -> Result<Self, String> {
         geometry.check_bias(Some(sums.bias.as_slice()).filter(|bias| !bias.is_empty()))?;
-        let weights = rows.bytes() + sums.bytes();
+        let weights = rows.byte_count() + sums.bytes();
         let kernels = if geometry.is_depthwise() {
-            Kernels::Depthwise(rows)
-        } else if geometry.columns.kernel > EXACT {
+            IntegerConvKernels::Depthwise(rows)
+        } else if geometry.columns.kernel > MAX_EXACT_PRODUCTS {
             return Err(format!(
-                "its kernel has {} columns; of 8-bit values at most {EXACT} are supported",
+                "its kernel has {} columns; of 8-bit values at most {MAX_EXACT_PRODUCTS} are supported",
                 geometry.columns.kernel
             ));
         } else {
-            let (depth, of_group) = (geometry.depth(), geometry.channels / geometry.groups);
-            let pack = |(rows, zeros)| ByteWeights::new(rows, depth, zeros, Blocking::of(level));
-            let groups = rows.values.chunks(of_group * depth).zip(rows.zeros.chunks(of_group));
-            Kernels::Groups(groups.map(pack).collect())
+            let (depth, of_group) = (geometry.depth(), geometry.output_channels / geometry.groups);
+            let pack = |(rows, zeros)| PackedByteWeights::new(rows, depth, zeros, BlockSizes::for_instruction_set(level));
+            let groups = rows.values.chunks(of_group * depth).zip(rows.zero_points.chunks(of_group));
+            IntegerConvKernels::Groups(groups.map(pack).collect())
         };
-        Ok(Self { geometry, level, kernels, weights, zero, sums })
+        Ok(Self { geometry, level, kernels, weights, zero_point: zero, sums })
     }
 
-    fn convolve<X: Byte, Y: Outcome>(&self, job: Job<'_>) {
-        let chunks = chunks(job.at);
+    fn convolve<X: ByteNumber, Y: SumOutput>(&self, job: OperatorJob<'_>) {
+        let chunks = chunks_of_mask(job.positions);
         if chunks.is_empty() {
             return;
         }
-        let Job { inputs, form, output, .. } = job;
+        let OperatorJob { inputs, form, output, .. } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
-        let Geometry { rows, columns, groups, channels, inputs: all } = self.geometry;
+        let ConvGeometry { rows, columns, groups, output_channels: channels, input_channels: all } = self.geometry;
         let (of_group, seen) = (channels / groups, all / groups * height * width);
-        let picture = |group: usize| Picture {
+        let picture = |group: usize| ConvInput {
             values: &inputs[0].values::<X>()[group * seen..][..seen],
             height,
             width,
             rows,
             columns,
-            padding: X::saturated(self.zero),
+            padding: X::from_saturated(self.zero_point),
         };
-        let (outputs, length) = (values_of::<Y>(output, form), of_group * form.places());
+        let (outputs, length) = (output_values::<Y>(output, form), of_group * form.position_count());
         match &self.kernels {
-            Kernels::Depthwise(weights) => {
-                threads::each_chunk(outputs, length, &|channel, outputs| {
+            IntegerConvKernels::Depthwise(weights) => {
+                threads::for_each_chunk(outputs, length, &|channel, outputs| {
                     let taps = rows.kernel * columns.kernel;
-                    let mut sums = vec![[0; CHUNK]; chunks.len()];
-                    self.level.run(DepthwiseBytes {
+                    let mut sums = vec![[0; CHUNK_POSITIONS]; chunks.len()];
+                    self.level.run(DepthwiseByteTask {
                         picture: picture(channel),
                         weights: (
                             &weights.values[channel * taps..][..taps],
-                            weights.zeros[channel],
+                            weights.zero_points[channel],
                         ),
                         chunks: &chunks,
                         sums: &mut sums,
@@ -106,54 +106,54 @@ impl IntegerConv {
                     for (chunk, sums) in chunks.iter().zip(sums) {
                         let row = &mut outputs[chunk.y * form.width()..][chunk.x..form.width()];
                         for (output, sum) in row.iter_mut().zip(sums) {
-                            *output = self.sums.finish(channel, sum);
+                            *output = self.sums.requantize(channel, sum);
                         }
                     }
                 });
             }
-            Kernels::Groups(kernels) => threads::each_chunk(outputs, length, &|group, values| {
+            IntegerConvKernels::Groups(kernels) => threads::for_each_chunk(outputs, length, &|group, values| {
                 let (weights, picture) = (&kernels[group], picture(group));
-                let finish = |channel, sum| self.sums.finish(group * of_group + channel, sum);
-                let part = |(chunks, outputs): (&[Chunk], Outputs<'_, Y>)| {
+                let finish = |channel, sum| self.sums.requantize(group * of_group + channel, sum);
+                let part = |(chunks, outputs): (&[PositionChunk], ConvOutputs<'_, Y>)| {
                     kernel::convolve_bytes(self.level, &picture, weights, chunks, outputs, finish);
                 };
                 let blocks = weights.packed().blocks();
-                let parts = kernel::parts(blocks, &chunks, values, [form.height(), form.width()]);
-                threads::each_part(parts, &part);
+                let parts = kernel::thread_parts(blocks, &chunks, values, [form.height(), form.width()]);
+                threads::for_each_part(parts, &part);
             }),
         }
     }
 }
 
 impl Operator for IntegerConv {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         self.geometry.form(inputs)
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        of_bytes(inputs, self.sums.to)
+        encoding_from_bytes(inputs, self.sums.to)
     }
 
-    fn compute(&self, job: Job<'_>) {
-        typed_byte!(job.inputs[0].form().encoding().element, X => {
+    fn compute(&self, job: OperatorJob<'_>) {
+        with_byte_type!(job.inputs[0].form().encoding().element, X => {
             match self.sums.to.element {
-                Element::U8 => self.convolve::<X, u8>(job),
-                Element::I8 => self.convolve::<X, i8>(job),
-                Element::I32 => self.convolve::<X, i32>(job),
-                Element::F32 => unreachable!("a convolution of integers makes integers"),
+                ElementType::U8 => self.convolve::<X, u8>(job),
+                ElementType::I8 => self.convolve::<X, i8>(job),
+                ElementType::I32 => self.convolve::<X, i32>(job),
+                ElementType::F32 => unreachable!("a convolution of integers makes integers"),
             }
         });
     }
 
-    fn products(&self) -> Products {
+    fn products(&self) -> ProductKind {
         self.geometry.products()
     }
 
-    fn scheduled(&self, at: &Mask) -> usize {
-        let chunks = chunks(at).len();
+    fn scheduled_positions(&self, at: &Mask) -> usize {
+        let chunks = chunks_of_mask(at).len();
         match &self.kernels {
-            Kernels::Depthwise(_) => chunks * CHUNK,
-            Kernels::Groups(groups) => kernel::scheduled(chunks, groups[0].packed().blocking()),
+            IntegerConvKernels::Depthwise(_) => chunks * CHUNK_POSITIONS,
+            IntegerConvKernels::Groups(groups) => kernel::scheduled_positions(chunks, groups[0].packed().blocking()),
         }
     }
 

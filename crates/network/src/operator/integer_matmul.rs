@@ -2,74 +2,74 @@
 //! The product of the last axis of 8-bit values with a constant matrix of 8-bit values, as in fully
 //! connected layers.
 
-use super::integer_conv::Rows;
-use super::linear::along_last;
-use super::sums::{Outcome, Sums};
-use super::{Job, Operator, Products, of_bytes, values_of};
-use crate::element::{Encoding, typed, typed_byte};
-use crate::form::Form;
+use super::integer_conv::ByteWeightRows;
+use super::linear::matrix_product_form;
+use super::requantization::{SumOutput, Requantization};
+use super::{OperatorJob, Operator, ProductKind, encoding_from_bytes, output_values};
+use crate::element::{Encoding, with_element_type, with_byte_type};
+use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
 use crate::threads;
-use crate::values::Byte;
+use crate::values::ByteNumber;
 
 #[derive(Clone, Debug)]
 pub(crate) struct IntegerMatMul {
     /// The weights, with one row per output.
-    pub(crate) rows: Rows,
+    pub(crate) rows: ByteWeightRows,
     pub(crate) inputs: usize,
     /// The zero point of the input.
-    pub(crate) zero: i32,
-    pub(crate) sums: Sums,
+    pub(crate) zero_point: i32,
+    pub(crate) sums: Requantization,
 }
 
 impl IntegerMatMul {
-    fn multiply<X: Byte, Y: Outcome>(&self, job: Job<'_>) {
-        let Job { inputs, form, output, .. } = job;
+    fn multiply<X: ByteNumber, Y: SumOutput>(&self, job: OperatorJob<'_>) {
+        let OperatorJob { inputs, form, output, .. } = job;
         let rows = inputs[0].values::<X>();
-        let outputs = values_of::<Y>(output, form);
-        threads::each_chunk(outputs, self.rows.zeros.len(), &|number, outputs| {
+        let outputs = output_values::<Y>(output, form);
+        threads::for_each_chunk(outputs, self.rows.zero_points.len(), &|number, outputs| {
             let input = &rows[number * self.inputs..][..self.inputs];
-            let weights = self.rows.values.chunks(self.inputs).zip(&self.rows.zeros);
+            let weights = self.rows.values.chunks(self.inputs).zip(&self.rows.zero_points);
             for ((channel, output), weights) in outputs.iter_mut().enumerate().zip(weights) {
                 let (row, &zero) = weights;
-                *output = self.sums.finish(channel, dot(row, zero, input, self.zero));
+                *output = self.sums.requantize(channel, dot(row, zero, input, self.zero_point));
             }
         });
     }
 }
 
 impl Operator for IntegerMatMul {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        along_last(inputs, self.inputs, self.rows.zeros.len())
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        matrix_product_form(inputs, self.inputs, self.rows.zero_points.len())
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        of_bytes(inputs, self.sums.to)
+        encoding_from_bytes(inputs, self.sums.to)
     }
 
-    fn compute(&self, job: Job<'_>) {
-        if !job.at.is_empty() {
-            typed_byte!(job.inputs[0].form().encoding().element, X => {
-                typed!(self.sums.to.element, Y => self.multiply::<X, Y>(job));
+    fn compute(&self, job: OperatorJob<'_>) {
+        if !job.positions.is_empty() {
+            with_byte_type!(job.inputs[0].form().encoding().element, X => {
+                with_element_type!(self.sums.to.element, Y => self.multiply::<X, Y>(job));
             });
         }
     }
 
-    fn products(&self) -> Products {
-        Products::Matrix { inputs: self.inputs }
+    fn products(&self) -> ProductKind {
+        ProductKind::Matrix { inputs: self.inputs }
     }
 
-    fn scheduled(&self, at: &Mask) -> usize {
+    fn scheduled_positions(&self, at: &Mask) -> usize {
         if at.is_empty() { 0 } else { at.height() * at.width() }
     }
 
     fn weight_bytes(&self) -> u64 {
-        self.rows.bytes() + self.sums.bytes()
+        self.rows.byte_count() + self.sums.bytes()
     }
 }
 
 /// Returns the dot product of a row of weights with the inputs, both less their zero points.
-fn dot<X: Byte>(weights: &[i8], weights_zero: i8, inputs: &[X], zero: i32) -> i32 {
+fn dot<X: ByteNumber>(weights: &[i8], weights_zero: i8, inputs: &[X], zero: i32) -> i32 {
     let product = |(&weight, &input): (&i8, &X)| {
         let input: i32 = input.into();
         (i32::from(weight) - i32::from(weights_zero)) * (input - zero)

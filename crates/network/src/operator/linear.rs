@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Products with a constant matrix, as in fully connected layers.
 
-use super::{Job, Operator, Products, only, values_of};
-use crate::form::Form;
+use super::{OperatorJob, Operator, ProductKind, only_input, output_values};
+use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
 use crate::threads;
 
 /// The number of partial sums of a dot product. They are added at the end, in a fixed order.
-const PARTS: usize = 16;
+const PARTIAL_SUMS: usize = 16;
 
 /// Returns the dot product of two rows, always summed in the same order.
 fn dot(a: &[f32], b: &[f32]) -> f32 {
-    let mut parts = [0.0f32; PARTS];
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<PARTS>(), b.as_chunks::<PARTS>());
+    let mut parts = [0.0f32; PARTIAL_SUMS];
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<PARTIAL_SUMS>(), b.as_chunks::<PARTIAL_SUMS>());
     for (a, b) in a.iter().zip(b) {
-        for part in 0..PARTS {
+        for part in 0..PARTIAL_SUMS {
             parts[part] += a[part] * b[part];
         }
     }
@@ -23,8 +23,8 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
 }
 
 /// Returns the form of the product of the last axis with a matrix of `own` x `outputs` values.
-pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result<Form, String> {
-    let form = only(inputs)?;
+pub(super) fn matrix_product_form(inputs: &[&TensorForm], own: usize, outputs: usize) -> Result<TensorForm, String> {
+    let form = only_input(inputs)?;
     let mut shape = form.shape().to_vec();
     match shape.last_mut() {
         Some(last) if *last == own => *last = outputs,
@@ -32,10 +32,10 @@ pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result
     }
     // Positions before the last axis remain positions.
     let last = shape.len() - 1;
-    Ok(if form.has_positions() && form.axes().end <= last {
-        Form::at(shape, form.axes())
+    Ok(if form.has_positions() && form.position_axes().end <= last {
+        TensorForm::with_positions(shape, form.position_axes())
     } else {
-        Form::whole(shape)
+        TensorForm::without_positions(shape)
     })
 }
 
@@ -48,14 +48,14 @@ pub(crate) struct Linear {
     bias: Vec<f32>,
     inputs: usize,
     /// True if the input must have two axes.
-    is_flat: bool,
+    needs_two_axes: bool,
 }
 
 impl Linear {
     /// Returns the product with a constant of `inputs` x `outputs` values, without a bias.
-    pub(crate) fn matrix(shape: &[usize], weights: &[f32]) -> Result<Self, String> {
+    pub(crate) fn from_matrix(shape: &[usize], weights: &[f32]) -> Result<Self, String> {
         let linear = Self::new(shape, weights, None, false, 1.0, 1.0)?;
-        Ok(Self { bias: Vec::new(), is_flat: false, ..linear })
+        Ok(Self { bias: Vec::new(), needs_two_axes: false, ..linear })
     }
 
     /// Returns `alpha * weights * input + beta * bias`. The weights are `inputs` x `outputs`
@@ -84,7 +84,7 @@ impl Linear {
                 return Err(format!("its bias has {} values for {outputs} outputs", bias.len()));
             }
         };
-        Ok(Self { weights: (0..outputs).flat_map(row).collect(), bias, inputs, is_flat: true })
+        Ok(Self { weights: (0..outputs).flat_map(row).collect(), bias, inputs, needs_two_axes: true })
     }
 
     fn outputs(&self) -> usize {
@@ -93,21 +93,21 @@ impl Linear {
 }
 
 impl Operator for Linear {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let form = only(inputs)?;
-        if self.is_flat && form.shape().len() != 2 {
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        let form = only_input(inputs)?;
+        if self.needs_two_axes && form.shape().len() != 2 {
             return Err(format!("it takes [rows, {}], not {}", self.inputs, form.describe()));
         }
-        along_last(inputs, self.inputs, self.outputs())
+        matrix_product_form(inputs, self.inputs, self.outputs())
     }
 
-    fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at } = job;
+    fn compute(&self, job: OperatorJob<'_>) {
+        let OperatorJob { inputs, form, output, positions: at } = job;
         if at.is_empty() {
             return;
         }
         let (outputs, input) = (self.outputs(), inputs[0].values::<f32>());
-        threads::each_chunk(values_of::<f32>(output, form), 1, &|place, output| {
+        threads::for_each_chunk(output_values::<f32>(output, form), 1, &|place, output| {
             let (row, column) = (place / outputs, place % outputs);
             let bias = self.bias.get(column).copied().unwrap_or(0.0);
             let weights = &self.weights[column * self.inputs..][..self.inputs];
@@ -115,11 +115,11 @@ impl Operator for Linear {
         });
     }
 
-    fn products(&self) -> Products {
-        Products::Matrix { inputs: self.inputs }
+    fn products(&self) -> ProductKind {
+        ProductKind::Matrix { inputs: self.inputs }
     }
 
-    fn scheduled(&self, at: &Mask) -> usize {
+    fn scheduled_positions(&self, at: &Mask) -> usize {
         if at.is_empty() { 0 } else { at.height() * at.width() }
     }
 

@@ -3,86 +3,86 @@
 //! spread of changes through them.
 
 mod activation;
-mod arithmetic;
-mod blocks;
+mod binary_operator;
+mod depth_to_space;
 mod concat;
 mod conv;
-mod fixed;
-mod geometry;
+mod constant_tensor;
+mod conv_geometry;
 mod integer_conv;
 mod integer_matmul;
 mod linear;
-mod normalize;
-mod pick;
-mod places;
+mod normalization;
+mod axis_gather;
+mod alignment;
 mod pool;
-mod product;
-mod quantize;
-mod quantized;
-mod reduce;
-mod reduced;
+mod matrix_product;
+mod quantization;
+mod quantized_operators;
+mod reduction;
+mod reduced_axes;
 mod reshape;
 mod resize;
-mod scale;
-mod select;
+mod channel_scale;
+mod selection;
 mod softmax;
-mod strided;
-mod sums;
-mod table;
-mod transposed;
+mod strided_copy;
+mod requantization;
+mod byte_table;
+mod transposed_conv;
 
-pub(crate) use activation::{Activation, Pointwise};
-pub(crate) use arithmetic::{Arithmetic, Binary, broadcast};
-pub(crate) use blocks::{DepthToSpace, Order, SpaceToDepth};
+pub(crate) use activation::{Activation, ActivationOperator};
+pub(crate) use binary_operator::{ArithmeticKind, BinaryOperator, broadcast_shape};
+pub(crate) use depth_to_space::{DepthToSpace, DepthToSpaceOrder, SpaceToDepth};
 pub(crate) use concat::Concat;
 pub(crate) use conv::Conv;
-pub(crate) use fixed::Fixed;
-pub(crate) use geometry::Geometry;
-pub(crate) use integer_conv::{IntegerConv, Rows};
+pub(crate) use constant_tensor::ConstantTensor;
+pub(crate) use conv_geometry::ConvGeometry;
+pub(crate) use integer_conv::{IntegerConv, ByteWeightRows};
 pub(crate) use integer_matmul::IntegerMatMul;
 pub(crate) use linear::Linear;
-pub(crate) use normalize::{LocalResponse, Normalize, Over};
-pub(crate) use pick::{Pick, Picked};
+pub(crate) use normalization::{LocalResponseNorm, Normalization, MeanGroup};
+pub(crate) use axis_gather::{AxisGather, AxisSelection};
 pub(crate) use pool::{Pool, PoolKind};
-pub(crate) use product::Product;
-pub(crate) use quantize::{Dequantize, Quantize, Scales};
-pub(crate) use quantized::{QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool};
-pub(crate) use reduce::{ArgMax, Reduce, Reduction};
-pub(crate) use reduced::Reduced;
-pub(crate) use reshape::{Placed, Reshape};
-pub(crate) use resize::{Coordinates, Nearest, Resize, ResizeKind, Size};
-pub(crate) use scale::Scale;
-pub(crate) use select::{Compare, Comparison, Select};
+pub(crate) use matrix_product::MatrixProduct;
+pub(crate) use quantization::{Dequantize, Quantize, QuantizationScales};
+pub(crate) use quantized_operators::{QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool};
+pub(crate) use reduction::{ArgMax, ReductionOperator, ReductionKind};
+pub(crate) use reduced_axes::ReducedAxes;
+pub(crate) use reshape::{FeatureView, Reshape};
+pub(crate) use resize::{ResizeCoordinates, NearestRounding, Resize, ResizeKind, ResizeSize};
+pub(crate) use channel_scale::ChannelScale;
+pub(crate) use selection::{ComparisonOperator, ComparisonKind, WhereOperator};
 pub(crate) use softmax::{QuantizedSoftmax, Softmax};
-pub(crate) use strided::{Expand, Transpose};
-pub(crate) use sums::Sums;
-pub(crate) use table::Table;
-pub(crate) use transposed::{Reach, TransposedConv};
+pub(crate) use strided_copy::{Expand, Transpose};
+pub(crate) use requantization::Requantization;
+pub(crate) use byte_table::ByteTable;
+pub(crate) use transposed_conv::{TransposedWindow, TransposedConv};
 
-use crate::element::{Element, Encoding};
-use crate::form::Form;
-use crate::mask::{Mask, Window};
+use crate::element::{ElementType, Encoding};
+use crate::tensor_form::TensorForm;
+use crate::mask::{Mask, AxisWindow};
 use crate::tensor::Tensor;
 use crate::threads;
-use crate::values::{Number, Values};
+use crate::values::{TensorNumber, TensorValues};
 use std::fmt::Debug;
 use std::ops::Range;
 use std::sync::Arc;
 
 /// The sums of products of an operator, as accelerators map them onto their arrays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Products {
+pub enum ProductKind {
     /// The operator has no sums of products: pooling, activation, addition and the like.
     None,
     /// The operator computes nothing, because its output has the values of its input in another
     /// shape, or is constant.
-    Renamed,
+    NoComputation,
     /// The operator is a convolution over rows and columns.
     Convolution {
         /// The windows along the rows.
-        rows: Window,
+        rows: AxisWindow,
         /// The windows along the columns.
-        columns: Window,
+        columns: AxisWindow,
         /// The number of groups of channels.
         groups: usize,
     },
@@ -105,7 +105,7 @@ pub(crate) trait Operator: Debug + Send + Sync {
     ///
     /// # Errors
     /// Fails, with a message, if the operator does not take such inputs.
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String>;
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String>;
 
     /// Returns the encoding of the output for inputs of these encodings. By default an operator
     /// takes and makes floating-point values.
@@ -113,66 +113,66 @@ pub(crate) trait Operator: Debug + Send + Sync {
     /// # Errors
     /// Fails, with a message, if the operator does not take such values.
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        match inputs.iter().find(|input| input.element != Element::F32) {
+        match inputs.iter().find(|input| input.element != ElementType::F32) {
             None => Ok(Encoding::FLOAT),
-            Some(input) => Err(wanted(Element::F32, input.element)),
+            Some(input) => Err(wrong_element_message(ElementType::F32, input.element)),
         }
     }
 
     /// Returns the positions of the output that depend on a changed position of an input. By
     /// default an output depends on the inputs of its window, or on the input at its own position
     /// if the operator has no windows.
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        match self.windows() {
+    fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
+        match self.axis_windows() {
             Some([rows, columns]) => {
-                inputs[0].1.through(rows, columns, output.height(), output.width())
+                inputs[0].1.outputs_through(rows, columns, output.height(), output.width())
             }
-            None => same_position(inputs, output),
+            None => position_union(inputs, output),
         }
     }
 
     /// Computes the output at least at the positions of the job. At other positions it may write
     /// only the values that a complete computation would write there.
-    fn compute(&self, job: Job<'_>);
+    fn compute(&self, job: OperatorJob<'_>);
 
     /// Returns the kind of sums of products that the operator computes.
-    fn products(&self) -> Products {
-        Products::None
+    fn products(&self) -> ProductKind {
+        ProductKind::None
     }
 
     /// Returns the windows, along rows and columns, through which outputs see the only input. An
     /// operator without windows sees the input at the position of the output, or all inputs.
-    fn windows(&self) -> Option<[Window; 2]> {
+    fn axis_windows(&self) -> Option<[AxisWindow; 2]> {
         match self.products() {
-            Products::Convolution { rows, columns, .. } => Some([rows, columns]),
+            ProductKind::Convolution { rows, columns, .. } => Some([rows, columns]),
             _ => None,
         }
     }
 
     /// Returns the positions of an input that the outputs at the positions `at` see.
-    fn seen(&self, at: &Mask, input: &Form) -> Mask {
+    fn needed_input(&self, at: &Mask, input: &TensorForm) -> Mask {
         let (height, width) = (input.height(), input.width());
-        match self.windows() {
-            Some([rows, columns]) => at.seen(rows, columns, height, width),
+        match self.axis_windows() {
+            Some([rows, columns]) => at.inputs_through(rows, columns, height, width),
             None if (at.height(), at.width()) == (height, width) => at.clone(),
-            None => at.under(height, width),
+            None => at.scaled_to(height, width),
         }
     }
 
     /// Returns the number of positions that are computed if those of a mask are needed.
-    fn scheduled(&self, at: &Mask) -> usize {
+    fn scheduled_positions(&self, at: &Mask) -> usize {
         at.count()
     }
 
     /// Returns the operator with an activation on its outputs, or `None` if it cannot apply one
     /// itself.
-    fn finished(&self, _activation: Activation) -> Option<Arc<dyn Operator>> {
+    fn with_activation(&self, _activation: Activation) -> Option<Arc<dyn Operator>> {
         None
     }
 
     /// Returns true if the inputs must be features with rows and columns.
     fn takes_features(&self) -> bool {
-        self.windows().is_some()
+        self.axis_windows().is_some()
     }
 
     /// The bytes of the weights.
@@ -182,30 +182,30 @@ pub(crate) trait Operator: Debug + Send + Sync {
 }
 
 /// The work of an operator for one frame.
-pub(crate) struct Job<'a> {
+pub(crate) struct OperatorJob<'a> {
     pub(crate) inputs: &'a [&'a Tensor],
     /// The form of the output.
-    pub(crate) form: &'a Form,
+    pub(crate) form: &'a TensorForm,
     /// The values of the output; there are at least as many as the form has elements.
-    pub(crate) output: &'a mut Values,
-    pub(crate) at: &'a Mask,
+    pub(crate) output: &'a mut TensorValues,
+    pub(crate) positions: &'a Mask,
 }
 
-impl Job<'_> {
+impl OperatorJob<'_> {
     /// Calls `fill` for every run of positions of the mask, with the memory range of the run in the
     /// output and with the values there. A run may go on in the next row. Threads share the outer
     /// indices, such as channels.
-    fn fill<T: Number>(self, fill: impl Fn(Range<usize>, &mut [T]) + Sync) {
-        self.fill_any(&fill);
+    fn fill<T: TensorNumber>(self, fill: impl Fn(Range<usize>, &mut [T]) + Sync) {
+        self.fill_dyn(&fill);
     }
 
     /// Calls `fill` as [`Job::fill`] does, but is compiled once for each type of values.
-    fn fill_any<T: Number>(self, fill: &(dyn Fn(Range<usize>, &mut [T]) + Sync)) {
-        let Self { form, output, at, .. } = self;
-        let output = values_of(output, form);
-        let (inner, ranges) = (form.inner(), at.ranges());
-        let length = form.places() * inner;
-        threads::each_chunk(output, length, &|outer, plane| {
+    fn fill_dyn<T: TensorNumber>(self, fill: &(dyn Fn(Range<usize>, &mut [T]) + Sync)) {
+        let Self { form, output, positions: at, .. } = self;
+        let output = output_values(output, form);
+        let (inner, ranges) = (form.inner_size(), at.memory_ranges());
+        let length = form.position_count() * inner;
+        threads::for_each_chunk(output, length, &|outer, plane| {
             for range in &ranges {
                 let run = range.start * inner..range.end * inner;
                 let start = outer * length;
@@ -216,15 +216,15 @@ impl Job<'_> {
 }
 
 /// Returns the values of an output.
-pub(crate) fn values_of<'a, T: Number>(output: &'a mut Values, form: &Form) -> &'a mut [T] {
-    &mut T::of_mut(output)[..form.elements()]
+pub(crate) fn output_values<'a, T: TensorNumber>(output: &'a mut TensorValues, form: &TensorForm) -> &'a mut [T] {
+    &mut T::slice_of_mut(output)[..form.element_count()]
 }
 
 /// Returns the encoding of the output of an operator that only moves values.
-pub(crate) fn moved(inputs: &[Encoding]) -> Result<Encoding, String> {
+pub(crate) fn moved_encoding(inputs: &[Encoding]) -> Result<Encoding, String> {
     let first = *inputs.first().ok_or("it has no inputs")?;
     if let Some(other) = inputs.iter().find(|input| input.element != first.element) {
-        return Err(wanted(first.element, other.element));
+        return Err(wrong_element_message(first.element, other.element));
     }
     let alike = inputs.iter().all(|input| *input == first);
     Ok(if alike { first } else { Encoding::plain(first.element) })
@@ -232,7 +232,7 @@ pub(crate) fn moved(inputs: &[Encoding]) -> Result<Encoding, String> {
 
 /// Returns `to`, the encoding of the output of an operator on 8-bit values, and fails if an input
 /// has other values.
-pub(crate) fn of_bytes(inputs: &[Encoding], to: Encoding) -> Result<Encoding, String> {
+pub(crate) fn encoding_from_bytes(inputs: &[Encoding], to: Encoding) -> Result<Encoding, String> {
     match inputs.iter().find(|input| !input.element.is_byte()) {
         None => Ok(to),
         Some(input) => Err(format!(
@@ -243,13 +243,13 @@ pub(crate) fn of_bytes(inputs: &[Encoding], to: Encoding) -> Result<Encoding, St
 }
 
 /// Returns the message for an input with values of another type than the operator takes.
-pub(crate) fn wanted(wanted: Element, found: Element) -> String {
+pub(crate) fn wrong_element_message(wanted: ElementType, found: ElementType) -> String {
     format!("it takes {}, but its input holds {}", wanted.describe(), found.describe())
 }
 
 /// Returns the union of all masks. An input whose positions differ from those of the output changes
 /// all of the output.
-pub(crate) fn same_position(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+pub(crate) fn position_union(inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
     let mut seen = Mask::empty(output.height(), output.width());
     for (form, mask) in inputs {
         if (form.height(), form.width()) == (output.height(), output.width()) {
@@ -262,7 +262,7 @@ pub(crate) fn same_position(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
 }
 
 /// Returns all positions if any input has changed, and none otherwise.
-pub(crate) fn everything(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+pub(crate) fn full_if_changed(inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
     let mut seen = Mask::empty(output.height(), output.width());
     if inputs.iter().any(|(_, mask)| !mask.is_empty()) {
         seen.fill();
@@ -271,7 +271,7 @@ pub(crate) fn everything(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
 }
 
 /// Returns the form of the only input.
-pub(crate) fn only<'a>(inputs: &[&'a Form]) -> Result<&'a Form, String> {
+pub(crate) fn only_input<'a>(inputs: &[&'a TensorForm]) -> Result<&'a TensorForm, String> {
     match inputs {
         [input] => Ok(input),
         _ => Err(format!("it takes one tensor that is not constant, but has {}", inputs.len())),
@@ -279,9 +279,9 @@ pub(crate) fn only<'a>(inputs: &[&'a Form]) -> Result<&'a Form, String> {
 }
 
 /// Returns the channels, rows and columns of features.
-pub(crate) fn features(form: &Form) -> Result<[usize; 3], String> {
+pub(crate) fn feature_size(form: &TensorForm) -> Result<[usize; 3], String> {
     match *form.shape() {
-        [1, channels, height, width] if form.axes() == (2..4) => Ok([channels, height, width]),
+        [1, channels, height, width] if form.position_axes() == (2..4) => Ok([channels, height, width]),
         _ => Err(format!(
             "its input must be features [1, channels, height, width], not {}",
             form.describe()

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pooling: the largest value or the mean of a window.
 
-use super::geometry::outputs;
-use super::{Job, Operator, features, moved, only, values_of, wanted};
-use crate::element::{Element, Encoding, typed};
-use crate::form::Form;
-use crate::mask::{Mask, Window};
+use super::conv_geometry::output_length;
+use super::{OperatorJob, Operator, feature_size, moved_encoding, only_input, output_values, wrong_element_message};
+use crate::element::{ElementType, Encoding, with_element_type};
+use crate::tensor_form::TensorForm;
+use crate::mask::{Mask, AxisWindow};
 use crate::threads;
-use crate::values::Number;
+use crate::values::TensorNumber;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PoolKind {
@@ -21,19 +21,19 @@ pub(crate) enum PoolKind {
 #[derive(Clone, Debug)]
 pub(crate) struct Pool {
     pub(crate) kind: PoolKind,
-    pub(crate) rows: Window,
-    pub(crate) columns: Window,
+    pub(crate) rows: AxisWindow,
+    pub(crate) columns: AxisWindow,
     /// True if a window counts that begins inside the input, or in the padding before it, but
     /// reaches beyond the padding behind it.
-    pub(crate) ceil: bool,
+    pub(crate) rounds_up: bool,
 }
 
 impl Pool {
-    fn outputs(&self, window: Window, inputs: usize) -> Result<usize, String> {
-        let whole = outputs(window, inputs)?;
+    fn output_length(&self, window: AxisWindow, inputs: usize) -> Result<usize, String> {
+        let whole = output_length(window, inputs)?;
         let used = (whole - 1) * window.stride + window.span();
-        let begins_inside = whole * window.stride < inputs + window.before;
-        Ok(if self.ceil && used < inputs + window.before + window.after && begins_inside {
+        let begins_inside = whole * window.stride < inputs + window.padding_before;
+        Ok(if self.rounds_up && used < inputs + window.padding_before + window.padding_after && begins_inside {
             whole + 1
         } else {
             whole
@@ -43,7 +43,7 @@ impl Pool {
     /// Calls `add` for every output of `x..x + run.len()` in row `y` with every input that it sees,
     /// tap by tap in row-major order.
     #[inline(always)]
-    pub(super) fn each<T: Number, S>(
+    pub(super) fn accumulate<T: TensorNumber, S>(
         &self,
         plane: &[T],
         [height, width]: [usize; 2],
@@ -51,13 +51,13 @@ impl Pool {
         run: &mut [S],
         add: impl Fn(&mut S, T),
     ) {
-        for row in (0..self.rows.kernel).filter_map(|tap| self.rows.input(y, tap, height)) {
+        for row in (0..self.rows.kernel).filter_map(|tap| self.rows.input_index(y, tap, height)) {
             let line = &plane[row * width..][..width];
             for tap in 0..self.columns.kernel {
                 // The outputs for which the input of this tap exists are neighbors.
-                let inside = |at: &usize| self.columns.input(x + at, tap, width).is_some();
+                let inside = |at: &usize| self.columns.input_index(x + at, tap, width).is_some();
                 let Some(first) = (0..run.len()).find(inside) else { continue };
-                let input = self.columns.input(x + first, tap, width).expect("it exists");
+                let input = self.columns.input_index(x + first, tap, width).expect("it exists");
                 let (run, line) = (run[first..].iter_mut(), &line[input..]);
                 match self.columns.stride {
                     // Loops over neighbors become vector instructions.
@@ -73,30 +73,30 @@ impl Pool {
 
     /// Returns, for each output from position `x` of row `y` on, the number of values that count
     /// for its mean.
-    pub(super) fn counts(
+    pub(super) fn window_counts(
         &self,
         [height, width]: [usize; 2],
         (x, y): (usize, usize),
         with_padding: bool,
     ) -> impl Iterator<Item = u16> {
-        let rows = counted(self.rows, y, height, with_padding);
-        (x..).map(move |at| rows * counted(self.columns, at, width, with_padding))
+        let rows = counted_taps(self.rows, y, height, with_padding);
+        (x..).map(move |at| rows * counted_taps(self.columns, at, width, with_padding))
     }
 
     /// Computes the largest values of windows in two passes: first of each row of a window, then of
     /// these. Like a walk through the complete window, this finds the first of equal values and the
     /// last NaN.
-    fn largest<T: Number>(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at } = job;
+    fn compute_max<T: TensorNumber>(&self, job: OperatorJob<'_>) {
+        let OperatorJob { inputs, form, output, positions: at } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
-        let in_rows = Self { rows: Window::SAME, ..self.clone() };
-        let of_rows = Self { columns: Window::SAME, ..self.clone() };
-        let seen = at.seen(self.rows, Window::SAME, height, form.width());
+        let in_rows = Self { rows: AxisWindow::SAME, ..self.clone() };
+        let of_rows = Self { columns: AxisWindow::SAME, ..self.clone() };
+        let seen = at.inputs_through(self.rows, AxisWindow::SAME, height, form.width());
         let pass = |pool: &Self, from: &[T], size, at: &Mask, to: &mut [T]| {
-            for_each_run(at, to, |place, run| {
+            for_each_plane_run(at, to, |place, run| {
                 run.fill(T::LOWEST);
-                pool.each(from, size, place, run, |most, value| {
-                    *most = if value.is_more(*most) { value } else { *most };
+                pool.accumulate(from, size, place, run, |most, value| {
+                    *most = if value.is_greater(*most) { value } else { *most };
                 });
             });
         };
@@ -107,14 +107,14 @@ impl Pool {
             pass(&in_rows, plane, [height, width], &seen, rows);
             pass(&of_rows, rows, [height, form.width()], at, output);
         };
-        threads::each_chunk_in(values_of(output, form), form.places(), &channel);
+        threads::for_each_chunk_with_scratch(output_values(output, form), form.position_count(), &channel);
     }
 
-    fn average(&self, job: Job<'_>, with_padding: bool) {
-        self.runs(job, |plane: &[f32], size, place, run: &mut [f32]| {
+    fn compute_average(&self, job: OperatorJob<'_>, with_padding: bool) {
+        self.fill_runs(job, |plane: &[f32], size, place, run: &mut [f32]| {
             run.fill(0.0);
-            self.each(plane, size, place, run, |sum, value: f32| *sum += value);
-            for (sum, count) in run.iter_mut().zip(self.counts(size, place, with_padding)) {
+            self.accumulate(plane, size, place, run, |sum, value: f32| *sum += value);
+            for (sum, count) in run.iter_mut().zip(self.window_counts(size, place, with_padding)) {
                 *sum /= f32::from(count);
             }
         });
@@ -122,23 +122,23 @@ impl Pool {
 
     /// Fills every run of outputs of every channel from the inputs of the channel. Threads share
     /// the channels.
-    pub(super) fn runs<T: Number, Y: Number>(
+    pub(super) fn fill_runs<T: TensorNumber, Y: TensorNumber>(
         &self,
-        job: Job<'_>,
+        job: OperatorJob<'_>,
         fill: impl Fn(&[T], [usize; 2], (usize, usize), &mut [Y]) + Sync,
     ) {
-        let Job { inputs, form, output, at } = job;
+        let OperatorJob { inputs, form, output, positions: at } = job;
         let size = [inputs[0].form().height(), inputs[0].form().width()];
         let planes = inputs[0].values::<T>();
-        threads::each_chunk(values_of(output, form), form.places(), &|number, output| {
+        threads::for_each_chunk(output_values(output, form), form.position_count(), &|number, output| {
             let plane = &planes[number * size[0] * size[1]..][..size[0] * size[1]];
-            for_each_run(at, output, |place, run| fill(plane, size, place, run));
+            for_each_plane_run(at, output, |place, run| fill(plane, size, place, run));
         });
     }
 }
 
 /// Calls `fill` with the position and the values of every run of positions of a channel.
-fn for_each_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usize), &mut [T])) {
+fn for_each_plane_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usize), &mut [T])) {
     for y in 0..at.height() {
         for (x, length) in at.runs(y) {
             fill((x, y), &mut plane[y * at.width() + x..][..length]);
@@ -148,19 +148,19 @@ fn for_each_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usiz
 
 /// Returns the number of taps of a window that count: those inside the input and, if wanted, those
 /// in its padding. Taps beyond the padding, which the last window may have, do not count.
-fn counted(window: Window, at: usize, inputs: usize, with_padding: bool) -> u16 {
-    let end = inputs + window.before + window.after;
+fn counted_taps(window: AxisWindow, at: usize, inputs: usize, with_padding: bool) -> u16 {
+    let end = inputs + window.padding_before + window.padding_after;
     let counts = |tap: &usize| match with_padding {
         true => at * window.stride + tap * window.dilation < end,
-        false => window.input(at, *tap, inputs).is_some(),
+        false => window.input_index(at, *tap, inputs).is_some(),
     };
     u16::try_from((0..window.kernel).filter(counts).count())
         .expect("a window has less than 2^16 values")
 }
 
 impl Operator for Pool {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let [channels, height, width] = features(only(inputs)?)?;
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        let [channels, height, width] = feature_size(only_input(inputs)?)?;
         if self.rows.kernel * self.columns.kernel > usize::from(u16::MAX) {
             return Err(format!(
                 "its window of {}x{} is larger than is known",
@@ -168,27 +168,27 @@ impl Operator for Pool {
             ));
         }
         let (height, width) =
-            (self.outputs(self.rows, height)?, self.outputs(self.columns, width)?);
-        Ok(Form::features(vec![1, channels, height, width]))
+            (self.output_length(self.rows, height)?, self.output_length(self.columns, width)?);
+        Ok(TensorForm::features(vec![1, channels, height, width]))
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        match (self.kind, moved(inputs)?) {
-            (PoolKind::Average { .. }, Encoding { element, .. }) if element != Element::F32 => {
-                Err(wanted(Element::F32, element))
+        match (self.kind, moved_encoding(inputs)?) {
+            (PoolKind::Average { .. }, Encoding { element, .. }) if element != ElementType::F32 => {
+                Err(wrong_element_message(ElementType::F32, element))
             }
             (_, encoding) => Ok(encoding),
         }
     }
 
-    fn windows(&self) -> Option<[Window; 2]> {
+    fn axis_windows(&self) -> Option<[AxisWindow; 2]> {
         Some([self.rows, self.columns])
     }
 
-    fn compute(&self, job: Job<'_>) {
+    fn compute(&self, job: OperatorJob<'_>) {
         match self.kind {
-            PoolKind::Max => typed!(job.form.encoding().element, T => self.largest::<T>(job)),
-            PoolKind::Average { with_padding } => self.average(job, with_padding),
+            PoolKind::Max => with_element_type!(job.form.encoding().element, T => self.compute_max::<T>(job)),
+            PoolKind::Average { with_padding } => self.compute_average(job, with_padding),
         }
     }
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Resizing of features to another height and width.
 
-use super::{Job, Operator, features, moved, only, wanted};
-use crate::element::{Element, Encoding, typed};
-use crate::form::Form;
+use super::{OperatorJob, Operator, feature_size, moved_encoding, only_input, wrong_element_message};
+use crate::element::{ElementType, Encoding, with_element_type};
+use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
-use crate::values::Number;
+use crate::values::TensorNumber;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ResizeKind {
-    Nearest(Nearest),
+    Nearest(NearestRounding),
     Linear,
     /// Interpolation of four inputs along each axis. Inputs outside of the border are replaced by
     /// the nearest inside, or do not count if `is_inside_only`.
@@ -21,7 +21,7 @@ pub(crate) enum ResizeKind {
 
 /// The rounding of a coordinate to an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Nearest {
+pub(crate) enum NearestRounding {
     RoundPreferFloor,
     RoundPreferCeil,
     Floor,
@@ -33,7 +33,7 @@ pub(crate) enum Nearest {
 
 /// The mapping of output coordinates to input coordinates, with the names of ONNX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coordinates {
+pub(crate) enum ResizeCoordinates {
     HalfPixel,
     PytorchHalfPixel,
     AlignCorners,
@@ -43,13 +43,13 @@ pub(crate) enum Coordinates {
 #[derive(Clone, Debug)]
 pub(crate) struct Resize {
     pub(crate) kind: ResizeKind,
-    pub(crate) coordinates: Coordinates,
-    pub(crate) size: Size,
+    pub(crate) coordinates: ResizeCoordinates,
+    pub(crate) size: ResizeSize,
 }
 
 /// The rows and columns of the output, either as scales or as lengths.
 #[derive(Clone, Debug)]
-pub(crate) enum Size {
+pub(crate) enum ResizeSize {
     Scales([f32; 2]),
     Sizes([usize; 2]),
 }
@@ -57,20 +57,20 @@ pub(crate) enum Size {
 /// The inputs of an output along one axis, up to four, with their weights. One tap has weights of 0
 /// that are not used; two taps have weights that are 0 from the third on.
 #[derive(Clone, Copy, Debug)]
-struct Taps {
+struct AxisTaps {
     at: [usize; 4],
-    shares: [f32; 4],
+    weights: [f32; 4],
 }
 
-impl Taps {
+impl AxisTaps {
     /// One input with its index, without weights.
-    fn one(at: usize) -> Self {
-        Self { at: [at; 4], shares: [0.0; 4] }
+    fn single(at: usize) -> Self {
+        Self { at: [at; 4], weights: [0.0; 4] }
     }
 
     /// Two inputs, with `share` as the weight of the second.
-    fn two(first: usize, second: usize, share: f32) -> Self {
-        Self { at: [first, second, first, second], shares: [1.0 - share, share, 0.0, 0.0] }
+    fn pair(first: usize, second: usize, share: f32) -> Self {
+        Self { at: [first, second, first, second], weights: [1.0 - share, share, 0.0, 0.0] }
     }
 
     fn range(&self) -> (usize, usize) {
@@ -81,23 +81,23 @@ impl Taps {
 
 /// Returns the weights of four neighbors in cubic convolution interpolation (R. Keys, 1981) for a
 /// coordinate that is `behind` after the second.
-fn cubic(a: f32, behind: f32) -> [f32; 4] {
+fn cubic_weights(a: f32, behind: f32) -> [f32; 4] {
     let near = |d: f32| ((a + 2.0) * d - (a + 3.0)) * d * d + 1.0;
     let far = |d: f32| ((a * d - 5.0 * a) * d + 8.0 * a) * d - 4.0 * a;
     [far(behind + 1.0), near(behind), near(1.0 - behind), far(2.0 - behind)]
 }
 
 impl Resize {
-    fn outputs(&self, axis: usize, inputs: usize) -> usize {
+    fn output_length(&self, axis: usize, inputs: usize) -> usize {
         match self.size {
-            Size::Sizes(sizes) => sizes[axis],
+            ResizeSize::Sizes(sizes) => sizes[axis],
             #[allow(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
                 clippy::cast_precision_loss,
                 reason = "the definition of ONNX"
             )]
-            Size::Scales(scales) => (inputs as f32 * scales[axis]).floor() as usize,
+            ResizeSize::Scales(scales) => (inputs as f32 * scales[axis]).floor() as usize,
         }
     }
 
@@ -107,42 +107,42 @@ impl Resize {
         clippy::cast_precision_loss,
         reason = "coordinates are below 2^24"
     )]
-    fn taps(&self, axis: usize, inputs: usize, outputs: usize) -> Vec<Taps> {
+    fn taps(&self, axis: usize, inputs: usize, outputs: usize) -> Vec<AxisTaps> {
         let scale = match self.size {
-            Size::Scales(scales) => scales[axis],
-            Size::Sizes(_) => outputs as f32 / inputs as f32,
+            ResizeSize::Scales(scales) => scales[axis],
+            ResizeSize::Sizes(_) => outputs as f32 / inputs as f32,
         };
         let last = inputs - 1;
         let tap = |output: usize| {
             let at = output as f32;
             let at = match self.coordinates {
-                Coordinates::PytorchHalfPixel if outputs == 1 => 0.0,
-                Coordinates::HalfPixel | Coordinates::PytorchHalfPixel => (at + 0.5) / scale - 0.5,
-                Coordinates::AlignCorners if outputs == 1 => 0.0,
-                Coordinates::AlignCorners => at * last as f32 / (outputs - 1) as f32,
-                Coordinates::Asymmetric => at / scale,
+                ResizeCoordinates::PytorchHalfPixel if outputs == 1 => 0.0,
+                ResizeCoordinates::HalfPixel | ResizeCoordinates::PytorchHalfPixel => (at + 0.5) / scale - 0.5,
+                ResizeCoordinates::AlignCorners if outputs == 1 => 0.0,
+                ResizeCoordinates::AlignCorners => at * last as f32 / (outputs - 1) as f32,
+                ResizeCoordinates::Asymmetric => at / scale,
             };
             match self.kind {
                 ResizeKind::Nearest(nearest) => {
                     let whole = match nearest {
-                        Nearest::RoundPreferFloor => (at - 0.5).ceil(),
-                        Nearest::RoundPreferCeil => (at + 0.5).floor(),
-                        Nearest::Floor => at.floor(),
-                        Nearest::Ceil => at.ceil(),
-                        Nearest::Simple if scale < 1.0 => at.ceil(),
-                        Nearest::Simple => at.floor(),
+                        NearestRounding::RoundPreferFloor => (at - 0.5).ceil(),
+                        NearestRounding::RoundPreferCeil => (at + 0.5).floor(),
+                        NearestRounding::Floor => at.floor(),
+                        NearestRounding::Ceil => at.ceil(),
+                        NearestRounding::Simple if scale < 1.0 => at.ceil(),
+                        NearestRounding::Simple => at.floor(),
                     };
-                    Taps::one((whole.max(0.0) as usize).min(last))
+                    AxisTaps::single((whole.max(0.0) as usize).min(last))
                 }
                 ResizeKind::Linear => {
                     let at = at.clamp(0.0, last as f32);
                     let first = at.floor() as usize;
-                    Taps::two(first, (first + 1).min(last), at - at.floor())
+                    AxisTaps::pair(first, (first + 1).min(last), at - at.floor())
                 }
                 ResizeKind::Cubic { a, is_inside_only } => {
                     let first = at.floor() - 1.0;
                     let places = [0.0, 1.0, 2.0, 3.0].map(|tap| first + tap);
-                    let mut shares = cubic(a, at - at.floor());
+                    let mut shares = cubic_weights(a, at - at.floor());
                     if is_inside_only {
                         for (share, place) in shares.iter_mut().zip(places) {
                             *share =
@@ -152,7 +152,7 @@ impl Resize {
                         shares = shares.map(|share| share / sum);
                     }
                     let at = places.map(|place| (place.max(0.0) as usize).min(last));
-                    Taps { at, shares }
+                    AxisTaps { at, weights: shares }
                 }
             }
         };
@@ -161,21 +161,21 @@ impl Resize {
 }
 
 impl Operator for Resize {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let [channels, height, width] = features(only(inputs)?)?;
-        let (height, width) = (self.outputs(0, height), self.outputs(1, width));
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        let [channels, height, width] = feature_size(only_input(inputs)?)?;
+        let (height, width) = (self.output_length(0, height), self.output_length(1, width));
         if height == 0 || width == 0 {
             return Err("its output is empty".to_owned());
         }
-        Ok(Form::features(vec![1, channels, height, width]))
+        Ok(TensorForm::features(vec![1, channels, height, width]))
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        match (self.kind, moved(inputs)?) {
+        match (self.kind, moved_encoding(inputs)?) {
             (ResizeKind::Linear | ResizeKind::Cubic { .. }, Encoding { element, .. })
-                if element != Element::F32 =>
+                if element != ElementType::F32 =>
             {
-                Err(wanted(Element::F32, element))
+                Err(wrong_element_message(ElementType::F32, element))
             }
             (ResizeKind::Nearest(_) | ResizeKind::Linear | ResizeKind::Cubic { .. }, encoding) => {
                 Ok(encoding)
@@ -183,33 +183,33 @@ impl Operator for Resize {
         }
     }
 
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+    fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
         let (form, mask) = inputs[0];
         let range =
-            |taps: Vec<Taps>| -> Vec<(usize, usize)> { taps.iter().map(Taps::range).collect() };
+            |taps: Vec<AxisTaps>| -> Vec<(usize, usize)> { taps.iter().map(AxisTaps::range).collect() };
         let rows = range(self.taps(0, form.height(), output.height()));
         let columns = range(self.taps(1, form.width(), output.width()));
-        mask.between(&rows, &columns)
+        mask.outputs_of_ranges(&rows, &columns)
     }
 
     fn takes_features(&self) -> bool {
         true
     }
 
-    fn compute(&self, job: Job<'_>) {
+    fn compute(&self, job: OperatorJob<'_>) {
         match self.kind {
-            ResizeKind::Nearest(_) => typed!(job.form.encoding().element, T => {
+            ResizeKind::Nearest(_) => with_element_type!(job.form.encoding().element, T => {
                 self.fill(job, |plane: &[T], width, row, column| plane[row.at[0] * width + column.at[0]]);
             }),
             ResizeKind::Linear => self.fill(job, |plane: &[f32], width, row, column| {
                 let line = |y: usize| {
                     let [left, right] = [0, 1].map(|tap| plane[y * width + column.at[tap]]);
-                    between(left, right, column.shares[1])
+                    interpolated(left, right, column.weights[1])
                 };
-                between(line(row.at[0]), line(row.at[1]), row.shares[1])
+                interpolated(line(row.at[0]), line(row.at[1]), row.weights[1])
             }),
             ResizeKind::Cubic { .. } => self.fill(job, |plane: &[f32], width, row, column| {
-                sum(row, |y| sum(column, |x| plane[y * width + x]))
+                weighted_sum(row, |y| weighted_sum(column, |x| plane[y * width + x]))
             }),
         }
     }
@@ -217,14 +217,14 @@ impl Operator for Resize {
 
 /// Returns the weighted sum of inputs.
 #[inline(always)]
-fn sum(taps: &Taps, of: impl Fn(usize) -> f32) -> f32 {
-    taps.at.iter().zip(taps.shares).map(|(&at, share)| share * of(at)).sum()
+fn weighted_sum(taps: &AxisTaps, of: impl Fn(usize) -> f32) -> f32 {
+    taps.at.iter().zip(taps.weights).map(|(&at, share)| share * of(at)).sum()
 }
 
 impl Resize {
     /// Fills every output. `of` takes the plane of the channel, the length of its rows, and the
     /// taps of the row and of the column.
-    fn fill<T: Number>(&self, job: Job<'_>, of: impl Fn(&[T], usize, &Taps, &Taps) -> T + Sync) {
+    fn fill<T: TensorNumber>(&self, job: OperatorJob<'_>, of: impl Fn(&[T], usize, &AxisTaps, &AxisTaps) -> T + Sync) {
         let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let rows = self.taps(0, height, form.height());
@@ -248,6 +248,6 @@ impl Resize {
 /// Interpolates between two values. If the share of the second is 0 the result is the first, even
 /// if the second is infinite or NaN.
 #[inline(always)]
-fn between(first: f32, second: f32, share: f32) -> f32 {
+fn interpolated(first: f32, second: f32, share: f32) -> f32 {
     if share == 0.0 { first } else { first + (second - first) * share }
 }

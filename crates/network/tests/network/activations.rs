@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Activations are compared with the formulas of the ONNX standard, in double precision.
 
-use crate::model::{Model, Value};
-use foveate_network::{Executor, Mask, Mode};
+use crate::model::{ModelBuilder, AttributeValue};
+use foveate_network::{Executor, Mask, ExecutionMode};
 
 /// Runs a node on values from -30 to 30, and returns pairs of input and output.
-fn found(model: Model, name: &str) -> Vec<(f64, f64)> {
+fn activation_pairs(model: ModelBuilder, name: &str) -> Vec<(f64, f64)> {
     const SIDE: usize = 35;
     let mut model = model;
     model.output(name);
     let network = model.read(SIDE, SIDE).unwrap_or_else(|error| panic!("{error}"));
     let at = |number: usize| f32::from(u16::try_from(number).unwrap()) / 20.4 - 30.0;
     let picture: Vec<f32> = (0..SIDE * SIDE).map(at).collect();
-    let mut executor = Executor::new(&network, Mode::Dense);
+    let mut executor = Executor::new(&network, ExecutionMode::Dense);
     executor.step(&picture, &Mask::full(SIDE, SIDE));
-    let values = executor.value(network.outputs()[0]).reals().into_owned();
+    let values = executor.tensor(network.outputs()[0]).real_values().into_owned();
     picture.iter().zip(values).map(|(&x, y)| (x.into(), y.into())).collect()
 }
 
-fn model() -> Model {
-    Model::new(&[1, 1, 35, 35])
+fn model() -> ModelBuilder {
+    ModelBuilder::new(&[1, 1, 35, 35])
 }
 
 /// Returns the error function from its series, which converges everywhere.
@@ -37,15 +37,15 @@ fn erf(x: f64) -> f64 {
     sum * 2.0 / std::f64::consts::PI.sqrt()
 }
 
-type Formula = Box<dyn Fn(f64) -> f64>;
-type Case = (&'static str, Vec<(&'static str, Value)>, Formula);
+type ActivationFormula = Box<dyn Fn(f64) -> f64>;
+type ActivationCase = (&'static str, Vec<(&'static str, AttributeValue)>, ActivationFormula);
 
 #[test]
 fn activations_are_those_of_the_standard() {
-    let alpha = |value: f32| vec![("alpha", Value::Float(value))];
-    let tanh = vec![("approximate", Value::Text("tanh"))];
+    let alpha = |value: f32| vec![("alpha", AttributeValue::Float(value))];
+    let tanh = vec![("approximate", AttributeValue::Text("tanh"))];
     let below = |x: f64, below: f64| if x < 0.0 { below } else { x };
-    let cases: Vec<Case> = vec![
+    let cases: Vec<ActivationCase> = vec![
         ("Celu", vec![], Box::new(move |x| below(x, x.exp() - 1.0))),
         ("Celu", alpha(2.5), Box::new(move |x| below(x, 2.5 * ((x / 2.5).exp() - 1.0)))),
         ("Elu", alpha(0.5), Box::new(move |x| below(x, 0.5 * (x.exp() - 1.0)))),
@@ -68,7 +68,7 @@ fn activations_are_those_of_the_standard() {
         ),
         (
             "Selu",
-            vec![("alpha", Value::Float(2.0)), ("gamma", Value::Float(3.0))],
+            vec![("alpha", AttributeValue::Float(2.0)), ("gamma", AttributeValue::Float(3.0))],
             Box::new(move |x| 3.0 * below(x, 2.0 * (x.exp() - 1.0))),
         ),
         ("Softplus", vec![], Box::new(|x| x.exp().ln_1p())),
@@ -80,7 +80,7 @@ fn activations_are_those_of_the_standard() {
     for (kind, attributes, formula) in cases {
         let mut model = model();
         let output = model.node(kind, &["picture"], &attributes);
-        for (x, y) in found(model, &output) {
+        for (x, y) in activation_pairs(model, &output) {
             let wanted = formula(x);
             assert!(
                 (y - wanted).abs() <= 2e-6 * (1.0 + x.abs()),
@@ -106,7 +106,7 @@ fn a_sigmoid_that_gates_its_own_input_is_joined_to_it() {
         }
         model.output(&gated);
         let network = model.read(35, 35).unwrap();
-        network.nodes().iter().map(|node| node.kind().to_owned()).collect::<Vec<_>>()
+        network.nodes().iter().map(|node| node.operator_name().to_owned()).collect::<Vec<_>>()
     };
     assert_eq!(kinds(&[]), ["Conv+Sigmoid+Mul"]);
     assert_eq!(kinds(&["conv"]), ["Conv", "Sigmoid+Mul", "Abs"]);
@@ -114,7 +114,7 @@ fn a_sigmoid_that_gates_its_own_input_is_joined_to_it() {
     let mut model = model();
     let gate = model.node("Sigmoid", &["picture"], &[]);
     let output = model.node("Mul", &["picture", &gate], &[]);
-    for (x, y) in found(model, &output) {
+    for (x, y) in activation_pairs(model, &output) {
         assert!((y - x / (1.0 + (-x).exp())).abs() <= 2e-6 * (1.0 + x.abs()), "{x}: {y}");
     }
 }
@@ -131,7 +131,7 @@ fn a_slope_is_that_of_its_channel_and_sums_take_one_or_two() {
     let same = model.node("Sum", &[&mixed], &[]);
     let output = model.node("Sum", &[&same, "picture"], &[]);
     let slope = |x: f64, slope: f64| if x < 0.0 { slope * x } else { x };
-    for (x, y) in found(model, &output) {
+    for (x, y) in activation_pairs(model, &output) {
         let wanted = slope(x, 0.5) + slope(-x, 0.25) + slope(2.0 * x, -1.0) + x;
         assert!((y - wanted).abs() < 1e-4, "{x}: {y}, not {wanted}");
     }

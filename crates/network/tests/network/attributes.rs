@@ -2,42 +2,42 @@
 //! Each attribute of a node must be one of its operator in the version that the model uses, and
 //! must be read.
 
-use crate::model::{Model, Value, noise};
+use crate::model::{ModelBuilder, AttributeValue, noise};
 use foveate_network::onnx::{TensorProto, attribute_type, data_type};
-use foveate_network::{Executor, Mask, Mode, Network, NetworkError};
+use foveate_network::{Executor, Mask, ExecutionMode, Network, NetworkError};
 
 const SIDE: usize = 4;
 
 /// Returns a model of one node on an input of one channel.
-fn one_node(opset: Option<i64>, kind: &str, attributes: &[(&str, Value)]) -> Model {
-    let mut model = Model::new(&[1, 1, 4, 4]);
+fn one_node(opset: Option<i64>, kind: &str, attributes: &[(&str, AttributeValue)]) -> ModelBuilder {
+    let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
     model.opset = opset;
     let output = model.node(kind, &["picture"], attributes);
     model.output(&output);
     model
 }
 
-fn refusal(model: Model) -> String {
+fn refusal(model: ModelBuilder) -> String {
     model.read(SIDE, SIDE).unwrap_err().to_string()
 }
 
 fn outputs(network: &Network) -> Vec<f32> {
-    let mut executor = Executor::new(network, Mode::Dense);
-    let picture = noise(1, network.input().elements());
+    let mut executor = Executor::new(network, ExecutionMode::Dense);
+    let picture = noise(1, network.input().element_count());
     executor.step(&picture, &Mask::full(SIDE, SIDE));
-    executor.value(network.outputs()[0]).reals().into_owned()
+    executor.tensor(network.outputs()[0]).real_values().into_owned()
 }
 
 #[test]
 fn an_attribute_that_the_operator_has_not_is_refused_by_its_name() {
-    let mut conv = Model::new(&[1, 1, 4, 4]);
+    let mut conv = ModelBuilder::new(&[1, 1, 4, 4]);
     let weights = conv.floats(&[1, 1, 3, 3], &[1.0; 9]);
-    conv.node("Conv", &["picture", &weights], &[("padding", Value::Ints(vec![1; 4]))]);
+    conv.node("Conv", &["picture", &weights], &[("padding", AttributeValue::Ints(vec![1; 4]))]);
     assert_eq!(
         refusal(conv),
         "node `Conv2` (Conv): it has no attribute `padding` in version 28 of the operators; it has auto_pad, dilations, group, kernel_shape, pads, strides"
     );
-    let relu = one_node(None, "Relu", &[("alpha", Value::Float(0.1))]);
+    let relu = one_node(None, "Relu", &[("alpha", AttributeValue::Float(0.1))]);
     assert!(
         refusal(relu)
             .contains("it has no attribute `alpha` in version 28 of the operators; it has none")
@@ -47,12 +47,12 @@ fn an_attribute_that_the_operator_has_not_is_refused_by_its_name() {
 #[test]
 fn attributes_belong_to_versions() {
     let blocks = |opset| {
-        let attributes = [("blocksize", Value::Int(2)), ("mode", Value::Text("CRD"))];
+        let attributes = [("blocksize", AttributeValue::Int(2)), ("mode", AttributeValue::Text("CRD"))];
         one_node(Some(opset), "SpaceToDepth", &attributes)
     };
     assert!(refusal(blocks(27)).contains("it has no attribute `mode` in version 27"));
     assert!(blocks(28).read(SIDE, SIDE).is_ok());
-    let axes = |opset| one_node(Some(opset), "ReduceMax", &[("axes", Value::Ints(vec![1]))]);
+    let axes = |opset| one_node(Some(opset), "ReduceMax", &[("axes", AttributeValue::Ints(vec![1]))]);
     assert!(axes(17).read(SIDE, SIDE).is_ok());
     assert!(refusal(axes(18)).contains("it has no attribute `axes` in version 18"));
     let says = "it is an operator since version 20, but the model uses version 19";
@@ -68,35 +68,35 @@ fn space_to_depth_has_two_orders() {
         (Some("DCR"), [0, 4, 1, 5, 2, 6, 3, 7]),
         (Some("CRD"), [0, 1, 2, 3, 4, 5, 6, 7]),
     ] {
-        let mut model = Model::new(&[1, 1, 2, 2]);
+        let mut model = ModelBuilder::new(&[1, 1, 2, 2]);
         let other = model.node("Neg", &["picture"], &[]);
-        let both = model.node("Concat", &["picture", &other], &[("axis", Value::Int(1))]);
-        let named = mode.map(|mode| ("mode", Value::Text(mode)));
-        let attributes: Vec<_> = named.into_iter().chain([("blocksize", Value::Int(2))]).collect();
+        let both = model.node("Concat", &["picture", &other], &[("axis", AttributeValue::Int(1))]);
+        let named = mode.map(|mode| ("mode", AttributeValue::Text(mode)));
+        let attributes: Vec<_> = named.into_iter().chain([("blocksize", AttributeValue::Int(2))]).collect();
         let output = model.node("SpaceToDepth", &[&both], &attributes);
         model.output(&output);
         let network = model.read(2, 2).unwrap();
         let picture = [1.0, 2.0, 3.0, 4.0];
-        let mut executor = Executor::new(&network, Mode::Dense);
+        let mut executor = Executor::new(&network, ExecutionMode::Dense);
         executor.step(&picture, &Mask::full(2, 2));
         let all = [1.0, 2.0, 3.0, 4.0, -1.0, -2.0, -3.0, -4.0];
         let wanted = order.map(|at: usize| all[at]);
-        assert_eq!(executor.value(network.outputs()[0]).reals().as_ref(), wanted, "{mode:?}");
+        assert_eq!(executor.tensor(network.outputs()[0]).real_values().as_ref(), wanted, "{mode:?}");
     }
 }
 
 #[test]
 fn attributes_are_of_their_type_and_there_once() {
     let of_type = |kind: i32| {
-        let mut model = one_node(None, "Elu", &[("alpha", Value::Float(0.5))]);
+        let mut model = one_node(None, "Elu", &[("alpha", AttributeValue::Float(0.5))]);
         model.graph.node[0].attribute[0].r#type = Some(kind);
         refusal(model)
     };
     assert!(of_type(2).contains("its attribute `alpha` is of INT, not of FLOAT"));
     assert!(of_type(99).contains("its attribute `alpha` is of another type, not of FLOAT"));
-    let wrong = one_node(None, "Elu", &[("alpha", Value::Int(1))]);
+    let wrong = one_node(None, "Elu", &[("alpha", AttributeValue::Int(1))]);
     assert!(refusal(wrong).contains("its attribute `alpha` is of INT, not of FLOAT"));
-    let alpha = || ("alpha", Value::Float(0.5));
+    let alpha = || ("alpha", AttributeValue::Float(0.5));
     let twice = one_node(None, "Elu", &[alpha(), alpha()]);
     assert!(refusal(twice).contains("it has the attribute `alpha` twice"));
     let mut of_function = one_node(None, "Elu", &[alpha()]);
@@ -111,13 +111,13 @@ fn attributes_are_of_their_type_and_there_once() {
 #[test]
 fn a_number_that_is_not_written_is_zero() {
     let network = |axis: Option<i64>| {
-        let mut model = one_node(None, "Softmax", &[("axis", Value::Int(0))]);
+        let mut model = one_node(None, "Softmax", &[("axis", AttributeValue::Int(0))]);
         let attribute = &mut model.graph.node[0].attribute[0];
         attribute.r#type = Some(2);
         attribute.i = axis;
         outputs(&model.read(SIDE, SIDE).unwrap())
     };
-    assert_eq!(attribute_type::name(2), Some("INT"));
+    assert_eq!(attribute_type::type_name(2), Some("INT"));
     assert_eq!(network(None), network(Some(0)));
     assert_ne!(network(None), network(Some(-1)));
 }
@@ -125,22 +125,22 @@ fn a_number_that_is_not_written_is_zero() {
 /// An attribute may be left unread only if it changes nothing.
 #[test]
 fn an_attribute_that_says_something_is_looked_at() {
-    let quantize = |attribute: (&str, Value)| {
-        let mut model = Model::new(&[1, 1, 4, 4]);
+    let quantize = |attribute: (&str, AttributeValue)| {
+        let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
         let scale = model.floats(&[], &[1.0]);
         let output = model.node("QuantizeLinear", &["picture", &scale], &[attribute]);
         model.output(&output);
         model.read(SIDE, SIDE).map(|_| ()).map_err(|error: NetworkError| error.to_string())
     };
-    let refused = quantize(("precision", Value::Int(10))).unwrap_err();
+    let refused = quantize(("precision", AttributeValue::Int(10))).unwrap_err();
     assert!(refused.contains("its attribute `precision` is not supported here"), "{refused}");
-    assert_eq!(quantize(("precision", Value::Int(0))), Ok(()));
-    assert_eq!(quantize(("saturate", Value::Int(0))), Ok(()));
+    assert_eq!(quantize(("precision", AttributeValue::Int(0))), Ok(()));
+    assert_eq!(quantize(("saturate", AttributeValue::Int(0))), Ok(()));
 }
 
 #[test]
 fn inputs_and_outputs_are_as_many_as_the_operator_has() {
-    let mut model = Model::new(&[1, 1, 4, 4]);
+    let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
     let more = model.floats(&[1], &[1.0]);
     model.node("Relu", &["picture", &more], &[]);
     assert!(refusal(model).contains("it has 2 inputs; its operator has 1"));
@@ -157,8 +157,8 @@ fn inputs_and_outputs_are_as_many_as_the_operator_has() {
 
 #[test]
 fn constants_of_every_way_to_write_them_are_read() {
-    let value = |attribute: (&str, Value)| {
-        let mut model = Model::new(&[1, 1, 4, 4]);
+    let value = |attribute: (&str, AttributeValue)| {
+        let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
         let constant = model.node("Constant", &[], &[attribute]);
         let output = model.node("Pow", &["picture", &constant], &[]);
         model.output(&output);
@@ -171,23 +171,23 @@ fn constants_of_every_way_to_write_them_are_read() {
         ..TensorProto::default()
     };
     for attribute in [
-        ("value_float", Value::Float(2.0)),
-        ("value_floats", Value::Floats(vec![2.0; 4])),
-        ("value_int", Value::Int(2)),
-        ("value_ints", Value::Ints(vec![2; 4])),
-        ("value", Value::Tensor(integer)),
+        ("value_float", AttributeValue::Float(2.0)),
+        ("value_floats", AttributeValue::Floats(vec![2.0; 4])),
+        ("value_int", AttributeValue::Int(2)),
+        ("value_ints", AttributeValue::Ints(vec![2; 4])),
+        ("value", AttributeValue::Tensor(integer)),
     ] {
         assert_eq!(value(attribute.clone()), squares, "{}", attribute.0);
     }
-    let mut model = Model::new(&[1, 1, 4, 4]);
-    model.node("Constant", &[], &[("value_string", Value::Text("a"))]);
+    let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
+    model.node("Constant", &[], &[("value_string", AttributeValue::Text("a"))]);
     assert!(refusal(model).contains("it has none of the attributes value, value_float"));
 }
 
 /// The weights of the light networks of ONNX are written in this way.
 #[test]
 fn constants_of_a_shape_may_be_large() {
-    let mut model = Model::new(&[1, 1, 4, 4]);
+    let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
     let shape = model.ints(&[70_000, 1, 1, 1]);
     let value = TensorProto {
         dims: vec![1],
@@ -195,7 +195,7 @@ fn constants_of_a_shape_may_be_large() {
         float_data: vec![0.5],
         ..TensorProto::default()
     };
-    let weights = model.node("ConstantOfShape", &[&shape], &[("value", Value::Tensor(value))]);
+    let weights = model.node("ConstantOfShape", &[&shape], &[("value", AttributeValue::Tensor(value))]);
     let features = model.node("Conv", &["picture", &weights], &[]);
     model.output(&features);
     let values = outputs(&model.read(SIDE, SIDE).unwrap());
@@ -206,7 +206,7 @@ fn constants_of_a_shape_may_be_large() {
 
 #[test]
 fn a_cast_may_take_its_type_from_another_tensor() {
-    let mut model = Model::new(&[1, 1, 4, 4]);
+    let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
     let (like, number) = (model.ints(&[1]), model.floats(&[1], &[2.9]));
     let cast = model.node("CastLike", &[&number, &like], &[]);
     let power = model.node("Pow", &["picture", &cast], &[]);

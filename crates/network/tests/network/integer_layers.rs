@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Layers of 8-bit values for random networks.
 
-use crate::exact::{State, signed};
-use crate::model::{Model, Value, noise};
+use crate::exactness::{LayerOutput, signed};
+use crate::model::{ModelBuilder, AttributeValue, noise};
 use foveate_network::onnx::data_type;
 use proptest::prelude::*;
 
@@ -24,10 +24,10 @@ pub(crate) enum IntegerLayer {
         pads: [i64; 4],
     },
     /// A convolution whose sums become floating-point values and are then quantized.
-    Sums,
+    IntegerSums,
     Residual,
     Gate,
-    Join,
+    ConcatBranch,
     Average {
         kernel: i64,
         stride: i64,
@@ -41,10 +41,10 @@ pub(crate) enum IntegerLayer {
     Pad {
         around: [i64; 4],
     },
-    Double,
-    Turn,
+    ResizeTwice,
+    TransposeAndBack,
     /// A slice that takes every second column.
-    Cut,
+    SliceColumns,
     /// A convolution of floating-point values between two tensors of 8-bit values.
     ThroughFloats,
     Product,
@@ -59,19 +59,19 @@ pub(crate) fn integer_layer() -> impl Strategy<Value = IntegerLayer> {
                 IntegerLayer::Conv { channels, kernel, strides, dilations, pads, signed_weights, per_channel }
             }),
         2 => (1..4i64, 1..3i64, pads()).prop_map(|(kernel, stride, pads)| IntegerLayer::Depthwise { kernel, stride, pads }),
-        1 => Just(IntegerLayer::Sums),
+        1 => Just(IntegerLayer::IntegerSums),
         2 => Just(IntegerLayer::Residual),
         1 => Just(IntegerLayer::Gate),
-        1 => Just(IntegerLayer::Join),
+        1 => Just(IntegerLayer::ConcatBranch),
         1 => (2..4i64, 1..3i64, 0..2i64, 0..2i64).prop_map(|(kernel, stride, pad, with_padding)| IntegerLayer::Average { kernel, stride, pad, with_padding }),
         1 => Just(IntegerLayer::MaxPool),
         1 => Just(IntegerLayer::LeakyRelu),
         1 => Just(IntegerLayer::Sigmoid),
         1 => Just(IntegerLayer::Clip),
         1 => pads().prop_map(|around| IntegerLayer::Pad { around }),
-        1 => Just(IntegerLayer::Double),
-        1 => Just(IntegerLayer::Turn),
-        1 => Just(IntegerLayer::Cut),
+        1 => Just(IntegerLayer::ResizeTwice),
+        1 => Just(IntegerLayer::TransposeAndBack),
+        1 => Just(IntegerLayer::SliceColumns),
         1 => Just(IntegerLayer::ThroughFloats),
         1 => Just(IntegerLayer::Product),
     ]
@@ -88,25 +88,25 @@ pub(crate) fn integers(seed: u64, count: usize, range: std::ops::RangeInclusive<
 
 /// The names of the constants of a tensor of 8-bit values: its scale and its zero point.
 #[derive(Clone)]
-struct Bytes {
+struct QuantizationConstants {
     scale: String,
-    zero: String,
+    zero_point: String,
     /// The element type of ONNX.
     kind: i32,
 }
 
-impl Bytes {
-    fn new(model: &mut Model, is_signed: bool, scale: f32, seed: u64) -> Self {
+impl QuantizationConstants {
+    fn new(model: &mut ModelBuilder, is_signed: bool, scale: f32, seed: u64) -> Self {
         let kind = if is_signed { data_type::INT8 } else { data_type::UINT8 };
         let range = if is_signed { -20..=20 } else { 100..=150 };
         let zero = integers(seed + 900, 1, range);
-        Self { scale: model.floats(&[], &[scale]), zero: model.typed(kind, &[], &zero), kind }
+        Self { scale: model.floats(&[], &[scale]), zero_point: model.typed(kind, &[], &zero), kind }
     }
 }
 
 /// Returns the names of weights, their scale and their zero point, as inputs of a node.
 fn weights(
-    model: &mut Model,
+    model: &mut ModelBuilder,
     shape: &[i64],
     is_signed: bool,
     per_channel: bool,
@@ -129,74 +129,74 @@ fn weights(
 }
 
 /// Adds a block: quantization, the layers that fit, and dequantization.
-pub(crate) fn add(
-    model: &mut Model,
-    now: &State,
+pub(crate) fn add_block(
+    model: &mut ModelBuilder,
+    now: &LayerOutput,
     is_signed: bool,
     layers: &[IntegerLayer],
     seed: u64,
-) -> State {
-    let first = Bytes::new(model, is_signed, 1.0 / 64.0, seed);
-    let name = model.node("QuantizeLinear", &[&now.name, &first.scale, &first.zero], &[]);
-    let mut block = Block { state: State { name, ..now.clone() }, bytes: first, is_signed };
+) -> LayerOutput {
+    let first = QuantizationConstants::new(model, is_signed, 1.0 / 64.0, seed);
+    let name = model.node("QuantizeLinear", &[&now.name, &first.scale, &first.zero_point], &[]);
+    let mut block = QuantizedTensor { state: LayerOutput { name, ..now.clone() }, bytes: first, is_signed };
     for (at, layer) in layers.iter().enumerate() {
         if let Some(next) = block.add(model, layer, seed * 40 + at as u64) {
             block = next;
         }
     }
-    let Block { state, bytes, .. } = block;
-    let name = model.node("DequantizeLinear", &[&state.name, &bytes.scale, &bytes.zero], &[]);
-    State { name, ..state }
+    let QuantizedTensor { state, bytes, .. } = block;
+    let name = model.node("DequantizeLinear", &[&state.name, &bytes.scale, &bytes.zero_point], &[]);
+    LayerOutput { name, ..state }
 }
 
 /// A tensor of 8-bit values.
 #[derive(Clone)]
-struct Block {
-    state: State,
-    bytes: Bytes,
+struct QuantizedTensor {
+    state: LayerOutput,
+    bytes: QuantizationConstants,
     is_signed: bool,
 }
 
-impl Block {
+impl QuantizedTensor {
     /// The inputs of this tensor for operators of onnxruntime: values, scale and zero point.
     fn inputs(&self) -> [&str; 3] {
-        [&self.state.name, &self.bytes.scale, &self.bytes.zero]
+        [&self.state.name, &self.bytes.scale, &self.bytes.zero_point]
     }
 
-    fn of(&self, name: String, bytes: &Bytes) -> Option<Self> {
-        let state = State { name, ..self.state.clone() };
+    fn with_name(&self, name: String, bytes: &QuantizationConstants) -> Option<Self> {
+        let state = LayerOutput { name, ..self.state.clone() };
         Some(Self { state, bytes: bytes.clone(), ..self.clone() })
     }
 
     /// Returns a tensor with the same scale and another height and width.
-    fn sized(&self, name: String, height: i64, width: i64) -> Option<Self> {
-        let state = State { name, height, width, ..self.state.clone() };
+    fn with_size(&self, name: String, height: i64, width: i64) -> Option<Self> {
+        let state = LayerOutput { name, height, width, ..self.state.clone() };
         (height > 0 && width > 0).then(|| Self { state, ..self.clone() })
     }
 
     fn conv(
         &self,
-        model: &mut Model,
+        model: &mut ModelBuilder,
         weights: &[String; 3],
-        to: &Bytes,
-        attributes: &[(&str, Value)],
+        to: &QuantizationConstants,
+        attributes: &[(&str, AttributeValue)],
         bias: Option<&str>,
     ) -> String {
         let mut inputs = self.inputs().to_vec();
         inputs.extend(weights.iter().map(String::as_str));
-        inputs.extend([to.scale.as_str(), to.zero.as_str()]);
+        inputs.extend([to.scale.as_str(), to.zero_point.as_str()]);
         inputs.extend(bias);
         model.node("QLinearConv", &inputs, attributes)
     }
 
-    fn add(&self, model: &mut Model, layer: &IntegerLayer, seed: u64) -> Option<Self> {
-        let State { name, channels, height, width } = self.state.clone();
+    fn add(&self, model: &mut ModelBuilder, layer: &IntegerLayer, seed: u64) -> Option<Self> {
+        let LayerOutput { name, channels, height, width } = self.state.clone();
         let outputs = |length: i64, kernel: i64, stride: i64, dilation: i64, pads: i64| {
             let room = length + pads - (kernel - 1) * dilation - 1;
             (room >= 0).then(|| room / stride + 1)
         };
-        let to = Bytes::new(model, self.is_signed, 1.0 / 20.0, seed);
-        let around = ("pads", Value::Ints(vec![1; 4]));
+        let to = QuantizationConstants::new(model, self.is_signed, 1.0 / 20.0, seed);
+        let around = ("pads", AttributeValue::Ints(vec![1; 4]));
         match layer.clone() {
             IntegerLayer::Conv {
                 channels: outer,
@@ -214,12 +214,12 @@ impl Block {
                 let bias = integers(seed + 7, outer, -2000..=2000);
                 let bias = model.typed(data_type::INT32, &[signed(outer)], &bias);
                 let attributes = [
-                    ("strides", Value::Ints(strides.to_vec())),
-                    ("dilations", Value::Ints(dilations.to_vec())),
-                    ("pads", Value::Ints(pads.to_vec())),
+                    ("strides", AttributeValue::Ints(strides.to_vec())),
+                    ("dilations", AttributeValue::Ints(dilations.to_vec())),
+                    ("pads", AttributeValue::Ints(pads.to_vec())),
                 ];
                 let name = self.conv(model, &weights, &to, &attributes, Some(&bias));
-                let state = State { name, channels: outer, height, width };
+                let state = LayerOutput { name, channels: outer, height, width };
                 Some(Self { state, bytes: to, ..self.clone() })
             }
             IntegerLayer::Depthwise { kernel, stride, pads } => {
@@ -228,99 +228,99 @@ impl Block {
                 let shape = [signed(channels), 1, kernel, kernel];
                 let weights = weights(model, &shape, false, true, seed);
                 let attributes = [
-                    ("strides", Value::Ints(vec![stride; 2])),
-                    ("pads", Value::Ints(pads.to_vec())),
-                    ("group", Value::Int(signed(channels))),
+                    ("strides", AttributeValue::Ints(vec![stride; 2])),
+                    ("pads", AttributeValue::Ints(pads.to_vec())),
+                    ("group", AttributeValue::Int(signed(channels))),
                 ];
                 let name = self.conv(model, &weights, &to, &attributes, None);
-                let state = State { name, channels, height, width };
+                let state = LayerOutput { name, channels, height, width };
                 Some(Self { state, bytes: to, ..self.clone() })
             }
-            IntegerLayer::Sums => {
+            IntegerLayer::IntegerSums => {
                 let shape = [signed(channels), signed(channels), 3, 3];
                 let [values, _, zero] = weights(model, &shape, true, false, seed);
                 let sums = model.node(
                     "ConvInteger",
-                    &[&name, &values, &self.bytes.zero, &zero],
+                    &[&name, &values, &self.bytes.zero_point, &zero],
                     &[around],
                 );
-                let sums = model.node("Cast", &[&sums], &[("to", Value::Int(1))]);
+                let sums = model.node("Cast", &[&sums], &[("to", AttributeValue::Int(1))]);
                 let scale = model.floats(&[], &[1.0 / 4000.0]);
                 let scaled = model.node("Mul", &[&sums, &scale], &[]);
-                let name = model.node("QuantizeLinear", &[&scaled, &to.scale, &to.zero], &[]);
-                self.of(name, &to)
+                let name = model.node("QuantizeLinear", &[&scaled, &to.scale, &to.zero_point], &[]);
+                self.with_name(name, &to)
             }
             IntegerLayer::Residual => {
                 let shape = [signed(channels), signed(channels), 3, 3];
                 let weights = weights(model, &shape, true, true, seed);
                 let branch = self.conv(model, &weights, &to, &[around], None);
-                let sum = Bytes::new(model, self.is_signed, 1.0 / 15.0, seed + 1);
+                let sum = QuantizationConstants::new(model, self.is_signed, 1.0 / 15.0, seed + 1);
                 let inputs = [
                     &branch,
                     &to.scale,
-                    &to.zero,
+                    &to.zero_point,
                     &name,
                     &self.bytes.scale,
-                    &self.bytes.zero,
+                    &self.bytes.zero_point,
                     &sum.scale,
-                    &sum.zero,
+                    &sum.zero_point,
                 ];
                 let name = model.node("com.microsoft.QLinearAdd", &inputs.map(String::as_str), &[]);
-                self.of(name, &sum)
+                self.with_name(name, &sum)
             }
             IntegerLayer::Gate => {
-                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero]].concat();
+                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero_point]].concat();
                 let mean = model.node("com.microsoft.QLinearGlobalAveragePool", &inputs, &[]);
-                let product = Bytes::new(model, self.is_signed, 1.0 / 30.0, seed + 1);
+                let product = QuantizationConstants::new(model, self.is_signed, 1.0 / 30.0, seed + 1);
                 let inputs = [
                     self.inputs().as_slice(),
-                    &[&mean, &to.scale, &to.zero, &product.scale, &product.zero],
+                    &[&mean, &to.scale, &to.zero_point, &product.scale, &product.zero_point],
                 ]
                 .concat();
                 let name = model.node("com.microsoft.QLinearMul", &inputs, &[]);
-                self.of(name, &product)
+                self.with_name(name, &product)
             }
-            IntegerLayer::Join => {
+            IntegerLayer::ConcatBranch => {
                 let shape = [3, signed(channels), 1, 3];
                 let weights = weights(model, &shape, true, true, seed);
-                let pads = ("pads", Value::Ints(vec![0, 1, 0, 1]));
+                let pads = ("pads", AttributeValue::Ints(vec![0, 1, 0, 1]));
                 let branch = self.conv(model, &weights, &to, &[pads], None);
-                let both = Bytes::new(model, self.is_signed, 1.0 / 40.0, seed + 1);
+                let both = QuantizationConstants::new(model, self.is_signed, 1.0 / 40.0, seed + 1);
                 let inputs = [
-                    &[both.scale.as_str(), &both.zero, &branch, &to.scale, &to.zero],
+                    &[both.scale.as_str(), &both.zero_point, &branch, &to.scale, &to.zero_point],
                     self.inputs().as_slice(),
                 ]
                 .concat();
                 let name =
-                    model.node("com.microsoft.QLinearConcat", &inputs, &[("axis", Value::Int(1))]);
-                let state = State { name, channels: channels + 3, ..self.state.clone() };
+                    model.node("com.microsoft.QLinearConcat", &inputs, &[("axis", AttributeValue::Int(1))]);
+                let state = LayerOutput { name, channels: channels + 3, ..self.state.clone() };
                 (channels < 20).then(|| Self { state, bytes: both, ..self.clone() })
             }
             IntegerLayer::Average { kernel, stride, pad, with_padding } => {
                 let along = |length| outputs(length, kernel, stride, 1, 2 * pad);
                 let (height, width) = (along(height)?, along(width)?);
                 let attributes = [
-                    ("kernel_shape", Value::Ints(vec![kernel; 2])),
-                    ("strides", Value::Ints(vec![stride; 2])),
-                    ("pads", Value::Ints(vec![pad; 4])),
-                    ("count_include_pad", Value::Int(with_padding)),
+                    ("kernel_shape", AttributeValue::Ints(vec![kernel; 2])),
+                    ("strides", AttributeValue::Ints(vec![stride; 2])),
+                    ("pads", AttributeValue::Ints(vec![pad; 4])),
+                    ("count_include_pad", AttributeValue::Int(with_padding)),
                 ];
-                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero]].concat();
+                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero_point]].concat();
                 let name = model.node("com.microsoft.QLinearAveragePool", &inputs, &attributes);
-                self.of(name.clone(), &to)?.sized(name, height, width)
+                self.with_name(name.clone(), &to)?.with_size(name, height, width)
             }
             IntegerLayer::MaxPool => {
-                let attributes = [("kernel_shape", Value::Ints(vec![3; 2])), around];
-                self.of(model.node("MaxPool", &[&name], &attributes), &self.bytes)
+                let attributes = [("kernel_shape", AttributeValue::Ints(vec![3; 2])), around];
+                self.with_name(model.node("MaxPool", &[&name], &attributes), &self.bytes)
             }
             IntegerLayer::LeakyRelu => {
-                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero]].concat();
-                let alpha = [("alpha", Value::Float(0.1))];
-                self.of(model.node("com.microsoft.QLinearLeakyRelu", &inputs, &alpha), &to)
+                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero_point]].concat();
+                let alpha = [("alpha", AttributeValue::Float(0.1))];
+                self.with_name(model.node("com.microsoft.QLinearLeakyRelu", &inputs, &alpha), &to)
             }
             IntegerLayer::Sigmoid => {
-                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero]].concat();
-                self.of(model.node("com.microsoft.QLinearSigmoid", &inputs, &[]), &to)
+                let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero_point]].concat();
+                self.with_name(model.node("com.microsoft.QLinearSigmoid", &inputs, &[]), &to)
             }
             IntegerLayer::Clip => {
                 let name = if self.is_signed {
@@ -330,49 +330,49 @@ impl Block {
                         [90, 160].map(|bound| model.typed(self.bytes.kind, &[], &[bound]));
                     model.node("Clip", &[&name, &min, &max], &[])
                 };
-                self.of(name, &self.bytes)
+                self.with_name(name, &self.bytes)
             }
             IntegerLayer::Pad { around: [top, left, bottom, right] } => {
                 let pads = model.ints(&[0, 0, top, left, 0, 0, bottom, right]);
-                let name = model.node("Pad", &[&name, &pads, &self.bytes.zero], &[]);
-                self.sized(name, height + top + bottom, width + left + right)
+                let name = model.node("Pad", &[&name, &pads, &self.bytes.zero_point], &[]);
+                self.with_size(name, height + top + bottom, width + left + right)
             }
-            IntegerLayer::Double => {
+            IntegerLayer::ResizeTwice => {
                 if height * width > 2000 {
                     return None;
                 }
                 let scales = model.floats(&[4], &[1.0, 1.0, 2.0, 2.0]);
                 let name = model.node("Resize", &[&name, "", &scales], &[]);
-                self.sized(name, height * 2, width * 2)
+                self.with_size(name, height * 2, width * 2)
             }
-            IntegerLayer::Turn => {
-                let order = |order: &[i64]| [("perm", Value::Ints(order.to_vec()))];
+            IntegerLayer::TransposeAndBack => {
+                let order = |order: &[i64]| [("perm", AttributeValue::Ints(order.to_vec()))];
                 let turned = model.node("Transpose", &[&name], &order(&[0, 2, 3, 1]));
-                self.of(model.node("Transpose", &[&turned], &order(&[0, 3, 1, 2])), &self.bytes)
+                self.with_name(model.node("Transpose", &[&turned], &order(&[0, 3, 1, 2])), &self.bytes)
             }
-            IntegerLayer::Cut => {
+            IntegerLayer::SliceColumns => {
                 let [starts, ends, axes, steps] =
                     [0, i64::MAX, 3, 2].map(|value| model.ints(&[value]));
                 let name = model.node("Slice", &[&name, &starts, &ends, &axes, &steps], &[]);
-                self.sized(name, height, (width + 1) / 2)
+                self.with_size(name, height, (width + 1) / 2)
             }
             IntegerLayer::ThroughFloats => {
                 let floats = model.node("DequantizeLinear", &self.inputs(), &[]);
                 let shape = [signed(channels), signed(channels), 3, 3];
                 let [values, scales, zeros] = weights(model, &shape, true, true, seed);
-                let axis = [("axis", Value::Int(0))];
+                let axis = [("axis", AttributeValue::Int(0))];
                 let weights = model.node("DequantizeLinear", &[&values, &scales, &zeros], &axis);
                 let floats = model.node("Conv", &[&floats, &weights], &[around]);
                 let floats = model.node("Relu", &[&floats], &[]);
-                let name = model.node("QuantizeLinear", &[&floats, &to.scale, &to.zero], &[]);
-                self.of(name, &to)
+                let name = model.node("QuantizeLinear", &[&floats, &to.scale, &to.zero_point], &[]);
+                self.with_name(name, &to)
             }
             IntegerLayer::Product => {
                 let matrix = weights(model, &[width, 5], true, false, seed);
                 let inputs = [
                     self.inputs().as_slice(),
                     &matrix.each_ref().map(String::as_str),
-                    &[&to.scale, &to.zero],
+                    &[&to.scale, &to.zero_point],
                 ]
                 .concat();
                 let name = model.node("QLinearMatMul", &inputs, &[]);

@@ -7,20 +7,20 @@
 )]
 
 use crate::integer_layers::integers;
-use crate::model::{Model, Value, noise};
+use crate::model::{ModelBuilder, AttributeValue, noise};
 use foveate_network::onnx::data_type;
-use foveate_network::{Executor, Mask, Mode};
+use foveate_network::{Executor, Mask, ExecutionMode};
 use proptest::prelude::*;
 
 /// Divides a number by a power of two, and rounds halves to even.
-fn divided(number: i64, shift: u32) -> i64 {
+fn divided_by_power_of_two(number: i64, shift: u32) -> i64 {
     let (floor, rest) = (number >> shift, number & ((1 << shift) - 1));
     let half = 1 << shift >> 1;
     floor + i64::from(shift > 0 && (rest > half || (rest == half && floor & 1 == 1)))
 }
 
 /// Returns the ONNX type of 8-bit values, and their range.
-fn bytes(is_signed: bool) -> (i32, [i64; 2]) {
+fn byte_type(is_signed: bool) -> (i32, [i64; 2]) {
     if is_signed { (data_type::INT8, [-128, 127]) } else { (data_type::UINT8, [0, 255]) }
 }
 
@@ -33,7 +33,7 @@ fn two_to(exponent: u32) -> f32 {
 }
 
 /// A convolution as ONNX defines it. Padding has the value of the zero point, so it adds nothing.
-struct Naive<'a> {
+struct NaiveConv<'a> {
     inputs: &'a [i64],
     zero: i64,
     size: [usize; 2],
@@ -49,7 +49,7 @@ struct Naive<'a> {
     pads: [usize; 4],
 }
 
-impl Naive<'_> {
+impl NaiveConv<'_> {
     fn outputs(&self) -> Option<[usize; 2]> {
         let along = |axis: usize| {
             let padded = self.size[axis] + self.pads[axis] + self.pads[axis + 2];
@@ -103,9 +103,9 @@ proptest! {
         seed in 0..1000u64,
     ) {
         let (inputs, outputs) = (groups * inner, groups * outer);
-        let (x_type, x_range) = bytes(x_signed);
-        let (w_type, w_range) = bytes(w_signed);
-        let (y_type, y_range) = bytes(y_signed);
+        let (x_type, x_range) = byte_type(x_signed);
+        let (w_type, w_range) = byte_type(w_signed);
+        let (y_type, y_range) = byte_type(y_signed);
         let range = |[low, high]: [i64; 2]| i32::try_from(low).unwrap()..=i32::try_from(high).unwrap();
         let one = |seed, limits| integers(seed, 1, range(limits))[0];
         let (x_zero, y_zero) = (one(seed + 1, x_range), one(seed + 2, y_range));
@@ -117,7 +117,7 @@ proptest! {
         let factors = integers(seed + 7, inputs, -127..=127);
         let picture: Vec<i32> = integers(seed + 8, size[0] * size[1], 0..=255);
 
-        let mut model = Model::new(&dims(&[1, 1, size[0], size[1]]));
+        let mut model = ModelBuilder::new(&dims(&[1, 1, size[0], size[1]]));
         let scale = model.floats(&[], &[1.0]);
         let zero = model.typed(data_type::UINT8, &[], &[0]);
         let quantized = model.node("QuantizeLinear", &["picture", &scale, &zero], &[]);
@@ -130,10 +130,10 @@ proptest! {
         let w = model.typed(w_type, &dims(&[outputs, inner, kernel[0], kernel[1]]), &weights);
         let along: &[i64] = if per_channel { &dims(&[outputs]) } else { &[] };
         let w_zeros = model.typed(w_type, along, &zeros);
-        let values = |values: &[usize]| Value::Ints(dims(values));
+        let values = |values: &[usize]| AttributeValue::Ints(dims(values));
         let attributes = [
             ("strides", values(&stride)), ("dilations", values(&dilation)), ("pads", values(&pads)),
-            ("group", Value::Int(i64::try_from(groups).unwrap())),
+            ("group", AttributeValue::Int(i64::try_from(groups).unwrap())),
         ];
         let output = if is_integer {
             model.node("ConvInteger", &[&x, &w, &to_zero, &w_zeros], &attributes)
@@ -149,28 +149,28 @@ proptest! {
 
         let between = |value: i64, [low, high]: [i64; 2]| value.clamp(low, high);
         let spread = factors.iter().flat_map(|&factor| picture.iter().map(move |&pixel| i64::from(factor) * i64::from(pixel)));
-        let spread: Vec<i64> = spread.map(|product| between(divided(product, 7) + i64::from(x_zero), x_range)).collect();
-        let naive = Naive { inputs: &spread, zero: x_zero.into(), size, inner, outer, weights: &weights, zeros: &zeros, kernel, stride, dilation, pads };
+        let spread: Vec<i64> = spread.map(|product| between(divided_by_power_of_two(product, 7) + i64::from(x_zero), x_range)).collect();
+        let naive = NaiveConv { inputs: &spread, zero: x_zero.into(), size, inner, outer, weights: &weights, zeros: &zeros, kernel, stride, dilation, pads };
         let Some([height, width]) = naive.outputs() else {
             prop_assert!(model.read(size[1], size[0]).is_err());
             return Ok(());
         };
         let network = model.read(size[1], size[0]).unwrap();
-        let mut executor = Executor::new(&network, Mode::Dense);
+        let mut executor = Executor::new(&network, ExecutionMode::Dense);
         executor.step(&picture.iter().map(|&pixel| pixel as f32).collect::<Vec<_>>(), &Mask::full(size[0], size[1]));
         // The real numbers of the first convolution are exact, too.
         let spread: Vec<f32> = spread.iter().map(|&value| (value - i64::from(x_zero)) as f32 * 128.0).collect();
-        prop_assert_eq!(&*executor.value(2).reals(), spread.as_slice());
-        let found = executor.value(3);
+        prop_assert_eq!(&*executor.tensor(2).real_values(), spread.as_slice());
+        let found = executor.tensor(3);
         prop_assert_eq!(found.form().shape(), &[1, outputs, height, width]);
         prop_assert_eq!(found.form().bytes(), (outputs * height * width * if is_integer { 4 } else { 1 }) as u64);
-        for (at, &found) in found.reals().iter().enumerate() {
+        for (at, &found) in found.real_values().iter().enumerate() {
             let channel = at / width / height;
             let sum = naive.sum(channel, [at / width % height, at % width]);
             let right = if is_integer {
                 sum as f32
             } else {
-                let rounded = divided(sum + i64::from(bias[channel]), shifts[channel % channels]);
+                let rounded = divided_by_power_of_two(sum + i64::from(bias[channel]), shifts[channel % channels]);
                 (between(rounded + i64::from(y_zero), y_range) - i64::from(y_zero)) as f32 * 128.0
             };
             prop_assert_eq!(found, right, "at {}", at);
@@ -182,8 +182,8 @@ proptest! {
     fn products_are_those_of_the_standard(
         inputs in 1..700usize, outputs in 1..20usize, kind in 0..3usize, (x_signed, w_signed, per_column) in any::<(bool, bool, bool)>(), seed in 0..1000u64,
     ) {
-        let (x_type, x_range) = bytes(x_signed);
-        let (w_type, w_range) = bytes(w_signed);
+        let (x_type, x_range) = byte_type(x_signed);
+        let (w_type, w_range) = byte_type(w_signed);
         let range = |[low, high]: [i64; 2]| i32::try_from(low).unwrap()..=i32::try_from(high).unwrap();
         let zero = integers(seed, 1, range(x_range))[0];
         let columns = if per_column { outputs } else { 1 };
@@ -193,7 +193,7 @@ proptest! {
         let shifts: Vec<u32> = integers(seed + 4, columns, 6..=14).iter().map(|&shift| shift.cast_unsigned()).collect();
         let stored = integers(seed + 5, inputs, range(x_range));
 
-        let mut model = Model::new(&dims(&[1, 1, 1, inputs]));
+        let mut model = ModelBuilder::new(&dims(&[1, 1, 1, inputs]));
         let one = model.floats(&[], &[1.0]);
         let x_zero = model.typed(x_type, &[], &[zero]);
         let x = model.node("QuantizeLinear", &["picture", &one, &x_zero], &[]);
@@ -216,16 +216,16 @@ proptest! {
             1 => model.node("QLinearMatMul", &[&x, &one, &x_zero, &w, &scales, &w_zeros, &one, &y_zero], &[]),
             _ => {
                 let bias = model.typed(data_type::INT32, &dims(&[outputs]), &bias);
-                let attributes = [("transB", Value::Int(transposed.into()))];
+                let attributes = [("transB", AttributeValue::Int(transposed.into()))];
                 model.node("com.microsoft.QGemm", &[&x, &one, &x_zero, &w, &scales, &w_zeros, &bias, &one, &y_zero], &attributes)
             }
         };
         model.output(&output);
         let network = model.read(inputs, 1).unwrap();
-        let mut executor = Executor::new(&network, Mode::Dense);
+        let mut executor = Executor::new(&network, ExecutionMode::Dense);
         let picture: Vec<f32> = stored.iter().map(|&stored| (stored - zero) as f32).collect();
         executor.step(&picture, &Mask::full(1, inputs));
-        for (column, &found) in executor.value(3).reals().iter().enumerate() {
+        for (column, &found) in executor.tensor(3).real_values().iter().enumerate() {
             let product = |row: usize| {
                 let weight = weights[row * outputs + column] - zeros[column % columns];
                 i64::from(stored[row] - zero) * i64::from(weight)
@@ -236,7 +236,7 @@ proptest! {
             }
             // The comparison needs a sum below 2^24, because larger sums are not exact in floating
             // point, in which they are divided.
-            let in_steps = (divided(sum, shifts[column % columns]) + 3).clamp(-128, 127) - 3;
+            let in_steps = (divided_by_power_of_two(sum, shifts[column % columns]) + 3).clamp(-128, 127) - 3;
             let right = if kind == 0 { sum as f32 } else { in_steps as f32 };
             prop_assert!(sum.abs() >= 1 << 24 || found == right, "{found} for {right}");
         }
@@ -247,27 +247,27 @@ proptest! {
 fn run(
     picture: &[f32],
     (is_signed, scale, zero): (bool, f32, i32),
-    rest: impl Fn(&mut Model, [&str; 3]) -> String,
+    rest: impl Fn(&mut ModelBuilder, [&str; 3]) -> String,
 ) -> Vec<f32> {
     let width = picture.len();
-    let mut model = Model::new(&dims(&[1, 1, 1, width]));
+    let mut model = ModelBuilder::new(&dims(&[1, 1, 1, width]));
     let scale = model.floats(&[], &[scale]);
-    let zero = model.typed(bytes(is_signed).0, &[], &[zero]);
+    let zero = model.typed(byte_type(is_signed).0, &[], &[zero]);
     let x = model.node("QuantizeLinear", &["picture", &scale, &zero], &[]);
     let output = rest(&mut model, [&x, &scale, &zero]);
     model.output(&output);
     let network = model.read(width, 1).unwrap();
-    let mut executor = Executor::new(&network, Mode::Dense);
+    let mut executor = Executor::new(&network, ExecutionMode::Dense);
     executor.step(picture, &Mask::full(1, width));
     let &[output] = network.outputs() else { panic!("one output") };
-    executor.value(output).reals().to_vec()
+    executor.tensor(output).real_values().to_vec()
 }
 
 /// Halves are rounded to even, and values out of range saturate.
 #[test]
 fn quantization_rounds_as_the_standard_says() {
     let picture = [0.5, 1.5, 2.5, -0.5, -1.5, 200.0, -300.0, f32::INFINITY];
-    let same = |_: &mut Model, [x, _, _]: [&str; 3]| x.to_owned();
+    let same = |_: &mut ModelBuilder, [x, _, _]: [&str; 3]| x.to_owned();
     assert_eq!(
         run(&picture, (true, 1.0, 0), same),
         [0.0, 2.0, 2.0, 0.0, -2.0, 127.0, -128.0, 127.0]
@@ -280,26 +280,26 @@ fn quantization_rounds_as_the_standard_says() {
 }
 
 /// A function that adds a node on the quantized input with another scale and zero point.
-type Node<'a> = dyn Fn(&mut Model, [&str; 3], [&str; 2]) -> String + 'a;
+type NodeBuilder<'a> = dyn Fn(&mut ModelBuilder, [&str; 3], [&str; 2]) -> String + 'a;
 
 /// Operators of onnxruntime are computed by hand. The input is 1, 2, 3 and -4 with a scale of 0.5
 /// and a zero point of 10.
 #[test]
 fn operators_of_onnxruntime_are_as_it_says() {
-    let of = |rest: &Node<'_>| {
+    let of = |rest: &NodeBuilder<'_>| {
         run(&[1.0, 2.0, 3.0, -4.0], (true, 0.5, 10), |model, x| {
             let (scale, zero) =
                 (model.floats(&[], &[0.25]), model.typed(data_type::INT8, &[], &[-5]));
             rest(model, x, [&scale, &zero])
         })
     };
-    let with = |kind: &'static str, attributes: &'static [(&'static str, Value)]| {
-        move |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
+    let with = |kind: &'static str, attributes: &'static [(&'static str, AttributeValue)]| {
+        move |model: &mut ModelBuilder, x: [&str; 3], y: [&str; 2]| {
             model.node(kind, &[x[0], x[1], x[2], y[0], y[1]], attributes)
         }
     };
     let twice = |kind: &'static str| {
-        move |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
+        move |model: &mut ModelBuilder, x: [&str; 3], y: [&str; 2]| {
             model.node(kind, &[x[0], x[1], x[2], x[0], x[1], x[2], y[0], y[1]], &[])
         }
     };
@@ -308,25 +308,25 @@ fn operators_of_onnxruntime_are_as_it_says() {
     assert_eq!(of(&with("com.microsoft.QLinearGlobalAveragePool", &[])), [0.5]);
     // With the default alpha of 0.01 the last value is -0.04, which is 0 in steps of 0.25.
     assert_eq!(of(&with("com.microsoft.QLinearLeakyRelu", &[])), [1.0, 2.0, 3.0, 0.0]);
-    let steep = [("alpha", Value::Float(0.5))];
-    let leaky = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
+    let steep = [("alpha", AttributeValue::Float(0.5))];
+    let leaky = |model: &mut ModelBuilder, x: [&str; 3], y: [&str; 2]| {
         model.node("com.microsoft.QLinearLeakyRelu", &[x[0], x[1], x[2], y[0], y[1]], &steep)
     };
     assert_eq!(of(&leaky), [1.0, 2.0, 3.0, -2.0]);
     // The exact values are 0.73, 0.88, 0.95 and 0.02.
     assert_eq!(of(&with("com.microsoft.QLinearSigmoid", &[])), [0.75, 1.0, 1.0, 0.0]);
     // The exact values are 0.09, 0.24, 0.66 and 0.0006.
-    let shares = with("com.microsoft.QLinearSoftmax", &[("opset", Value::Int(13))]);
+    let shares = with("com.microsoft.QLinearSoftmax", &[("opset", AttributeValue::Int(13))]);
     assert_eq!(of(&shares), [0.0, 0.25, 0.75, 0.0]);
-    let pairs = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
+    let pairs = |model: &mut ModelBuilder, x: [&str; 3], y: [&str; 2]| {
         let attributes =
-            [("kernel_shape", Value::Ints(vec![1, 2])), ("pads", Value::Ints(vec![0, 1, 0, 0]))];
+            [("kernel_shape", AttributeValue::Ints(vec![1, 2])), ("pads", AttributeValue::Ints(vec![0, 1, 0, 0]))];
         model.node("com.microsoft.QLinearAveragePool", &[x[0], x[1], x[2], y[0], y[1]], &attributes)
     };
     // The first window holds one value of padding, which does not count.
     assert_eq!(of(&pairs), [1.0, 1.5, 2.5, -0.5]);
-    let joined = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
-        let axis = [("axis", Value::Int(1))];
+    let joined = |model: &mut ModelBuilder, x: [&str; 3], y: [&str; 2]| {
+        let axis = [("axis", AttributeValue::Int(1))];
         model.node(
             "com.microsoft.QLinearConcat",
             &[y[0], y[1], x[0], x[1], x[2], x[0], x[1], x[2]],
@@ -339,26 +339,26 @@ fn operators_of_onnxruntime_are_as_it_says() {
 /// A scale is given for each index of an axis.
 #[test]
 fn axes_have_scales_of_their_own() {
-    let mut model = Model::new(&[1, 1, 1, 3]);
+    let mut model = ModelBuilder::new(&[1, 1, 1, 3]);
     let scales = model.floats(&[3], &[1.0, 0.5, 0.25]);
     let zeros = model.typed(data_type::UINT8, &[3], &[0, 10, 20]);
-    let axis = [("axis", Value::Int(-1))];
+    let axis = [("axis", AttributeValue::Int(-1))];
     let x = model.node("QuantizeLinear", &["picture", &scales, &zeros], &axis);
     let y = model.node("DequantizeLinear", &[&x, &scales, &zeros], &axis);
     model.output(&y);
     let network = model.read(3, 1).unwrap();
-    let mut executor = Executor::new(&network, Mode::Dense);
+    let mut executor = Executor::new(&network, ExecutionMode::Dense);
     executor.step(&[3.4, -1.6, 1.6], &Mask::full(1, 3));
     // The values are in steps, because no single scale is that of the whole tensor.
-    assert_eq!(*executor.value(1).reals(), [3.0, 7.0, 26.0]);
-    assert_eq!(*executor.value(2).reals(), [3.0, -1.5, 1.5]);
+    assert_eq!(*executor.tensor(1).real_values(), [3.0, 7.0, 26.0]);
+    assert_eq!(*executor.tensor(2).real_values(), [3.0, -1.5, 1.5]);
 }
 
 /// A change that rounding to 8 bits removes is no change, and a limit is compared with the real
 /// numbers that values stand for.
 #[test]
 fn what_rounds_away_is_not_passed_on() {
-    let mut model = Model::new(&[1, 1, 8, 8]);
+    let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
     let scale = model.floats(&[], &[0.1]);
     let x = model.node("QuantizeLinear", &["picture", &scale], &[]);
     let weights = model.typed(data_type::INT8, &[1, 1, 3, 3], &[9; 9]);
@@ -378,11 +378,11 @@ fn what_rounds_away_is_not_passed_on() {
         executor.step(&before, &Mask::full(8, 8));
         let mut after = before.clone();
         after[27] += by;
-        executor.step(&after, &Mask::full(8, 8))[0].changed
+        executor.step(&after, &Mask::full(8, 8))[0].changed_positions
     };
     assert_eq!(
-        (changed(0.04, Mode::Exact), changed(0.04, Mode::Compare), changed(0.2, Mode::Compare)),
+        (changed(0.04, ExecutionMode::Exact), changed(0.04, ExecutionMode::Compare), changed(0.2, ExecutionMode::Compare)),
         (64, 0, 1)
     );
-    assert_eq!((changed(0.2, Mode::Truncate(0.25)), changed(0.2, Mode::Truncate(0.15))), (0, 1));
+    assert_eq!((changed(0.2, ExecutionMode::Truncate(0.25)), changed(0.2, ExecutionMode::Truncate(0.15))), (0, 1));
 }

@@ -11,14 +11,14 @@ use std::path::Path;
 
 /// A model under construction. Its input is named `picture`.
 #[derive(Default)]
-pub(crate) struct Model {
+pub(crate) struct ModelBuilder {
     pub(crate) graph: GraphProto,
     /// The version of the operators; without one it is the newest.
     pub(crate) opset: Option<i64>,
     count: usize,
 }
 
-impl Model {
+impl ModelBuilder {
     pub(crate) fn new(shape: &[i64]) -> Self {
         let mut model = Self::default();
         model.graph.input.push(value("picture", shape));
@@ -82,7 +82,7 @@ impl Model {
         &mut self,
         kind: &str,
         inputs: &[&str],
-        attributes: &[(&str, Value)],
+        attributes: &[(&str, AttributeValue)],
     ) -> String {
         self.count += 1;
         let output = format!("value{}", self.count);
@@ -116,7 +116,7 @@ impl Model {
 
 /// The value of an attribute.
 #[derive(Clone, Debug)]
-pub(crate) enum Value {
+pub(crate) enum AttributeValue {
     Int(i64),
     Ints(Vec<i64>),
     Float(f32),
@@ -125,7 +125,7 @@ pub(crate) enum Value {
     Tensor(TensorProto),
 }
 
-impl Value {
+impl AttributeValue {
     fn attribute(&self, name: &str) -> AttributeProto {
         let mut attribute =
             AttributeProto { name: Some(name.to_owned()), ..AttributeProto::default() };

@@ -5,13 +5,13 @@
 use std::ops::Range;
 
 use fastrand::Rng;
-use foveate_packets::{Assembler, Found, Layout, Loss, ReceivedFrame, Splitter, write};
+use foveate_packets::{FrameAssembler, StreamItem, PacketLayout, StreamLoss, ReceivedFrame, PacketSplitter, packet_writer};
 
-use crate::damage::cases;
-use crate::stream::{Stream, random, read};
+use crate::damage::case_count;
+use crate::stream::{TestStream, random_stream, read_stream};
 
 /// Returns the byte ranges of the packets of a stream.
-fn packets(bytes: &[u8]) -> Vec<Range<usize>> {
+fn packet_ranges(bytes: &[u8]) -> Vec<Range<usize>> {
     let mut at = 0;
     let next = || {
         let head = bytes.get(at..at + 4)?;
@@ -23,7 +23,7 @@ fn packets(bytes: &[u8]) -> Vec<Range<usize>> {
 }
 
 /// Returns a number that programs often handle wrongly.
-fn odd(rng: &mut Rng) -> u64 {
+fn awkward_number(rng: &mut Rng) -> u64 {
     match rng.u8(0..5) {
         0 => 0,
         1 => u64::MAX,
@@ -37,40 +37,40 @@ fn odd(rng: &mut Rng) -> u64 {
 fn forge(rng: &mut Rng, packet: &mut [u8]) {
     let length = [1, 2, 4, 8][rng.usize(0..4)];
     let at = rng.usize(0..(packet.len() - 4 - length) / length + 1) * length;
-    packet[at..at + length].copy_from_slice(&odd(rng).to_le_bytes()[..length]);
+    packet[at..at + length].copy_from_slice(&awkward_number(rng).to_le_bytes()[..length]);
     let end = packet.len() - 4;
     let check = crc32fast::hash(&packet[..end]);
     packet[end..].copy_from_slice(&check.to_le_bytes());
 }
 
 /// Returns the frames and losses received from bytes, and ignores a FRAME that is refused.
-fn receive(layout: &Layout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<Loss>) {
-    let (mut splitter, mut assembler) = (Splitter::default(), Assembler::new(layout.clone()));
+fn receive(layout: &PacketLayout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<StreamLoss>) {
+    let (mut splitter, mut assembler) = (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
     let mut frames = Vec::new();
     splitter.feed(bytes);
-    splitter.complete();
+    splitter.mark_complete();
     loop {
         match splitter.next(Some(layout)) {
-            Found::Nothing => break,
-            Found::Skipped { offset, bytes } => assembler.lose(Loss::Bytes { offset, bytes }),
-            Found::Packet { frame, packet } => {
+            StreamItem::Pending => break,
+            StreamItem::Skipped { offset, bytes } => assembler.add_loss(StreamLoss::Bytes { offset, bytes }),
+            StreamItem::Packet { frame, packet } => {
                 let ended = assembler.push(frame, packet).unwrap_or_default();
                 frames.extend(ended.into_iter().flatten());
             }
         }
     }
-    frames.extend(assembler.end());
-    (frames, assembler.losses())
+    frames.extend(assembler.end_frame());
+    (frames, assembler.take_losses())
 }
 
 #[test]
 fn fuzz_a_stream_goes_on_behind_packets_with_any_numbers() {
-    for seed in 0..cases() {
+    for seed in 0..case_count() {
         let mut rng = Rng::with_seed(seed);
-        let Stream { layout, bytes, frames } = random(&mut rng, 6);
-        let whole = read(&mut rng, &layout, &bytes).0;
+        let TestStream { layout, bytes, frames } = random_stream(&mut rng, 6);
+        let whole = read_stream(&mut rng, &layout, &bytes).0;
         let mut forged = bytes[..frames[2].end].to_vec();
-        let all = packets(&forged);
+        let all = packet_ranges(&forged);
         for _ in 0..rng.usize(1..6) {
             let packet = rng.choice(&all).unwrap().clone();
             forge(&mut rng, &mut forged[packet]);
@@ -92,13 +92,13 @@ fn fuzz_a_stream_goes_on_behind_packets_with_any_numbers() {
 #[test]
 fn a_wrong_frame_number_costs_two_frames_at_most() {
     let mut rng = Rng::with_seed(3);
-    let Stream { layout, bytes, frames } = random(&mut rng, 8);
+    let TestStream { layout, bytes, frames } = random_stream(&mut rng, 8);
     for jump in [100, 1 << 16, 1 << 30, (1 << 31) - 1, 1 << 31, u32::MAX - 2] {
         let at = frames[2].end;
         let mut forged = bytes[..at].to_vec();
-        write::frame(&mut forged, &layout, 2u32.wrapping_add(jump), (120_000, false));
+        packet_writer::append_frame(&mut forged, &layout, 2u32.wrapping_add(jump), (120_000, false));
         forged.extend(&bytes[at..]);
-        let received = read(&mut rng, &layout, &forged).0;
+        let received = read_stream(&mut rng, &layout, &forged).0;
         let numbers: Vec<u32> = received.iter().map(|frame| frame.number).collect();
         assert!(numbers.ends_with(&[5, 6, 7]), "{jump}: {numbers:?}");
     }
@@ -107,39 +107,39 @@ fn a_wrong_frame_number_costs_two_frames_at_most() {
 #[test]
 fn a_packet_of_a_later_frame_does_not_become_a_part_of_it() {
     let mut rng = Rng::with_seed(5);
-    let Stream { layout, bytes, frames } = random(&mut rng, 4);
-    let whole = read(&mut rng, &layout, &bytes).0;
+    let TestStream { layout, bytes, frames } = random_stream(&mut rng, 4);
+    let whole = read_stream(&mut rng, &layout, &bytes).0;
     // The forged ROW belongs to the last frame, and its decisions are not those of that frame.
     let at = frames[2].start + layout.frame_bytes();
     let mut forged = bytes[..at].to_vec();
     let decisions = vec![Default::default(); layout.columns().try_into().unwrap()];
-    write::row(&mut forged, &layout, 3, 0, &decisions).unwrap();
+    packet_writer::append_row(&mut forged, &layout, 3, 0, &decisions).unwrap();
     forged.extend(&bytes[at..]);
-    let (received, losses) = read(&mut rng, &layout, &forged);
+    let (received, losses) = read_stream(&mut rng, &layout, &forged);
     assert!(received.last() == whole.last(), "{losses:?}");
 }
 
 #[test]
 fn a_packet_again_and_again_is_one_loss() {
     let mut rng = Rng::with_seed(4);
-    let Stream { layout, bytes, frames } = random(&mut rng, 2);
+    let TestStream { layout, bytes, frames } = random_stream(&mut rng, 2);
     let at = frames[0].start + layout.frame_bytes()
-        ..packets(&bytes).into_iter().nth(1).map(|packet| packet.end).unwrap();
+        ..packet_ranges(&bytes).into_iter().nth(1).map(|packet| packet.end).unwrap();
     let mut forged = bytes[..at.end].to_vec();
     (0..50_000).for_each(|_| forged.extend(&bytes[at.clone()]));
     forged.extend(&bytes[at.end..]);
-    let (received, losses) = read(&mut rng, &layout, &forged);
+    let (received, losses) = read_stream(&mut rng, &layout, &forged);
     assert_eq!(received.len(), 2);
-    assert_eq!(losses, [Loss::Misplaced { frame: 0, count: 50_000 }]);
+    assert_eq!(losses, [StreamLoss::Misplaced { frame: 0, count: 50_000 }]);
 }
 
 #[test]
 fn noise_without_end_is_reported_on_the_way() {
     for byte in [0, 0xFA] {
-        let (mut splitter, mut reported) = (Splitter::default(), 0);
+        let (mut splitter, mut reported) = (PacketSplitter::default(), 0);
         for _ in 0..64 {
             splitter.feed(&[byte; 1 << 16]);
-            while let Found::Skipped { bytes, .. } = splitter.next(None) {
+            while let StreamItem::Skipped { bytes, .. } = splitter.next(None) {
                 reported += bytes;
             }
         }

@@ -3,24 +3,24 @@
 //! impossible one.
 
 use fastrand::Rng;
-use foveate_packets::{FrameClock, FrameInfo, FrameTime, LONGEST_GAP_SECONDS, Layout};
+use foveate_packets::{FrameClock, FrameInfo, FrameTime, LONGEST_GAP_SECONDS, PacketLayout};
 
-use crate::damage::cases;
+use crate::damage::case_count;
 use crate::stream::design;
 
 fn info(ticks_per_second: u32) -> FrameInfo {
     let layout =
-        Layout::new(&design("frame={width=8,height=8}\n"), false, ticks_per_second).unwrap();
+        PacketLayout::new(&design("frame={width=8,height=8}\n"), false, ticks_per_second).unwrap();
     layout.info().clone()
 }
 
 fn take(clock: &mut FrameClock, info: &FrameInfo, time: u64) -> FrameTime {
-    clock.take(&FrameInfo { time, ..info.clone() })
+    clock.next_time(&FrameInfo { time, ..info.clone() })
 }
 
 #[test]
 fn fuzz_right_times_are_exact_and_any_times_never_go_back() {
-    for seed in 0..cases() {
+    for seed in 0..case_count() {
         let mut rng = Rng::with_seed(seed);
         let per_second = *rng.choice(&[1, 7, 30, 90_000, 1_000_000, u32::MAX]).unwrap();
         let info = info(per_second);
@@ -31,7 +31,7 @@ fn fuzz_right_times_are_exact_and_any_times_never_go_back() {
         for _ in 0..50 {
             let exact = u128::from(time - start) * 1_000_000 / u128::from(per_second);
             let taken = take(&mut right, &info, time);
-            assert_eq!((u128::from(taken.time_us), taken.is_wrong), (exact, false), "seed {seed}");
+            assert_eq!((u128::from(taken.time_us), taken.is_impossible), (exact, false), "seed {seed}");
             time += rng.u64(0..day) >> rng.u32(0..40);
 
             let wild = match rng.u8(0..4) {
@@ -64,9 +64,9 @@ fn a_time_that_cannot_be_right_is_that_of_the_frame_before() {
             (1_002_000, false),
         ];
         // A time slightly before the last one does not make the next time doubtful.
-        let expected = expected.map(|(time_us, is_wrong)| FrameTime { time_us, is_wrong });
+        let expected = expected.map(|(time_us, is_wrong)| FrameTime { time_us, is_impossible: is_wrong });
         if wrong == 4999 {
-            assert_eq!(times[2..4].iter().filter(|time| time.is_wrong).count(), 1);
+            assert_eq!(times[2..4].iter().filter(|time| time.is_impossible).count(), 1);
             assert!(times[4].time_us > times[3].time_us);
         } else if wrong == 0 {
             assert_eq!(times[..3], expected[..3]);
@@ -84,7 +84,7 @@ fn a_camera_that_begins_anew_may_count_anew() {
     for (time, first, expected) in
         [(1 << 40, true, 0), ((1 << 40) + 7, false, 7), (3, true, 7), (9, false, 13)]
     {
-        let taken = clock.take(&FrameInfo { time, first, ..info.clone() });
-        assert_eq!(taken, FrameTime { time_us: expected, is_wrong: false });
+        let taken = clock.next_time(&FrameInfo { time, first, ..info.clone() });
+        assert_eq!(taken, FrameTime { time_us: expected, is_impossible: false });
     }
 }

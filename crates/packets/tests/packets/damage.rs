@@ -2,12 +2,12 @@
 //! Streams that lose, gain and change bytes. The frames that remain whole are received unchanged.
 
 use fastrand::Rng;
-use foveate_packets::{Loss, ReceivedFrame};
+use foveate_packets::{StreamLoss, ReceivedFrame};
 
-use crate::stream::{Stream, random, read};
+use crate::stream::{TestStream, random_stream, read_stream};
 
 /// Returns the number of random cases; `FOVEATE_FUZZ_CASES` may set more.
-pub(crate) fn cases() -> u64 {
+pub(crate) fn case_count() -> u64 {
     std::env::var("FOVEATE_FUZZ_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(400)
 }
 
@@ -40,12 +40,12 @@ pub(crate) fn damage(rng: &mut Rng, bytes: &mut Vec<u8>, at: usize) -> std::ops:
 }
 
 #[test]
-fn fuzz_what_is_whole_comes_back() {
+fn fuzz_whole_frames_are_received_unchanged() {
     let mut damaged_frames = 0;
-    for seed in 0..cases() {
+    for seed in 0..case_count() {
         let mut rng = Rng::with_seed(seed);
-        let Stream { layout, bytes, frames } = random(&mut rng, 6);
-        let (whole, losses) = read(&mut rng, &layout, &bytes);
+        let TestStream { layout, bytes, frames } = random_stream(&mut rng, 6);
+        let (whole, losses) = read_stream(&mut rng, &layout, &bytes);
         assert_eq!((whole.len(), losses), (6, Vec::new()), "seed {seed}");
         let mut damaged = bytes.clone();
         // Damage is applied from the end, so that earlier offsets stay valid.
@@ -56,7 +56,7 @@ fn fuzz_what_is_whole_comes_back() {
         places.dedup_by(|next, last| *next - *last < 200);
         let touched: Vec<_> =
             places.iter().rev().map(|&at| damage(&mut rng, &mut damaged, at)).collect();
-        let (received, losses) = read(&mut rng, &layout, &damaged);
+        let (received, losses) = read_stream(&mut rng, &layout, &damaged);
         if damaged == bytes {
             continue;
         }
@@ -81,17 +81,17 @@ fn fuzz_what_is_whole_comes_back() {
         assert!(received.windows(2).all(|pair| pair[0].number < pair[1].number), "seed {seed}");
         assert!(received.iter().all(|frame| frame.number < 6), "seed {seed}");
     }
-    assert!(damaged_frames > cases() / 2, "{damaged_frames} frames were damaged");
+    assert!(damaged_frames > case_count() / 2, "{damaged_frames} frames were damaged");
 }
 
 #[test]
 fn fuzz_noise_is_no_packet() {
-    for seed in 0..cases() {
+    for seed in 0..case_count() {
         let mut rng = Rng::with_seed(seed);
-        let Stream { layout, bytes, .. } = random(&mut rng, 1);
+        let TestStream { layout, bytes, .. } = random_stream(&mut rng, 1);
         let noise: Vec<u8> =
             (0..rng.usize(0..5000)).map(|_| *rng.choice(&bytes).unwrap()).collect();
-        let (frames, losses) = read(&mut rng, &layout, &noise);
+        let (frames, losses) = read_stream(&mut rng, &layout, &noise);
         assert!(frames.is_empty(), "seed {seed}");
         let skipped: u64 = losses.iter().map(|loss| loss.fields()[3].unwrap()).sum();
         assert_eq!(skipped, noise.len() as u64, "every byte is accounted for, seed {seed}");
@@ -101,29 +101,29 @@ fn fuzz_noise_is_no_packet() {
 #[test]
 fn a_lost_region_is_named() {
     let mut rng = Rng::with_seed(7);
-    let Stream { layout, bytes, .. } = random(&mut rng, 3);
+    let TestStream { layout, bytes, .. } = random_stream(&mut rng, 3);
     let region = layout.region_bytes(false);
     // A head of a REGION with pixels has the mark, type 4, and no summary flag.
     let is_region = |at: &usize| bytes[*at] == 0xFA && bytes[at + 1] & 0x4F == 4;
     let at = (layout.frame_bytes()..bytes.len() - region).step_by(8).find(is_region).unwrap();
     let damaged = [&bytes[..at], &bytes[at + region..]].concat();
-    let (received, losses) = read(&mut rng, &layout, &damaged);
+    let (received, losses) = read_stream(&mut rng, &layout, &damaged);
     assert_eq!(received.len(), 3);
     let place =
         |from: usize| u32::from(u16::from_le_bytes([bytes[at + from], bytes[at + from + 1]]));
     let (row, column) = (place(4), place(6));
-    assert_eq!(losses, [Loss::Region { frame: 0, row, column, dropped: false }]);
+    assert_eq!(losses, [StreamLoss::Region { frame: 0, row, column, dropped: false }]);
 }
 
 #[test]
 fn a_packet_that_comes_too_late_is_ignored() {
     let mut rng = Rng::with_seed(8);
-    let Stream { layout, bytes, frames } = random(&mut rng, 3);
+    let TestStream { layout, bytes, frames } = random_stream(&mut rng, 3);
     let (first, second) = (frames[0].end, frames[1].end);
     let late = &bytes[first - 24..first];
-    let received = read(&mut rng, &layout, &bytes).0;
+    let received = read_stream(&mut rng, &layout, &bytes).0;
     let (again, losses) =
-        read(&mut rng, &layout, &[&bytes[..second], late, &bytes[second..]].concat());
-    assert_eq!(losses, [Loss::Misplaced { frame: 0, count: 1 }]);
+        read_stream(&mut rng, &layout, &[&bytes[..second], late, &bytes[second..]].concat());
+    assert_eq!(losses, [StreamLoss::Misplaced { frame: 0, count: 1 }]);
     assert!(again == received, "the late packet changed a frame");
 }

@@ -2,7 +2,7 @@
 //! The packets of a small frame, written by hand from `docs/packets.md`, word by word.
 
 use foveate_packets::{
-    Assembler, Content, Decision, End, Found, Layout, Loss, Packet, RegionFlags, Splitter, write,
+    FrameAssembler, RegionContent, RegionDecision, EndPacket, StreamItem, PacketLayout, StreamLoss, Packet, RegionFlags, PacketSplitter, packet_writer,
 };
 
 use crate::stream::design;
@@ -30,23 +30,23 @@ fn a_frame_is_what_the_page_says() {
         "frame={width=6,height=3,pixel_bits=10}\nregion.size=2\ntemporal.min_count=1\nrender.irrelevant='mean'\n\
          periphery.blocks=1\nspatial=[{feature='edge',min_score=0},{feature='variance',min_score=0}]\n",
     );
-    let layout = Layout::new(&design, true, 1000).unwrap();
+    let layout = PacketLayout::new(&design, true, 1000).unwrap();
     let fingerprint = u64::from_str_radix(&design.fingerprint(), 16).unwrap();
     let number = 0x0102_0304;
     let mut bytes = Vec::new();
-    write::frame(&mut bytes, &layout, number, (77, true));
-    let decision = |srs, trs, summary| Decision { srs, trs, summary };
+    packet_writer::append_frame(&mut bytes, &layout, number, (77, true));
+    let decision = |srs, trs, summary| RegionDecision { srs, trs, summary };
     let row =
         [decision(true, true, false), decision(false, true, true), decision(true, false, false)];
-    write::row(&mut bytes, &layout, number, 1, &row).unwrap();
+    packet_writer::append_row(&mut bytes, &layout, number, 1, &row).unwrap();
     let scores = [[4, 3, 0x1234], [1, 0, 0], [0, 4, 5]];
-    write::scores(&mut bytes, &layout, number, 1, scores.into_iter()).unwrap();
+    packet_writer::append_scores(&mut bytes, &layout, number, 1, scores.into_iter()).unwrap();
     let flags = RegionFlags { raw: false, summary: false };
-    write::region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4])).unwrap();
+    packet_writer::append_region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4])).unwrap();
     let flags = RegionFlags { raw: false, summary: true };
-    write::region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155])).unwrap();
-    let end = End { regions_sent: 2, regions_dropped: 3, rows_dropped: 1 };
-    write::end(&mut bytes, number, end).unwrap();
+    packet_writer::append_region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155])).unwrap();
+    let end = EndPacket { regions_sent: 2, regions_dropped: 3, rows_dropped: 1 };
+    packet_writer::append_end(&mut bytes, number, end).unwrap();
 
     let by_hand = [
         packet(
@@ -83,11 +83,11 @@ fn a_frame_is_what_the_page_says() {
     assert_eq!(all, by_hand.iter().map(Vec::len).collect::<Vec<_>>());
 
     // The packets are then read back.
-    let (mut splitter, mut assembler) = (Splitter::default(), Assembler::new(layout.clone()));
+    let (mut splitter, mut assembler) = (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
     splitter.feed(&bytes);
-    splitter.complete();
+    splitter.mark_complete();
     let (mut frames, mut packets) = (Vec::new(), Vec::new());
-    while let Found::Packet { frame, packet } = splitter.next(Some(&layout)) {
+    while let StreamItem::Packet { frame, packet } = splitter.next(Some(&layout)) {
         packets.push(packet.clone());
         frames.extend(assembler.push(frame, packet).unwrap().into_iter().flatten());
     }
@@ -98,17 +98,17 @@ fn a_frame_is_what_the_page_says() {
     assert_eq!(frame.decisions[3..], row);
     assert_eq!(frame.temporal_count, [0, 0, 0, 4, 1, 0]);
     assert_eq!(frame.scores, [[0, 0, 0, 3, 0, 4], [0, 0, 0, 0x1234, 0, 5]]);
-    let pixels = Some(Content::Pixels(vec![1, 2, 0x3FF, 4]));
-    assert_eq!(frame.contents[3..], [pixels, Some(Content::Means(vec![0x155])), None]);
+    let pixels = Some(RegionContent::Pixels(vec![1, 2, 0x3FF, 4]));
+    assert_eq!(frame.contents[3..], [pixels, Some(RegionContent::Means(vec![0x155])), None]);
     // Row 0 was never written; the END says that the camera dropped a row.
-    let dropped = Loss::Row { frame: number, row: 0, dropped: true };
-    assert_eq!(assembler.losses(), [dropped, Loss::Scores { frame: number, row: 0 }]);
+    let dropped = StreamLoss::Row { frame: number, row: 0, dropped: true };
+    assert_eq!(assembler.take_losses(), [dropped, StreamLoss::Scores { frame: number, row: 0 }]);
 }
 
 #[test]
 fn eight_by_eight_regions_of_bytes_cost_what_the_page_says() {
     let design = design("frame={width=1920,height=1080}\nspatial=[{feature='edge'}]\n");
-    let layout = Layout::new(&design, true, 1).unwrap();
+    let layout = PacketLayout::new(&design, true, 1).unwrap();
     assert_eq!(layout.region_bytes(false), 80);
     assert_eq!((layout.row_bytes(), layout.scores_bytes()), (80, 16 + 8 * 240));
     assert_eq!((layout.frame_bytes(), layout.end_bytes()), (56, 24));

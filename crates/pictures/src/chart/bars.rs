@@ -6,35 +6,35 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axes::top;
-use super::label::{cut, plain};
-use super::paint::{GRID, GROUND, INK, Result, rgb};
-use super::{Bars, Chart};
+use super::axes::axis_top;
+use super::label::{truncated, number_label};
+use super::series_style::{GRID, BACKGROUND, INK, DrawResult, rgb};
+use super::{BarSeries, Chart};
 
 /// The margin around the plot in pixels.
 const MARGIN: u32 = 12;
 /// The width of the vertical axis with its labels in pixels.
-const LEFT: u32 = 64;
+const AXIS_WIDTH: u32 = 64;
 /// The distance from the axis to the names in pixels.
-const ABOVE: u32 = 8;
+const NAME_GAP: u32 = 8;
 /// The height of the axis title below the names in pixels.
-const TITLE: u32 = 28;
+const TITLE_HEIGHT: u32 = 28;
 /// The smallest distance between two horizontal names in pixels.
-const APART: u32 = 10;
+const MIN_NAME_DISTANCE: u32 = 10;
 /// The most letters of a name, because names of clips may be long.
-const LETTERS: usize = 20;
+const MAX_NAME_LETTERS: usize = 20;
 
 pub(crate) fn draw_bars<DB: DrawingBackend>(
     chart: &Chart,
     groups: &[String],
-    series: &[Bars],
+    series: &[BarSeries],
     area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
+) -> DrawResult<DB> {
     let number = |count: usize| f64::from(u32::try_from(count).expect("bars are few"));
     let tops = series.iter().flat_map(|bars| {
         bars.values.iter().copied().chain(bars.ranges.iter().map(|range| range.1))
     });
-    let names: Vec<String> = groups.iter().map(|name| cut(name, LETTERS)).collect();
+    let names: Vec<String> = groups.iter().map(|name| truncated(name, MAX_NAME_LETTERS)).collect();
     let style = ("sans-serif", 13).into_font().color(&INK);
     let (mut widest, mut tallest) = (0, 0);
     for name in &names {
@@ -42,24 +42,24 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
         (widest, tallest) = (widest.max(width), tallest.max(height));
     }
     let (width, height) = area.dim_in_pixel();
-    let room = width.saturating_sub(2 * MARGIN + LEFT)
+    let room = width.saturating_sub(2 * MARGIN + AXIS_WIDTH)
         / u32::try_from(names.len().max(1)).unwrap_or(u32::MAX);
-    let is_level = widest + APART <= room;
+    let is_level = widest + MIN_NAME_DISTANCE <= room;
     let mut context = ChartBuilder::on(area)
         .caption(&chart.title, ("sans-serif", 20))
         .margin(MARGIN)
-        .x_label_area_size(ABOVE + TITLE + if is_level { tallest } else { widest })
-        .y_label_area_size(LEFT)
-        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..top(tops))?;
+        .x_label_area_size(NAME_GAP + TITLE_HEIGHT + if is_level { tallest } else { widest })
+        .y_label_area_size(AXIS_WIDTH)
+        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..axis_top(tops))?;
     context
         .configure_mesh()
         .disable_x_mesh()
         .x_labels(0)
-        .y_label_formatter(&|&y| plain(y))
-        .y_desc(&chart.y)
+        .y_label_formatter(&|&y| number_label(y))
+        .y_desc(&chart.y_title)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 15))
-        .light_line_style(GROUND)
+        .light_line_style(BACKGROUND)
         .bold_line_style(GRID)
         .draw()?;
     let wide = 0.8 / number(series.len().max(1));
@@ -83,12 +83,12 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
         style.transform(FontTransform::Rotate270).pos(Pos::new(HPos::Right, VPos::Center))
     };
     let [above, middle, bottom] =
-        [ABOVE, width / 2, height].map(|at| i32::try_from(at).expect("within SIZE"));
+        [NAME_GAP, width / 2, height].map(|at| i32::try_from(at).expect("within SIZE"));
     for (group, name) in names.into_iter().enumerate() {
         let (x, y) = context.backend_coord(&(number(group) + 0.5, 0.0));
         let (x0, y0) = area.get_base_pixel();
         area.draw(&Text::new(name, (x - x0, y - y0 + above), style.clone()))?;
     }
     let axis = ("sans-serif", 15).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
-    area.draw(&Text::new(chart.x.clone(), (middle, bottom - 2), axis))
+    area.draw(&Text::new(chart.x_title.clone(), (middle, bottom - 2), axis))
 }

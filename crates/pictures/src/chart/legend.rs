@@ -5,39 +5,39 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::label::cut;
-use super::paint::{INK, Result, numbered, rgb, target};
-use super::{Bars, Line, Look};
+use super::label::truncated;
+use super::series_style::{INK, DrawResult, styled_lines, rgb, target_mark};
+use super::{BarSeries, ChartSeries, LineLook};
 
 /// The width of the legend in pixels.
-pub(crate) const LEGEND: u32 = 210;
+pub(crate) const LEGEND_WIDTH: u32 = 210;
 /// The most letters of a name in the legend.
-const LETTERS: usize = 25;
+const MAX_NAME_LETTERS: usize = 25;
 
 /// Returns the vertical positions of the rows of a legend in pixels.
-fn rows() -> impl Iterator<Item = i32> {
+fn row_heights() -> impl Iterator<Item = i32> {
     (56..).step_by(22)
 }
 
-pub(crate) fn names_of_bars<DB: DrawingBackend>(
-    series: &[Bars],
+pub(crate) fn draw_bar_names<DB: DrawingBackend>(
+    series: &[BarSeries],
     area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    for (bars, y) in series.iter().zip(rows()) {
+) -> DrawResult<DB> {
+    for (bars, y) in series.iter().zip(row_heights()) {
         area.draw(&Rectangle::new([(4, y - 6), (18, y + 6)], rgb(bars.colour).filled()))?;
-        name::<DB>(&bars.name, y, area)?;
+        draw_name::<DB>(&bars.name, y, area)?;
     }
     Ok(())
 }
 
-pub(crate) fn names_of_lines<DB: DrawingBackend>(
-    lines: &[Line],
+pub(crate) fn draw_line_names<DB: DrawingBackend>(
+    lines: &[ChartSeries],
     area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    for ((number, line), y) in numbered(lines).zip(rows()) {
-        name::<DB>(&line.name, y, area)?;
-        if line.look == Look::Target {
-            target((13, y)).into_iter().try_for_each(|part| area.draw(&part))?;
+) -> DrawResult<DB> {
+    for ((number, line), y) in styled_lines(lines).zip(row_heights()) {
+        draw_name::<DB>(&line.name, y, area)?;
+        if line.look == LineLook::Target {
+            target_mark((13, y)).into_iter().try_for_each(|part| area.draw(&part))?;
             continue;
         }
         let pieces: &[(i32, i32)] = if number.is_open { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
@@ -49,18 +49,18 @@ pub(crate) fn names_of_lines<DB: DrawingBackend>(
     Ok(())
 }
 
-pub(crate) fn names_of_points<DB: DrawingBackend>(
-    series: &[Line],
+pub(crate) fn draw_point_names<DB: DrawingBackend>(
+    series: &[ChartSeries],
     area: &DrawingArea<DB, Shift>,
-) -> Result<DB> {
-    for ((number, points), y) in numbered(series).zip(rows()) {
+) -> DrawResult<DB> {
+    for ((number, points), y) in styled_lines(series).zip(row_heights()) {
         area.draw(&Circle::new((13, y), 4, number.colour.filled()))?;
-        name::<DB>(&points.name, y, area)?;
+        draw_name::<DB>(&points.name, y, area)?;
     }
     Ok(())
 }
 
-fn name<DB: DrawingBackend>(name: &str, y: i32, area: &DrawingArea<DB, Shift>) -> Result<DB> {
+fn draw_name<DB: DrawingBackend>(name: &str, y: i32, area: &DrawingArea<DB, Shift>) -> DrawResult<DB> {
     let font = ("sans-serif", 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw(&Text::new(cut(name, LETTERS), (29, y), font))
+    area.draw(&Text::new(truncated(name, MAX_NAME_LETTERS), (29, y), font))
 }

@@ -5,14 +5,14 @@
 
 mod axes;
 mod bars;
-mod draw;
+mod drawing;
 mod error;
-mod figure;
-mod files;
+mod chart_data;
+mod chart_files;
 mod label;
 mod legend;
-mod paint;
-mod sheet;
+mod series_style;
+mod canvas;
 
 pub use error::ChartError;
-pub use figure::{Bars, Chart, Line, Look, Shape};
+pub use chart_data::{BarSeries, Chart, ChartSeries, LineLook, ChartData};

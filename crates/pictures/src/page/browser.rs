@@ -18,9 +18,9 @@ pub fn chromium() -> Option<PathBuf> {
 
 /// The properties that a test expects of the marks of a page.
 #[derive(Clone, Copy, Debug)]
-pub struct Tip {
+pub struct ExpectedMark {
     /// A JavaScript expression of the figures of a plot's last mark.
-    pub told: &'static str,
+    pub figures: &'static str,
     /// The number of links of these figures.
     pub links: usize,
 }
@@ -31,11 +31,11 @@ pub struct Tip {
 /// # Panics
 /// Panics if Chromium does not run or prints nothing.
 #[must_use]
-pub fn probe(program: &Path, page: &str, width: u32, tip: Tip) -> Value {
+pub fn probe_page(program: &Path, page: &str, width: u32, tip: ExpectedMark) -> Value {
     let folder = tempfile::tempdir().expect("a folder for the page");
     let file = folder.path().join("page.html");
     let script =
-        include_str!("probe.js").replace("TOLD", tip.told).replace("LINKS", &tip.links.to_string());
+        include_str!("probe.js").replace("TOLD", tip.figures).replace("LINKS", &tip.links.to_string());
     let script = format!("<script>{script}</script></body>");
     std::fs::write(&file, page.replace("</body>", &script)).expect("the page is written");
     let run = Command::new(program)

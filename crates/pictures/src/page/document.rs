@@ -2,15 +2,15 @@
 //! The document of a page: its heading, style and script around its content.
 
 use crate::palette::{DARK, LIGHT};
-use crate::xml;
+use crate::xml_text;
 use askama::Template;
 
 use super::PageError;
-use super::colour::variables;
+use super::colour::colour_variables;
 
 /// A figure of the heading.
 #[derive(Clone, Debug)]
-pub struct Fact {
+pub struct HeadingFigure {
     /// The name of the figure.
     pub name: &'static str,
     /// The value as text.
@@ -21,7 +21,7 @@ pub struct Fact {
 
 /// An important message to the reader.
 #[derive(Clone, Debug)]
-pub struct Notice<'a> {
+pub struct PageNotice<'a> {
     /// The kind of the message.
     pub title: &'static str,
     /// The sentences of the message.
@@ -31,7 +31,7 @@ pub struct Notice<'a> {
 /// A link target for the figures of a mark: the element whose id is this prefix and the id of the
 /// mark.
 #[derive(Clone, Copy, Debug)]
-pub struct Target {
+pub struct LinkTarget {
     /// The prefix before the id.
     pub prefix: &'static str,
     /// The name of the target for the reader, such as `its row`.
@@ -40,7 +40,7 @@ pub struct Target {
 
 /// A page. Fields that are HTML come from a template, which escapes text.
 #[derive(Clone, Debug)]
-pub struct Page<'a> {
+pub struct ResultPage<'a> {
     /// The kind of result that the page shows.
     pub kind: &'static str,
     /// The name of the program with its version.
@@ -48,9 +48,9 @@ pub struct Page<'a> {
     /// The heading of the page.
     pub title: &'a str,
     /// The boxes below the heading; those without lines are left out.
-    pub notices: &'a [Notice<'a>],
+    pub notices: &'a [PageNotice<'a>],
     /// The figures below the boxes.
-    pub facts: &'a [Fact],
+    pub facts: &'a [HeadingFigure],
     /// The HTML after the figures.
     pub about: &'a str,
     /// The HTML of the sections.
@@ -58,31 +58,31 @@ pub struct Page<'a> {
     /// The HTML at the end.
     pub footer: &'a str,
     /// The link targets of marks.
-    pub targets: &'a [Target],
+    pub targets: &'a [LinkTarget],
     /// A further script, which may use `all(selector, inside)`.
     pub script: &'a str,
 }
 
 #[derive(Template)]
 #[template(path = "page.html")]
-struct Whole<'a> {
-    page: &'a Page<'a>,
+struct PageTemplate<'a> {
+    page: &'a ResultPage<'a>,
     /// The colours as variables, for a light and for a dark background.
     light: String,
     dark: String,
 }
 
-impl Page<'_> {
+impl ResultPage<'_> {
     /// Renders the whole page.
     ///
     /// # Errors
     /// Fails if the page cannot be rendered.
     pub fn render(&self) -> Result<String, PageError> {
-        let (light, dark) = (variables(&LIGHT), variables(&DARK));
-        let whole = Whole { page: self, light, dark };
+        let (light, dark) = (colour_variables(&LIGHT), colour_variables(&DARK));
+        let whole = PageTemplate { page: self, light, dark };
         whole
             .render()
-            .map(xml::document)
+            .map(xml_text::valid_document)
             .map_err(|error| PageError { page: self.title.to_owned(), problem: error.to_string() })
     }
 }

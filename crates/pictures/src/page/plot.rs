@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use askama::Template;
 
-use super::axis::{Axis, Tick};
+use super::axis::{PlotAxis, AxisTick};
 
 /// The edges of the frame inside a picture of 560 by 380; the template has the same numbers.
 const LEFT: f64 = 78.0;
@@ -14,12 +14,12 @@ const TOP: f64 = 14.0;
 const BOTTOM: f64 = 316.0;
 /// The distance between the frame and the positions of numbers, so that marks do not touch the
 /// frame.
-const INSIDE: f64 = 12.0;
+const FRAME_PADDING: f64 = 12.0;
 
 /// A plot of marks and lines.
 #[derive(Clone, Debug, Default, Template)]
 #[template(path = "plot.html")]
-pub struct Plot {
+pub struct PagePlot {
     /// The id of the plot in the page.
     pub id: String,
     /// The title above the plot.
@@ -31,24 +31,24 @@ pub struct Plot {
     /// The title of the vertical axis.
     pub y_title: String,
     /// The ticks of the horizontal axis.
-    pub x_ticks: Vec<At>,
+    pub x_ticks: Vec<AxisPosition>,
     /// The ticks of the vertical axis.
-    pub y_ticks: Vec<At>,
+    pub y_ticks: Vec<AxisPosition>,
     /// The dashed horizontal lines, for comparison.
-    pub rules: Vec<At>,
+    pub rules: Vec<AxisPosition>,
     /// The dashed vertical lines.
-    pub posts: Vec<At>,
+    pub posts: Vec<AxisPosition>,
     /// The lines through marks.
-    pub lines: Vec<Line>,
+    pub lines: Vec<PlotLine>,
     /// The measured points.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<PlotMark>,
     /// Whether the colours depend on the chosen axis; otherwise they are those of the lines.
     pub by_axis: bool,
 }
 
 /// A position along an axis.
 #[derive(Clone, Debug)]
-pub struct At {
+pub struct AxisPosition {
     /// The coordinate in the picture.
     pub at: String,
     /// The label at this position.
@@ -57,7 +57,7 @@ pub struct At {
 
 /// A line of a plot.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct PlotLine {
     /// The path in the syntax of SVG.
     pub path: String,
     /// The class of its colour.
@@ -70,7 +70,7 @@ pub struct Line {
 
 /// A measured point of a plot.
 #[derive(Clone, Debug)]
-pub struct Mark {
+pub struct PlotMark {
     /// The id in the page; marks with the same id are highlighted together and link to the row of
     /// that id.
     pub id: String,
@@ -94,66 +94,66 @@ pub struct Mark {
 
 /// The two axes of a plot.
 #[derive(Clone, Copy, Debug)]
-pub struct Field {
+pub struct PlotAxes {
     /// The horizontal axis.
-    pub x: Axis,
+    pub x: PlotAxis,
     /// The vertical axis.
-    pub y: Axis,
+    pub y: PlotAxis,
 }
 
-impl Field {
+impl PlotAxes {
     /// Returns the coordinates of a point; `None` if a number cannot be shown.
     #[must_use]
-    pub fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
-        Some((across(self.x.place(x)?), up(self.y.place(y)?)))
+    pub fn coordinates(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        Some((x_coordinate(self.x.position(x)?), y_coordinate(self.y.position(y)?)))
     }
 
     /// Returns the ticks of the horizontal axis.
     #[must_use]
-    pub fn x_ticks(&self) -> Vec<At> {
+    pub fn x_ticks(&self) -> Vec<AxisPosition> {
         let ticks = self.x.ticks().into_iter();
-        spaced(ticks.map(|tick| (across(tick.at), tick)), 46.0)
+        spaced_ticks(ticks.map(|tick| (x_coordinate(tick.position), tick)), 46.0)
     }
 
     /// Returns the ticks of the vertical axis.
     #[must_use]
-    pub fn y_ticks(&self) -> Vec<At> {
+    pub fn y_ticks(&self) -> Vec<AxisPosition> {
         let ticks = self.y.ticks().into_iter();
-        spaced(ticks.map(|tick| (up(tick.at), tick)), 22.0)
+        spaced_ticks(ticks.map(|tick| (y_coordinate(tick.position), tick)), 22.0)
     }
 
     /// Returns a horizontal line at `y`.
     #[must_use]
-    pub fn rule(&self, y: f64, label: String) -> Option<At> {
-        Some(At { at: text(up(self.y.place(y)?)), label })
+    pub fn horizontal_line(&self, y: f64, label: String) -> Option<AxisPosition> {
+        Some(AxisPosition { at: coordinate_text(y_coordinate(self.y.position(y)?)), label })
     }
 
     /// Returns a vertical line at `x`.
     #[must_use]
-    pub fn post(&self, x: f64, label: String) -> Option<At> {
-        Some(At { at: text(across(self.x.place(x)?)), label })
+    pub fn vertical_line(&self, x: f64, label: String) -> Option<AxisPosition> {
+        Some(AxisPosition { at: coordinate_text(x_coordinate(self.x.position(x)?)), label })
     }
 }
 
-fn across(place: f64) -> f64 {
-    LEFT + INSIDE + place * (RIGHT - LEFT - 2.0 * INSIDE)
+fn x_coordinate(place: f64) -> f64 {
+    LEFT + FRAME_PADDING + place * (RIGHT - LEFT - 2.0 * FRAME_PADDING)
 }
 
-fn up(place: f64) -> f64 {
-    BOTTOM - INSIDE - place * (BOTTOM - TOP - 2.0 * INSIDE)
+fn y_coordinate(place: f64) -> f64 {
+    BOTTOM - FRAME_PADDING - place * (BOTTOM - TOP - 2.0 * FRAME_PADDING)
 }
 
 /// Formats a coordinate in the picture.
 #[must_use]
-pub fn text(value: f64) -> String {
+pub fn coordinate_text(value: f64) -> String {
     format!("{value:.1}")
 }
 
 /// Makes marks of one position that look different into rings around each other; the last one is in
 /// front. `size` is the size of marks as a share of the usual one.
-pub fn rings(marks: &mut [Mark], size: f64) {
-    let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
-    let drawn = |mark: &Mark| (mark.class.clone(), mark.shape);
+pub fn nest_marks(marks: &mut [PlotMark], size: f64) {
+    let place = |mark: &PlotMark| (mark.x.clone(), mark.y.clone());
+    let drawn = |mark: &PlotMark| (mark.class.clone(), mark.shape);
     // The looks at a position are listed from the front.
     let mut at: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for mark in marks.iter().rev() {
@@ -168,18 +168,18 @@ pub fn rings(marks: &mut [Mark], size: f64) {
         let above = above.expect("every mark was looked at");
         let above = u8::try_from(above).unwrap_or(u8::MAX);
         let scale = size * (1.0 + f64::from(above) / 2.0);
-        mark.scale = (above > 0 || size < 1.0).then(|| text(scale));
+        mark.scale = (above > 0 || size < 1.0).then(|| coordinate_text(scale));
     }
 }
 
 /// Returns the ticks whose labels do not overlap; the first one is always included.
-fn spaced(ticks: impl Iterator<Item = (f64, Tick)>, least: f64) -> Vec<At> {
+fn spaced_ticks(ticks: impl Iterator<Item = (f64, AxisTick)>, least: f64) -> Vec<AxisPosition> {
     let mut found = Vec::new();
     let mut last = f64::NEG_INFINITY;
     for (at, tick) in ticks {
         if last == f64::NEG_INFINITY || (at - last).abs() >= least {
             last = at;
-            found.push(At { at: text(at), label: tick.label });
+            found.push(AxisPosition { at: coordinate_text(at), label: tick.label });
         }
     }
     found
@@ -187,10 +187,10 @@ fn spaced(ticks: impl Iterator<Item = (f64, Tick)>, least: f64) -> Vec<At> {
 
 /// Returns the path of a line through points.
 #[must_use]
-pub fn through(places: &[(f64, f64)]) -> String {
+pub fn line_path(places: &[(f64, f64)]) -> String {
     let steps = places.iter().enumerate().map(|(index, (x, y))| {
         let letter = if index == 0 { 'M' } else { 'L' };
-        format!("{letter}{} {}", text(*x), text(*y))
+        format!("{letter}{} {}", coordinate_text(*x), coordinate_text(*y))
     });
     steps.collect::<Vec<_>>().join("")
 }
@@ -199,7 +199,7 @@ pub fn through(places: &[(f64, f64)]) -> String {
 /// the cost of the next, then to its error. `left` says that the best costs are on the left, and
 /// `low` that the best errors are below.
 #[must_use]
-pub fn staircase(places: &[(f64, f64)], left: bool, low: bool) -> String {
+pub fn front_path(places: &[(f64, f64)], left: bool, low: bool) -> String {
     let mut places = places.to_vec();
     places.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.total_cmp(&one.1)));
     if !left {
@@ -207,11 +207,11 @@ pub fn staircase(places: &[(f64, f64)], left: bool, low: bool) -> String {
     }
     let Some(first) = places.first() else { return String::new() };
     let worst = if low { TOP } else { BOTTOM };
-    let mut path = format!("M{} {}", text(first.0), text(worst));
+    let mut path = format!("M{} {}", coordinate_text(first.0), coordinate_text(worst));
     for (x, y) in &places {
-        path += &format!("H{}V{}", text(*x), text(*y));
+        path += &format!("H{}V{}", coordinate_text(*x), coordinate_text(*y));
     }
-    path + &format!("H{}", text(if left { RIGHT } else { LEFT }))
+    path + &format!("H{}", coordinate_text(if left { RIGHT } else { LEFT }))
 }
 
 #[cfg(test)]
@@ -222,17 +222,17 @@ mod tests {
     fn a_front_is_steps_from_the_best_cost() {
         let places = [(100.0, 200.0), (300.0, 300.0), (200.0, 250.0)];
         assert_eq!(
-            staircase(&places, true, true),
+            front_path(&places, true, true),
             "M100.0 14.0H100.0V200.0H200.0V250.0H300.0V300.0H540.0"
         );
         let places = [(300.0, 200.0), (100.0, 300.0)];
-        assert_eq!(staircase(&places, false, true), "M300.0 14.0H300.0V200.0H100.0V300.0H78.0");
-        assert_eq!(staircase(&[], true, true), "");
+        assert_eq!(front_path(&places, false, true), "M300.0 14.0H300.0V200.0H100.0V300.0H78.0");
+        assert_eq!(front_path(&[], true, true), "");
     }
 
     #[test]
     fn marks_that_would_be_hidden_are_rings() {
-        let mark = |x: &str, class: &str| Mark {
+        let mark = |x: &str, class: &str| PlotMark {
             id: String::new(),
             x: x.to_owned(),
             y: "9.0".to_owned(),
@@ -250,18 +250,18 @@ mod tests {
             mark("1.0", "k1"),
             mark("1.0", "k2"),
         ];
-        rings(&mut marks, 1.0);
+        nest_marks(&mut marks, 1.0);
         let scales = marks.each_ref().map(|mark| mark.scale.as_deref());
         assert_eq!(scales, [Some("2.0"), None, Some("1.5"), Some("1.5"), None]);
-        rings(&mut marks, 0.5);
+        nest_marks(&mut marks, 0.5);
         let scales = marks.each_ref().map(|mark| mark.scale.as_deref());
         assert_eq!(scales, [Some("1.0"), Some("0.5"), Some("0.8"), Some("0.8"), Some("0.5")]);
     }
 
     #[test]
     fn labels_do_not_touch() {
-        let tick = |at: f64| (at, Tick { at: 0.0, label: at.to_string() });
-        let ticks = spaced([10.0, 20.0, 70.0].map(tick).into_iter(), 46.0);
+        let tick = |at: f64| (at, AxisTick { position: 0.0, label: at.to_string() });
+        let ticks = spaced_ticks([10.0, 20.0, 70.0].map(tick).into_iter(), 46.0);
         let labels: Vec<&str> = ticks.iter().map(|tick| tick.label.as_str()).collect();
         assert_eq!(labels, ["10", "70"]);
     }

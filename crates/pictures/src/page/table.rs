@@ -3,11 +3,11 @@
 
 use askama::Template;
 
-use super::number::{NONE, grouped, percent};
+use super::number_text::{MISSING, grouped, percent};
 
 /// A column of a table.
 #[derive(Clone, Debug)]
-pub struct Column {
+pub struct TableColumn {
     /// The heading of the column.
     pub name: String,
     /// The unit, in small letters.
@@ -20,7 +20,7 @@ pub struct Column {
 
 /// A value of a table.
 #[derive(Clone, Debug)]
-pub struct Cell {
+pub struct TableCell {
     /// The text of the cell.
     pub text: String,
     /// The sort key; cells with an empty key come last.
@@ -29,10 +29,10 @@ pub struct Cell {
     pub class: &'static str,
 }
 
-impl Cell {
+impl TableCell {
     /// Makes a cell of text.
     #[must_use]
-    pub fn words(text: String) -> Self {
+    pub fn text(text: String) -> Self {
         Self { sort: text.clone(), text, class: "" }
     }
 
@@ -58,14 +58,14 @@ impl Cell {
 
     /// Makes a cell without a number.
     #[must_use]
-    pub fn none() -> Self {
-        Self::number(NONE.to_owned(), None)
+    pub fn missing() -> Self {
+        Self::number(MISSING.to_owned(), None)
     }
 }
 
 /// A row of a table.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct TableRow {
     /// The id that the marks of this row have in plots; one row of the page has it.
     pub id: String,
     /// The number in the first column.
@@ -73,13 +73,13 @@ pub struct Row {
     /// Whether the row is highlighted.
     pub best: bool,
     /// The cells after the number, one for each column.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<TableCell>,
 }
 
 /// A table of rows.
 #[derive(Debug, Template)]
 #[template(path = "table.html")]
-pub struct Table<'a> {
+pub struct SortableTable<'a> {
     /// The prefix of the ids of its rows, which distinguishes them from those of other tables;
     /// marks link to the prefix `p`.
     pub prefix: &'static str,
@@ -93,7 +93,7 @@ pub struct Table<'a> {
     /// Whether highlighted rows are drawn as such.
     pub marks_best: bool,
     /// The columns after the number.
-    pub columns: &'a [Column],
+    pub columns: &'a [TableColumn],
     /// The rows.
-    pub rows: Vec<&'a Row>,
+    pub rows: Vec<&'a TableRow>,
 }

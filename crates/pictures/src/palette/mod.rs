@@ -26,44 +26,44 @@ pub const SERIES: [Colour; 7] =
 
 /// The colours of a chart in a file or on a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Style {
+pub struct ChartStyle {
     /// The background.
-    pub ground: Colour,
+    pub background: Colour,
     /// The colour of titles, axes and outlines.
     pub ink: Colour,
     /// The colour of secondary text.
-    pub quiet: Colour,
+    pub secondary: Colour,
     /// The colour of the grid, behind everything.
     pub grid: Colour,
     /// The colour of each series, in order.
     pub series: [Colour; SERIES.len()],
     /// The colour of all further series, which cannot be distinguished.
-    pub rest: Colour,
+    pub further_series: Colour,
 }
 
 /// The style on a light background: for files, print, and pages in light mode.
-pub const LIGHT: Style = Style {
-    ground: [255, 255, 255],
+pub const LIGHT: ChartStyle = ChartStyle {
+    background: [255, 255, 255],
     ink: [0, 0, 0],
-    quiet: [90, 90, 90],
+    secondary: [90, 90, 90],
     grid: [225, 225, 225],
     series: SERIES,
-    rest: [160, 164, 169],
+    further_series: [160, 164, 169],
 };
 
 /// The style on a dark background, for pages in dark mode. The series are those of [`LIGHT`],
 /// except that black becomes white.
-pub const DARK: Style = Style {
-    ground: [27, 30, 33],
+pub const DARK: ChartStyle = ChartStyle {
+    background: [27, 30, 33],
     ink: [230, 228, 223],
-    quiet: [154, 161, 168],
+    secondary: [154, 161, 168],
     grid: [39, 43, 47],
     series: {
         let mut series = SERIES;
         series[3] = [255, 255, 255];
         series
     },
-    rest: [109, 114, 120],
+    further_series: [109, 114, 120],
 };
 
 #[cfg(test)]
@@ -79,8 +79,8 @@ mod tests {
                     let seen = distance(first, second, vision);
                     assert!(seen > 30.0, "{first:?} {second:?}: {seen}");
                 }
-                let seen = distance(first, style.ground, vision);
-                assert!(seen > 60.0, "{first:?} is lost on {:?}: {seen}", style.ground);
+                let seen = distance(first, style.background, vision);
+                assert!(seen > 60.0, "{first:?} is lost on {:?}: {seen}", style.background);
             }
         }
     }

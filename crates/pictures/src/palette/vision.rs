@@ -4,10 +4,10 @@
 use super::Colour;
 
 /// A colour vision as a matrix on linear RGB.
-pub type Vision = [[f64; 3]; 3];
+pub type VisionMatrix = [[f64; 3]; 3];
 
 /// The matrices of protanopia, deuteranopia and tritanopia (Machado et al. 2009).
-pub const VISIONS: [Vision; 3] = [
+pub const VISIONS: [VisionMatrix; 3] = [
     [
         [0.152_286, 1.052_583, -0.204_868],
         [0.114_503, 0.786_281, 0.099_216],
@@ -27,7 +27,7 @@ pub const VISIONS: [Vision; 3] = [
 
 /// Returns how a colour appears, with values from 0 to 255.
 #[must_use]
-pub fn seen(colour: Colour, vision: Vision) -> [f64; 3] {
+pub fn simulated_colour(colour: Colour, vision: VisionMatrix) -> [f64; 3] {
     let linear = colour.map(|value| (f64::from(value) / 255.0).powf(2.2));
     vision.map(|row| {
         let sum: f64 = row.iter().zip(linear).map(|(factor, value)| factor * value).sum();
@@ -37,8 +37,8 @@ pub fn seen(colour: Colour, vision: Vision) -> [f64; 3] {
 
 /// Returns the distance of two colours as they appear, in RGB; that of black and white is 442.
 #[must_use]
-pub fn distance(first: Colour, second: Colour, vision: Vision) -> f64 {
-    let pairs = seen(first, vision).into_iter().zip(seen(second, vision));
+pub fn distance(first: Colour, second: Colour, vision: VisionMatrix) -> f64 {
+    let pairs = simulated_colour(first, vision).into_iter().zip(simulated_colour(second, vision));
     pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 

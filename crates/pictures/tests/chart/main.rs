@@ -3,28 +3,28 @@
 //! axes with no more precision than the data.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use foveate_pictures::chart::{Bars, Chart, Line, Look, Shape};
+use foveate_pictures::chart::{BarSeries, Chart, ChartSeries, LineLook, ChartData};
 use foveate_pictures::palette::{Colour, SERIES};
 
-fn chart(shape: Shape) -> Chart {
+fn chart(shape: ChartData) -> Chart {
     let [file, title, x, y, caption] =
         ["file", "title", "across", "up", "caption"].map(str::to_owned);
-    Chart { file, title, x, y, caption, shape }
+    Chart { file_stem: file, title, x_title: x, y_title: y, caption, shape }
 }
 
-fn line(name: &str, points: &[(f64, f64)], look: Look) -> Line {
-    Line { name: name.to_owned(), points: points.to_vec(), look }
+fn line(name: &str, points: &[(f64, f64)], look: LineLook) -> ChartSeries {
+    ChartSeries { name: name.to_owned(), points: points.to_vec(), look }
 }
 
 /// Counts the pixels of exactly this colour left of the legend.
-fn dots(chart: &Chart, colour: Colour) -> usize {
-    let picture = image::load_from_memory(&chart.png().unwrap()).unwrap().into_rgb8();
+fn count_pixels(chart: &Chart, colour: Colour) -> usize {
+    let picture = image::load_from_memory(&chart.to_png().unwrap()).unwrap().into_rgb8();
     picture.enumerate_pixels().filter(|(x, _, dot)| *x < 780 && dot.0 == colour).count()
 }
 
 /// Returns the texts of a chart as SVG.
 fn texts(chart: &Chart) -> Vec<String> {
-    let svg = chart.svg(&[]).unwrap();
+    let svg = chart.to_svg(&[]).unwrap();
     let lines: Vec<&str> = svg.lines().collect();
     let marked = lines.windows(2).filter(|pair| pair[0].starts_with("<text"));
     marked.map(|pair| pair[1].to_owned()).collect()
@@ -36,32 +36,32 @@ fn a_line_shows_through_an_open_one_on_it() {
     let frames: Vec<(f64, f64)> = (0..600).map(|at| (f64::from(at), f64::from(at % 7))).collect();
     for points in [&layers[..], &frames[..]] {
         let of = |look| {
-            chart(Shape::Lines(vec![
-                line("needed", points, Look::Plain),
+            chart(ChartData::Lines(vec![
+                line("needed", points, LineLook::Plain),
                 line("passed on", points, look),
             ]))
         };
-        let (covered, open) = (of(Look::Plain), of(Look::Open));
+        let (covered, open) = (of(LineLook::Plain), of(LineLook::Open));
         // Even where lines overlap, at least a fifth of each is visible.
         for colour in [SERIES[0], SERIES[1]] {
             let alone =
-                dots(&chart(Shape::Lines(vec![line("one", points, Look::Plain)])), SERIES[0]);
-            assert!(5 * dots(&open, colour) > alone, "{} of {alone}", dots(&open, colour));
+                count_pixels(&chart(ChartData::Lines(vec![line("one", points, LineLook::Plain)])), SERIES[0]);
+            assert!(5 * count_pixels(&open, colour) > alone, "{} of {alone}", count_pixels(&open, colour));
         }
-        assert!(dots(&covered, SERIES[0]) < dots(&open, SERIES[0]) / 2);
+        assert!(count_pixels(&covered, SERIES[0]) < count_pixels(&open, SERIES[0]) / 2);
     }
 }
 
 #[test]
-fn what_the_chart_is_about_is_in_front_and_like_nothing_else() {
+fn the_target_is_in_front_and_unlike_any_line() {
     let curve = [(1e4, 20.0), (1e5, 30.0), (1e6, 40.0)];
     let names = ["a", "b", "c", "d", "e", "f", "g"];
     // The target is first, so it would be hidden by every line if it were drawn in order.
-    let target = line("this design", &curve[1..2], Look::Target);
-    let lines: Vec<Line> =
-        std::iter::once(target).chain(names.map(|name| line(name, &curve, Look::Plain))).collect();
-    let drawn = chart(Shape::LogLines(lines.clone()));
-    let svg = drawn.svg(&[]).unwrap();
+    let target = line("this design", &curve[1..2], LineLook::Target);
+    let lines: Vec<ChartSeries> =
+        std::iter::once(target).chain(names.map(|name| line(name, &curve, LineLook::Plain))).collect();
+    let drawn = chart(ChartData::LogLines(lines.clone()));
+    let svg = drawn.to_svg(&[]).unwrap();
     let circles: Vec<&str> = svg.lines().filter(|line| line.starts_with("<circle")).collect();
     // The circles of the target follow those of the curves, and precede those of the target in the
     // legend.
@@ -72,9 +72,9 @@ fn what_the_chart_is_about_is_in_front_and_like_nothing_else() {
     assert!(ring.contains("fill=\"none\"") && ring.contains("stroke=\"#000000\""), "{ring}");
     // The target takes no colour from the lines: all seven are solid, and the first has the first
     // colour.
-    let without = chart(Shape::LogLines(lines[1..].to_vec()));
+    let without = chart(ChartData::LogLines(lines[1..].to_vec()));
     let lines_of = |svg: &str| svg.lines().filter(|line| line.starts_with("<polyline")).count();
-    assert_eq!(lines_of(&svg), lines_of(&without.svg(&[]).unwrap()));
+    assert_eq!(lines_of(&svg), lines_of(&without.to_svg(&[]).unwrap()));
     assert!(texts(&drawn).contains(&"this design".to_owned()));
 }
 
@@ -82,8 +82,8 @@ fn what_the_chart_is_about_is_in_front_and_like_nothing_else() {
 fn axes_of_whole_numbers_count_whole_numbers() {
     for last in 1..=60 {
         let points: Vec<(f64, f64)> = (1..=last).map(|x| (f64::from(x), 1.0)).collect();
-        let drawn = chart(Shape::Lines(vec![line("layers", &points, Look::Plain)]));
-        let svg = drawn.svg(&[]).unwrap();
+        let drawn = chart(ChartData::Lines(vec![line("layers", &points, LineLook::Plain)]));
+        let svg = drawn.to_svg(&[]).unwrap();
         // The labels of the horizontal axis are below the plot.
         let below = |text: &str| {
             let y = text.split_once(" y=\"").and_then(|(_, rest)| rest.split_once('"'));
@@ -100,22 +100,22 @@ fn axes_of_whole_numbers_count_whole_numbers() {
     }
     // Between whole numbers there are as many digits as necessary.
     let points = [(0.0, 0.0), (0.3, 0.7)];
-    let texts = texts(&chart(Shape::Lines(vec![line("seconds", &points, Look::Plain)])));
+    let texts = texts(&chart(ChartData::Lines(vec![line("seconds", &points, LineLook::Plain)])));
     assert!(texts.iter().any(|text| text == "0.1"), "{texts:?}");
     assert!(texts.iter().all(|text| text.len() < 12), "{texts:?}");
 }
 
 /// Returns a chart of bars that all reach 100, and the height of its highest bar in pixels.
 fn bars(groups: &[&str]) -> (Chart, u32) {
-    let series = Bars {
+    let series = BarSeries {
         name: "share".to_owned(),
         colour: SERIES[0],
         values: vec![100.0; groups.len()],
         ranges: Vec::new(),
     };
     let groups = groups.iter().map(|name| (*name).to_owned()).collect();
-    let drawn = chart(Shape::Bars { groups, series: vec![series] });
-    let svg = drawn.svg(&[]).unwrap();
+    let drawn = chart(ChartData::Bars { groups, series: vec![series] });
+    let svg = drawn.to_svg(&[]).unwrap();
     let height = |rect: &str| rect.split_once("height=\"")?.1.split_once('"')?.0.parse().ok();
     let bars = svg.lines().filter(|line| line.starts_with("<rect")).skip(1);
     let highest = bars.filter_map(height).max().unwrap();
@@ -134,5 +134,5 @@ fn bars_take_the_page_that_their_names_leave() {
     // Many names are vertical, and take as much room as the longest needs.
     assert!(highest > shorter - 10 && shorter > longer + 60, "{highest}, {shorter}, {longer}");
     assert!(longer > 260, "{longer}");
-    assert!(!upright.png().unwrap().is_empty());
+    assert!(!upright.to_png().unwrap().is_empty());
 }

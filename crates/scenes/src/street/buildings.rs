@@ -2,13 +2,13 @@
 //! The houses of the street side by side, each with its own height, grey level, roof and windows,
 //! and the trees between them.
 
-use super::setting::{GROUND, Mood};
-use crate::canvas::{OPAQUE, Pen, UNIT};
+use super::setting::{GROUND, TimeOfDay};
+use crate::canvas::{OPAQUE, ShapePainter, UNIT};
 use crate::noise::pick;
 
 const SEED: u64 = 0xB01D;
 
-pub(super) fn paint(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
+pub(super) fn paint(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
     let mut left = -14;
     let mut number = 0;
     while left < wide {
@@ -27,7 +27,7 @@ struct House {
     number: u32,
     left: i64,
     right: i64,
-    mood: Mood,
+    mood: TimeOfDay,
 }
 
 impl House {
@@ -39,7 +39,7 @@ impl House {
         3 + i64::from(self.choose(1, 3))
     }
 
-    fn paint(&self, pen: &mut Pen<'_>) {
+    fn paint(&self, pen: &mut ShapePainter<'_>) {
         let wall = [112, 168, 136, 188, 150][self.choose(2, 5) as usize];
         let top = GROUND - 14 * self.floors() - 6;
         self.roof(pen, top, wall);
@@ -55,7 +55,7 @@ impl House {
         }
     }
 
-    fn roof(&self, pen: &mut Pen<'_>, top: i64, wall: u32) {
+    fn roof(&self, pen: &mut ShapePainter<'_>, top: i64, wall: u32) {
         let dark = wall / 2 + 6;
         let (left, right) = (self.left, self.right);
         if self.choose(3, 3) == 0 {
@@ -74,7 +74,7 @@ impl House {
     }
 
     /// Paints a window, or a door in some places of the ground floor.
-    fn window(&self, pen: &mut Pen<'_>, x: i64, y: i64, wall: u32) {
+    fn window(&self, pen: &mut ShapePainter<'_>, x: i64, y: i64, wall: u32) {
         let place = x.rem_euclid(1 << 20) * 512 + y.rem_euclid(512);
         let place = u32::try_from(place).expect("29 bits");
         let bottom = y + 9;
@@ -84,7 +84,7 @@ impl House {
             return;
         }
         pen.rect(x - 1, y - 1, x + 7, bottom + 1, (wall + 52).min(244));
-        let lit = self.mood == Mood::Night && self.choose(place, 5) < 2;
+        let lit = self.mood == TimeOfDay::Night && self.choose(place, 5) < 2;
         if lit {
             let shade = 150 + 30 * self.choose(place + 1, 3);
             pen.glow_rect([x, y, x + 6, bottom], shade, OPAQUE);
@@ -97,7 +97,7 @@ impl House {
 }
 
 /// Paints a tree in front of a hedge, with a distant house behind it.
-fn tree(pen: &mut Pen<'_>, x: i64, number: u32) {
+fn tree(pen: &mut ShapePainter<'_>, x: i64, number: u32) {
     pen.rect(x - 9, GROUND - 40, x + 9, GROUND, 186);
     pen.rect(x - 9, GROUND - 12, x + 9, GROUND, 92);
     pen.rect(x - 1, GROUND - 24, x + 2, GROUND, 62);

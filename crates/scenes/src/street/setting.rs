@@ -7,12 +7,12 @@ pub(super) const GROUND: i64 = 128;
 
 /// The time of day of the street, with its weather.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mood {
+pub(crate) enum TimeOfDay {
     Day,
     Night,
 }
 
-impl Mood {
+impl TimeOfDay {
     /// Returns the brightness of daylight in 256ths.
     pub(super) fn light(self) -> u32 {
         match self {

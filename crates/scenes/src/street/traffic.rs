@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The moving objects of the street: three lanes of cars, each with its own speed, and pedestrians.
 
-use super::setting::Mood;
-use crate::canvas::{Canvas, OPAQUE, Pen, UNIT};
+use super::setting::TimeOfDay;
+use crate::canvas::{Canvas, OPAQUE, ShapePainter, UNIT};
 use crate::noise::pick;
 
 /// A lane of the road, on which cars follow each other without end.
-struct Lane {
+struct TrafficLane {
     /// Position of the wheels in units from the top.
     ground: i64,
     /// Direction of the cars: 1 to the right, -1 to the left.
@@ -18,27 +18,27 @@ struct Lane {
     /// Position of the first car in frame 0, in units.
     start: i64,
     /// True if the cars of this lane are vans.
-    vans: bool,
+    has_vans: bool,
 }
 
-const LANES: [Lane; 3] = [
-    Lane { ground: 158, facing: -1, speed: 72, spacing: 236, start: 186, vans: true },
-    Lane { ground: 179, facing: -1, speed: 200, spacing: 310, start: 290, vans: false },
-    Lane { ground: 201, facing: 1, speed: 136, spacing: 268, start: 34, vans: false },
+const LANES: [TrafficLane; 3] = [
+    TrafficLane { ground: 158, facing: -1, speed: 72, spacing: 236, start: 186, has_vans: true },
+    TrafficLane { ground: 179, facing: -1, speed: 200, spacing: 310, start: 290, has_vans: false },
+    TrafficLane { ground: 201, facing: 1, speed: 136, spacing: 268, start: 34, has_vans: false },
 ];
 
 /// Length of the longest car with the light of its headlights, in units.
 const REACH: i64 = 120;
 
-pub(super) fn paint(canvas: &mut Canvas, mood: Mood, t: u32) {
+pub(super) fn paint(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
     for (number, lane) in (0..).zip(&LANES) {
         lane.paint(canvas, mood, t, number);
     }
     pedestrians(canvas, mood, t);
 }
 
-impl Lane {
-    fn paint(&self, canvas: &mut Canvas, mood: Mood, t: u32, number: u32) {
+impl TrafficLane {
+    fn paint(&self, canvas: &mut Canvas, mood: TimeOfDay, t: u32, number: u32) {
         let wide = canvas.parts_wide();
         let spacing = self.spacing * UNIT;
         let shift = self.start * UNIT + self.facing * self.speed * i64::from(t);
@@ -47,15 +47,15 @@ impl Lane {
         for car in first..=last {
             let origin = (shift + car * spacing, self.ground * UNIT);
             let which = u32::try_from(car.rem_euclid(1 << 20)).expect("20 bits");
-            let mut pen = Pen { canvas, origin, facing: self.facing, light: mood.light() };
+            let mut pen = ShapePainter { canvas, origin, facing: self.facing, light: mood.light() };
             let paint = [218, 44, 160, 232, 92][pick(0xCA2, number, which, 0, 5) as usize];
             let spin = i64::from(t) * self.speed / UNIT;
-            if self.vans {
+            if self.has_vans {
                 van(&mut pen, paint, spin);
             } else {
                 car_body(&mut pen, paint, spin);
             }
-            if mood == Mood::Night {
+            if mood == TimeOfDay::Night {
                 headlights(&mut pen);
             }
         }
@@ -68,7 +68,7 @@ fn points<const COUNT: usize>(corners: [(i64, i64); COUNT]) -> [(i64, i64); COUN
 }
 
 /// Paints a car of 50 units that drives to the right. Its wheels touch the road at y = 0.
-fn car_body(pen: &mut Pen<'_>, paint: u32, spin: i64) {
+fn car_body(pen: &mut ShapePainter<'_>, paint: u32, spin: i64) {
     shadow(pen, 50);
     pen.polygon(&points([(9, -12), (37, -12), (31, -20), (15, -20)]), paint);
     pen.polygon(&points([(12, -12), (22, -12), (22, -18), (16, -18)]), 50);
@@ -82,7 +82,7 @@ fn car_body(pen: &mut Pen<'_>, paint: u32, spin: i64) {
 }
 
 /// Paints a van of 58 units that drives to the right.
-fn van(pen: &mut Pen<'_>, paint: u32, spin: i64) {
+fn van(pen: &mut ShapePainter<'_>, paint: u32, spin: i64) {
     shadow(pen, 58);
     pen.polygon(&points([(0, -4), (0, -25), (44, -25), (44, -4)]), paint);
     pen.polygon(&points([(43, -4), (43, -25), (49, -24), (56, -13), (58, -4)]), paint);
@@ -94,17 +94,17 @@ fn van(pen: &mut Pen<'_>, paint: u32, spin: i64) {
     wheel(pen, 46, 5, spin);
 }
 
-fn shadow(pen: &mut Pen<'_>, length: i64) {
+fn shadow(pen: &mut ShapePainter<'_>, length: i64) {
     pen.glow_rect([2, -2, length - 2, 2], 8, OPAQUE * 5 / 8);
 }
 
-fn lights(pen: &mut Pen<'_>, length: i64, y: i64) {
+fn lights(pen: &mut ShapePainter<'_>, length: i64, y: i64) {
     pen.glow_rect([length - 4, y, length - 1, y + 3], 250, OPAQUE);
     pen.glow_rect([0, y - 1, 2, y + 2], 120, OPAQUE);
 }
 
 /// Paints a wheel whose hub turns with the distance that the car has driven.
-fn wheel(pen: &mut Pen<'_>, x: i64, radius: i64, spin: i64) {
+fn wheel(pen: &mut ShapePainter<'_>, x: i64, radius: i64, spin: i64) {
     pen.disc(x, -radius + 1, radius * UNIT, 24);
     pen.disc(x, -radius + 1, (radius - 2) * UNIT, 176);
     let upright = spin / 4 % 2 == 0;
@@ -112,7 +112,7 @@ fn wheel(pen: &mut Pen<'_>, x: i64, radius: i64, spin: i64) {
     pen.rect(x - dx, -radius + 1 - dy, x + dx + 1, -radius + 2 + dy, 92);
 }
 
-fn headlights(pen: &mut Pen<'_>) {
+fn headlights(pen: &mut ShapePainter<'_>) {
     for (reach, opacity) in [(104, 36), (84, 44), (66, 52)] {
         pen.glow_polygon(&points([(50, -9), (50, -6), (reach, 3), (reach, -6)]), 250, opacity);
     }
@@ -120,7 +120,7 @@ fn headlights(pen: &mut Pen<'_>) {
 }
 
 /// Paints the pedestrians on the pavement in front, one every 380 units.
-fn pedestrians(canvas: &mut Canvas, mood: Mood, t: u32) {
+fn pedestrians(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
     const SPACING: i64 = 380 * UNIT;
     let wide = canvas.parts_wide();
     let shift = 58 * UNIT + 44 * i64::from(t);
@@ -128,13 +128,13 @@ fn pedestrians(canvas: &mut Canvas, mood: Mood, t: u32) {
     let last = (wide + 20 * UNIT - shift).div_euclid(SPACING);
     for person in first..=last {
         let origin = (shift + person * SPACING, 220 * UNIT);
-        let mut pen = Pen { canvas, origin, facing: 1, light: mood.light() };
-        walker(&mut pen, i64::from(t) * 44);
+        let mut pen = ShapePainter { canvas, origin, facing: 1, light: mood.light() };
+        pedestrian(&mut pen, i64::from(t) * 44);
     }
 }
 
 /// Paints a pedestrian of 36 units whose legs and arms swing with the distance walked.
-fn walker(pen: &mut Pen<'_>, way: i64) {
+fn pedestrian(pen: &mut ShapePainter<'_>, way: i64) {
     const STRIDE: i64 = 12 * UNIT;
     let phase = way.rem_euclid(2 * STRIDE);
     let swing = phase.min(2 * STRIDE - phase) - STRIDE / 2;

@@ -2,15 +2,15 @@
 //! The sky, the weather and the street lamps: clouds by day, stars and rain at night. The lamps are
 //! lit at night.
 
-use super::setting::{GROUND, Mood};
-use crate::canvas::{Canvas, OPAQUE, Pen, UNIT, UNITS_HIGH};
+use super::setting::{GROUND, TimeOfDay};
+use crate::canvas::{Canvas, OPAQUE, ShapePainter, UNIT, UNITS_HIGH};
 use crate::noise::pick;
 
 const SEED: u64 = 0x3EA7;
 
-pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
+pub(super) fn sky(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
     match mood {
-        Mood::Day => {
+        TimeOfDay::Day => {
             for cloud in 0..=wide / 90 {
                 let number = u32::try_from(cloud).expect("few clouds");
                 let x = 90 * cloud + i64::from(pick(SEED, number, 0, 0, 50));
@@ -20,7 +20,7 @@ pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
                 }
             }
         }
-        Mood::Night => {
+        TimeOfDay::Night => {
             for star in 0..=wide / 9 {
                 let number = u32::try_from(star).expect("few stars");
                 let x = 9 * star + i64::from(pick(SEED, number, 2, 0, 9));
@@ -32,13 +32,13 @@ pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
 }
 
 /// Paints the street lamps on the far pavement.
-pub(super) fn lamps(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
+pub(super) fn lamps(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
     for lamp in 0..=wide / 112 {
         let x = 112 * lamp + 66;
         pen.rect(x, GROUND - 62, x + 2, GROUND + 10, 46);
         pen.rect(x - 9, GROUND - 63, x + 2, GROUND - 61, 46);
         pen.rect(x - 12, GROUND - 63, x - 5, GROUND - 59, 70);
-        if mood == Mood::Night {
+        if mood == TimeOfDay::Night {
             pen.glow_rect([x - 12, GROUND - 60, x - 5, GROUND - 58], 255, OPAQUE);
             for radius in [26, 18, 11, 6] {
                 pen.glow_disc(x - 8, GROUND - 58, radius * UNIT, 230, 22);
@@ -60,7 +60,7 @@ pub(super) fn rain(canvas: &mut Canvas, t: u32) {
         let (min, span) = (-20, u32::try_from(wide + 40).expect("a width in units"));
         let x = UNIT * (min + i64::from(pick(SEED, number, 7, round, span)));
         let y = way % fall - LENGTH * UNIT;
-        let mut pen = Pen { canvas, origin: (x - y / 6, y), facing: 1, light: 256 };
+        let mut pen = ShapePainter { canvas, origin: (x - y / 6, y), facing: 1, light: 256 };
         let foot = LENGTH * UNIT;
         pen.glow_polygon(
             &[(0, 0), (UNIT, 0), (UNIT - foot / 6, foot), (-foot / 6, foot)],

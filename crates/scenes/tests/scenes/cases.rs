@@ -2,10 +2,10 @@
 //! Tests that every scene shows the case that it is named after.
 
 use foveate_frame::Frame;
-use foveate_scenes::{Scene, SceneSize};
+use foveate_scenes::{Scene, SceneParameters};
 
 fn frames(scene: Scene, frames: u32) -> Vec<Frame> {
-    scene.frames(SceneSize { width: 64, height: 48, bits: 8, region_size: 8, frames }).collect()
+    scene.frames(SceneParameters { width: 64, height: 48, bits: 8, region_size: 8, frames }).collect()
 }
 
 /// Returns the differences between successive frames, pixel by pixel.
@@ -151,7 +151,7 @@ fn the_object_is_one_pixel_that_moves_every_frame() {
 
 #[test]
 fn a_late_change_comes_after_ten_thousand_equal_frames() {
-    let small = SceneSize { width: 16, height: 8, bits: 8, region_size: 8, frames: 10_001 };
+    let small = SceneParameters { width: 16, height: 8, bits: 8, region_size: 8, frames: 10_001 };
     let mut frames = Scene::LateChange.frames(small);
     let first = frames.next().unwrap();
     assert!(frames.by_ref().take(9_999).all(|frame| frame == first));
@@ -173,7 +173,7 @@ fn random_uses_the_whole_range_evenly() {
 
 #[test]
 fn traffic_moves_in_front_of_a_street_that_stands_still() {
-    let size = SceneSize { width: 224, height: 224, bits: 8, region_size: 8, frames: 30 };
+    let size = SceneParameters { width: 224, height: 224, bits: 8, region_size: 8, frames: 30 };
     let frames: Vec<Frame> = Scene::Street.frames(size).collect();
     let count = |rows: std::ops::Range<u32>| {
         let pixels = rows.flat_map(|y| (0..224).map(move |x| (x, y)));
@@ -189,7 +189,7 @@ fn traffic_moves_in_front_of_a_street_that_stands_still() {
 
 #[test]
 fn the_night_is_dark_noisy_and_wet() {
-    let size = SceneSize { width: 224, height: 224, bits: 8, region_size: 8, frames: 2 };
+    let size = SceneParameters { width: 224, height: 224, bits: 8, region_size: 8, frames: 2 };
     let mean = |frame: &Frame| {
         frame.pixels().iter().map(|&p| u64::from(p)).sum::<u64>() / frame.pixels().len() as u64
     };

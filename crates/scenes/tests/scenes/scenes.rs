@@ -5,10 +5,10 @@
 use std::fmt::Write;
 
 use foveate_frame::Frame;
-use foveate_scenes::{Scene, SceneError, SceneSize};
+use foveate_scenes::{Scene, SceneError, SceneParameters};
 
-fn size(width: u32, height: u32, bits: u32, region_size: u32, frames: u32) -> SceneSize {
-    SceneSize { width, height, bits, region_size, frames }
+fn size(width: u32, height: u32, bits: u32, region_size: u32, frames: u32) -> SceneParameters {
+    SceneParameters { width, height, bits, region_size, frames }
 }
 
 /// Returns the FNV-1a hash of the little-endian bytes of all pixels.
@@ -28,7 +28,7 @@ fn bytes_are_those_of_the_golden_file() {
     for scene in Scene::ALL {
         for size in [size(64, 48, 8, 8, 6), size(37, 53, 12, 5, 4), size(17, 9, 1, 4, 3)] {
             let sum = checksum(scene.frames(size));
-            let SceneSize { width, height, bits, region_size, frames } = size;
+            let SceneParameters { width, height, bits, region_size, frames } = size;
             writeln!(
                 actual,
                 "{scene} {width}x{height} P{bits} N{region_size} T{frames} {sum:016x}"
@@ -92,7 +92,7 @@ fn scenes_are_found_by_name_and_their_names_are_distinct() {
         assert!(scene.default_frames() > 0 && !scene.summary().is_empty());
     }
     let error = Scene::find("stret").unwrap_err();
-    let SceneError::Unknown { nearest, known, .. } = &error else { panic!("{error}") };
+    let SceneError::UnknownScene { nearest, known, .. } = &error else { panic!("{error}") };
     assert_eq!(nearest.as_deref(), Some("street"));
     assert!(known.starts_with("street, zero, max"));
     assert!(error.to_string().starts_with("unknown scene `stret`; did you mean `street`?"));

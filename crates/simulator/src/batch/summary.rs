@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use crate::Summary;
-use foveate_footage::{Clip, shown_input};
+use crate::RunSummary;
+use foveate_footage::{BatchClip, input_without_secrets};
 
 /// The version of the format. It changes when a key of the summary changes its meaning or is
 /// removed.
@@ -51,22 +51,22 @@ pub struct BatchSummary {
 }
 
 impl ClipSummary {
-    pub(super) fn done(clip: &Clip, summary: Summary) -> Self {
+    pub(super) fn of_finished_clip(clip: &BatchClip, summary: RunSummary) -> Self {
         Self {
-            output: Some(clip.place.display().to_string()),
+            output: Some(clip.output_folder.display().to_string()),
             complete: summary.complete,
             problem: summary.problem,
             frames: summary.frames,
             active_share: Some(summary.active_share),
             pixels_in: summary.pixels_in,
             pixels_forwarded: summary.pixels_forwarded,
-            ..Self::failed(clip, String::new())
+            ..Self::of_failed_clip(clip, String::new())
         }
     }
 
-    pub(super) fn failed(clip: &Clip, problem: String) -> Self {
+    pub(super) fn of_failed_clip(clip: &BatchClip, problem: String) -> Self {
         Self {
-            inputs: clip.inputs.iter().map(|input| shown_input(input)).collect(),
+            inputs: clip.inputs.iter().map(|input| input_without_secrets(input)).collect(),
             label: clip.label.clone(),
             output: None,
             complete: false,

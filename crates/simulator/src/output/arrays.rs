@@ -4,14 +4,14 @@
 
 use std::path::Path;
 
-use foveate_camera::{Action, Camera};
+use foveate_camera::{RegionAction, Camera};
 
-use super::sink::{Sink, Step};
+use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use foveate_files::npy::{Element, NpyWriter};
+use foveate_files::npy::{ElementType, NpyWriter};
 
 /// The writers of all arrays.
-pub(super) struct Arrays {
+pub(super) struct ArraySink {
     srs: NpyWriter,
     trs: NpyWriter,
     active: NpyWriter,
@@ -23,7 +23,7 @@ pub(super) struct Arrays {
     scores: Vec<NpyWriter>,
 }
 
-impl Arrays {
+impl ArraySink {
     pub(super) fn create(
         folder: &Path,
         camera: &Camera,
@@ -31,7 +31,7 @@ impl Arrays {
     ) -> Result<Self, SimulatorError> {
         let shape = [camera.rows() as usize, camera.columns() as usize];
         let array = |name: &str, max: u64| {
-            NpyWriter::create(&folder.join(name), Element::up_to(max), &shape)
+            NpyWriter::create(&folder.join(name), ElementType::smallest_for(max), &shape)
         };
         let known = if has_scores { camera.features() } else { &[] };
         let scores = known
@@ -50,14 +50,14 @@ impl Arrays {
     }
 }
 
-impl Sink for Arrays {
-    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+impl FrameSink for ArraySink {
+    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let outcome = step.outcome;
         self.srs.push(outcome.srs.iter().copied().map(u64::from));
         self.trs.push(outcome.trs.iter().copied().map(u64::from));
         self.active.push(outcome.active.iter().copied().map(u64::from));
         if let Some(summary) = &mut self.summary {
-            let sent = |action: &Action| u64::from(*action == Action::Summarize);
+            let sent = |action: &RegionAction| u64::from(*action == RegionAction::Summarize);
             summary.push(outcome.actions.iter().map(sent));
         }
         if let Some(count) = &mut self.temporal_count {
@@ -73,9 +73,9 @@ impl Sink for Arrays {
         let flags = [&mut self.srs, &mut self.trs, &mut self.active];
         let others = self.summary.iter_mut().chain(&mut self.temporal_count);
         for array in flags.into_iter().chain(others) {
-            array.write_out(all)?;
+            array.write_pending(all)?;
         }
-        Ok(self.scores.iter_mut().try_for_each(|scores| scores.write_out(all))?)
+        Ok(self.scores.iter_mut().try_for_each(|scores| scores.write_pending(all))?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

@@ -20,7 +20,7 @@ pub const PIXEL_EVENT_BYTES: u64 = 4;
 /// The events and bytes that one kind of camera sends. Rates are rounded to tenths, and are missing
 /// if no time passes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Traffic {
+pub struct CameraTraffic {
     /// The number of events. Raw video has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub events: Option<u64>,
@@ -35,22 +35,22 @@ pub struct Traffic {
 
 /// The comparison of the three kinds of camera.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Bandwidth {
+pub struct BandwidthComparison {
     /// The time in microseconds from the first frame to the end of the last one, whose length is
     /// taken as the mean of the others. A single frame has no duration.
     pub duration_us: Option<u64>,
     /// Raw video: every pixel of every frame.
-    pub raw: Traffic,
+    pub raw: CameraTraffic,
     /// The region camera.
-    pub region: Traffic,
+    pub region: CameraTraffic,
     /// The camera with pixel events, if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub pixel: Option<Traffic>,
+    pub pixel: Option<CameraTraffic>,
 }
 
 /// The sums of a run.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sums {
+pub(super) struct TrafficSums {
     pub(super) frames: u64,
     /// The number of regions that sent pixels or means.
     pub(super) events: u64,
@@ -61,36 +61,36 @@ pub(super) struct Sums {
     pub(super) times: Option<(u64, u64)>,
 }
 
-impl Bandwidth {
-    pub(super) fn of(camera: &Camera, sums: &Sums) -> Self {
-        let duration_us = duration(sums);
+impl BandwidthComparison {
+    pub(super) fn of(camera: &Camera, sums: &TrafficSums) -> Self {
+        let duration_us = run_duration_us(sums);
         let pixels = u64::from(camera.width()) * u64::from(camera.height());
         let depth = u64::from(camera.pixel_bits());
         let raw = (sums.frames * pixels * depth).div_ceil(8);
         let region = camera.bits_sent(sums.frames, sums.values).div_ceil(8);
         Self {
-            raw: Traffic::of(None, raw, duration_us),
-            region: Traffic::of(Some(sums.events), region, duration_us),
+            raw: CameraTraffic::of(None, raw, duration_us),
+            region: CameraTraffic::of(Some(sums.events), region, duration_us),
             pixel: sums
                 .pixel_events
-                .map(|events| Traffic::of(Some(events), events * PIXEL_EVENT_BYTES, duration_us)),
+                .map(|events| CameraTraffic::of(Some(events), events * PIXEL_EVENT_BYTES, duration_us)),
             duration_us,
         }
     }
 }
 
-impl Traffic {
+impl CameraTraffic {
     fn of(events: Option<u64>, bytes: u64, duration_us: Option<u64>) -> Self {
         Self {
             events,
-            events_per_second: events.and_then(|events| rate(events, duration_us?)),
+            events_per_second: events.and_then(|events| rate_per_second(events, duration_us?)),
             bytes,
-            bytes_per_second: duration_us.and_then(|duration| rate(bytes, duration)),
+            bytes_per_second: duration_us.and_then(|duration| rate_per_second(bytes, duration)),
         }
     }
 }
 
-fn duration(sums: &Sums) -> Option<u64> {
+fn run_duration_us(sums: &TrafficSums) -> Option<u64> {
     let (first, last) = sums.times?;
     let intervals = u128::from(sums.frames.checked_sub(1).filter(|&intervals| intervals > 0)?);
     let span = u128::from(last.checked_sub(first).filter(|&span| span > 0)?);
@@ -99,7 +99,7 @@ fn duration(sums: &Sums) -> Option<u64> {
 
 /// Returns the rate per second, rounded to tenths in integers, so that it is the same on every
 /// machine.
-fn rate(amount: u64, duration_us: u64) -> Option<f64> {
+fn rate_per_second(amount: u64, duration_us: u64) -> Option<f64> {
     let duration = u128::from(duration_us);
     let tenths = (u128::from(amount) * 10_000_000 + duration / 2).checked_div(duration)?;
     format!("{}.{}", tenths / 10, tenths % 10).parse().ok()
@@ -111,10 +111,10 @@ mod tests {
 
     #[test]
     fn a_second_of_thirty_frames_is_a_second() {
-        let sums = Sums { frames: 30, times: Some((0, 966_667)), ..Sums::default() };
-        assert_eq!(duration(&sums), Some(1_000_000));
-        assert_eq!(rate(1234, 1_000_000), Some(1234.0));
-        assert_eq!(rate(1, 3_000_000), Some(0.3));
-        assert_eq!(duration(&Sums { frames: 1, times: Some((5, 5)), ..sums }), None);
+        let sums = TrafficSums { frames: 30, times: Some((0, 966_667)), ..TrafficSums::default() };
+        assert_eq!(run_duration_us(&sums), Some(1_000_000));
+        assert_eq!(rate_per_second(1234, 1_000_000), Some(1234.0));
+        assert_eq!(rate_per_second(1, 3_000_000), Some(0.3));
+        assert_eq!(run_duration_us(&TrafficSums { frames: 1, times: Some((5, 5)), ..sums }), None);
     }
 }

@@ -8,9 +8,9 @@ use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
 /// The open file.
-pub(crate) struct Csv(GrowingFile);
+pub(crate) struct CsvFile(GrowingFile);
 
-impl Csv {
+impl CsvFile {
     /// Creates the file with its first line.
     pub(crate) fn create(path: &Path, heading: &str) -> Result<Self, SimulatorError> {
         let mut csv = Self(GrowingFile::create(path)?);
@@ -20,7 +20,7 @@ impl Csv {
 
     /// Appends a line of fields that need no quotes.
     pub(crate) fn line(&mut self, fields: impl IntoIterator<Item = impl std::fmt::Display>) {
-        let line = self.0.end();
+        let line = self.0.pending_mut();
         for (index, field) in fields.into_iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };
             // A write into memory cannot fail.
@@ -30,16 +30,16 @@ impl Csv {
     }
 
     /// Returns the buffer to which whole lines are appended.
-    pub(super) fn end(&mut self) -> &mut Vec<u8> {
-        self.0.end()
+    pub(super) fn buffer(&mut self) -> &mut Vec<u8> {
+        self.0.pending_mut()
     }
 
     /// Appends a line of fields that may need quotes.
-    pub(super) fn quoted<const N: usize>(&mut self, fields: [&str; N]) {
-        self.0.append(foveate_files::tables::csv([fields]).as_bytes());
+    pub(super) fn quoted_line<const N: usize>(&mut self, fields: [&str; N]) {
+        self.0.append(foveate_files::tables::csv_text([fields]).as_bytes());
     }
 
     pub(crate) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.0.write_out(all)?)
+        Ok(self.0.write_pending(all)?)
     }
 }

@@ -2,21 +2,21 @@
 //! The data set of a run over a set: every image as a receiver would see it, in the form of the set
 //! that it came from, with labels.
 
-mod idx;
-mod tree;
+mod idx_files;
+mod image_tree;
 
 use std::path::Path;
 
 use serde::Serialize;
 
-use super::sink::{Sink, Step};
+use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use foveate_files::npy::{Element, NpyWriter};
-use foveate_footage::{Labels, SetFiles, SetForm};
+use foveate_files::npy::{ElementType, NpyWriter};
+use foveate_footage::{SetLabels, SetFiles, SetForm};
 
 /// The paths of a data set, relative to the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct DataSet {
+pub struct DataSetPaths {
     /// The IDX file, or the folder of images.
     pub images: String,
     /// The IDX file of labels, if the set has one.
@@ -26,56 +26,56 @@ pub struct DataSet {
     pub classes: Vec<String>,
 }
 
-impl DataSet {
+impl DataSetPaths {
     pub(super) fn of(form: &SetForm) -> Self {
         let (images, labels) = match &form.files {
             SetFiles::Idx { images, labels } => {
                 (images.name.clone(), labels.as_ref().map(|file| file.name.clone()))
             }
-            SetFiles::Images | SetFiles::Records => (tree::FOLDER.to_owned(), None),
+            SetFiles::Images | SetFiles::Records => (image_tree::FOLDER.to_owned(), None),
         };
         let classes = match &form.labels {
-            Labels::Names(names) => names.clone(),
-            Labels::None | Labels::Numbers => Vec::new(),
+            SetLabels::Names(names) => names.clone(),
+            SetLabels::None | SetLabels::Numbers => Vec::new(),
         };
         Self { images, labels, classes }
     }
 }
 
 /// Returns the sinks that write the data set.
-pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
-    let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
-    if form.labels != Labels::None {
-        let file = NpyWriter::create(&folder.join("labels.npy"), Element::Signed64, &[])?;
-        sinks.push(Box::new(Numbers { labels: form.labels.clone(), file }));
+pub(super) fn data_set_sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
+    let mut sinks: Vec<Box<dyn FrameSink>> = Vec::new();
+    if form.labels != SetLabels::None {
+        let file = NpyWriter::create(&folder.join("labels.npy"), ElementType::Signed64, &[])?;
+        sinks.push(Box::new(LabelNumberSink { labels: form.labels.clone(), file }));
     }
     match &form.files {
         SetFiles::Idx { images, labels } => {
-            sinks.append(&mut idx::sinks(folder, images, labels.as_ref())?);
+            sinks.append(&mut idx_files::idx_sinks(folder, images, labels.as_ref())?);
         }
-        SetFiles::Images => sinks.push(Box::new(tree::Tree::create(folder, tree::Names::Own)?)),
+        SetFiles::Images => sinks.push(Box::new(image_tree::ImageTreeSink::create(folder, image_tree::FileNaming::OfInputFile)?)),
         SetFiles::Records => {
-            sinks.push(Box::new(tree::Tree::create(folder, tree::Names::Numbers)?));
+            sinks.push(Box::new(image_tree::ImageTreeSink::create(folder, image_tree::FileNaming::Numbers)?));
         }
     }
     Ok(sinks)
 }
 
 /// The file `labels.npy` while it is written.
-struct Numbers {
-    labels: Labels,
+struct LabelNumberSink {
+    labels: SetLabels,
     file: NpyWriter,
 }
 
-impl Sink for Numbers {
-    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+impl FrameSink for LabelNumberSink {
+    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let number = self.labels.number(step.source.label.as_deref());
         self.file.push(std::iter::once(number.cast_unsigned()));
         Ok(())
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_out(all)?)
+        Ok(self.file.write_pending(all)?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

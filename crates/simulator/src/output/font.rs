@@ -6,13 +6,13 @@ pub(super) const SIZE: (u32, u32) = (3, 5);
 
 /// Returns true if the letter has a dot at column `x` and row `y`. Letters become capitals; unknown
 /// characters become a space.
-pub(super) fn dot(letter: char, x: u32, y: u32) -> bool {
-    let rows = rows(letter.to_ascii_uppercase());
+pub(super) fn has_dot(letter: char, x: u32, y: u32) -> bool {
+    let rows = letter_rows(letter.to_ascii_uppercase());
     let row = rows >> (3 * (SIZE.1 - 1 - y));
     row >> (SIZE.0 - 1 - x) & 1 == 1
 }
 
-fn rows(letter: char) -> u32 {
+fn letter_rows(letter: char) -> u32 {
     match letter {
         'A' => 0o25755,
         'B' => 0o65656,
@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn an_f_looks_like_one() {
-        let row = |y| (0..3).map(|x| if dot('f', x, y) { '#' } else { '.' }).collect::<String>();
+        let row = |y| (0..3).map(|x| if has_dot('f', x, y) { '#' } else { '.' }).collect::<String>();
         assert_eq!([0, 1, 2, 3, 4].map(row), ["###", "#..", "##.", "#..", "#.."]);
     }
 
@@ -71,9 +71,9 @@ mod tests {
     fn letters_differ() {
         let known: Vec<char> = ('A'..='Z').chain('0'..='9').chain(".-%".chars()).collect();
         for (index, &letter) in known.iter().enumerate() {
-            assert!(rows(letter) != 0 && rows(letter) < 0o100_000);
+            assert!(letter_rows(letter) != 0 && letter_rows(letter) < 0o100_000);
             // A zero and an O, or a five and an S, may look similar but not equal.
-            assert!(known[..index].iter().all(|&other| rows(other) != rows(letter)), "{letter}");
+            assert!(known[..index].iter().all(|&other| letter_rows(other) != letter_rows(letter)), "{letter}");
         }
     }
 }

@@ -5,26 +5,26 @@
 
 use flate2::Compression;
 
-use super::packer::{Packer, stored};
+use super::deflate_packer::{DeflatePacker, stored_block};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
 /// The number of bytes of an NPY header in this archive, a multiple of 64.
-const HEADER: usize = 192;
+const NPY_HEADER_BYTES: usize = 192;
 /// The compression level. It is low, because events are compressed during the run.
 const LEVEL: Compression = Compression::new(1);
 
 /// An archive with one open entry.
-pub(super) struct Npz {
+pub(super) struct NpzArchive {
     file: GrowingFile,
-    at: u64,
-    done: Vec<Entry>,
-    open: Entry,
-    packer: Packer,
+    position: u64,
+    done: Vec<ArchiveEntry>,
+    open: ArchiveEntry,
+    packer: DeflatePacker,
 }
 
 /// A file of the archive.
-struct Entry {
+struct ArchiveEntry {
     name: &'static str,
     /// The type of an element in Python's notation.
     descr: &'static str,
@@ -34,38 +34,38 @@ struct Entry {
     crc: u32,
 }
 
-impl Npz {
+impl NpzArchive {
     /// Makes an archive whose first array is `name`, with elements of type `descr`.
     pub(super) fn new(file: GrowingFile, name: &'static str, descr: &'static str) -> Self {
-        let open = Entry::new(name, descr, 0);
-        let mut npz = Self { file, at: 0, done: Vec::new(), open, packer: Packer::new(LEVEL) };
+        let open = ArchiveEntry::new(name, descr, 0);
+        let mut npz = Self { file, position: 0, done: Vec::new(), open, packer: DeflatePacker::new(LEVEL) };
         npz.begin();
         npz
     }
 
     /// Appends elements to the open array.
     pub(super) fn write(&mut self, elements: &[u8]) {
-        let pending = self.file.end();
+        let pending = self.file.pending_mut();
         let before = pending.len();
         self.packer.write(elements, pending);
         let packed = length(&pending[before..]);
         self.open.packed_bytes += packed;
-        self.at += packed;
+        self.position += packed;
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_out(all)?)
+        Ok(self.file.write_pending(all)?)
     }
 
     /// Closes the open array, which has `count` elements, and begins another one.
-    pub(super) fn next(
+    pub(super) fn next_array(
         &mut self,
         count: u64,
         name: &'static str,
         descr: &'static str,
     ) -> Result<(), SimulatorError> {
         self.close(count)?;
-        let closed = std::mem::replace(&mut self.open, Entry::new(name, descr, self.at));
+        let closed = std::mem::replace(&mut self.open, ArchiveEntry::new(name, descr, self.position));
         self.done.push(closed);
         self.begin();
         Ok(())
@@ -75,51 +75,51 @@ impl Npz {
     pub(super) fn finish(mut self, count: u64) -> Result<(), SimulatorError> {
         self.close(count)?;
         self.done.push(self.open);
-        let directory: Vec<u8> = self.done.iter().flat_map(Entry::central).collect();
+        let directory: Vec<u8> = self.done.iter().flat_map(ArchiveEntry::directory_entry).collect();
         self.file.append(&directory);
-        self.file.append(&end(self.at, length(&directory), length(&self.done)));
-        Ok(self.file.write_out(true)?)
+        self.file.append(&end_of_directory(self.position, length(&directory), length(&self.done)));
+        Ok(self.file.write_pending(true)?)
     }
 
     /// Reserves space for the headers of the open entry.
     fn begin(&mut self) {
-        let header = stored(&foveate_files::npy::header(HEADER, self.open.descr, "0,"));
+        let header = stored_block(&foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
-        let room = [self.open.local(), header].concat();
-        self.at += length(&room);
+        let room = [self.open.local_header(), header].concat();
+        self.position += length(&room);
         self.file.append(&room);
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
-        let header = foveate_files::npy::header(HEADER, self.open.descr, &format!("{count},"));
-        let packer = std::mem::replace(&mut self.packer, Packer::new(LEVEL));
+        let header = foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, &format!("{count},"));
+        let packer = std::mem::replace(&mut self.packer, DeflatePacker::new(LEVEL));
         let (last, crc, bytes) = packer.finish(&header);
         self.file.append(&last);
-        self.at += length(&last);
+        self.position += length(&last);
         self.open.packed_bytes += length(&last);
         (self.open.crc, self.open.bytes) = (crc, bytes);
-        let local = [self.open.local(), stored(&header)].concat();
-        Ok(self.file.write_over(self.open.start, &local)?)
+        let local = [self.open.local_header(), stored_block(&header)].concat();
+        Ok(self.file.overwrite(self.open.start, &local)?)
     }
 }
 
-impl Entry {
+impl ArchiveEntry {
     fn new(name: &'static str, descr: &'static str, start: u64) -> Self {
         Self { name, descr, start, bytes: 0, packed_bytes: 0, crc: 0 }
     }
 
     /// Returns the header before the data.
-    fn local(&self) -> Vec<u8> {
+    fn local_header(&self) -> Vec<u8> {
         let mut bytes = b"PK\x03\x04".to_vec();
-        bytes.extend(self.common());
+        bytes.extend(self.common_fields());
         let sizes = [self.bytes, self.packed_bytes];
         self.name_and_sizes(bytes, &[], &sizes)
     }
 
     /// Returns the entry of the central directory.
-    fn central(&self) -> Vec<u8> {
+    fn directory_entry(&self) -> Vec<u8> {
         let mut bytes = b"PK\x01\x02\x2d\x03".to_vec();
-        bytes.extend(self.common());
+        bytes.extend(self.common_fields());
         let sizes = [self.bytes, self.packed_bytes, self.start];
         // The fields are: no comment, first disk, no attributes but -rw-r--r--. The offset is among
         // the ZIP64 sizes.
@@ -129,7 +129,7 @@ impl Entry {
 
     /// Returns the common fields: version 4.5, no flags, deflated, 1980-01-01, checksum, and the
     /// mark that the sizes are in the ZIP64 field.
-    fn common(&self) -> Vec<u8> {
+    fn common_fields(&self) -> Vec<u8> {
         let fixed = [0x2d, 0, 0, 0, 8, 0, 0, 0, 0x21, 0];
         [&fixed[..], &self.crc.to_le_bytes(), &[0xFF; 8]].concat()
     }
@@ -149,7 +149,7 @@ impl Entry {
 }
 
 /// Returns the end of the central directory, in its ZIP64 form and in its short form.
-fn end(start: u64, size: u64, entries: u64) -> Vec<u8> {
+fn end_of_directory(start: u64, size: u64, entries: u64) -> Vec<u8> {
     let mut bytes = b"PK\x06\x06".to_vec();
     bytes.extend(44u64.to_le_bytes());
     bytes.extend([0x2d, 3, 0x2d, 0]);

@@ -5,7 +5,7 @@ use foveate_camera::Decimal;
 
 /// The file format of a series of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Medium {
+pub enum PictureFormat {
     /// A folder of pictures `000000.png`, `000001.png` and so on.
     Png,
     /// One lossless video, FFV1 in Matroska. It needs ffmpeg.
@@ -16,7 +16,7 @@ pub enum Medium {
 
 /// The tables with one row per region and frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct EventTables {
+pub struct EventTableOptions {
     /// Writes `events.csv`.
     pub csv: bool,
     /// Writes `events.parquet`.
@@ -27,7 +27,7 @@ pub struct EventTables {
 
 /// The ordinary (x, y, t, p) events of the same frames, for comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PixelEvents {
+pub struct PixelEventOptions {
     /// Writes `pixel_events.npz`.
     pub npz: bool,
     /// Writes `pixel_events.csv`.
@@ -37,12 +37,12 @@ pub struct PixelEvents {
     /// with `log`.
     pub contrast: Option<Decimal>,
     /// Measures changes in logarithms.
-    pub log: bool,
+    pub is_logarithmic: bool,
 }
 
 /// The content of the packets of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Packets {
+pub enum PacketContent {
     /// The data that a receiver needs for its screen.
     Plain,
     /// The same data, and the scores of every region.
@@ -54,17 +54,17 @@ pub enum Packets {
 pub struct RunOptions {
     /// The rendered frames, `rendered`. Frames of 8 bits per pixel are written unchanged. Fewer
     /// bits are converted to 8 and more bits to 16 by [`foveate_frame::convert_depth`].
-    pub rendered: Option<Medium>,
+    pub rendered: Option<PictureFormat>,
     /// The original frames with the decisions in colour, `overlay`.
-    pub overlay: Option<Medium>,
+    pub overlay: Option<PictureFormat>,
     /// The heat map of every score, `heatmap_<feature>` and `heatmap_temporal`.
-    pub heatmap: Option<Medium>,
+    pub heatmap: Option<PictureFormat>,
     /// The tables of regions.
-    pub events: EventTables,
+    pub events: EventTableOptions,
     /// The events of pixels.
-    pub pixel_events: PixelEvents,
+    pub pixel_events: PixelEventOptions,
     /// The packets that the camera sends, `packets.bin`.
-    pub packets: Option<Packets>,
+    pub packets: Option<PacketContent>,
     /// Writes the rendered images of a set as a data set of the same form.
     pub data_set: bool,
     /// Replaces the output folder of an earlier run.
@@ -74,11 +74,11 @@ pub struct RunOptions {
 impl Default for RunOptions {
     fn default() -> Self {
         Self {
-            rendered: Some(Medium::Png),
+            rendered: Some(PictureFormat::Png),
             overlay: None,
             heatmap: None,
-            events: EventTables::default(),
-            pixel_events: PixelEvents::default(),
+            events: EventTableOptions::default(),
+            pixel_events: PixelEventOptions::default(),
             packets: None,
             data_set: false,
             overwrite: false,
@@ -86,10 +86,10 @@ impl Default for RunOptions {
     }
 }
 
-impl PixelEvents {
+impl PixelEventOptions {
     /// Returns true if a file of pixel events is written.
     #[must_use]
-    pub fn wanted(self) -> bool {
+    pub fn is_wanted(self) -> bool {
         self.npz || self.csv
     }
 }

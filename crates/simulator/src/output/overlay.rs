@@ -4,53 +4,53 @@
 //!
 //! The colours are those of the palette. Active regions also have an outline.
 
-use foveate_camera::{Action, Camera};
-use foveate_frame::{Raster, convert_depth};
+use foveate_camera::{RegionAction, Camera};
+use foveate_frame::{ByteFrame, convert_depth};
 use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 
-use super::canvas::{Canvas, Layout, TEXT};
+use super::canvas::{PictureCanvas, PictureLayout, TEXT};
 use super::font;
-use super::gallery::Painter;
-use super::picture::low_byte;
-use super::sink::Step;
-use super::strip::Strip;
+use super::picture_series::PicturePainter;
+use super::raw_image::to_byte;
+use super::sink::SinkFrame;
+use super::activity_chart::ActivityChart;
 
 /// Regions with smaller sides are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
 
 /// The painter of overlays. It records the share of active regions so far.
 #[derive(Default)]
-pub(super) struct Overlay {
-    strip: Strip,
+pub(super) struct OverlayPainter {
+    strip: ActivityChart,
 }
 
-impl Painter for Overlay {
-    fn paint(&mut self, step: &Step<'_>) -> Canvas {
+impl PicturePainter for OverlayPainter {
+    fn paint(&mut self, step: &SinkFrame<'_>) -> PictureCanvas {
         let frame = &step.source.frame;
-        let layout = Layout::new(frame.width(), frame.height());
+        let layout = PictureLayout::new(frame.width(), frame.height());
         let legend = (font::SIZE.1 + 4) * layout.dot;
-        let height = layout.frame_height + legend + Strip::DOTS * layout.dot;
-        let mut canvas = Canvas::new(layout.width, height);
+        let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
+        let mut canvas = PictureCanvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, step, layout);
         let regions = step.camera.regions();
         let active = step.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, step.camera);
-        self.strip.push(active.into(), (layout.width / Strip::bar(layout)) as usize);
+        self.strip.push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
         self.strip.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);
         canvas
     }
 }
 
-fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layout) {
+fn draw_frame(canvas: &mut PictureCanvas, frame: &ByteFrame, step: &SinkFrame<'_>, layout: PictureLayout) {
     let side = step.camera.region_size();
     let cell = side * layout.scale;
     for y in 0..frame.height() {
         for x in 0..frame.width() {
             let region = y / side * step.camera.columns() + x / side;
             let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
-            let colour = shade(grey, tint(step, region));
+            let colour = tinted(grey, region_tint(step, region));
             let scale = layout.scale;
-            canvas.fill(x * scale, y * scale, scale, scale, colour);
+            canvas.fill_rectangle(x * scale, y * scale, scale, scale, colour);
         }
     }
     if cell < SMALLEST_GRID {
@@ -62,29 +62,29 @@ fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layo
         let (left, top) = (column * cell, row * cell);
         let width = cell.min(layout.frame_width - left);
         let height = cell.min(layout.frame_height - top);
-        grid(canvas, [left, top, width, 1]);
-        grid(canvas, [left, top, 1, height]);
+        lighten_line(canvas, [left, top, width, 1]);
+        lighten_line(canvas, [left, top, 1, height]);
         let region = (row * step.camera.columns() + column) as usize;
         if step.outcome.active[region] {
-            canvas.frame([left, top, width, height], 1 + cell / 40, ACTIVE_BRIGHT);
+            canvas.draw_border([left, top, width, height], 1 + cell / 40, ACTIVE_BRIGHT);
         }
-        if step.outcome.actions[region] == Action::Summarize {
-            canvas.frame([left, top, width, height], 1, TEXT);
+        if step.outcome.actions[region] == RegionAction::Summarize {
+            canvas.draw_border([left, top, width, height], 1, TEXT);
         }
     }
 }
 
 /// Lightens the pixels of a line.
-fn grid(canvas: &mut Canvas, [left, top, width, height]: [u32; 4]) {
+fn lighten_line(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4]) {
     for y in top..top + height {
         let start = 3 * (y as usize * canvas.width as usize + left as usize);
         for value in &mut canvas.rgb[start..start + 3 * width as usize] {
-            *value = low_byte((7 * u16::from(*value) + 255) / 8);
+            *value = to_byte((7 * u16::from(*value) + 255) / 8);
         }
     }
 }
 
-fn draw_legend(canvas: &mut Canvas, layout: Layout, active: u32, camera: &Camera) {
+fn draw_legend(canvas: &mut PictureCanvas, layout: PictureLayout, active: u32, camera: &Camera) {
     let regions = camera.regions();
     let (dot, top) = (layout.dot, layout.frame_height + 2 * layout.dot);
     let height = font::SIZE.1 * dot;
@@ -93,19 +93,19 @@ fn draw_legend(canvas: &mut Canvas, layout: Layout, active: u32, camera: &Camera
     let mut left = 2 * dot;
     for (colour, text) in [(ACTIVE, share.as_str()), (RELEVANT, "SRS only"), (CHANGED, "TRS only")]
     {
-        canvas.fill(left, top, height, height, colour);
+        canvas.fill_rectangle(left, top, height, height, colour);
         if colour == ACTIVE {
-            canvas.frame([left, top, height, height], dot.div_ceil(2), ACTIVE_BRIGHT);
+            canvas.draw_border([left, top, height, height], dot.div_ceil(2), ACTIVE_BRIGHT);
         }
-        left = canvas.text(left + height + dot, top, dot, text) + 3 * dot;
+        left = canvas.draw_text(left + height + dot, top, dot, text) + 3 * dot;
     }
     if camera.periphery().is_some() {
-        canvas.frame([left, top, height, height], dot.div_ceil(2), TEXT);
-        canvas.text(left + height + dot, top, dot, "Means");
+        canvas.draw_border([left, top, height, height], dot.div_ceil(2), TEXT);
+        canvas.draw_text(left + height + dot, top, dot, "Means");
     }
 }
 
-fn tint(step: &Step<'_>, region: u32) -> Option<Colour> {
+fn region_tint(step: &SinkFrame<'_>, region: u32) -> Option<Colour> {
     let region = region as usize;
     match (step.outcome.srs[region], step.outcome.trs[region]) {
         (true, true) => Some(ACTIVE),
@@ -116,7 +116,7 @@ fn tint(step: &Step<'_>, region: u32) -> Option<Colour> {
 }
 
 /// Returns half the grey level without a tint, otherwise the mean of grey level and tint.
-fn shade(grey: u32, tint: Option<Colour>) -> Colour {
+fn tinted(grey: u32, tint: Option<Colour>) -> Colour {
     let mixed = match tint {
         Some(tint) => tint.map(|colour| u32::midpoint(grey, colour.into())),
         None => [grey / 2; 3],
@@ -137,7 +137,7 @@ mod tests {
             for grey in (0..256).step_by(5) {
                 for (index, &first) in tints.iter().enumerate() {
                     for &second in &tints[..index] {
-                        let [a, b] = [first, second].map(|tint| shade(grey, tint));
+                        let [a, b] = [first, second].map(|tint| tinted(grey, tint));
                         let distance = distance(a, b, vision);
                         assert!(distance > 20.0, "{kind} {grey} {first:?} {second:?} {distance}");
                     }

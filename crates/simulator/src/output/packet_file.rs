@@ -4,36 +4,36 @@
 
 use std::path::Path;
 
-use foveate_camera::{Action, Camera, Payload};
+use foveate_camera::{RegionAction, Camera, Payload};
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_frame::Raster;
-use foveate_packets::{Decision, End, Layout, PacketError, RegionFlags, write};
+use foveate_frame::ByteFrame;
+use foveate_packets::{RegionDecision, EndPacket, PacketLayout, PacketError, RegionFlags, packet_writer};
 use foveate_staging::GrowingFile;
 
-use super::Packets;
-use super::sink::{Sink, Step};
+use super::PacketContent;
+use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
 
 /// The clock of the packets: a tick is a microsecond.
 const TICKS_PER_SECOND: u32 = 1_000_000;
 
 /// The open file.
-pub(super) struct PacketFile {
+pub(super) struct PacketFileSink {
     file: GrowingFile,
-    layout: Layout,
+    layout: PacketLayout,
 }
 
-impl PacketFile {
+impl PacketFileSink {
     pub(super) fn create(
         folder: &Path,
         design: &Design,
-        packets: Packets,
+        packets: PacketContent,
     ) -> Result<Self, SimulatorError> {
-        let has_scores = packets == Packets::WithScores;
+        let has_scores = packets == PacketContent::WithScores;
         Ok(Self {
             file: GrowingFile::create(&folder.join("packets.bin"))?,
-            layout: Layout::new(design, has_scores, TICKS_PER_SECOND)?,
+            layout: PacketLayout::new(design, has_scores, TICKS_PER_SECOND)?,
         })
     }
 }
@@ -46,78 +46,78 @@ impl PacketFile {
 /// Fails if the layout belongs to another design.
 pub fn write_packets(
     out: &mut Vec<u8>,
-    layout: &Layout,
+    layout: &PacketLayout,
     engine: &Engine,
-    source: &Raster,
+    source: &ByteFrame,
     number: u32,
     time: (u64, bool),
 ) -> Result<(), PacketError> {
-    write::frame(out, layout, number, time);
+    packet_writer::append_frame(out, layout, number, time);
     let mut regions_sent = 0;
     for row in 0..engine.camera().rows() {
         regions_sent += write_row(out, layout, engine, source, (number, row))?;
     }
-    write::end(out, number, End { regions_sent, ..End::default() })
+    packet_writer::append_end(out, number, EndPacket { regions_sent, ..EndPacket::default() })
 }
 
 /// Appends the packets of a row of regions of a frame. Returns the number of REGION packets among
 /// them.
 fn write_row(
     out: &mut Vec<u8>,
-    layout: &Layout,
+    layout: &PacketLayout,
     engine: &Engine,
-    source: &Raster,
+    source: &ByteFrame,
     (frame, row): (u32, u32),
 ) -> Result<u32, PacketError> {
     let (camera, outcome) = (engine.camera(), engine.outcome());
     let start = row * camera.columns();
     let regions = start..start + camera.columns();
-    let decisions: Vec<Decision> =
-        regions.clone().map(|region| decision(outcome, region as usize)).collect();
-    write::row(out, layout, frame, row, &decisions)?;
+    let decisions: Vec<RegionDecision> =
+        regions.clone().map(|region| region_decision(outcome, region as usize)).collect();
+    packet_writer::append_row(out, layout, frame, row, &decisions)?;
     if layout.info().has_scores {
-        let scores = regions.clone().map(|region| scores(outcome, region as usize));
-        write::scores(out, layout, frame, row, scores)?;
+        let scores = regions.clone().map(|region| region_scores(outcome, region as usize));
+        packet_writer::append_scores(out, layout, frame, row, scores)?;
     }
     let (mut sent, mut values) = (0, Vec::new());
     for region in regions {
         let action = outcome.actions[region as usize];
         values.clear();
         let summary = match action {
-            Action::Forward => false,
-            Action::Summarize => true,
-            Action::Hold | Action::Blank => continue,
+            RegionAction::Forward => false,
+            RegionAction::Summarize => true,
+            RegionAction::Hold | RegionAction::Blank => continue,
         };
         match (summary, camera.payload()) {
             (true, _) => engine.summary(region, &mut values),
             (false, Payload::Denoised) => engine.denoised_region(region, &mut values),
-            (false, Payload::Raw) => raw_region(camera, source, region, &mut values),
+            (false, Payload::Raw) => append_raw_region(camera, source, region, &mut values),
         }
         let flags = RegionFlags { raw: layout.info().raw, summary };
         let place = (row, region - start);
-        write::region(out, layout, frame, place, (flags, &values))?;
+        packet_writer::append_region(out, layout, frame, place, (flags, &values))?;
         sent += 1;
     }
     Ok(sent)
 }
 
 /// Returns the decision of a region, as a ROW packet holds it.
-fn decision(outcome: &FrameOutcome, region: usize) -> Decision {
-    Decision {
+fn region_decision(outcome: &FrameOutcome, region: usize) -> RegionDecision {
+    RegionDecision {
         srs: outcome.srs[region],
         trs: outcome.trs[region],
-        summary: outcome.actions[region] == Action::Summarize,
+        summary: outcome.actions[region] == RegionAction::Summarize,
     }
 }
 
 /// Returns the temporal count and the scores of a region.
-fn scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = u64> {
+fn region_scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = u64> {
     let scores = outcome.scores.iter().map(move |scores| scores[region]);
     std::iter::once(outcome.temporal_count[region].into()).chain(scores)
 }
 
 /// Appends the raw pixels of a region, padded as the contract says.
-fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16>) {
+fn append_raw_region(camera: &Camera, frame: &ByteFrame, region: u32, pixels: &mut Vec<u16>) {
     let side = camera.region_size();
     let (left, top) = (region % camera.columns() * side, region / camera.columns() * side);
     let last = |at: u32, size: u32| at.min(size - 1);
@@ -127,21 +127,21 @@ fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16
     }
 }
 
-impl Sink for PacketFile {
-    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+impl FrameSink for PacketFileSink {
+    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let Some(engine) = step.engine else { return Ok(()) };
         // The 32-bit numbers of frames wrap around.
         let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
-        let time = (step.source.time_us, step.first);
+        let time = (step.source.time_us, step.is_first);
         let source = &step.source.frame;
-        Ok(write_packets(self.file.end(), &self.layout, engine, source, frame, time)?)
+        Ok(write_packets(self.file.pending_mut(), &self.layout, engine, source, frame, time)?)
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_out(all)?)
+        Ok(self.file.write_pending(all)?)
     }
 
-    fn owed(&self, camera: &Camera) -> u64 {
+    fn max_bytes_owed(&self, camera: &Camera) -> u64 {
         // This is the size of the last frame if every region sends its pixels.
         let rows = self.layout.row_bytes() + self.layout.scores_bytes();
         let regions = u64::from(camera.regions()) * self.layout.region_bytes(false) as u64;
@@ -149,6 +149,6 @@ impl Sink for PacketFile {
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
-        Ok(self.file.write_out(true)?)
+        Ok(self.file.write_pending(true)?)
     }
 }

@@ -12,7 +12,7 @@
 use foveate_camera::{Camera, Decimal};
 use foveate_frame::Frame;
 
-use super::PixelEvents;
+use super::PixelEventOptions;
 use crate::SimulatorError;
 
 /// The number of units of one level.
@@ -43,7 +43,7 @@ pub struct PixelCamera {
     /// The level of every grey value.
     levels: Vec<i64>,
     /// The stored level of every pixel. It is empty before the first frame.
-    remembered: Vec<i64>,
+    stored_levels: Vec<i64>,
 }
 
 impl PixelCamera {
@@ -51,10 +51,10 @@ impl PixelCamera {
     ///
     /// # Errors
     /// Fails if the contrast is below 0.01.
-    pub fn new(camera: &Camera, options: PixelEvents) -> Result<Self, SimulatorError> {
+    pub fn new(camera: &Camera, options: PixelEventOptions) -> Result<Self, SimulatorError> {
         let contrast = match options.contrast {
             Some(contrast) => millionths(contrast),
-            None if options.log => LOG_CONTRAST,
+            None if options.is_logarithmic => LOG_CONTRAST,
             None => i64::from(camera.temporal().level + 1) * 1_000_000,
         };
         if contrast < SMALLEST_CONTRAST {
@@ -62,19 +62,19 @@ impl PixelCamera {
             return Err(SimulatorError::Contrast { contrast: contrast.to_string() });
         }
         let max = camera.pixel_max();
-        let levels = (0..=max).map(|value| level(value, max, options.log)).collect();
-        Ok(Self { contrast, levels, remembered: Vec::new() })
+        let levels = (0..=max).map(|value| level(value, max, options.is_logarithmic)).collect();
+        Ok(Self { contrast, levels, stored_levels: Vec::new() })
     }
 
     /// Takes the next frame and calls `send` with its events, row by row.
     pub fn step(&mut self, frame: &Frame, mut send: impl FnMut(PixelEvent)) {
         let now = frame.pixels().iter().map(|&pixel| self.levels[usize::from(pixel)]);
-        if self.remembered.is_empty() {
-            self.remembered = now.collect();
+        if self.stored_levels.is_empty() {
+            self.stored_levels = now.collect();
             return;
         }
         let places = (0..frame.height()).flat_map(|y| (0..frame.width()).map(move |x| (x, y)));
-        for ((remembered, now), (x, y)) in self.remembered.iter_mut().zip(now).zip(places) {
+        for ((remembered, now), (x, y)) in self.stored_levels.iter_mut().zip(now).zip(places) {
             let steps = (now - *remembered) / self.contrast;
             *remembered += steps * self.contrast;
             for _ in 0..steps.unsigned_abs() {

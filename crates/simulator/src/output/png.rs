@@ -8,15 +8,15 @@ use std::path::Path;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 
-use super::picture::{RawImage, Samples};
+use super::raw_image::{RawImage, SampleFormat};
 
 /// Encodes a picture into `bytes` and writes it to a file at once.
 pub(super) fn write(path: &Path, picture: &RawImage, bytes: &mut Vec<u8>) -> io::Result<()> {
     let colour = match picture.samples {
-        Samples::Grey8 => ExtendedColorType::L8,
+        SampleFormat::Grey8 => ExtendedColorType::L8,
         // The encoder takes the byte order of the machine, and writes that of PNG.
-        Samples::Grey16 => ExtendedColorType::L16,
-        Samples::Rgb8 => ExtendedColorType::Rgb8,
+        SampleFormat::Grey16 => ExtendedColorType::L16,
+        SampleFormat::Rgb8 => ExtendedColorType::Rgb8,
     };
     bytes.clear();
     PngEncoder::new_with_quality(&mut *bytes, CompressionType::Fast, FilterType::Paeth)

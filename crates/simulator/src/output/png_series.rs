@@ -5,21 +5,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::cannot_write;
-use super::crew::Crew;
-use super::picture::RawImage;
+use super::png_writers::PngWriters;
+use super::raw_image::RawImage;
 use crate::SimulatorError;
 
 /// A folder of pictures `000000.png`, `000001.png` and so on.
 pub(super) struct PngSeries {
     folder: PathBuf,
     next: u64,
-    pub(super) crew: Crew,
+    pub(super) writers: PngWriters,
 }
 
 impl PngSeries {
     pub(super) fn create(folder: PathBuf) -> Result<Self, SimulatorError> {
         fs::create_dir(&folder).map_err(cannot_write(&folder))?;
-        Ok(Self { folder, next: 0, crew: Crew::new()? })
+        Ok(Self { folder, next: 0, writers: PngWriters::new()? })
     }
 
     pub(super) fn folder(&self) -> &Path {
@@ -29,6 +29,6 @@ impl PngSeries {
     pub(super) fn push(&mut self, picture: RawImage) {
         let path = self.folder.join(format!("{:06}.png", self.next));
         self.next += 1;
-        self.crew.push(path, picture);
+        self.writers.push(path, picture);
     }
 }

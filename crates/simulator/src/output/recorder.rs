@@ -6,22 +6,22 @@ use std::path::Path;
 
 use foveate_design::{Camera, Design};
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_frame::Plane;
-use foveate_staging::Reserve;
+use foveate_frame::FramePixels;
+use foveate_staging::SpaceReserve;
 use rayon::prelude::*;
 
-use super::arrays::Arrays;
-use super::data_set::{self, DataSet};
-use super::gallery::Gallery;
-use super::heatmap::Heatmap;
-use super::overlay::Overlay;
-use super::packet_file::PacketFile;
-use super::pixel_events::PixelRecorder;
-use super::sink::{Sink, Step};
-use super::summary::Sent;
-use super::summary::Totals;
-use super::table::{FrameRow, FrameTable};
-use super::{RunOptions, Summary, events};
+use super::arrays::ArraySink;
+use super::data_set::{self, DataSetPaths};
+use super::picture_series::PictureSeriesSink;
+use super::heatmap::HeatmapPainter;
+use super::overlay::OverlayPainter;
+use super::packet_file::PacketFileSink;
+use super::pixel_event_files::PixelEventFiles;
+use super::sink::{FrameSink, SinkFrame};
+use super::summary::SentCounts;
+use super::summary::RunTotals;
+use super::frame_table::{FrameRow, FrameTable};
+use super::{RunOptions, RunSummary, event_files};
 use crate::SimulatorError;
 use foveate_footage::{SetForm, SourceFrame};
 use foveate_toolchain::Interrupt;
@@ -31,27 +31,27 @@ pub(crate) const INTERRUPTED: &str = "interrupted";
 /// The problem in the summary of a run on a full disk.
 pub(crate) const DISK_FULL: &str = "disk full";
 /// The number of bytes of an output that may wait in memory, besides those of its last frame.
-const BUFFERS: u64 = 1 << 17;
+const BUFFER_BYTES: u64 = 1 << 17;
 /// The space in bytes that is reserved for the summary, and for outputs that buffer much, such as a
 /// group of a Parquet file.
-const LEAST_RESERVE: u64 = 1 << 20;
+const MIN_RESERVE_BYTES: u64 = 1 << 20;
 
 /// The open files of a run.
-pub(crate) struct Recorder {
+pub(crate) struct RunRecorder {
     design: Design,
     table: FrameTable,
     /// The pixel events. They are not among the sinks, because the summary needs their number.
-    pixels: Option<PixelRecorder>,
-    sinks: Vec<Box<dyn Sink>>,
-    data_set: Option<DataSet>,
-    totals: Totals,
+    pixel_events: Option<PixelEventFiles>,
+    sinks: Vec<Box<dyn FrameSink>>,
+    data_set: Option<DataSetPaths>,
+    totals: RunTotals,
     /// The disk space to complete every file on a full disk. The field `spare` is the space for the
     /// videos.
-    reserve: Option<Reserve>,
-    spare: Option<Reserve>,
+    reserve: Option<SpaceReserve>,
+    video_reserve: Option<SpaceReserve>,
 }
 
-impl Recorder {
+impl RunRecorder {
     pub(crate) fn create(
         folder: &Path,
         design: &Design,
@@ -60,18 +60,18 @@ impl Recorder {
         has_scores: bool,
         interrupt: &Interrupt,
     ) -> Result<Self, SimulatorError> {
-        let arrays = Arrays::create(folder, design, has_scores)?;
-        let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(arrays)];
-        sinks.append(&mut events::sinks(folder, design, options.events, has_scores)?);
+        let arrays = ArraySink::create(folder, design, has_scores)?;
+        let mut sinks: Vec<Box<dyn FrameSink>> = vec![Box::new(arrays)];
+        sinks.append(&mut event_files::event_sinks(folder, design, options.events, has_scores)?);
         if let Some(packets) = options.packets {
-            sinks.push(Box::new(PacketFile::create(folder, design, packets)?));
+            sinks.push(Box::new(PacketFileSink::create(folder, design, packets)?));
         }
         if let Some(medium) = options.rendered {
-            sinks.push(Box::new(Gallery::rendered(folder, medium, interrupt)?));
+            sinks.push(Box::new(PictureSeriesSink::rendered(folder, medium, interrupt)?));
         }
         if let Some(medium) = options.overlay {
-            let overlay = Overlay::default();
-            sinks.push(Box::new(Gallery::painted(
+            let overlay = OverlayPainter::default();
+            sinks.push(Box::new(PictureSeriesSink::with_painter(
                 folder,
                 "overlay",
                 (medium, interrupt),
@@ -79,28 +79,28 @@ impl Recorder {
             )?));
         }
         if let Some(medium) = options.heatmap {
-            for (name, map) in Heatmap::all(design) {
-                sinks.push(Box::new(Gallery::painted(folder, &name, (medium, interrupt), map)?));
+            for (name, map) in HeatmapPainter::all_maps(design) {
+                sinks.push(Box::new(PictureSeriesSink::with_painter(folder, &name, (medium, interrupt), map)?));
             }
         }
         let table = FrameTable::create(&folder.join("frames.csv"), design)?;
         // The data set is last: its file names come from the inputs, and must not replace other outputs.
         if options.data_set {
-            sinks.append(&mut data_set::sinks(folder, form)?);
+            sinks.append(&mut data_set::data_set_sinks(folder, form)?);
         }
-        let owed: u64 = sinks.iter().map(|sink| BUFFERS + sink.owed(design)).sum();
-        let apart = sinks.iter().any(|sink| sink.is_written_apart());
-        let spare = apart.then(|| Reserve::new(folder, ".spare", LEAST_RESERVE));
+        let owed: u64 = sinks.iter().map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
+        let apart = sinks.iter().any(|sink| sink.is_written_by_other_program());
+        let spare = apart.then(|| SpaceReserve::new(folder, ".spare", MIN_RESERVE_BYTES));
         let pixels = options.pixel_events;
-        let pixels = pixels.wanted().then(|| PixelRecorder::create(folder, design, pixels));
+        let pixels = pixels.is_wanted().then(|| PixelEventFiles::create(folder, design, pixels));
         Ok(Self {
             table,
-            data_set: options.data_set.then(|| DataSet::of(form)),
-            pixels: pixels.transpose()?,
+            data_set: options.data_set.then(|| DataSetPaths::of(form)),
+            pixel_events: pixels.transpose()?,
             sinks,
-            totals: Totals::default(),
-            reserve: Some(Reserve::new(folder, ".reserve", LEAST_RESERVE + owed)),
-            spare,
+            totals: RunTotals::default(),
+            reserve: Some(SpaceReserve::new(folder, ".reserve", MIN_RESERVE_BYTES + owed)),
+            video_reserve: spare,
             design: design.clone(),
         })
     }
@@ -112,7 +112,7 @@ impl Recorder {
         engine: &Engine,
         first: bool,
     ) -> Result<(), SimulatorError> {
-        self.push_step(&Step::new(engine, self.totals.frames, source, first))
+        self.push_step(&SinkFrame::new(engine, self.totals.frames, source, first))
     }
 
     /// Writes a received frame with the screen after it.
@@ -120,24 +120,24 @@ impl Recorder {
         &mut self,
         source: &SourceFrame,
         outcome: &FrameOutcome,
-        (camera, screen): (&Camera, Plane<'_>),
+        (camera, screen): (&Camera, FramePixels<'_>),
     ) -> Result<(), SimulatorError> {
         let number = self.totals.frames;
-        self.push_step(&Step {
+        self.push_step(&SinkFrame {
             camera,
             number,
             source,
             outcome,
             screen,
-            first: false,
+            is_first: false,
             engine: None,
         })
     }
 
-    fn push_step(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+    fn push_step(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         self.write_out(false)?;
-        self.push_row(step.source, step.outcome);
-        let Self { pixels, sinks, .. } = self;
+        self.add_to_table(step.source, step.outcome);
+        let Self { pixel_events: pixels, sinks, .. } = self;
         let (pixels, sinks) = rayon::join(
             || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(step)),
             || sinks.par_iter_mut().try_for_each(|sink| sink.push(step)),
@@ -149,7 +149,7 @@ impl Recorder {
     /// kept, and every file has the same frames.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.table.write_out(all)?;
-        self.pixels.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
+        self.pixel_events.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
         self.sinks.iter_mut().try_for_each(|sink| sink.write_out(all))
     }
 
@@ -162,7 +162,7 @@ impl Recorder {
         folder: &Path,
         inputs: &[String],
         mut problem: Option<String>,
-    ) -> Result<Summary, SimulatorError> {
+    ) -> Result<RunSummary, SimulatorError> {
         let interrupted = problem.as_deref() == Some(INTERRUPTED);
         let lost = |error: &SimulatorError| {
             let video = matches!(error, SimulatorError::VideoOutput { .. });
@@ -175,19 +175,19 @@ impl Recorder {
         }
         // Files that other programs write are ended first, because they would use the space that
         // the others need.
-        drop(self.spare.take());
+        drop(self.video_reserve.take());
         let (apart, sinks): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.sinks).into_iter().partition(|sink| sink.is_written_apart());
-        complete(apart, &lost, &mut problem)?;
+            std::mem::take(&mut self.sinks).into_iter().partition(|sink| sink.is_written_by_other_program());
+        finish_expendable(apart, &lost, &mut problem)?;
         drop(self.reserve.take());
         let (expendable, needed) =
-            sinks.into_iter().partition::<Vec<_>, _>(|sink| sink.expendable().is_some());
+            sinks.into_iter().partition::<Vec<_>, _>(|sink| sink.expendable_path().is_some());
         self.sinks = needed;
         let expendable = self.make_room(expendable, &mut problem)?;
         for sink in std::mem::take(&mut self.sinks) {
             sink.finish()?;
         }
-        let pixel_events = self.pixels.take().map(PixelRecorder::finish).transpose()?;
+        let pixel_events = self.pixel_events.take().map(PixelEventFiles::finish).transpose()?;
         let summary = |problem| {
             let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
             summary.data_set.clone_from(&self.data_set);
@@ -195,7 +195,7 @@ impl Recorder {
         };
         // The summary is written while there is space, before the last outputs are completed.
         let written = summary(problem.clone())?;
-        complete(expendable, &lost, &mut problem)?;
+        finish_expendable(expendable, &lost, &mut problem)?;
         if written.problem == problem { Ok(written) } else { summary(problem) }
     }
 
@@ -203,17 +203,17 @@ impl Recorder {
     /// other. Returns the remaining ones.
     fn make_room(
         &mut self,
-        mut expendable: Vec<Box<dyn Sink>>,
+        mut expendable: Vec<Box<dyn FrameSink>>,
         problem: &mut Option<String>,
-    ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
+    ) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
         loop {
             let Err(error) = self.write_out(true) else { return Ok(expendable) };
             let sink = if error.is_full() { expendable.pop() } else { None };
             let Some(sink) = sink else { return Err(error) };
-            let path = sink.expendable();
+            let path = sink.expendable_path();
             // The file is closed now.
             drop(sink);
-            path.iter().for_each(|path| give_up(path, problem));
+            path.iter().for_each(|path| leave_out(path, problem));
         }
     }
 
@@ -222,27 +222,27 @@ impl Recorder {
         self.totals.frames
     }
 
-    fn push_row(&mut self, source: &SourceFrame, outcome: &FrameOutcome) {
-        let (srs, trs) = (count(&outcome.srs), count(&outcome.trs));
-        let active = count(&outcome.active);
-        let sent = Sent::of(&self.design, &outcome.actions);
+    fn add_to_table(&mut self, source: &SourceFrame, outcome: &FrameOutcome) {
+        let (srs, trs) = (count_set(&outcome.srs), count_set(&outcome.trs));
+        let active = count_set(&outcome.active);
+        let sent = SentCounts::of_actions(&self.design, &outcome.actions);
         let (frame, time_us, name) = (self.totals.frames, source.time_us, source.name.as_str());
         let label = source.label.as_deref();
         self.totals.add(srs, trs, active, sent);
-        self.totals.at(time_us);
+        self.totals.record_time(time_us);
         self.table.push(&FrameRow { frame, time_us, name, label, srs, trs, active, sent });
     }
 }
 
 /// Completes outputs. An expendable output that fails is given up.
-fn complete(
-    sinks: Vec<Box<dyn Sink>>,
+fn finish_expendable(
+    sinks: Vec<Box<dyn FrameSink>>,
     lost: &dyn Fn(&SimulatorError) -> bool,
     problem: &mut Option<String>,
 ) -> Result<(), SimulatorError> {
     for sink in sinks {
-        match (sink.expendable(), sink.finish()) {
-            (Some(path), Err(error)) if lost(&error) => give_up(&path, problem),
+        match (sink.expendable_path(), sink.finish()) {
+            (Some(path), Err(error)) if lost(&error) => leave_out(&path, problem),
             (_, other) => other?,
         }
     }
@@ -251,7 +251,7 @@ fn complete(
 
 /// Removes a file or a folder of pictures that cannot be completed, and adds it to the problem of
 /// the run.
-fn give_up(path: &Path, problem: &mut Option<String>) {
+fn leave_out(path: &Path, problem: &mut Option<String>) {
     // The path lies in the folder of this run. If it cannot be removed, the summary still names it.
     let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir_all(path));
     let name = path.file_name().expect("an output has a name").display();
@@ -262,6 +262,6 @@ fn give_up(path: &Path, problem: &mut Option<String>) {
     });
 }
 
-fn count(bits: &[bool]) -> u64 {
+fn count_set(bits: &[bool]) -> u64 {
     bits.iter().map(|&bit| u64::from(bit)).sum()
 }

@@ -3,15 +3,15 @@
 
 use std::path::PathBuf;
 
-use foveate_engine::{EventTable, Moment};
+use foveate_engine::{EventTable, EventFrame};
 
-use super::csv::Csv;
+use super::csv::CsvFile;
 use crate::SimulatorError;
 
 /// An open file of the table.
 pub(super) trait RowWriter: Send {
     /// Appends the rows of a frame.
-    fn rows(&mut self, table: &EventTable, moment: &Moment<'_>);
+    fn rows(&mut self, table: &EventTable, moment: &EventFrame<'_>);
     /// Writes the buffered data, as [`super::sink::Sink::write_out`] does.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
     /// Returns the path that can be given up, as [`super::sink::Sink::expendable`] does.
@@ -21,16 +21,16 @@ pub(super) trait RowWriter: Send {
     fn finish(self: Box<Self>) -> Result<(), SimulatorError>;
 }
 
-impl RowWriter for Csv {
-    fn rows(&mut self, table: &EventTable, moment: &Moment<'_>) {
-        table.csv(moment, self.end());
+impl RowWriter for CsvFile {
+    fn rows(&mut self, table: &EventTable, moment: &EventFrame<'_>) {
+        table.csv(moment, self.buffer());
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Csv::write_out(self, all)
+        CsvFile::write_out(self, all)
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
-        Csv::write_out(&mut self, true)
+        CsvFile::write_out(&mut self, true)
     }
 }

@@ -5,27 +5,27 @@ use std::path::PathBuf;
 
 use foveate_camera::Camera;
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 
 use crate::SimulatorError;
 use foveate_footage::SourceFrame;
 
 /// One frame and its outcome.
-pub(super) struct Step<'a> {
+pub(super) struct SinkFrame<'a> {
     pub(super) camera: &'a Camera,
     /// The number of the frame in the run.
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
     pub(super) outcome: &'a FrameOutcome,
     /// The screen after the frame.
-    pub(super) screen: Plane<'a>,
+    pub(super) screen: FramePixels<'a>,
     /// The frame is the first one after a reset of the camera.
-    pub(super) first: bool,
+    pub(super) is_first: bool,
     /// The engine that computed the outcome, or `None` for a recording.
     pub(super) engine: Option<&'a Engine>,
 }
 
-impl<'a> Step<'a> {
+impl<'a> SinkFrame<'a> {
     /// Makes the step of the frame `source`, which must be the last that `engine` took.
     pub(super) fn new(
         engine: &'a Engine,
@@ -35,7 +35,7 @@ impl<'a> Step<'a> {
     ) -> Self {
         let (camera, outcome) = (engine.camera(), engine.outcome());
         let screen = engine.rendered();
-        Self { camera, number, source, outcome, screen, first, engine: Some(engine) }
+        Self { camera, number, source, outcome, screen, is_first: first, engine: Some(engine) }
     }
 }
 
@@ -43,26 +43,26 @@ impl<'a> Step<'a> {
 ///
 /// A full disk is found in [`Sink::write_out`], which is called before a frame is taken. So all
 /// sinks take a frame or none does, and the data that they have taken can still be written.
-pub(super) trait Sink: Send {
+pub(super) trait FrameSink: Send {
     /// Takes the next frame.
-    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError>;
+    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError>;
 
     /// Writes the buffered data if it is much, or all of it with `all`.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
 
     /// Returns the largest number of bytes, besides some buffers, that may have to be written after
     /// the disk is full.
-    fn owed(&self, _design: &Camera) -> u64 {
+    fn max_bytes_owed(&self, _design: &Camera) -> u64 {
         0
     }
 
     /// Returns the file or folder that is given up if there is no space to complete everything.
-    fn expendable(&self) -> Option<PathBuf> {
+    fn expendable_path(&self) -> Option<PathBuf> {
         None
     }
 
     /// Returns true if another program writes the output.
-    fn is_written_apart(&self) -> bool {
+    fn is_written_by_other_program(&self) -> bool {
         false
     }
 

@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use foveate_design::{Action, Camera, Config, Design};
+use foveate_design::{RegionAction, Camera, DesignConfig, Design};
 use serde::Serialize;
 
-use super::bandwidth::{Bandwidth, Sums};
+use super::bandwidth::{BandwidthComparison, TrafficSums};
 use super::cannot_write;
-use super::data_set::DataSet;
+use super::data_set::DataSetPaths;
 use crate::SimulatorError;
 
 /// The version of the format. It changes when a key of the summary changes its meaning or is
@@ -17,7 +17,7 @@ const FORMAT_VERSION: u32 = 1;
 
 /// The numbers of columns and rows of regions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Grid {
+pub struct GridSize {
     /// The number of columns of regions.
     pub columns: u32,
     /// The number of rows of regions.
@@ -26,7 +26,7 @@ pub struct Grid {
 
 /// The smallest and the largest value of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Range {
+pub struct ValueRange {
     /// The smallest value.
     pub min: f64,
     /// The largest value.
@@ -35,7 +35,7 @@ pub struct Range {
 
 /// The summary of a run. Shares refer to all regions of all frames, and are rounded to six digits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Summary {
+pub struct RunSummary {
     /// The version of this format.
     pub format_version: u32,
     /// The version of the program.
@@ -57,7 +57,7 @@ pub struct Summary {
     /// The bits per pixel.
     pub pixel_bits: u32,
     /// The grid of regions.
-    pub grid: Grid,
+    pub grid: GridSize,
     /// The number of regions of a frame.
     pub regions: u32,
     /// The share of active regions.
@@ -68,7 +68,7 @@ pub struct Summary {
     pub trs_share: f64,
     /// The share of active regions in the frame with the fewest and in the frame with the most of
     /// them.
-    pub active_share_per_frame: Range,
+    pub active_share_per_frame: ValueRange,
     /// The number of pixels of all frames.
     pub pixels_in: u64,
     /// The number of pixels of all active regions, without the padding of ragged frames.
@@ -81,34 +81,34 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub means_sent: Option<u64>,
     /// The bytes and events that the kinds of camera send.
-    pub bandwidth: Bandwidth,
+    pub bandwidth: BandwidthComparison,
     /// The data set that was made, if one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub data_set: Option<DataSet>,
+    pub data_set: Option<DataSetPaths>,
     /// The configuration, with the frame size filled in.
-    pub configuration: Config,
+    pub configuration: DesignConfig,
 }
 
 /// The data that is sent of one frame, or of many.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sent {
+pub(super) struct SentCounts {
     pub(super) pixels: u64,
     pub(super) summaries: u64,
     pub(super) means: u64,
 }
 
-impl Sent {
-    pub(super) fn of(camera: &Camera, actions: &[Action]) -> Self {
+impl SentCounts {
+    pub(super) fn of_actions(camera: &Camera, actions: &[RegionAction]) -> Self {
         let mut sent = Self::default();
         for (region, &action) in (0..).zip(actions) {
             let values = camera.values_sent(region, action);
             match action {
-                Action::Forward => sent.pixels += values,
-                Action::Summarize => {
+                RegionAction::Forward => sent.pixels += values,
+                RegionAction::Summarize => {
                     sent.summaries += 1;
                     sent.means += values;
                 }
-                Action::Hold | Action::Blank => {}
+                RegionAction::Hold | RegionAction::Blank => {}
             }
         }
         sent
@@ -117,12 +117,12 @@ impl Sent {
 
 /// The sums over the frames so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Totals {
+pub(super) struct RunTotals {
     pub(super) frames: u64,
     pub(super) srs: u64,
     pub(super) trs: u64,
     pub(super) active: u64,
-    pub(super) sent: Sent,
+    pub(super) sent: SentCounts,
     /// The times of the first and of the last frame in microseconds.
     pub(super) times: Option<(u64, u64)>,
     /// The number of active regions in the frame with the fewest and in the frame with the most of
@@ -130,8 +130,8 @@ pub(super) struct Totals {
     pub(super) extremes: Option<(u64, u64)>,
 }
 
-impl Totals {
-    pub(super) fn add(&mut self, srs: u64, trs: u64, active: u64, sent: Sent) {
+impl RunTotals {
+    pub(super) fn add(&mut self, srs: u64, trs: u64, active: u64, sent: SentCounts) {
         self.frames += 1;
         self.srs += srs;
         self.trs += trs;
@@ -144,7 +144,7 @@ impl Totals {
     }
 
     /// Records the time of a frame.
-    pub(super) fn at(&mut self, time_us: u64) {
+    pub(super) fn record_time(&mut self, time_us: u64) {
         self.times = Some((self.times.map_or(time_us, |(first, _)| first), time_us));
     }
 
@@ -154,8 +154,8 @@ impl Totals {
         inputs: &[String],
         problem: Option<String>,
         pixel_events: Option<u64>,
-    ) -> Summary {
-        let sums = Sums {
+    ) -> RunSummary {
+        let sums = TrafficSums {
             frames: self.frames,
             events: self.active + self.sent.summaries,
             values: self.sent.pixels + self.sent.means,
@@ -165,7 +165,7 @@ impl Totals {
         let regions = u64::from(design.regions());
         let all = regions * self.frames;
         let (min, max) = self.extremes.expect("a run without a frame has no summary");
-        Summary {
+        RunSummary {
             format_version: FORMAT_VERSION,
             foveate_version: env!("CARGO_PKG_VERSION"),
             design_fingerprint: design.fingerprint(),
@@ -176,24 +176,24 @@ impl Totals {
             width: design.width(),
             height: design.height(),
             pixel_bits: design.pixel_bits(),
-            grid: Grid { columns: design.columns(), rows: design.rows() },
+            grid: GridSize { columns: design.columns(), rows: design.rows() },
             regions: design.regions(),
             active_share: share(self.active, all),
             srs_share: share(self.srs, all),
             trs_share: share(self.trs, all),
-            active_share_per_frame: Range { min: share(min, regions), max: share(max, regions) },
+            active_share_per_frame: ValueRange { min: share(min, regions), max: share(max, regions) },
             pixels_in: self.frames * u64::from(design.width()) * u64::from(design.height()),
             pixels_forwarded: self.sent.pixels,
             summaries_sent: design.periphery().map(|_| self.sent.summaries),
             means_sent: design.periphery().map(|_| self.sent.means),
-            bandwidth: Bandwidth::of(design, &sums),
+            bandwidth: BandwidthComparison::of(design, &sums),
             data_set: None,
             configuration: design.config(),
         }
     }
 }
 
-impl Summary {
+impl RunSummary {
     /// Returns the summary as a JSON document.
     #[must_use]
     pub fn to_json(&self) -> String {

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use crate::support::{grey, names};
-use foveate_design::Config;
-use foveate_footage::{Clip, ClipPlan, FootageError, ImagesAs, InputOptions, plan};
+use foveate_design::DesignConfig;
+use foveate_footage::{BatchClip, ClipPlan, FootageError, ImageRelation, InputOptions, plan};
 use foveate_simulator::{BatchHooks, BatchProgress, RunOptions, SimulatorError, run_batch};
 
 /// Writes a stream of `frames` frames of 16x16 pixels.
@@ -23,28 +23,28 @@ fn y4m(path: &Path, frames: u8) -> PathBuf {
     path.to_owned()
 }
 
-struct Listener {
+struct ProgressRecorder {
     seen: Mutex<Vec<BatchProgress>>,
     stop_after: usize,
 }
 
-impl Listener {
+impl ProgressRecorder {
     fn new(stop_after: usize) -> Self {
         Self { seen: Mutex::default(), stop_after }
     }
 }
 
-impl BatchHooks for Listener {
+impl BatchHooks for ProgressRecorder {
     fn progress(&self, progress: BatchProgress) {
         self.seen.lock().unwrap().push(progress);
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.seen.lock().unwrap().len() >= self.stop_after
     }
 }
 
-fn planned<P: AsRef<Path>>(inputs: &[P]) -> Vec<Clip> {
+fn planned<P: AsRef<Path>>(inputs: &[P]) -> Vec<BatchClip> {
     match plan(inputs, &InputOptions::default()).unwrap() {
         ClipPlan::One => Vec::new(),
         ClipPlan::Batch(clips) => clips,
@@ -74,7 +74,7 @@ fn a_tree_gives_its_clips_at_their_places_with_labels() {
     tree(dir.path());
     let clips = planned(&[dir.path()]);
     let seen: Vec<_> =
-        clips.iter().map(|clip| (clip.place.to_str().unwrap(), clip.label.as_deref())).collect();
+        clips.iter().map(|clip| (clip.output_folder.to_str().unwrap(), clip.label.as_deref())).collect();
     let expected = [
         ("alone", None),
         ("cars/a", Some("cars")),
@@ -96,7 +96,7 @@ fn what_is_one_clip_is_no_batch() {
     assert!(planned(&[at("alone/0.png"), at("people/walk/1.png"), at("alone/*.png")]).is_empty());
     assert!(planned(&["scene:street"]).is_empty() && planned(&["-"]).is_empty());
     assert!(planned(&[at("missing.mp4")]).is_empty(), "opening says that it is missing");
-    let set = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
+    let set = InputOptions { images: ImageRelation::Set, ..InputOptions::default() };
     assert_eq!(plan(&[at("people")], &set).unwrap(), ClipPlan::One);
     assert_eq!(planned(&[at("alone"), at("people/walk")]).len(), 2);
     assert_eq!(planned(&[at("top.y4m"), at("cars")]).len(), 3);
@@ -112,11 +112,11 @@ fn what_is_one_clip_is_no_batch() {
 fn run(
     inputs: &[PathBuf],
     output: &Path,
-    hooks: &Listener,
+    hooks: &ProgressRecorder,
 ) -> Result<serde_json::Value, SimulatorError> {
     let summary = run_batch(
         &planned(inputs),
-        &Config::default(),
+        &DesignConfig::default(),
         &InputOptions::default(),
         output,
         &RunOptions::default(),
@@ -133,20 +133,20 @@ fn every_clip_gets_its_folder_and_a_failing_one_is_listed() {
     let dir = tempfile::tempdir().unwrap();
     let (input, output) = (dir.path().join("in"), dir.path().join("out"));
     tree(&input);
-    let hooks = Listener::new(usize::MAX);
+    let hooks = ProgressRecorder::new(usize::MAX);
     let summary = run(std::slice::from_ref(&input), &output, &hooks).unwrap();
     assert_eq!((&summary["complete"], &summary["frames"]), (&true.into(), &12.into()));
     assert_eq!(names(&output), [".foveate", "alone", "cars", "people", "summary.json", "top"]);
     assert!(output.join("people/day/b/summary.json").is_file());
     assert_eq!(summary["clips"][1]["label"], "cars");
     let last = *hooks.seen.lock().unwrap().iter().max_by_key(|p| (p.clips, p.frames)).unwrap();
-    assert_eq!(last, BatchProgress { clips: 6, all: 6, frames: 12 });
+    assert_eq!(last, BatchProgress { clips: 6, total_clips: 6, frames: 12 });
 
     let cut = fs::read(input.join("top.y4m")).unwrap();
     fs::write(input.join("top.y4m"), &cut[..cut.len() - 9]).unwrap();
     fs::write(input.join("alone/1.png"), "no image").unwrap();
     let other = dir.path().join("other");
-    let summary = run(&[input], &other, &Listener::new(usize::MAX)).unwrap();
+    let summary = run(&[input], &other, &ProgressRecorder::new(usize::MAX)).unwrap();
     assert_eq!(summary["problem"], "2 of 6 clips are not complete");
     assert_eq!(names(&other), [".foveate", "cars", "people", "summary.json", "top"]);
     let clips = summary["clips"].as_array().unwrap();
@@ -164,7 +164,7 @@ fn an_interrupted_batch_keeps_what_was_done() {
     let clips: Vec<PathBuf> =
         (0..9).map(|clip| y4m(&dir.path().join(format!("{clip}.y4m")), 50)).collect();
     let output = dir.path().join("out");
-    let summary = run(&clips, &output, &Listener::new(60)).unwrap();
+    let summary = run(&clips, &output, &ProgressRecorder::new(60)).unwrap();
     assert_eq!((&summary["complete"], &summary["problem"]), (&false.into(), &"interrupted".into()));
     let frames = summary["frames"].as_u64().unwrap();
     assert!((50..200).contains(&frames), "{frames}");
@@ -176,7 +176,7 @@ fn when_every_clip_fails_nothing_is_left() {
     let clips: Vec<PathBuf> =
         (0..3).map(|clip| y4m(&dir.path().join(format!("{clip}.y4m")), 0)).collect();
     let output = dir.path().join("out");
-    let error = run(&clips, &output, &Listener::new(usize::MAX)).unwrap_err();
+    let error = run(&clips, &output, &ProgressRecorder::new(usize::MAX)).unwrap_err();
     assert!(matches!(error, SimulatorError::NoClip { clips: 3, .. }), "{error}");
     assert!(!output.exists());
 }

@@ -5,9 +5,9 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_simulator::{
-    Decoded, Medium, Packets, PixelEvents, Recording, RunOptions, Silent, SimulatorError,
+    DecodedRecording, PictureFormat, PacketContent, PixelEventOptions, PacketRecording, RunOptions, SilentHooks, SimulatorError,
 };
 
 use crate::packets::{DESIGNS, crc, options};
@@ -18,13 +18,13 @@ fn decode(
     overrides: &[&str],
     output: &Path,
     options: &RunOptions,
-) -> Result<Decoded, SimulatorError> {
-    let config = Config::from_toml_with("", overrides).unwrap();
+) -> Result<DecodedRecording, SimulatorError> {
+    let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let mut stream = stream;
-    Recording { config: &config, stream: &mut stream, name: "scene:street" }.decode(
+    PacketRecording { config: &config, stream: &mut stream, name: "scene:street" }.decode(
         output,
         options,
-        &mut Silent,
+        &mut SilentHooks,
     )
 }
 
@@ -59,7 +59,7 @@ fn what_comes_back_is_what_was_simulated() {
     for (number, overrides) in DESIGNS.into_iter().enumerate() {
         let folder = tempfile::tempdir().unwrap();
         let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
-        let heat = RunOptions { heatmap: Some(Medium::Png), ..options(Some(Packets::WithScores)) };
+        let heat = RunOptions { heatmap: Some(PictureFormat::Png), ..options(Some(PacketContent::WithScores)) };
         let summary = street(&sent, overrides, &heat);
         let stream = fs::read(sent.join("packets.bin")).unwrap();
         let decoded =
@@ -82,7 +82,7 @@ fn what_comes_back_is_what_was_simulated() {
 fn without_scores_all_else_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
-    street(&sent, DESIGNS[5], &options(Some(Packets::Plain)));
+    street(&sent, DESIGNS[5], &options(Some(PacketContent::Plain)));
     let stream = fs::read(sent.join("packets.bin")).unwrap();
     decode(&stream, DESIGNS[5], &seen, &options(None)).unwrap();
     let lost: Vec<String> =
@@ -99,7 +99,7 @@ fn without_scores_all_else_is_the_same() {
 fn a_lost_region_stays_as_it_was_and_is_listed() {
     let folder = tempfile::tempdir().unwrap();
     let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
-    street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
+    street(&sent, DESIGNS[0], &options(Some(PacketContent::Plain)));
     let mut stream = fs::read(sent.join("packets.bin")).unwrap();
     // The first REGION packet of the first frame follows FRAME (56 bytes) and ROW (24 bytes).
     let is_region = |at: &usize| stream[*at] == 0xFA && stream[at + 1] & 15 == 4;
@@ -127,7 +127,7 @@ fn a_lost_region_stays_as_it_was_and_is_listed() {
 fn what_cannot_be_is_refused_with_both_sides() {
     let folder = tempfile::tempdir().unwrap();
     let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
-    street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
+    street(&sent, DESIGNS[0], &options(Some(PacketContent::Plain)));
     let stream = fs::read(sent.join("packets.bin")).unwrap();
     let refused = |stream: &[u8], overrides: &[&str], options: &RunOptions| {
         let message = decode(stream, overrides, &seen, options).unwrap_err().to_string();
@@ -145,9 +145,9 @@ fn what_cannot_be_is_refused_with_both_sides() {
     assert!(fixed.contains("46") && fixed.contains("45"), "{fixed}");
     assert!(refused(b"", DESIGNS[0], &plain).contains("0 bytes"));
     assert!(refused(&[7; 5000], DESIGNS[0], &plain).contains("no FRAME packet"));
-    let heat = RunOptions { heatmap: Some(Medium::Png), ..plain };
+    let heat = RunOptions { heatmap: Some(PictureFormat::Png), ..plain };
     assert!(refused(&stream, DESIGNS[0], &heat).contains("without scores"));
-    let pixel_events = PixelEvents { csv: true, ..PixelEvents::default() };
+    let pixel_events = PixelEventOptions { csv: true, ..PixelEventOptions::default() };
     let events = RunOptions { pixel_events, ..plain };
     assert!(refused(&stream, DESIGNS[0], &events).contains("pixel events"));
     let mut newer = stream.clone();

@@ -2,11 +2,11 @@
 //! Explanations agree with the model, are consistent, and fit a terminal.
 
 use crate::support::{design, frames};
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
-use foveate_simulator::{Explanation, SimulatorError, explain};
+use foveate_simulator::{RegionExplanation, SimulatorError, explain};
 
 const FOUR: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90}]"#;
 
@@ -14,10 +14,10 @@ fn explained(
     overrides: &[&str],
     frame: u64,
     region: (u32, u32),
-) -> Result<Explanation, SimulatorError> {
-    let config = Config::from_toml_with("", overrides).unwrap();
+) -> Result<RegionExplanation, SimulatorError> {
+    let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
-    explain(&config, open(&["scene:street"], &config.camera, &limit).unwrap(), frame, region)
+    explain_region(&config, open(&["scene:street"], &config.camera, &limit).unwrap(), frame, region)
 }
 
 fn hits(rows: &[Vec<bool>]) -> u64 {
@@ -75,7 +75,7 @@ fn raw_pixels_are_the_frames_and_padding_is_named() {
     let frame = frames(&design(&overrides)).nth(2).unwrap();
     for (y, row) in (16..).zip(&told.raw) {
         for (x, &pixel) in (24..).zip(row) {
-            assert_eq!(pixel, frame.clamped(x, y));
+            assert_eq!(pixel, frame.get_clamped(x, y));
         }
     }
     assert_eq!((told.region.padding_right, told.region.padding_below), (2, 4));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{grey, run};
 use foveate_camera::CameraConfig;
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_footage::{FootageError, InputOptions, open};
 use foveate_simulator::RunOptions;
 
@@ -69,7 +69,7 @@ fn the_number_of_frames_can_be_limited() {
         grey(&folder.path().join(format!("{index}.png")), 4, 4, |_, _| level(index));
     }
     let limit = |frames| InputOptions { frames: Some(frames), ..InputOptions::default() };
-    let config = Config::default();
+    let config = DesignConfig::default();
     assert_eq!(open(&[folder.path()], &config.camera, &limit(3)).unwrap().frames(), Some(3));
     assert_eq!(open(&["scene:fade"], &config.camera, &limit(300)).unwrap().frames(), Some(300));
     let error = open(&[folder.path()], &config.camera, &limit(0)).err().unwrap();
@@ -79,13 +79,13 @@ fn the_number_of_frames_can_be_limited() {
 #[test]
 fn scenes_take_their_size_from_the_configuration() {
     let options = InputOptions::default();
-    let config = Config::default();
+    let config = DesignConfig::default();
     assert_eq!(open(&["scene:street"], &config.camera, &options).unwrap().size(), (224, 224));
-    let config = Config::from_toml("frame.width = 64\nframe.height = 20").unwrap();
+    let config = DesignConfig::from_toml("frame.width = 64\nframe.height = 20").unwrap();
     let mut source = open(&["scene:street"], &config.camera, &options).unwrap();
     assert_eq!((source.size(), source.frames()), ((64, 20), Some(90)));
     assert_eq!(source.next_frame().unwrap().unwrap().name, "scene:street");
-    let config = Config::from_toml("frame.width = 99999").unwrap();
+    let config = DesignConfig::from_toml("frame.width = 99999").unwrap();
     let message = open(&["scene:street"], &config.camera, &options).err().unwrap().to_string();
     assert!(message.contains("frame.width") && message.contains("1..=16384"), "{message}");
 }

@@ -3,19 +3,19 @@
 //! that faults leave.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod atomic;
+mod output_folder;
 mod batch;
 mod data_set;
 mod decode;
 mod explain;
-mod hostile;
+mod wrong_numbers;
 mod inputs;
 mod outputs;
 mod packets;
 mod periphery;
 mod pixel_events;
 mod sets;
-mod shown;
+mod pictures;
 mod support;
 mod tables;
 mod video_faults;

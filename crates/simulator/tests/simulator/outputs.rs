@@ -4,11 +4,11 @@
 use crate::support;
 use std::fs;
 
-use crate::support::{Npy, STREET, names, outcomes, run, street};
+use crate::support::{NpyArray, STREET, names, outcomes, run, street};
 use foveate_frame::convert_depth;
 use foveate_model::FunctionalOutcome;
 use foveate_scenes::Scene;
-use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
+use foveate_simulator::{EventTableOptions, PictureFormat, PixelEventOptions, RunOptions};
 
 /// Returns the low bytes of every value, and checks that the others are zero.
 fn little_endian(bytes: usize, values: impl Iterator<Item = u64>) -> Vec<u8> {
@@ -26,7 +26,7 @@ fn arrays_hold_every_outcome() {
     street(&output, &STREET, &RunOptions::default());
     let outcomes = outcomes(&STREET);
     let expect = |name: &str, descr: &str, data: Vec<u8>| {
-        let npy = Npy::read(&output.join(name));
+        let npy = NpyArray::read(&output.join(name));
         assert_eq!((npy.descr.as_str(), &npy.shape[..]), (descr, &[5, 5, 6][..]), "{name}");
         assert!(npy.data == data, "{name}");
     };
@@ -142,10 +142,10 @@ fn every_scene_runs_and_runs_the_same_twice() {
     let folder = tempfile::tempdir().unwrap();
     for scene in Scene::ALL {
         let options = RunOptions {
-            overlay: Some(Medium::Png),
-            heatmap: Some(Medium::Png),
-            events: EventTables { csv: true, parquet: true, only_active: false },
-            pixel_events: PixelEvents { npz: true, csv: true, ..PixelEvents::default() },
+            overlay: Some(PictureFormat::Png),
+            heatmap: Some(PictureFormat::Png),
+            events: EventTableOptions { csv: true, parquet: true, only_active: false },
+            pixel_events: PixelEventOptions { npz: true, csv: true, ..PixelEventOptions::default() },
             ..RunOptions::default()
         };
         let input = format!("scene:{scene}");

@@ -3,9 +3,9 @@
 
 use std::fs;
 
-use foveate_design::{Action, Design, Payload};
+use foveate_design::{RegionAction, Design, Payload};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_simulator::{EventTables, Medium, Packets, RunOptions};
+use foveate_simulator::{EventTableOptions, PictureFormat, PacketContent, RunOptions};
 
 use crate::support::{design, frames, street};
 
@@ -62,10 +62,10 @@ pub(crate) const DESIGNS: [&[&str]; 9] = [
     ],
 ];
 
-pub(crate) fn options(packets: Option<Packets>) -> RunOptions {
+pub(crate) fn options(packets: Option<PacketContent>) -> RunOptions {
     RunOptions {
-        rendered: Some(Medium::Png),
-        events: EventTables { csv: true, parquet: true, only_active: false },
+        rendered: Some(PictureFormat::Png),
+        events: EventTableOptions { csv: true, parquet: true, only_active: false },
         packets,
         ..RunOptions::default()
     }
@@ -128,7 +128,7 @@ fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutc
         let of_row = first(row)..first(row + 1);
         let bits = if periphery.is_some() { 4 } else { 2 };
         let code = |region: usize| {
-            let summary = outcome.actions[region] == Action::Summarize;
+            let summary = outcome.actions[region] == RegionAction::Summarize;
             let bits = [outcome.srs[region], outcome.trs[region], summary];
             (0..).zip(bits).map(|(at, bit)| u64::from(bit) << at).sum()
         };
@@ -142,9 +142,9 @@ fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutc
                 payload.get(u32::try_from(x).unwrap(), u32::try_from(y).unwrap())
             };
             let (summary, values): (u64, Vec<u16>) = match outcome.actions[region] {
-                Action::Forward => (0, (0..side * side).map(pixel).collect()),
-                Action::Summarize => (1, outcome.means[region].clone()),
-                Action::Hold | Action::Blank => (2, Vec::new()),
+                RegionAction::Forward => (0, (0..side * side).map(pixel).collect()),
+                RegionAction::Summarize => (1, outcome.means[region].clone()),
+                RegionAction::Hold | RegionAction::Blank => (2, Vec::new()),
             };
             if summary < 2 {
                 let values: Vec<_> = values.iter().map(|&value| (value.into(), lane)).collect();
@@ -163,7 +163,7 @@ fn the_stream_is_what_the_page_says_of_the_model() {
     for (at, overrides) in DESIGNS.into_iter().enumerate() {
         let folder = tempfile::tempdir().unwrap();
         let output = folder.path().join("out");
-        let options = RunOptions { rendered: None, ..options(Some(Packets::Plain)) };
+        let options = RunOptions { rendered: None, ..options(Some(PacketContent::Plain)) };
         street(&output, overrides, &options);
         let table = fs::read_to_string(output.join("frames.csv")).unwrap();
         let time = |line: &str| line.split(',').nth(1).unwrap().parse::<u64>().unwrap();

@@ -3,10 +3,10 @@
 
 use std::fs;
 
-use crate::support::{Npy, STREET, design, outcomes, street};
-use foveate_design::Action;
+use crate::support::{NpyArray, STREET, design, outcomes, street};
+use foveate_design::RegionAction;
 use foveate_footage::{InputOptions, open};
-use foveate_simulator::{EventTables, RunOptions, explain};
+use foveate_simulator::{EventTableOptions, RunOptions, explain};
 
 /// Returns the configuration of the ragged street with edges alone, so that many regions are
 /// irrelevant.
@@ -24,13 +24,13 @@ fn overrides() -> Vec<&'static str> {
 fn every_output_counts_what_regions_send() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let events = EventTables { csv: true, only_active: true, ..EventTables::default() };
+    let events = EventTableOptions { csv: true, only_active: true, ..EventTableOptions::default() };
     let options = RunOptions { events, ..RunOptions::default() };
     let summary = street(&output, &overrides(), &options);
     let (design, outcomes) = (design(&overrides()), outcomes(&overrides()));
-    let sends = |action: &Action| matches!(action, Action::Forward | Action::Summarize);
-    let count = |of: Action| outcomes.iter().flat_map(|o| &o.actions).filter(|&&a| a == of).count();
-    let (active, summaries) = (count(Action::Forward) as u64, count(Action::Summarize) as u64);
+    let sends = |action: &RegionAction| matches!(action, RegionAction::Forward | RegionAction::Summarize);
+    let count = |of: RegionAction| outcomes.iter().flat_map(|o| &o.actions).filter(|&&a| a == of).count();
+    let (active, summaries) = (count(RegionAction::Forward) as u64, count(RegionAction::Summarize) as u64);
     assert!(active > 10 && summaries > 10, "{active} {summaries}");
 
     assert_eq!(summary.summaries_sent, Some(summaries));
@@ -45,7 +45,7 @@ fn every_output_counts_what_regions_send() {
     let mut lines = text.lines();
     assert!(lines.next().unwrap().ends_with(",pixels_forwarded,summaries_sent"));
     for (line, outcome) in lines.zip(&outcomes) {
-        let sent = outcome.actions.iter().filter(|&&action| action == Action::Summarize).count();
+        let sent = outcome.actions.iter().filter(|&&action| action == RegionAction::Summarize).count();
         let pixels: u64 = (0..30)
             .filter(|&region| outcome.active[region as usize])
             .map(|region| design.pixels_inside(region))
@@ -60,10 +60,10 @@ fn every_output_counts_what_regions_send() {
     let all = outcomes.iter().flat_map(|outcome| &outcome.actions).filter(|action| sends(action));
     assert_eq!(told, all.map(|action| action.name()).collect::<Vec<_>>());
 
-    let flags = Npy::read(&output.join("summary.npy"));
+    let flags = NpyArray::read(&output.join("summary.npy"));
     assert_eq!(flags.shape, [5, 5, 6]);
     let expected = outcomes.iter().flat_map(|o| &o.actions);
-    let expected: Vec<u8> = expected.map(|&a| u8::from(a == Action::Summarize)).collect();
+    let expected: Vec<u8> = expected.map(|&a| u8::from(a == RegionAction::Summarize)).collect();
     assert_eq!(flags.data, expected);
 }
 
@@ -94,14 +94,14 @@ fn an_explanation_says_why_a_summary_was_sent() {
             }
             let config = design.config();
             let source = open(&["scene:street"], &config.camera, &limit).unwrap();
-            let told = explain(&config, source, number, (region % 6, region / 6)).unwrap();
+            let told = explain_region(&config, source, number, (region % 6, region / 6)).unwrap();
             let summary = told.summary.clone().unwrap();
             assert_eq!(summary.means.concat(), outcome.means[at]);
             let shown = summary.shown.map(|rows| rows.concat());
             let is_near = shown.is_some_and(|shown| {
                 shown.iter().zip(&outcome.means[at]).all(|(a, b)| a.abs_diff(*b) <= 2)
             });
-            let sent = outcome.actions[at] == Action::Summarize;
+            let sent = outcome.actions[at] == RegionAction::Summarize;
             assert_eq!(sent, !is_near);
             assert_eq!(told.action, if sent { "summarize" } else { "hold" });
             let words = if sent { "are sent and shown" } else { "are near" };

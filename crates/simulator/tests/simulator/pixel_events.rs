@@ -7,20 +7,20 @@ use std::fs;
 use std::io::Read as _;
 use std::path::Path;
 
-use crate::support::{Npy, STREET, design, frames, names, street};
+use crate::support::{NpyArray, STREET, design, frames, names, street};
 use flate2::read::DeflateDecoder;
 use foveate_design::Decimal;
 use foveate_footage::FrameRate;
 use foveate_frame::Frame;
 use foveate_simulator::{
-    PIXEL_EVENT_BYTES, PixelCamera, PixelEvents, RunOptions, SimulatorError, Summary,
+    PIXEL_EVENT_BYTES, PixelCamera, PixelEventOptions, RunOptions, SimulatorError, RunSummary,
 };
 
 /// An event: x, y, t and p.
-type Event = (u32, u32, u64, u8);
+type EventTuple = (u32, u32, u64, u8);
 
 /// Returns the events of a naive camera in floating point, one pixel and one crossing at a time.
-fn naive(frames: &[Frame], contrast: f64, log: bool) -> Vec<Event> {
+fn naive(frames: &[Frame], contrast: f64, log: bool) -> Vec<EventTuple> {
     let max = f64::from(u16::MAX >> (16 - frames[0].bits()));
     let level = |value: u16| {
         let value = f64::from(value);
@@ -51,7 +51,7 @@ fn naive(frames: &[Frame], contrast: f64, log: bool) -> Vec<Event> {
     events
 }
 
-fn simulate(output: &Path, overrides: &[&str], options: PixelEvents) -> Summary {
+fn simulate(output: &Path, overrides: &[&str], options: PixelEventOptions) -> RunSummary {
     let options = RunOptions { pixel_events: options, rendered: None, ..RunOptions::default() };
     street(output, overrides, &options)
 }
@@ -102,7 +102,7 @@ fn crc(bytes: &[u8]) -> u32 {
     })
 }
 
-fn events_of(npy: &Npy) -> Vec<Event> {
+fn events_of(npy: &NpyArray) -> Vec<EventTuple> {
     assert_eq!(npy.descr, "[('x', '<i2'), ('y', '<i2'), ('t', '<i8'), ('p', '|b1')]");
     let event = |bytes: &[u8]| {
         let small = |at: usize| u32::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
@@ -135,10 +135,10 @@ fn events_are_those_of_a_naive_camera() {
         let level = if bits.ends_with("=1") { "temporal.level=0" } else { "temporal.level=8" };
         let design = design(&[&overrides[..], &[level]].concat());
         let contrast = contrast.map(|contrast| Decimal::from_f64(contrast).unwrap());
-        let options = PixelEvents { contrast, log, ..PixelEvents::default() };
+        let options = PixelEventOptions { contrast, is_logarithmic: log, ..PixelEventOptions::default() };
         let mut camera = PixelCamera::new(&design, options).unwrap();
         let frames: Vec<Frame> = frames(&design).collect();
-        let mut events: Vec<Event> = Vec::new();
+        let mut events: Vec<EventTuple> = Vec::new();
         for (number, frame) in frames.iter().enumerate() {
             let time = FrameRate::default().time_us(number as u64);
             camera.step(frame, |event| {
@@ -154,7 +154,7 @@ fn events_are_those_of_a_naive_camera() {
 #[test]
 fn a_step_brings_one_event_per_contrast_and_what_is_left_counts_on() {
     let design = design(&["frame.width=1", "frame.height=1"]);
-    let options = PixelEvents { contrast: Some(Decimal::whole(10)), ..PixelEvents::default() };
+    let options = PixelEventOptions { contrast: Some(Decimal::from_whole(10)), ..PixelEventOptions::default() };
     let mut camera = PixelCamera::new(&design, options).unwrap();
     let mut counts = Vec::new();
     for value in [100, 109, 110, 135, 139, 140, 100, 100] {
@@ -170,7 +170,7 @@ fn a_step_brings_one_event_per_contrast_and_what_is_left_counts_on() {
 fn both_files_hold_the_same_events_and_the_summary_counts_them() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let options = PixelEvents { npz: true, csv: true, ..PixelEvents::default() };
+    let options = PixelEventOptions { npz: true, csv: true, ..PixelEventOptions::default() };
     let summary = simulate(&output, &STREET, options);
     assert!(names(&output).iter().all(|name| name == ".foveate" || !name.starts_with('.')));
     let files = unzip(&fs::read(output.join("pixel_events.npz")).unwrap());
@@ -179,9 +179,9 @@ fn both_files_hold_the_same_events_and_the_summary_counts_them() {
         ["events.npy", "frame_start.npy"]
     );
     let frames: Vec<Frame> = frames(&design(&STREET)).collect();
-    let events = events_of(&Npy::parse(&files[0].1));
+    let events = events_of(&NpyArray::parse(&files[0].1));
     assert!(events == naive(&frames, 9.0, false));
-    let starts = Npy::parse(&files[1].1);
+    let starts = NpyArray::parse(&files[1].1);
     assert_eq!((starts.descr.as_str(), &starts.shape[..]), ("<i8", &[6][..]));
     let starts: Vec<usize> = starts
         .data
@@ -207,12 +207,12 @@ fn a_still_clip_gives_files_without_events() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let image = support::grey(&folder.path().join("a.png"), 9, 9, |x, _| u8::try_from(x).unwrap());
-    let pixel_events = PixelEvents { npz: true, csv: true, log: true, ..PixelEvents::default() };
+    let pixel_events = PixelEventOptions { npz: true, csv: true, is_logarithmic: true, ..PixelEventOptions::default() };
     let options = RunOptions { pixel_events, ..RunOptions::default() };
     support::run(&[&image, &image], &[], &output, &options).unwrap();
     let files = unzip(&fs::read(output.join("pixel_events.npz")).unwrap());
-    assert!(events_of(&Npy::parse(&files[0].1)).is_empty());
-    assert_eq!(Npy::parse(&files[1].1).data, [0; 24]);
+    assert!(events_of(&NpyArray::parse(&files[0].1)).is_empty());
+    assert_eq!(NpyArray::parse(&files[1].1).data, [0; 24]);
     assert_eq!(fs::read_to_string(output.join("pixel_events.csv")).unwrap(), "x,y,t,p\n");
 }
 
@@ -221,7 +221,7 @@ fn a_contrast_that_is_too_small_is_refused() {
     let design = design(&["frame.width=8", "frame.height=8"]);
     for contrast in [0.0, 0.009] {
         let contrast = Decimal::from_f64(contrast);
-        let options = PixelEvents { contrast, ..PixelEvents::default() };
+        let options = PixelEventOptions { contrast, ..PixelEventOptions::default() };
         let error = PixelCamera::new(&design, options).unwrap_err();
         assert!(matches!(error, SimulatorError::Contrast { .. }), "{error}");
     }

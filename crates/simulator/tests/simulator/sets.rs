@@ -6,18 +6,18 @@ use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
-use crate::support::{Npy, grey, run};
+use crate::support::{NpyArray, grey, run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use foveate_camera::CameraConfig;
-use foveate_design::Config;
-use foveate_footage::{FootageError, ImagesAs, InputOptions, Kind, Selection, SourceFrame, open};
+use foveate_design::DesignConfig;
+use foveate_footage::{FootageError, ImageRelation, InputOptions, SourceKind, FrameSelection, SourceFrame, open};
 use foveate_frame::luma;
-use foveate_simulator::{RunOptions, Silent, Simulation};
+use foveate_simulator::{RunOptions, SilentHooks, Simulation};
 
 fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, FootageError> {
     let mut source = open(&[path], &CameraConfig::default(), options)?;
-    assert_eq!(source.kind(), Kind::Set);
+    assert_eq!(source.kind(), SourceKind::Set);
     let mut seen = Vec::new();
     while let Some(frame) = source.next_frame()? {
         seen.push(frame);
@@ -124,17 +124,17 @@ fn cifar_comes_as_batches_and_as_sheets() {
         assert_eq!(seen.len(), 3);
         assert_eq!(seen[2].label, Some((10 * (tags - 1) + 2).to_string()));
         let expected: Vec<u16> = (0..1024).map(|pixel| mix(colour(2, pixel))).collect();
-        assert_eq!(seen[2].frame.plane().to_words(), expected);
+        assert_eq!(seen[2].frame.borrowed_pixels().to_words(), expected);
     }
     let path = dir.path().join("sheet.png");
     let sheet =
         image::RgbImage::from_fn(1024, 3, |x, y| image::Rgb(colour(y as usize, x as usize)));
     sheet.save(&path).unwrap();
-    let options = InputOptions { images: ImagesAs::CifarSheet, ..InputOptions::default() };
+    let options = InputOptions { images: ImageRelation::CifarSheet, ..InputOptions::default() };
     let seen = read(&path, &options).unwrap();
     assert_eq!((seen.len(), seen[1].frame.width(), seen[1].frame.height()), (3, 32, 32));
     let expected: Vec<u16> = (0..1024).map(|pixel| mix(colour(1, pixel))).collect();
-    assert_eq!(seen[1].frame.plane().to_words(), expected);
+    assert_eq!(seen[1].frame.borrowed_pixels().to_words(), expected);
     grey(&path, 100, 3, |_, _| 0);
     assert!(read(&path, &options).unwrap_err().to_string().contains("1024 pixels wide"));
 }
@@ -148,10 +148,10 @@ fn a_tree_of_images_is_a_set_with_labels() {
             grey(&dir.path().join(class).join(format!("{number}.png")), 8, 8, |_, _| number);
         }
     }
-    let options = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
+    let options = InputOptions { images: ImageRelation::Set, ..InputOptions::default() };
     let seen = read(dir.path(), &options).unwrap();
     assert_eq!(labels(&seen), [Some("ant"), Some("ant"), Some("bee")]);
-    let selection = Selection { end_us: Some(5), ..Selection::default() };
+    let selection = FrameSelection { end_us: Some(5), ..FrameSelection::default() };
     let error = read(dir.path(), &InputOptions { selection, ..options }).unwrap_err();
     assert!(error.to_string().contains("no times"), "{error}");
 }
@@ -168,12 +168,12 @@ fn every_image_of_a_set_is_a_first_frame() {
         let output = dir.path().join(format!("{images:?}"));
         let options = InputOptions { images, ..InputOptions::default() };
         let source = open(&[&frames], &CameraConfig::default(), &options).unwrap();
-        let simulation = Simulation::new(&Config::default(), source).unwrap();
-        simulation.run(&output, &RunOptions::default(), &mut Silent).unwrap();
-        Npy::read(&output.join("trs.npy")).data
+        let simulation = Simulation::new(&DesignConfig::default(), source).unwrap();
+        simulation.run(&output, &RunOptions::default(), &mut SilentHooks).unwrap();
+        NpyArray::read(&output.join("trs.npy")).data
     };
-    assert_eq!(trs(ImagesAs::Set), [1; 12]);
-    assert_eq!(trs(ImagesAs::Clip), [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(trs(ImageRelation::Set), [1; 12]);
+    assert_eq!(trs(ImageRelation::Clip), [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0]);
 }
 
 /// Tests the real sets in the folder that the environment variable FOVEATE_DATA names.
@@ -183,7 +183,7 @@ fn real_sets_are_read() {
     let seen =
         read(&data.join("mnist/t10k-images-idx3-ubyte.gz"), &InputOptions::default()).unwrap();
     assert_eq!((seen.len(), seen[0].label.as_deref()), (10_000, Some("7")));
-    let options = InputOptions { images: ImagesAs::CifarSheet, ..InputOptions::default() };
+    let options = InputOptions { images: ImageRelation::CifarSheet, ..InputOptions::default() };
     assert_eq!(read(&data.join("cifar10/cifar10_batch_0.png"), &options).unwrap().len(), 1000);
     let dir = tempfile::tempdir().unwrap();
     let mosquitoes = data.join("mosquito/aedes");

@@ -6,15 +6,15 @@ use crate::support;
 use std::fs::{self, File};
 use std::path::Path;
 
-use crate::support::{Npy, STREET, outcomes, street};
-use foveate_simulator::{EventTables, RunOptions, Summary};
+use crate::support::{NpyArray, STREET, outcomes, street};
+use foveate_simulator::{EventTableOptions, RunOptions, RunSummary};
 use parquet::basic::Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
 const HEADING: &str = "frame,t_us,x,y,x0,y0,srs,trs,score_edge,score_mad,t_count,action";
 
-fn simulate(output: &Path, tables: EventTables) -> Summary {
+fn simulate(output: &Path, tables: EventTableOptions) -> RunSummary {
     street(output, &STREET, &RunOptions { events: tables, rendered: None, ..RunOptions::default() })
 }
 
@@ -71,7 +71,7 @@ fn parquet_lines(path: &Path) -> (String, Vec<String>) {
 fn csv_and_parquet_hold_every_region_of_every_frame() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    simulate(&output, EventTables { csv: true, parquet: true, only_active: false });
+    simulate(&output, EventTableOptions { csv: true, parquet: true, only_active: false });
     let csv = fs::read_to_string(output.join("events.csv")).unwrap();
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some(HEADING));
@@ -86,12 +86,12 @@ fn csv_and_parquet_hold_every_region_of_every_frame() {
 fn only_active_regions_agree_with_arrays_and_summary() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let summary = simulate(&output, EventTables { csv: true, parquet: true, only_active: true });
+    let summary = simulate(&output, EventTableOptions { csv: true, parquet: true, only_active: true });
     let (_, rows) = parquet_lines(&output.join("events.parquet"));
     assert_eq!(rows, expected(true));
     let csv = fs::read_to_string(output.join("events.csv")).unwrap();
     assert_eq!(csv.lines().skip(1).collect::<Vec<_>>(), rows);
-    let active = Npy::read(&output.join("active.npy"));
+    let active = NpyArray::read(&output.join("active.npy"));
     let set = active.data.iter().filter(|&&bit| bit == 1).count();
     assert_eq!(rows.len(), set);
     assert_eq!(summary.bandwidth.region.events, Some(set as u64));
@@ -105,7 +105,7 @@ fn only_active_regions_agree_with_arrays_and_summary() {
 fn parquet_columns_have_plain_types() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    simulate(&output, EventTables { parquet: true, ..EventTables::default() });
+    simulate(&output, EventTableOptions { parquet: true, ..EventTableOptions::default() });
     assert!(!output.join("events.csv").exists());
     let file = File::open(output.join("events.parquet")).unwrap();
     let reader = SerializedFileReader::new(file).unwrap();

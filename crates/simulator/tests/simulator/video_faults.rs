@@ -6,7 +6,7 @@ use std::fs;
 
 use crate::support::clips::{all, clip, ffmpeg, frames, opened, tools};
 use crate::support::run;
-use foveate_footage::{FootageError, InputOptions, Selection};
+use foveate_footage::{FootageError, InputOptions, FrameSelection};
 use foveate_simulator::RunOptions;
 
 #[test]
@@ -99,7 +99,7 @@ fn what_holds_no_video_is_refused_in_one_line() {
         );
         assert!(message.contains(name) && !message.contains('\n'), "{message}");
     }
-    let late = Selection { start_us: Some(100_000_000), ..Selection::default() };
+    let late = FrameSelection { start_us: Some(100_000_000), ..FrameSelection::default() };
     let late = InputOptions { selection: late, ..InputOptions::default() };
     fs::write(at("whole.mp4"), whole).unwrap();
     let error = opened(&at("whole.mp4"), 8, &late).err().unwrap();

@@ -5,29 +5,29 @@ use foveate_design::FeatureKind;
 use rayon::prelude::*;
 
 use crate::designs::{config, design};
-use crate::{CaseRow, Depth};
+use crate::{CaseRow, RunDepth};
 
 /// Tests every N, powers of two included, for several P and f.
 ///
 /// `(x * m) >> s` never falls as x grows, and neither does `floor(x / n)`. So the two are equal for
 /// all x if they are equal at both ends of every run of x with the same quotient: at `q * n` and at
 /// `q * n + n - 1`, for every q. Trying these values proves all others.
-pub(crate) fn reciprocals(depth: Depth) -> Vec<CaseRow> {
-    let kinds: &[(u32, u32)] = depth.pick(
+pub(crate) fn reciprocals(depth: RunDepth) -> Vec<CaseRow> {
+    let kinds: &[(u32, u32)] = depth.choose(
         &[(8, 0), (10, 2), (16, 0)],
         &[(1, 0), (8, 0), (8, 6), (10, 2), (12, 4), (16, 0), (16, 4)],
     );
-    kinds.iter().map(|&kind| reciprocal(kind)).collect()
+    kinds.iter().map(|&kind| reciprocal_row(kind)).collect()
 }
 
-fn reciprocal((bits, fraction_bits): (u32, u32)) -> CaseRow {
+fn reciprocal_row((bits, fraction_bits): (u32, u32)) -> CaseRow {
     let sides: Vec<u32> = (2..=64).filter(|side| fraction_limit(*side) >= fraction_bits).collect();
     let (wrong, tried, worst) = sides
         .par_iter()
-        .map(|&side| exhaust(side, bits, fraction_bits))
+        .map(|&side| try_every_quotient(side, bits, fraction_bits))
         .reduce(|| (0, 0, 0), |a, b| (a.0 + b.0, a.1 + b.1, a.2.max(b.2)));
     let designs = format!("{} sizes N, P {bits}, f {fraction_bits}", sides.len());
-    CaseRow::none(
+    CaseRow::for_no_errors(
         "mean by reciprocal, every dividend",
         designs,
         "quotients wrong",
@@ -41,7 +41,7 @@ fn fraction_limit(side: u32) -> u32 {
     u32::BITS - (side * side - 1).leading_zeros()
 }
 
-fn exhaust(side: u32, bits: u32, fraction_bits: u32) -> (u64, u64, u64) {
+fn try_every_quotient(side: u32, bits: u32, fraction_bits: u32) -> (u64, u64, u64) {
     let mut config = config((side, side), side, bits, &[FeatureKind::Mad]);
     config.camera.spatial[0].mean_fraction_bits = Some(fraction_bits);
     let design = design(&config);

@@ -5,18 +5,18 @@ use foveate_design::FeatureKind;
 use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
-use crate::pixels::frame;
-use crate::{CaseRow, Depth};
+use crate::test_frames::frame_from_fn;
+use crate::{CaseRow, RunDepth};
 
 /// Tests that for every sum around a half, the score is that of the mean rounded up at one half. In
 /// exact rational arithmetic the mean is `floor((2 sum + n) / (2 n))`.
-pub(crate) fn halves(_: Depth) -> Vec<CaseRow> {
+pub(crate) fn halves(_: RunDepth) -> Vec<CaseRow> {
     [2, 3, 5, 8, 16].map(around_halves).into()
 }
 
 fn around_halves(side: u32) -> CaseRow {
     let mut config = config((side, side), side, 8, &[FeatureKind::Mad]);
-    config.camera.denoise.filter = foveate_design::Filter::None;
+    config.camera.denoise.filter = foveate_design::DenoiseFilter::None;
     config.camera.spatial[0].mean_fraction_bits = Some(0);
     let design = design(&config);
     let n = design.region_pixels();
@@ -24,7 +24,7 @@ fn around_halves(side: u32) -> CaseRow {
     for base in [0, 1, 127, 253] {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
             // `above` pixels are one level higher, so the mean is base + above / n.
-            let region = frame((side, side), 8, |x, y| base + u32::from(y * side + x < above));
+            let region = frame_from_fn((side, side), 8, |x, y| base + u32::from(y * side + x < above));
             let mean = base + u32::from(2 * above >= n);
             let expected: u64 = region
                 .pixels()
@@ -38,7 +38,7 @@ fn around_halves(side: u32) -> CaseRow {
             (wrong, tried, worst) = (wrong + u64::from(error > 0), tried + 1, worst.max(error));
         }
     }
-    CaseRow::none(
+    CaseRow::for_no_errors(
         "means on one half",
         format!("mad, N {side}, f 0"),
         "scores wrong",

@@ -2,38 +2,38 @@
 //! The cases, one file for each group, in the order of the table.
 
 mod agreement;
-mod cancellation;
+mod variance_cancellation;
 mod division;
-mod maxima;
+mod accumulator_maxima;
 mod means;
 mod references;
 mod summaries;
 mod thresholds;
-mod wraps;
+mod long_runs;
 
-use crate::{CaseRow, Depth};
+use crate::{CaseRow, RunDepth};
 
 /// A function that runs one case.
-pub(crate) type Case = fn(Depth) -> Vec<CaseRow>;
+pub(crate) type CaseFunction = fn(RunDepth) -> Vec<CaseRow>;
 
 /// Every case.
-pub(crate) const ALL: &[Case] = &[
-    maxima::largest_scores,
-    maxima::counts,
+pub(crate) const ALL_CASES: &[CaseFunction] = &[
+    accumulator_maxima::largest_scores,
+    accumulator_maxima::largest_counts,
     division::reciprocals,
     means::halves,
     summaries::halves,
-    cancellation::variance,
+    variance_cancellation::large_mean_variance,
     thresholds::on_below_above,
     references::slow_fade,
     references::flicker,
-    references::blanked,
+    references::relevance_returns,
     references::invariant_on_scenes,
     summaries::fade,
     agreement::scenes,
     agreement::sizes,
     agreement::depths,
-    agreement::unrest,
+    agreement::gaps_and_resets,
     agreement::means,
-    wraps::long_runs,
+    long_runs::long_runs,
 ];

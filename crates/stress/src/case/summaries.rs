@@ -2,20 +2,20 @@
 //! The means of blocks that irrelevant regions show: they are rounded correctly, and stay near the
 //! scene.
 
-use foveate_design::{Config, FeatureKind, Filter, Irrelevant, SUMMARY_BLOCKS};
+use foveate_design::{DesignConfig, FeatureKind, DenoiseFilter, IrrelevantRendering, SUMMARY_BLOCKS};
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
 use crate::designs::{config, design};
-use crate::pixels::{Random, frame};
-use crate::{CaseRow, Depth};
+use crate::test_frames::{RandomNumbers, frame_from_fn};
+use crate::{CaseRow, RunDepth};
 
 /// Returns a configuration in which regions whose pixels differ by one level are irrelevant, and
 /// show the means of blocks.
-fn with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -> Config {
+fn config_with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -> DesignConfig {
     let mut config = config(size, side, bits, &[FeatureKind::Edge]);
-    config.camera.denoise.filter = Filter::None;
-    config.camera.render.irrelevant = Irrelevant::Mean;
+    config.camera.denoise.filter = DenoiseFilter::None;
+    config.camera.render.irrelevant = IrrelevantRendering::Mean;
     config.camera.periphery.blocks = Some(blocks);
     config.camera.periphery.level = Some(level);
     config
@@ -24,14 +24,14 @@ fn with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -
 /// Tests that for every sum around a half, at both ends of the range of pixels, the screen shows
 /// the mean rounded up at one half. In exact rational arithmetic it is `floor((2 sum + n) / (2 n))`
 /// for the n pixels of a block.
-pub(crate) fn halves(_: Depth) -> Vec<CaseRow> {
+pub(crate) fn halves(_: RunDepth) -> Vec<CaseRow> {
     let sides = [(2, 1), (3, 1), (6, 2), (8, 4), (20, 4), (64, 1)];
     let depths = [8, 16];
     sides.iter().flat_map(|&sides| depths.map(|bits| around_halves(sides, bits))).collect()
 }
 
 fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
-    let design = design(&with_means((side, side), side, bits, blocks, 0));
+    let design = design(&config_with_means((side, side), side, bits, blocks, 0));
     let (block, max) = (side / blocks, (1 << bits) - 1);
     let n = block * block;
     let (mut wrong, mut tried, mut worst) = (0, 0, 0);
@@ -39,7 +39,7 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
             // In every block `above` pixels are one level higher, so its mean is base + above / n.
             let place = |x, y| (y % block) * block + x % block;
-            let region = frame((side, side), bits, |x, y| base + u32::from(place(x, y) < above));
+            let region = frame_from_fn((side, side), bits, |x, y| base + u32::from(place(x, y) < above));
             let mean = base + u32::from(2 * above >= n);
             let mut camera = FunctionalCamera::new(&design);
             let outcome = camera.step(&region).expect("the region is a frame of the design");
@@ -51,15 +51,15 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
         }
     }
     let designs = format!("N {side}, P {bits}, {blocks}x{blocks} means");
-    CaseRow::none("means of blocks on one half", designs, "pixels wrong", (wrong, tried), worst)
+    CaseRow::for_no_errors("means of blocks on one half", designs, "pixels wrong", (wrong, tried), worst)
 }
 
 /// Tests a fade of one level per frame, up and down, and jumps. In every frame, the value that a
 /// block shows is within the level of its mean.
-pub(crate) fn fade(depth: Depth) -> Vec<CaseRow> {
-    let frames = depth.pick(600, 10_000);
+pub(crate) fn fade(depth: RunDepth) -> Vec<CaseRow> {
+    let frames = depth.choose(600, 10_000);
     let slow = |t: u32| if (t / 250).is_multiple_of(2) { t % 250 } else { 250 - t % 250 };
-    let mut jumps = Random::new(5);
+    let mut jumps = RandomNumbers::new(5);
     let jumps: Vec<u32> =
         (0..frames).map(|_| u32::try_from(jumps.below(256)).expect("a pixel has 8 bits")).collect();
     let lights: [(&'static str, Vec<u32>); 2] =
@@ -68,7 +68,7 @@ pub(crate) fn fade(depth: Depth) -> Vec<CaseRow> {
     for (name, lights) in lights {
         for &blocks in SUMMARY_BLOCKS {
             for level in [0, 4, 254] {
-                rows.push(followed(name, &lights, blocks, level));
+                rows.push(fade_row(name, &lights, blocks, level));
             }
         }
     }
@@ -76,12 +76,12 @@ pub(crate) fn fade(depth: Depth) -> Vec<CaseRow> {
 }
 
 /// Makes the row of a case that compares the screen with a flat scene.
-fn followed(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
+fn fade_row(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
     const SIZE: (u32, u32) = (13, 11);
-    let mut camera = FunctionalCamera::new(&design(&with_means(SIZE, 8, 8, blocks, level)));
+    let mut camera = FunctionalCamera::new(&design(&config_with_means(SIZE, 8, 8, blocks, level)));
     let (mut wrong, mut tried, mut worst) = (0, 0, 0);
     for &light in lights {
-        let flat: Frame = frame(SIZE, 8, |_, _| light);
+        let flat: Frame = frame_from_fn(SIZE, 8, |_, _| light);
         let outcome = camera.step(&flat).expect("it is a frame of the design");
         for &shown in outcome.rendered.pixels() {
             let error = u32::from(shown).abs_diff(light);
@@ -91,5 +91,5 @@ fn followed(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
     }
     let frames = lights.len();
     let designs = format!("{name}, {blocks}x{blocks} means, level {level}, {frames} frames");
-    CaseRow::none("means follow the scene", designs, "pixels off by more", (wrong, tried), worst)
+    CaseRow::for_no_errors("means follow the scene", designs, "pixels off by more", (wrong, tried), worst)
 }

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds at a measured value, one below and one above it.
 
-use foveate_design::{Config, Decimal, FeatureKind, Filter};
+use foveate_design::{DesignConfig, Decimal, FeatureKind, DenoiseFilter};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
-use crate::designs::{config, design, kinds};
-use crate::pixels::Random;
-use crate::{CaseRow, Depth};
+use crate::designs::{config, design, supported_features};
+use crate::test_frames::RandomNumbers;
+use crate::{CaseRow, RunDepth};
 
 /// Tests that a score votes if the minimum is equal to it and not if it is one higher, and that a
 /// pixel is a hit if the level is one below its magnitude and not if it is equal.
-pub(crate) fn on_below_above(depth: Depth) -> Vec<CaseRow> {
-    let rounds = depth.pick(12, 200);
-    let counted = kinds().into_iter().filter(|kind| kind.measure().is_count());
-    let scored = counted.map(|kind| scores(kind, rounds));
-    scored.chain([levels(rounds), counts(rounds)]).collect()
+pub(crate) fn on_below_above(depth: RunDepth) -> Vec<CaseRow> {
+    let rounds = depth.choose(12, 200);
+    let counted = supported_features().into_iter().filter(|kind| kind.score_unit().is_count());
+    let scored = counted.map(|kind| score_thresholds(kind, rounds));
+    scored.chain([edge_levels(rounds), temporal_thresholds(rounds)]).collect()
 }
 
 const SIDE: u32 = 8;
 
-fn bare(feature: FeatureKind) -> Config {
+fn config_without_filter(feature: FeatureKind) -> DesignConfig {
     let mut config = config((SIDE, SIDE), SIDE, 8, &[feature]);
-    config.camera.denoise.filter = Filter::None;
+    config.camera.denoise.filter = DenoiseFilter::None;
     config
 }
 
 /// Returns the answer of both models to one question about the second of two frames, or `None` if
 /// they differ.
-fn ask<A: PartialEq>(
-    config: &Config,
+fn compare_answers<A: PartialEq>(
+    config: &DesignConfig,
     frames: [&Frame; 2],
     clear: impl Fn(&foveate_model::FunctionalOutcome) -> A,
     fast: impl Fn(&foveate_engine::FrameOutcome) -> A,
@@ -44,9 +44,9 @@ fn ask<A: PartialEq>(
 }
 
 /// Makes a row from the answers, of which the false ones are wrong.
-fn row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
+fn threshold_row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
     let wrong = answers.iter().map(|&right| u64::from(!right)).sum();
-    CaseRow::none(
+    CaseRow::for_no_errors(
         "thresholds on, below, above",
         designs,
         what,
@@ -55,68 +55,68 @@ fn row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
     )
 }
 
-fn scores(kind: FeatureKind, rounds: u64) -> CaseRow {
+fn score_thresholds(kind: FeatureKind, rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for seed in 0..rounds {
-        let frame = Random::new(seed).frame((SIDE, SIDE), 8);
-        let mut config = bare(kind);
+        let frame = RandomNumbers::new(seed).frame((SIDE, SIDE), 8);
+        let mut config = config_without_filter(kind);
         config.camera.spatial[0].level = Some(40);
-        let score = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+        let score = compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
         let Some(score) = score else {
             answers.push(false);
             continue;
         };
         let score = u32::try_from(score).expect("no more than the pixels of a region");
         for min in [score.saturating_sub(1), score, (score + 1).min(SIDE * SIDE)] {
-            config.camera.spatial[0].min_score = Some(Decimal::whole(min.into()));
-            let voted = ask(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
+            config.camera.spatial[0].min_score = Some(Decimal::from_whole(min.into()));
+            let voted = compare_answers(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
             answers.push(voted == Some(score >= min));
         }
     }
-    row(&format!("{kind}, N {SIDE}, min_score"), "votes wrong", &answers)
+    threshold_row(&format!("{kind}, N {SIDE}, min_score"), "votes wrong", &answers)
 }
 
 /// Tests the level of `edge` with steps in brightness of different height.
-fn levels(rounds: u64) -> CaseRow {
+fn edge_levels(rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for step in 1..=rounds.min(255) {
         let step = u32::try_from(step).expect("at most 255");
         // At a vertical step of brightness, |Gx| is four times its height in the two columns beside
         // it.
-        let frame = crate::pixels::frame((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
+        let frame = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
         for level in [4 * step - 1, 4 * step, 4 * step + 1] {
-            let mut config = bare(FeatureKind::Edge);
+            let mut config = config_without_filter(FeatureKind::Edge);
             config.camera.spatial[0].level = Some(level);
-            let hits = ask(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+            let hits = compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
             let expected = if 4 * step > level { 2 * SIDE } else { 0 };
             answers.push(hits == Some(expected.into()));
         }
     }
-    row(&format!("edge, N {SIDE}, level"), "hits wrong", &answers)
+    threshold_row(&format!("edge, N {SIDE}, level"), "hits wrong", &answers)
 }
 
 /// Tests the temporal level and count with a known difference in a known number of pixels.
-fn counts(rounds: u64) -> CaseRow {
+fn temporal_thresholds(rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for seed in 0..rounds {
-        let mut random = Random::new(seed);
+        let mut random = RandomNumbers::new(seed);
         let changed = random.below(u64::from(SIDE * SIDE) + 1);
         let changed = u32::try_from(changed).expect("at most the pixels of a region");
         let by = 1 + u32::try_from(random.below(200)).expect("below 200");
-        let still = crate::pixels::frame((SIDE, SIDE), 8, |_, _| 20);
-        let moved = crate::pixels::frame((SIDE, SIDE), 8, |x, y| {
+        let still = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |_, _| 20);
+        let moved = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, y| {
             if y * SIDE + x < changed { 20 + by } else { 20 }
         });
         for level in [by - 1, by, by + 1] {
             for min in [changed.saturating_sub(1), changed, (changed + 1).min(SIDE * SIDE)] {
-                let mut config = bare(FeatureKind::Edge);
+                let mut config = config_without_filter(FeatureKind::Edge);
                 (config.camera.temporal.level, config.camera.temporal.min_count) =
                     (Some(level), min);
-                let trs = ask(&config, [&still, &moved], |o| o.trs[0], |o| o.trs[0]);
+                let trs = compare_answers(&config, [&still, &moved], |o| o.trs[0], |o| o.trs[0]);
                 let count = if by > level { changed } else { 0 };
                 answers.push(trs == Some(count >= min));
             }
         }
     }
-    row(&format!("temporal, N {SIDE}, level and min_count"), "TRS wrong", &answers)
+    threshold_row(&format!("temporal, N {SIDE}, level and min_count"), "TRS wrong", &answers)
 }

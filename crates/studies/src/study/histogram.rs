@@ -3,37 +3,37 @@
 //! full scale, which is the largest possible value. At 8 bits a bin is one grey level wide.
 
 use foveate_design::{Design, FeatureKind, SpatialConfig};
-use foveate_pictures::chart::{Chart, Line, Shape};
+use foveate_pictures::chart::{Chart, ChartSeries, ChartData};
 
 use super::Study;
 use crate::StudyError;
-use crate::findings::Findings;
-use crate::number::{coordinate, percent, share};
-use crate::table::Table;
-use crate::watch::Watcher;
+use crate::findings::StudyFindings;
+use crate::number::{coordinate, percent, share_text};
+use crate::table::StudyTable;
+use crate::runner::StudyRunner;
 
 const COLUMNS: [&str; 6] = ["set", "mad_from", "mad_to", "regions", "share", "design"];
 const BINS: u64 = 128;
 
 #[derive(Default)]
-struct Histogram {
+struct DeviationHistogram {
     all: u64,
     bins: Vec<u64>,
 }
 
-pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError> {
     let own = watcher.config.camera.spatial.iter().find(|entry| entry.feature == FeatureKind::Mad);
     let mad = own.cloned().unwrap_or_else(|| SpatialConfig::new(FeatureKind::Mad));
     let mut config = watcher.config.clone();
     config.camera.spatial = vec![mad];
-    let watched = watcher.watch(&[config], |histogram: &mut Histogram, design, seen| {
+    let watched = watcher.run_clips(&[config], |histogram: &mut DeviationHistogram, design, seen| {
         histogram.bins.resize(usize::try_from(BINS).expect("BINS are few"), 0);
         for &score in seen.outcome.scores.iter().flatten() {
             histogram.all += 1;
             histogram.bins[bin(design, score)] += 1;
         }
     })?;
-    let mut table = Table::new(&COLUMNS);
+    let mut table = StudyTable::new(&COLUMNS);
     let mut lines = Vec::new();
     for set in &watched {
         for (design, histogram) in &set.points {
@@ -46,7 +46,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
                     (f64::from(at) * width).to_string(),
                     (f64::from(at + 1) * width).to_string(),
                     count.to_string(),
-                    share(count, histogram.all),
+                    share_text(count, histogram.all),
                     design.fingerprint(),
                 ]);
             }
@@ -54,20 +54,20 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
                 let height = percent(count, histogram.all);
                 [(f64::from(at) * width, height), (f64::from(at + 1) * width, height)]
             });
-            lines.push(Line { name: set.name.clone(), points: steps.collect(), ..Line::default() });
+            lines.push(ChartSeries { name: set.name.clone(), points: steps.collect(), ..ChartSeries::default() });
         }
     }
-    let mut findings = Findings::new(Study::MadHistogram, &watched, table);
+    let mut findings = StudyFindings::new(Study::MadHistogram, &watched, table);
     let width = watched.first().and_then(|set| set.points.first()).map_or(1.0, |p| bin_width(&p.0));
     let chart = Chart {
-        file: "mad-histogram".to_owned(),
+        file_stem: "mad-histogram".to_owned(),
         title: "Mean absolute deviation (MAD) of regions".to_owned(),
-        x: "MAD [grey levels]".to_owned(),
-        y: format!("share of regions [%] per {width} grey level"),
+        x_title: "MAD [grey levels]".to_owned(),
+        y_title: format!("share of regions [%] per {width} grey level"),
         caption: String::new(),
-        shape: Shape::Lines(lines),
+        shape: ChartData::Lines(lines),
     };
-    findings.chart(chart, &watched);
+    findings.add_chart(chart, &watched);
     Ok(findings)
 }
 

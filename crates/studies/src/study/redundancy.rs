@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial redundancy: the share of regions that a single feature finds irrelevant.
 
-use foveate_design::{Config, FeatureKind, SpatialConfig};
-use foveate_pictures::chart::{Bars, Chart, Shape};
+use foveate_design::{DesignConfig, FeatureKind, SpatialConfig};
+use foveate_pictures::chart::{BarSeries, Chart, ChartData};
 use foveate_pictures::palette::SERIES;
 
 use super::Study;
 use crate::StudyError;
-use crate::findings::Findings;
-use crate::number::{percent, share};
-use crate::table::Table;
-use crate::watch::Watcher;
+use crate::findings::StudyFindings;
+use crate::number::{percent, share_text};
+use crate::table::StudyTable;
+use crate::runner::StudyRunner;
 
 /// The columns before and after those of the features.
 const COLUMNS: ([&str; 3], [&str; 1]) = (["set", "images", "regions"], ["design"]);
 
 /// The number of regions, and of those below the threshold of every feature.
 #[derive(Default)]
-struct Below {
+struct IrrelevantCounts {
     all: u64,
     by_feature: Vec<u64>,
 }
 
-pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError> {
     let config = with_every_feature(watcher.config);
     let kinds: Vec<FeatureKind> = config.camera.spatial.iter().map(|entry| entry.feature).collect();
-    let watched = watcher.watch(&[config], |below: &mut Below, design, seen| {
+    let watched = watcher.run_clips(&[config], |below: &mut IrrelevantCounts, design, seen| {
         below.all += u64::from(design.regions());
         below.by_feature.resize(design.features().len(), 0);
         let scored = design.features().iter().zip(&seen.outcome.scores);
@@ -36,41 +36,41 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     })?;
     let names = kinds.iter().map(|kind| kind.name());
     let columns: Vec<_> = COLUMNS.0.into_iter().chain(names).chain(COLUMNS.1).collect();
-    let mut table = Table::new(&columns);
+    let mut table = StudyTable::new(&columns);
     for set in &watched {
         for (design, below) in &set.points {
             let mut row = vec![set.name.clone(), set.frames.to_string(), below.all.to_string()];
-            row.extend(below.by_feature.iter().map(|&low| share(low, below.all)));
+            row.extend(below.by_feature.iter().map(|&low| share_text(low, below.all)));
             row.push(design.fingerprint());
             table.rows.push(row);
         }
     }
-    let mut findings = Findings::new(Study::Redundancy, &watched, table);
+    let mut findings = StudyFindings::new(Study::Redundancy, &watched, table);
     let points = || watched.iter().flat_map(|set| set.points.iter().map(|(_, below)| below));
-    let bars = |(at, kind): (usize, &FeatureKind)| Bars {
+    let bars = |(at, kind): (usize, &FeatureKind)| BarSeries {
         name: kind.name().to_owned(),
         colour: SERIES[at % SERIES.len()],
         values: points().map(|below| percent(below.by_feature[at], below.all)).collect(),
         ranges: Vec::new(),
     };
     let chart = Chart {
-        file: "redundancy".to_owned(),
+        file_stem: "redundancy".to_owned(),
         title: "Spatial redundancy: regions with SRS = 0".to_owned(),
-        x: "set".to_owned(),
-        y: "share of regions [%]".to_owned(),
+        x_title: "set".to_owned(),
+        y_title: "share of regions [%]".to_owned(),
         caption: String::new(),
-        shape: Shape::Bars {
+        shape: ChartData::Bars {
             groups: watched.iter().map(|set| set.name.clone()).collect(),
             series: kinds.iter().enumerate().map(bars).collect(),
         },
     };
-    findings.chart(chart, &watched);
+    findings.add_chart(chart, &watched);
     Ok(findings)
 }
 
 /// Returns the configuration with every feature that the organization has, in the order of the
 /// columns, with the thresholds of the configuration or their defaults.
-fn with_every_feature(config: &Config) -> Config {
+fn with_every_feature(config: &DesignConfig) -> DesignConfig {
     let organization = config.hardware.organization;
     let entry = |&kind: &FeatureKind| {
         let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);

@@ -12,18 +12,18 @@ use flate2::read::MultiGzDecoder;
 use foveate_design::Design;
 use serde::Deserialize;
 
-use super::{Study, clips_only};
+use super::{Study, refuse_data_sets};
 use crate::StudyError;
-use crate::findings::Findings;
+use crate::findings::StudyFindings;
 use crate::rank::spearman;
-use crate::table::Table;
-use crate::watch::Watcher;
+use crate::table::StudyTable;
+use crate::runner::StudyRunner;
 
 const COLUMNS: [&str; 5] = ["count_per_region", "spearman", "regions", "sensor_events", "design"];
 
 /// The counts per region over all frames but the first, which has no reference.
 #[derive(Default)]
-struct Counts {
+struct ModelCounts {
     active: Vec<u64>,
     changed: Vec<u64>,
     pixels: Vec<u64>,
@@ -33,35 +33,35 @@ struct Counts {
 /// Runs the study. `start` is the time of the first frame on the clock of the events, in
 /// microseconds.
 pub(crate) fn run(
-    watcher: &Watcher<'_>,
+    watcher: &StudyRunner<'_>,
     events: Option<&Path>,
     start: u64,
-) -> Result<Findings, StudyError> {
+) -> Result<StudyFindings, StudyError> {
     let path = events.ok_or(StudyError::NoSensorEvents)?;
     if watcher.subjects.len() != 1 {
-        return Err(StudyError::OneClip { clips: watcher.subjects.len() });
+        return Err(StudyError::SeveralClips { clips: watcher.subjects.len() });
     }
-    let watched = watcher.watch(from_ref(watcher.config), |counts: &mut Counts, _, seen| {
+    let watched = watcher.run_clips(from_ref(watcher.config), |counts: &mut ModelCounts, _, seen| {
         let outcome = seen.outcome;
         for (sums, votes) in
             [(&mut counts.active, &outcome.active), (&mut counts.changed, &outcome.trs)]
         {
             sums.resize(votes.len(), 0);
             for (sum, &vote) in sums.iter_mut().zip(votes) {
-                *sum += u64::from(vote && !seen.without_reference);
+                *sum += u64::from(vote && !seen.is_without_reference);
             }
         }
         counts.pixels.resize(outcome.temporal_count.len(), 0);
         for (sum, &count) in counts.pixels.iter_mut().zip(&outcome.temporal_count) {
-            *sum += if seen.without_reference { 0 } else { u64::from(count) };
+            *sum += if seen.is_without_reference { 0 } else { u64::from(count) };
         }
         counts.last_us = seen.time_us;
     })?;
-    clips_only(Study::Sensor, &watched)?;
-    let mut table = Table::new(&COLUMNS);
+    refuse_data_sets(Study::Sensor, &watched)?;
+    let mut table = StudyTable::new(&COLUMNS);
     for (design, counts) in watched.iter().flat_map(|clip| &clip.points) {
         let times = (start, start.saturating_add(counts.last_us));
-        let events = read(path, design, times)?.compared(path, times, design)?;
+        let events = read_recording(path, design, times)?.into_events_per_region(path, times, design)?;
         for (name, own) in [
             ("active frames", &counts.active),
             ("frames with TRS", &counts.changed),
@@ -76,32 +76,32 @@ pub(crate) fn run(
             ]);
         }
     }
-    let mut findings = Findings::new(Study::Sensor, &watched, table);
+    let mut findings = StudyFindings::new(Study::Sensor, &watched, table);
     findings.notes.push(format!("sensor events {}", path.display()));
     Ok(findings)
 }
 
 /// An event of a recording, which may have other columns, too.
 #[derive(Deserialize)]
-struct Event {
+struct SensorEvent {
     t_us: u64,
     x: u64,
     y: u64,
 }
 
 /// The events of a recording that belong to a clip.
-struct Recorded {
+struct SensorRecording {
     /// The number of events of every region, in row-major order.
     per_region: Vec<u64>,
     /// The times of the first and the last event of the recording, in microseconds.
     times: Option<(u64, u64)>,
     /// Whether some event falls into the time of the clip, inside of the frame or not.
-    meanwhile: bool,
+    has_events_of_clip: bool,
 }
 
-impl Recorded {
+impl SensorRecording {
     /// Returns the number of events of every region. Fails if no event belongs to the clip.
-    fn compared(
+    fn into_events_per_region(
         self,
         path: &Path,
         (first, last): (u64, u64),
@@ -109,7 +109,7 @@ impl Recorded {
     ) -> Result<Vec<u64>, StudyError> {
         let wrong = |problem| StudyError::SensorEvents { path: path.to_owned(), problem };
         let (from, to) = self.times.ok_or_else(|| wrong("it holds no event".to_owned()))?;
-        if !self.meanwhile {
+        if !self.has_events_of_clip {
             let path = path.to_owned();
             return Err(StudyError::SensorTime { path, first, last, from, to });
         }
@@ -125,25 +125,25 @@ impl Recorded {
 
 /// Reads a recording. Events with first < t <= last count for their region, unless they are outside
 /// of the frame.
-fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recorded, StudyError> {
+fn read_recording(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<SensorRecording, StudyError> {
     let wrong = |problem: String| StudyError::SensorEvents { path: path.to_owned(), problem };
     let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
     let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
     let reader: Box<dyn Read> =
         if packed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
     let mut file =
-        foveate_reading::table(ReaderBuilder::new().flexible(true).trim(Trim::All), reader);
-    let columns = file.headers().map_err(|error| wrong(said(&error)))?.clone();
+        foveate_reading::table_reader(ReaderBuilder::new().flexible(true).trim(Trim::All), reader);
+    let columns = file.headers().map_err(|error| wrong(csv_problem(&error)))?.clone();
     let per_region = vec![0; design.regions() as usize];
-    let mut recorded = Recorded { per_region, times: None, meanwhile: false };
+    let mut recorded = SensorRecording { per_region, times: None, has_events_of_clip: false };
     let event = |record: StringRecord| record.deserialize(Some(&columns));
     for record in file.records() {
-        let Event { t_us: t, x, y } =
-            record.and_then(event).map_err(|error| wrong(said(&error)))?;
+        let SensorEvent { t_us: t, x, y } =
+            record.and_then(event).map_err(|error| wrong(csv_problem(&error)))?;
         let (from, to) = recorded.times.unwrap_or((t, t));
         recorded.times = Some((from.min(t), to.max(t)));
         let meanwhile = t > first && t <= last;
-        recorded.meanwhile |= meanwhile;
+        recorded.has_events_of_clip |= meanwhile;
         if meanwhile && x < u64::from(design.width()) && y < u64::from(design.height()) {
             let size = u64::from(design.region_size());
             let region = y / size * u64::from(design.columns()) + x / size;
@@ -154,7 +154,7 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
 }
 
 /// Returns the problem, with the number of its line.
-fn said(error: &csv::Error) -> String {
+fn csv_problem(error: &csv::Error) -> String {
     match (error.kind(), error.position()) {
         (ErrorKind::Deserialize { err, .. }, Some(place)) => {
             format!("line {}: {err}", place.line())

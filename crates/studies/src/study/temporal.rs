@@ -3,16 +3,16 @@
 
 use std::slice::from_ref;
 
-use foveate_pictures::chart::{Bars, Chart, Shape};
+use foveate_pictures::chart::{BarSeries, Chart, ChartData};
 use foveate_pictures::palette::{ACTIVE, CHANGED, RELEVANT};
 
-use super::{Study, clips_only};
+use super::{Study, refuse_data_sets};
 use crate::StudyError;
-use crate::findings::Findings;
-use crate::number::{percent, share};
-use crate::table::Table;
-use crate::tally::{RegionTally, Regions};
-use crate::watch::Watcher;
+use crate::findings::StudyFindings;
+use crate::number::{percent, share_text};
+use crate::table::StudyTable;
+use crate::tally::{RegionTally, RegionCounts};
+use crate::runner::StudyRunner;
 
 const COLUMNS: [&str; 9] = [
     "clip",
@@ -26,11 +26,11 @@ const COLUMNS: [&str; 9] = [
     "design",
 ];
 
-pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
+pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError> {
     let watched = watcher
-        .watch(from_ref(watcher.config), |tally: &mut RegionTally, _, seen| tally.add(seen))?;
-    clips_only(Study::Temporal, &watched)?;
-    let mut table = Table::new(&COLUMNS);
+        .run_clips(from_ref(watcher.config), |tally: &mut RegionTally, _, seen| tally.add(seen))?;
+    refuse_data_sets(Study::Temporal, &watched)?;
+    let mut table = StudyTable::new(&COLUMNS);
     let mut groups = Vec::new();
     let mut ranges = Vec::new();
     let mut sums = Vec::new();
@@ -42,11 +42,11 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
                 clip.name.clone(),
                 clip.frames.to_string(),
                 regions.to_string(),
-                share(sum.active, sum.all),
-                share(min, regions),
-                share(max, regions),
-                share(sum.srs, sum.all),
-                share(sum.trs, sum.all),
+                share_text(sum.active, sum.all),
+                share_text(min, regions),
+                share_text(max, regions),
+                share_text(sum.srs, sum.all),
+                share_text(sum.trs, sum.all),
                 design.fingerprint(),
             ]);
             groups.push(clip.name.clone());
@@ -54,8 +54,8 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
             sums.push(sum);
         }
     }
-    let mut findings = Findings::new(Study::Temporal, &watched, table);
-    let bars = |name: &str, colour, part: fn(&Regions) -> u64, ranges| Bars {
+    let mut findings = StudyFindings::new(Study::Temporal, &watched, table);
+    let bars = |name: &str, colour, part: fn(&RegionCounts) -> u64, ranges| BarSeries {
         name: name.to_owned(),
         colour,
         values: sums.iter().map(|sum| percent(part(sum), sum.all)).collect(),
@@ -67,13 +67,13 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
         bars("TRS (changed)", CHANGED, |sum| sum.trs, Vec::new()),
     ];
     let chart = Chart {
-        file: "temporal".to_owned(),
+        file_stem: "temporal".to_owned(),
         title: "Regions over whole clips".to_owned(),
-        x: "clip".to_owned(),
-        y: "share of regions [%]".to_owned(),
+        x_title: "clip".to_owned(),
+        y_title: "share of regions [%]".to_owned(),
         caption: String::new(),
-        shape: Shape::Bars { groups, series },
+        shape: ChartData::Bars { groups, series },
     };
-    findings.chart(chart, &watched);
+    findings.add_chart(chart, &watched);
     Ok(findings)
 }

@@ -3,17 +3,17 @@
 
 use std::fs;
 
-use crate::support::{Silent, cells, run};
-use foveate_design::Config;
-use foveate_footage::{FrameRate, ImagesAs, InputOptions};
+use crate::support::{SilentHooks, cells, run};
+use foveate_design::DesignConfig;
+use foveate_footage::{FrameRate, ImageRelation, InputOptions};
 use foveate_simulator::{BatchHooks, BatchProgress};
-use foveate_studies::{Request, Study, StudyError, analyze};
+use foveate_studies::{StudyRequest, Study, StudyError, analyze};
 
 #[test]
 fn what_cannot_be_studied_is_refused_and_leaves_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("out");
-    let config = Config::default();
+    let config = DesignConfig::default();
     let message =
         |study, inputs: &[&str]| run(study, inputs, &config, &out).unwrap_err().to_string();
     assert!(message(Study::Temporal, &["scene:zero", "nowhere.mp4"]).contains("nowhere.mp4"));
@@ -27,9 +27,9 @@ fn sets_have_no_change_to_study() {
     let dir = tempfile::tempdir().unwrap();
     let image = dir.path().join("a.pgm");
     fs::write(&image, [b"P5 16 16 255\n".as_slice(), &[7; 256]].concat()).unwrap();
-    let input = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
-    let config = Config::default();
-    let request = |study| Request {
+    let input = InputOptions { images: ImageRelation::Set, ..InputOptions::default() };
+    let config = DesignConfig::default();
+    let request = |study| StudyRequest {
         study,
         inputs: std::slice::from_ref(&image),
         input: &input,
@@ -39,9 +39,9 @@ fn sets_have_no_change_to_study() {
         boxes: &[],
     };
     let out = dir.path().join("out");
-    let refused = analyze(&request(Study::Temporal), &out, false, &Silent).unwrap_err();
+    let refused = analyze(&request(Study::Temporal), &out, false, &SilentHooks).unwrap_err();
     assert!(refused.to_string().contains("set of unrelated images"), "{refused}");
-    let report = analyze(&request(Study::Threshold), &out, false, &Silent).unwrap();
+    let report = analyze(&request(Study::Threshold), &out, false, &SilentHooks).unwrap();
     assert!(report.rows.iter().all(|row| row[1] == "spatial.0.min_score"));
 }
 
@@ -59,45 +59,45 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     let csv = "t_us,x,y,on\n500,1,1,1\n1001,1,1,1\n1002,3,7,0\n90000,9,0,1\n900000,23,0,1\n";
     fs::write(&events, csv).unwrap();
     let input = InputOptions { frame_rate: FrameRate::default(), ..InputOptions::default() };
-    let request = Request {
+    let request = StudyRequest {
         study: Study::Sensor,
         inputs: &[dir.path().join("*.pgm")],
         input: &input,
-        config: &Config::default(),
+        config: &DesignConfig::default(),
         sensor_events: Some(&events),
         sensor_start_us: 1000,
         boxes: &[],
     };
     let out = dir.path().join("out");
-    let report = analyze(&request, &out, true, &Silent).unwrap();
+    let report = analyze(&request, &out, true, &SilentHooks).unwrap();
     // Events before the first frame and after the last are left out.
     assert_eq!(cells(&report, "sensor_events"), ["3"; 3]);
     assert_eq!(cells(&report, "spearman"), ["undefined", "1.0000", "1.0000"]);
     // The recordings below have another clock, no event, or no event inside of the frame.
-    let late = Request { sensor_start_us: 5_000_000, ..request.clone() };
-    let refused = analyze(&late, &out, true, &Silent).unwrap_err().to_string();
+    let late = StudyRequest { sensor_start_us: 5_000_000, ..request.clone() };
+    let refused = analyze(&late, &out, true, &SilentHooks).unwrap_err().to_string();
     for part in ["events.csv", "5000000 to 5100000 us", "from 500 to 900000 us", "--sensor-start"] {
         assert!(refused.contains(part), "{part}: {refused}");
     }
-    let at_first = Request { sensor_start_us: 900_000, ..request.clone() };
-    assert!(analyze(&at_first, &out, true, &Silent).is_err(), "nothing comes after frame 0");
+    let at_first = StudyRequest { sensor_start_us: 900_000, ..request.clone() };
+    assert!(analyze(&at_first, &out, true, &SilentHooks).is_err(), "nothing comes after frame 0");
     for (csv, part) in [("t_us,x,y\n", "no event"), ("t_us,x,y\n1001,24,0\n", "24x8 pixels")] {
         fs::write(&events, csv).unwrap();
-        let refused = analyze(&request, &out, true, &Silent).unwrap_err().to_string();
+        let refused = analyze(&request, &out, true, &SilentHooks).unwrap_err().to_string();
         assert!(refused.contains(part) && refused.contains("events.csv"), "{refused}");
     }
     fs::write(&events, "t_us,x,y\n1,2\n").unwrap();
-    let refused = analyze(&request, &out, true, &Silent).unwrap_err().to_string();
+    let refused = analyze(&request, &out, true, &SilentHooks).unwrap_err().to_string();
     assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
 }
 
 /// Hooks that cancel at once.
-struct Stopped;
+struct CancelledHooks;
 
-impl BatchHooks for Stopped {
+impl BatchHooks for CancelledHooks {
     fn progress(&self, _: BatchProgress) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         true
     }
 }
@@ -109,8 +109,8 @@ fn a_cut_clip_is_marked_and_a_stopped_study_leaves_nothing() {
     let frame = [b"FRAME\n".as_slice(), &[9; 256]].concat();
     let header = b"YUV4MPEG2 W16 H16 F25:1 Cmono\n".as_slice();
     fs::write(&clip, [header, &frame, &frame, &frame[..99]].concat()).unwrap();
-    let (input, config) = (InputOptions::default(), Config::default());
-    let request = Request {
+    let (input, config) = (InputOptions::default(), DesignConfig::default());
+    let request = StudyRequest {
         study: Study::Temporal,
         inputs: &[clip],
         input: &input,
@@ -120,9 +120,9 @@ fn a_cut_clip_is_marked_and_a_stopped_study_leaves_nothing() {
         boxes: &[],
     };
     let out = dir.path().join("out");
-    let stopped = analyze(&request, &out, false, &Stopped).unwrap_err();
+    let stopped = analyze(&request, &out, false, &CancelledHooks).unwrap_err();
     assert!(matches!(stopped, StudyError::Cancelled) && !out.exists());
-    let report = analyze(&request, &out, false, &Silent).unwrap();
+    let report = analyze(&request, &out, false, &SilentHooks).unwrap();
     assert_eq!((cells(&report, "frames")[0], report.problems.len()), ("2", 1));
     for file in ["temporal.csv", "temporal.svg"] {
         let text = fs::read_to_string(out.join(file)).unwrap();

@@ -4,7 +4,7 @@
 use std::fs;
 
 use crate::support::{cells, config, run};
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_studies::Study;
 
 #[test]
@@ -122,7 +122,7 @@ fn real_clips_are_studied() {
     }
     let clips: Vec<&str> = clips.iter().map(String::as_str).collect();
     let out = dir.path().join("out");
-    let report = run(Study::Temporal, &clips, &Config::default(), &out).unwrap();
+    let report = run(Study::Temporal, &clips, &DesignConfig::default(), &out).unwrap();
     let shares: Vec<f64> =
         cells(&report, "active_mean").iter().map(|share| share.parse().unwrap()).collect();
     assert!(shares[0] < shares[1], "a static camera is less active than a moving one: {shares:?}");

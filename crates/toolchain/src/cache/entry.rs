@@ -8,22 +8,22 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use super::trust;
+use super::folder_trust;
 
 /// A file of the cache, which is not removed as long as this value lives.
 #[derive(Debug)]
-pub struct Entry {
+pub struct CacheEntry {
     path: PathBuf,
-    _hold: Hold,
+    _hold: FolderLock,
 }
 
 /// A lock of a folder. It holds no lock on a system or file system that cannot lock folders; no
 /// entries are removed there.
 #[derive(Debug)]
-pub(super) struct Hold(Option<File>);
+pub(super) struct FolderLock(Option<File>);
 
-impl Entry {
-    pub(super) fn new(path: PathBuf, hold: Hold) -> Self {
+impl CacheEntry {
+    pub(super) fn new(path: PathBuf, hold: FolderLock) -> Self {
         Self { path, _hold: hold }
     }
 
@@ -34,14 +34,14 @@ impl Entry {
     }
 
     /// Returns the entry in the folder `place` if it is there, and marks it as used.
-    pub(super) fn take(place: &Path, artifact: &str) -> Option<Self> {
+    pub(super) fn open_entry(place: &Path, artifact: &str) -> Option<Self> {
         let path = place.join(artifact);
         loop {
-            let hold = Hold::shared(place)?;
-            if !path.exists() || !trust::is_entry(place, artifact) {
+            let hold = FolderLock::shared(place)?;
+            if !path.exists() || !folder_trust::is_entry(place, artifact) {
                 return None;
             }
-            if hold.is_of(place) {
+            if hold.locks_folder(place) {
                 hold.touch();
                 return Some(Self { path, _hold: hold });
             }
@@ -50,7 +50,7 @@ impl Entry {
     }
 }
 
-impl Hold {
+impl FolderLock {
     /// Takes a shared lock. Waits while another process removes the folder, which takes a short
     /// time. Returns `None` if there is no folder.
     pub(super) fn shared(folder: &Path) -> Option<Self> {
@@ -67,15 +67,15 @@ impl Hold {
         let file = File::open(folder).ok()?;
         file.try_lock().ok()?;
         let hold = Self(Some(file));
-        hold.is_of(folder).then_some(hold)
+        hold.locks_folder(folder).then_some(hold)
     }
 
     /// Returns whether the locked folder still has this name; true if nothing is locked, because
     /// then nothing is removed.
-    fn is_of(&self, folder: &Path) -> bool {
+    fn locks_folder(&self, folder: &Path) -> bool {
         let Some(file) = &self.0 else { return true };
         match (file.metadata(), fs::metadata(folder)) {
-            (Ok(held), Ok(named)) => same(&held, &named),
+            (Ok(held), Ok(named)) => is_same_folder(&held, &named),
             _ => false,
         }
     }
@@ -90,7 +90,7 @@ impl Hold {
 }
 
 #[cfg(unix)]
-fn same(a: &fs::Metadata, b: &fs::Metadata) -> bool {
+fn is_same_folder(a: &fs::Metadata, b: &fs::Metadata) -> bool {
     use std::os::unix::fs::MetadataExt as _;
     (a.dev(), a.ino()) == (b.dev(), b.ino())
 }

@@ -5,29 +5,29 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::evict;
+use super::eviction;
 use crate::error::ToolError;
 
 /// The environment variable with the limit.
 pub(super) const VARIABLE: &str = "FOVEATE_CACHE_SIZE";
 const MIB: u64 = 1 << 20;
-const LEAST: u64 = MIB;
-const DEFAULT: u64 = 5 << 30;
+const MINIMUM_LIMIT: u64 = MIB;
+const DEFAULT_LIMIT: u64 = 5 << 30;
 /// The part of the limit, as a divisor, that is built before the folder is checked again, and that
 /// is then freed. A build that fills the cache thus does not check the folder every time.
-const SLACK: u64 = 16;
+const CHECK_DIVISOR: u64 = 16;
 
 /// The largest number of bytes of a cache, or no limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Limit(Option<u64>);
+pub(super) struct CacheLimit(Option<u64>);
 
-impl Default for Limit {
+impl Default for CacheLimit {
     fn default() -> Self {
-        Self(Some(DEFAULT))
+        Self(Some(DEFAULT_LIMIT))
     }
 }
 
-impl Limit {
+impl CacheLimit {
     pub(super) const NONE: Self = Self(None);
 
     #[cfg(test)]
@@ -51,9 +51,9 @@ impl Limit {
         let bytes = digits.parse::<u64>().ok().zip(unit);
         bytes
             .and_then(|(number, unit)| number.checked_mul(unit))
-            .filter(|&bytes| bytes >= LEAST)
+            .filter(|&bytes| bytes >= MINIMUM_LIMIT)
             .map(|bytes| Self(Some(bytes)))
-            .ok_or_else(|| ToolError::CacheSize { value: text.to_owned() })
+            .ok_or_else(|| ToolError::InvalidCacheSize { value: text.to_owned() })
     }
 
     /// Makes room if necessary after something of `bytes` was built. `built` is the number of bytes
@@ -61,13 +61,13 @@ impl Limit {
     /// ignored.
     pub(super) fn enforce(self, root: &Path, built: &OnceLock<AtomicU64>, bytes: u64) {
         let Some(limit) = self.0 else { return };
-        let part = limit / SLACK;
+        let part = limit / CHECK_DIVISOR;
         let first = built.get().is_none();
         let built = built.get_or_init(AtomicU64::default);
         let due = built.fetch_add(bytes, Ordering::Relaxed) + bytes >= part;
         if first || due {
             built.store(0, Ordering::Relaxed);
-            evict::evict(root, limit, limit - part);
+            eviction::evict(root, limit, limit - part);
         }
     }
 }
@@ -81,11 +81,11 @@ mod tests {
         for (text, bytes) in
             [("1M", MIB), (" 500mb ", 500 * MIB), ("2GiB", 2 << 30), ("1T", 1 << 40)]
         {
-            assert_eq!(Limit::parse(text).unwrap(), Limit(Some(bytes)), "{text}");
+            assert_eq!(CacheLimit::parse(text).unwrap(), CacheLimit(Some(bytes)), "{text}");
         }
-        assert_eq!(Limit::parse("none").unwrap(), Limit::NONE);
+        assert_eq!(CacheLimit::parse("none").unwrap(), CacheLimit::NONE);
         for text in ["", "0M", "500", "5K", "-1G", "1.5G", "G", "all", "99999999999T", "1µ"] {
-            let error = Limit::parse(text).unwrap_err();
+            let error = CacheLimit::parse(text).unwrap_err();
             assert!(error.is_environment());
             assert!(
                 error.to_string().contains(&format!("FOVEATE_CACHE_SIZE is `{text}`")),

@@ -6,12 +6,12 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
-use super::evict::STALE;
+use super::eviction::STALE_AGE;
 use super::*;
 use crate::testing::MockHost;
 
-fn key(text: &str) -> Key {
-    Key::builder("test").field("text", text).finish()
+fn key(text: &str) -> CacheKey {
+    CacheKey::builder("test").field("text", text).finish()
 }
 
 fn entries(cache: &Cache) -> Vec<String> {
@@ -25,7 +25,7 @@ fn fill(dir: &Path) -> Result<(), ToolError> {
 
 #[test]
 fn builds_once_per_key() {
-    let cache = Cache::throw_away().unwrap();
+    let cache = Cache::temporary().unwrap();
     let count = AtomicU32::new(0);
     for text in ["a", "a", "b", "a"] {
         let path = cache.get_or_build(&key(text), "file", |dir| {
@@ -40,7 +40,7 @@ fn builds_once_per_key() {
 
 #[test]
 fn simultaneous_builds_of_one_key_agree() {
-    let cache = Cache::throw_away().unwrap();
+    let cache = Cache::temporary().unwrap();
     let barrier = std::sync::Barrier::new(4);
     std::thread::scope(|scope| {
         for _ in 0..4 {
@@ -59,7 +59,7 @@ fn simultaneous_builds_of_one_key_agree() {
 #[test]
 fn a_failed_build_leaves_only_its_log() {
     let folder = tempfile::tempdir().unwrap();
-    let cache = Cache::at(folder.path()).unwrap();
+    let cache = Cache::in_folder(folder.path()).unwrap();
     let error = cache.get_or_build(&key("bad"), "file", |dir| {
         fill(dir)?;
         Err(ToolError::Failed {
@@ -77,7 +77,7 @@ fn a_failed_build_leaves_only_its_log() {
 
 #[test]
 fn a_damaged_entry_is_built_again() {
-    let cache = Cache::throw_away().unwrap();
+    let cache = Cache::temporary().unwrap();
     let path = cache.keep_or_build(&key("x"), "file", fill).unwrap();
     fs::remove_file(&path).unwrap();
     assert!(cache.keep_or_build(&key("x"), "file", fill).unwrap().is_file());
@@ -92,24 +92,24 @@ fn the_folder_follows_the_environment() {
     assert_eq!(root(xdg()), Path::new("/xdg/foveate"));
     assert_eq!(root(xdg().variable("FOVEATE_CACHE", "/mine")), Path::new("/mine"));
     assert!(root(xdg().variable("FOVEATE_CACHE", "off")).starts_with(std::env::temp_dir()));
-    assert!(matches!(Cache::from_host(&MockHost::new()), Err(ToolError::NoCache)));
+    assert!(matches!(Cache::from_host(&MockHost::new()), Err(ToolError::NoCacheFolder)));
 }
 
 #[test]
-fn old_rests_of_killed_builds_go() {
-    let cache = Cache::throw_away().unwrap();
+fn remains_of_killed_builds_are_removed() {
+    let cache = Cache::temporary().unwrap();
     let [old, new] = ["old", "new"].map(|name| cache.root().join(format!(".building-{name}")));
     fs::create_dir(&old).unwrap();
     fs::create_dir(&new).unwrap();
-    let past = SystemTime::now() - STALE - Duration::from_secs(60);
+    let past = SystemTime::now() - STALE_AGE - Duration::from_secs(60);
     fs::File::open(&old).unwrap().set_modified(past).unwrap();
     cache.get_or_build(&key("x"), "file", fill).unwrap();
     assert!(!old.exists() && new.exists());
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_the_users_affair() {
-    let error = Cache::at(Path::new("/proc/none/foveate")).unwrap();
+fn a_folder_that_cannot_be_created_is_an_environment_error() {
+    let error = Cache::in_folder(Path::new("/proc/none/foveate")).unwrap();
     let error = error.get_or_build(&key("x"), "file", fill).unwrap_err();
     assert!(error.is_environment(), "{error:?}");
     let text = error.to_string();
@@ -119,7 +119,7 @@ fn a_folder_that_cannot_be_made_is_the_users_affair() {
 
 #[test]
 fn a_throw_away_cache_goes_away() {
-    let cache = Cache::throw_away().unwrap();
+    let cache = Cache::temporary().unwrap();
     let path = cache.keep_or_build(&key("x"), "file", fill).unwrap();
     drop(cache.clone());
     assert!(path.is_file());
@@ -128,63 +128,63 @@ fn a_throw_away_cache_goes_away() {
 }
 
 /// Returns a build that writes this number of bytes.
-fn sized(bytes: usize) -> impl FnOnce(&Path) -> Result<(), ToolError> {
+fn build_of_size(bytes: usize) -> impl FnOnce(&Path) -> Result<(), ToolError> {
     move |dir| fs::write(dir.join("file"), vec![7; bytes]).map_err(ToolError::io("write", dir))
 }
 
-fn limited(root: &Path, bytes: u64) -> Cache {
-    Cache { limit: Limit::bytes(bytes), ..Cache::at(root).unwrap() }
+fn limited_cache(root: &Path, bytes: u64) -> Cache {
+    Cache { limit: CacheLimit::bytes(bytes), ..Cache::in_folder(root).unwrap() }
 }
 
 /// Sets the time of use of an entry back by this number of hours.
-fn age(cache: &Cache, name: &str, hours: u64) {
+fn set_age(cache: &Cache, name: &str, hours: u64) {
     let past = SystemTime::now() - Duration::from_secs(3600 * hours);
     let folder = fs::File::open(cache.root().join(key(name).as_str())).unwrap();
     folder.set_modified(past).unwrap();
 }
 
-fn there(cache: &Cache, names: &[&str]) -> Vec<bool> {
-    names.iter().map(|name| cache.holds(&key(name), "file")).collect()
+fn presence(cache: &Cache, names: &[&str]) -> Vec<bool> {
+    names.iter().map(|name| cache.contains(&key(name), "file")).collect()
 }
 
 #[cfg(unix)]
 #[test]
-fn what_was_used_least_recently_goes_first() {
+fn the_least_recently_used_entry_is_removed_first() {
     let folder = tempfile::tempdir().unwrap();
-    let cache = limited(folder.path(), 10_000);
+    let cache = limited_cache(folder.path(), 10_000);
     for (name, hours) in [("a", 4), ("b", 3), ("c", 2)] {
-        cache.get_or_build(&key(name), "file", sized(3000)).unwrap();
-        age(&cache, name, hours);
+        cache.get_or_build(&key(name), "file", build_of_size(3000)).unwrap();
+        set_age(&cache, name, hours);
     }
-    assert_eq!(there(&cache, &["a", "b", "c"]), [true, true, true]);
+    assert_eq!(presence(&cache, &["a", "b", "c"]), [true, true, true]);
     // Entry `a` is used again, so only the entry that is built now is younger.
     cache.get_or_build(&key("a"), "file", |_| panic!("it is there")).unwrap();
-    cache.get_or_build(&key("d"), "file", sized(3000)).unwrap();
-    assert_eq!(there(&cache, &["a", "b", "c", "d"]), [true, false, true, true]);
+    cache.get_or_build(&key("d"), "file", build_of_size(3000)).unwrap();
+    assert_eq!(presence(&cache, &["a", "b", "c", "d"]), [true, false, true, true]);
 }
 
 #[cfg(unix)]
 #[test]
-fn what_is_in_use_stays() {
+fn entries_in_use_stay() {
     let folder = tempfile::tempdir().unwrap();
-    let cache = limited(folder.path(), 10_000);
-    let held = cache.get_or_build(&key("held"), "file", sized(6000)).unwrap();
-    let kept = cache.keep_or_build(&key("kept"), "file", sized(6000)).unwrap();
-    age(&cache, "held", 9);
-    age(&cache, "kept", 9);
+    let cache = limited_cache(folder.path(), 10_000);
+    let held = cache.get_or_build(&key("held"), "file", build_of_size(6000)).unwrap();
+    let kept = cache.keep_or_build(&key("kept"), "file", build_of_size(6000)).unwrap();
+    set_age(&cache, "held", 9);
+    set_age(&cache, "kept", 9);
     // A second cache behaves like another process as far as locks are concerned.
-    let other = limited(folder.path(), 10_000);
-    other.get_or_build(&key("x"), "file", sized(6000)).unwrap();
+    let other = limited_cache(folder.path(), 10_000);
+    other.get_or_build(&key("x"), "file", build_of_size(6000)).unwrap();
     assert!(held.path().is_file() && kept.is_file());
     drop((held, cache));
-    other.get_or_build(&key("y"), "file", sized(6000)).unwrap();
-    assert_eq!(there(&other, &["held", "kept", "y"]), [false, false, true]);
+    other.get_or_build(&key("y"), "file", build_of_size(6000)).unwrap();
+    assert_eq!(presence(&other, &["held", "kept", "y"]), [false, false, true]);
     assert!(entries(&other).iter().all(|name| !name.starts_with(".removing")));
 }
 
 #[cfg(unix)]
 #[test]
-fn nothing_goes_that_is_not_the_caches() {
+fn only_files_of_the_cache_are_removed() {
     let folder = tempfile::tempdir().unwrap();
     let [mine, hidden] = ["thesis", ".ssh"].map(|name| folder.path().join(name));
     for foreign in [&mine, &hidden] {
@@ -193,11 +193,11 @@ fn nothing_goes_that_is_not_the_caches() {
         fs::File::open(foreign).unwrap().set_modified(SystemTime::UNIX_EPOCH).unwrap();
     }
     fs::write(folder.path().join("notes-0123.txt"), "notes").unwrap();
-    let cache = limited(folder.path(), 10_000);
+    let cache = limited_cache(folder.path(), 10_000);
     for name in ["a", "b", "c"] {
-        cache.get_or_build(&key(name), "file", sized(6000)).unwrap();
+        cache.get_or_build(&key(name), "file", build_of_size(6000)).unwrap();
     }
-    assert_eq!(there(&cache, &["a", "b", "c"]), [false, false, true]);
+    assert_eq!(presence(&cache, &["a", "b", "c"]), [false, false, true]);
     assert!(mine.join("file").is_file() && hidden.join("file").is_file());
     assert!(folder.path().join("notes-0123.txt").is_file());
 }
@@ -205,20 +205,20 @@ fn nothing_goes_that_is_not_the_caches() {
 #[test]
 fn old_logs_count_too() {
     let folder = tempfile::tempdir().unwrap();
-    let cache = limited(folder.path(), 10_000);
+    let cache = limited_cache(folder.path(), 10_000);
     fs::create_dir(folder.path().join("logs")).unwrap();
     let log = folder.path().join("logs").join(format!("{}.log", key("bad")));
     fs::write(&log, vec![b'x'; 20_000]).unwrap();
-    cache.get_or_build(&key("a"), "file", sized(100)).unwrap();
+    cache.get_or_build(&key("a"), "file", build_of_size(100)).unwrap();
     assert!(!log.exists());
-    assert_eq!(there(&cache, &["a"]), [true]);
+    assert_eq!(presence(&cache, &["a"]), [true]);
 }
 
 /// Threads with their own caches build, use and remove the same entries. An entry stays while a
 /// thread uses it, and in the end the folder is within its limit.
 #[cfg(unix)]
 #[test]
-fn users_and_removers_do_not_meet() {
+fn concurrent_use_and_removal_do_not_conflict() {
     const LIMIT: u64 = 40_000;
     let folder = tempfile::tempdir().unwrap();
     let built = AtomicU32::new(0);
@@ -228,11 +228,11 @@ fn users_and_removers_do_not_meet() {
             scope.spawn(move || {
                 for round in 0..150_u32 {
                     // A new cache checks the folder after its first build.
-                    let cache = limited(folder, LIMIT);
+                    let cache = limited_cache(folder, LIMIT);
                     let name = (worker * 7 + round * 5) % 12;
                     let entry = cache.get_or_build(&key(&name.to_string()), "file", |dir| {
                         built.fetch_add(1, Ordering::Relaxed);
-                        sized(9000)(dir)
+                        build_of_size(9000)(dir)
                     });
                     let entry = entry.unwrap();
                     for _ in 0..3 {
@@ -249,8 +249,8 @@ fn users_and_removers_do_not_meet() {
     let end = Instant::now() + Duration::from_secs(20);
     for number in 0.. {
         let last = key(&format!("last {number}"));
-        limited(folder.path(), LIMIT).get_or_build(&last, "file", sized(1)).unwrap();
-        if evict::size(folder.path()) <= LIMIT {
+        limited_cache(folder.path(), LIMIT).get_or_build(&last, "file", build_of_size(1)).unwrap();
+        if eviction::folder_bytes(folder.path()) <= LIMIT {
             break;
         }
         assert!(Instant::now() < end, "more is left than is allowed");
@@ -266,9 +266,9 @@ const HOLDER: &str = "FOVEATE_TEST_HOLDER";
 /// This is not a test by itself, but the body of a process that holds an entry until its input
 /// ends.
 #[test]
-fn holder() {
+fn entry_holder_process() {
     let Some(root) = std::env::var_os(HOLDER) else { return };
-    let entry = limited(Path::new(&root), 10_000).get_or_build(&key("held"), "file", sized(6000));
+    let entry = limited_cache(Path::new(&root), 10_000).get_or_build(&key("held"), "file", build_of_size(6000));
     println!("\nholding");
     let _ = std::io::stdin().read_line(&mut String::new());
     drop(entry);
@@ -276,7 +276,7 @@ fn holder() {
 
 #[cfg(unix)]
 #[test]
-fn what_another_process_uses_stays_until_it_ends() {
+fn entries_of_another_process_stay_until_it_ends() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = Command::new(std::env::current_exe().unwrap())
         .args(["cache::tests::holder", "--exact", "--nocapture"])
@@ -287,15 +287,15 @@ fn what_another_process_uses_stays_until_it_ends() {
         .unwrap();
     let lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.map_while(Result::ok).any(|line| line == "holding"));
-    let fresh = || limited(folder.path(), 10_000);
-    age(&fresh(), "held", 9);
-    fresh().get_or_build(&key("a"), "file", sized(6000)).unwrap();
-    assert_eq!(there(&fresh(), &["held"]), [true]);
+    let fresh = || limited_cache(folder.path(), 10_000);
+    set_age(&fresh(), "held", 9);
+    fresh().get_or_build(&key("a"), "file", build_of_size(6000)).unwrap();
+    assert_eq!(presence(&fresh(), &["held"]), [true]);
     // The lock is released even if the process is killed.
     child.kill().unwrap();
     child.wait().unwrap();
-    fresh().get_or_build(&key("b"), "file", sized(6000)).unwrap();
-    assert_eq!(there(&fresh(), &["held", "b"]), [false, true]);
+    fresh().get_or_build(&key("b"), "file", build_of_size(6000)).unwrap();
+    assert_eq!(presence(&fresh(), &["held", "b"]), [false, true]);
 }
 
 #[test]
@@ -303,8 +303,8 @@ fn the_size_follows_the_environment() {
     let host = |size: &str| {
         MockHost::new().variable("HOME", "/home/me").variable("FOVEATE_CACHE_SIZE", size)
     };
-    assert_eq!(Cache::from_host(&host("")).unwrap().limit, Limit::default());
-    assert_eq!(Cache::from_host(&host("100M")).unwrap().limit, Limit::bytes(100 << 20));
+    assert_eq!(Cache::from_host(&host("")).unwrap().limit, CacheLimit::default());
+    assert_eq!(Cache::from_host(&host("100M")).unwrap().limit, CacheLimit::bytes(100 << 20));
     let error = Cache::from_host(&host("much")).unwrap_err();
     assert!(error.to_string().contains("FOVEATE_CACHE_SIZE is `much`"), "{error}");
 }

@@ -8,7 +8,7 @@ use crate::error::ToolError;
 
 /// The lists that Verilator writes for its own makefile.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Makefile {
+pub(super) struct MakefileLists {
     /// The generated files that run often, without `.cpp`.
     pub(super) fast: Vec<String>,
     /// The generated files that run once, without `.cpp`.
@@ -21,7 +21,7 @@ pub(super) struct Makefile {
     pub(super) include: PathBuf,
 }
 
-impl Makefile {
+impl MakefileLists {
     pub(super) fn read(dir: &Path, prefix: &str) -> Result<Self, ToolError> {
         let read = |name: String| {
             let path = dir.join(name);
@@ -31,31 +31,31 @@ impl Makefile {
     }
 
     fn parse(classes: &str, main: &str) -> Self {
-        let both = |a, b| [list(classes, a), list(classes, b)].concat();
+        let both = |a, b| [assigned_words(classes, a), assigned_words(classes, b)].concat();
         Self {
             fast: both("VM_CLASSES_FAST", "VM_SUPPORT_FAST"),
             slow: both("VM_CLASSES_SLOW", "VM_SUPPORT_SLOW"),
             run_time: both("VM_GLOBAL_FAST", "VM_GLOBAL_SLOW"),
-            libraries: list(main, "VM_USER_LDLIBS"),
-            include: Path::new(rest_of_line(main, "VERILATOR_ROOT")).join("include"),
+            libraries: assigned_words(main, "VM_USER_LDLIBS"),
+            include: Path::new(assigned_text(main, "VERILATOR_ROOT")).join("include"),
         }
     }
 }
 
 /// Returns the words assigned to a variable, over continued lines.
-fn list(makefile: &str, variable: &str) -> Vec<String> {
+fn assigned_words(makefile: &str, variable: &str) -> Vec<String> {
     let joined = makefile.replace("\\\n", " ");
-    let assigned = joined.lines().filter_map(|line| assigned(line, variable));
+    let assigned = joined.lines().filter_map(|line| assignment(line, variable));
     assigned.flat_map(str::split_whitespace).map(str::to_owned).collect()
 }
 
 /// Returns everything that one line assigns to a variable, such as a path with spaces.
-fn rest_of_line<'a>(makefile: &'a str, variable: &str) -> &'a str {
-    makefile.lines().find_map(|line| assigned(line, variable)).unwrap_or_default().trim()
+fn assigned_text<'a>(makefile: &'a str, variable: &str) -> &'a str {
+    makefile.lines().find_map(|line| assignment(line, variable)).unwrap_or_default().trim()
 }
 
 /// Returns the text that a line assigns to a variable; `None` if it assigns nothing to it.
-fn assigned<'a>(line: &'a str, variable: &str) -> Option<&'a str> {
+fn assignment<'a>(line: &'a str, variable: &str) -> Option<&'a str> {
     let rest = line.strip_prefix(variable)?.trim_start();
     ["+=", "?=", "="].into_iter().find_map(|sign| rest.strip_prefix(sign))
 }
@@ -72,13 +72,13 @@ mod tests {
                        VM_GLOBAL_FAST += \\\n\tverilated \\\n\tverilated_threads \\\n\n\
                        VM_GLOBAL_SLOW += \\\n\n";
         let main = "VERILATOR_ROOT = /my tools/verilator\nVM_USER_LDLIBS = \\\n\t-lz \\\n\n";
-        let makefile = Makefile::parse(classes, main);
+        let makefile = MakefileLists::parse(classes, main);
         assert_eq!(makefile.fast, ["Vtop", "Vtop__0", "Vtop__Trace"]);
         assert_eq!(makefile.slow, ["Vtop__Slow"]);
         assert_eq!(makefile.run_time, ["verilated", "verilated_threads"]);
         assert_eq!(makefile.libraries, ["-lz"]);
         assert_eq!(makefile.include, Path::new("/my tools/verilator/include"));
-        let newer = Makefile::parse("", "VERILATOR_ROOT ?= /verilator\n");
+        let newer = MakefileLists::parse("", "VERILATOR_ROOT ?= /verilator\n");
         assert_eq!(newer.include, Path::new("/verilator/include"));
     }
 }

@@ -5,7 +5,7 @@
 //! small model itself. Here the run time is compiled once into the cache. Each model compiles only
 //! its own files, with two compilers in parallel.
 
-mod compile;
+mod compiler;
 mod makefile;
 
 use std::fs;
@@ -15,21 +15,21 @@ use foveate_staging::ScratchFolder;
 
 use crate::cache::Cache;
 use crate::error::ToolError;
-use crate::files::{self, Source};
+use crate::source_files::{self, Source};
 use crate::invocation::Invocation;
-use crate::key::Key;
-use crate::ports::{self, PortBits};
+use crate::cache_key::CacheKey;
+use crate::port_widths::{self, PortBits};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
-pub use compile::Optimize;
-use compile::{Compiler, EXECUTABLE, LIMIT, MAIN, tools_key};
-use makefile::Makefile;
+pub use compiler::OptimizationLevel;
+use compiler::{ModelCompiler, EXECUTABLE, LIMIT, MAIN, tools_key};
+use makefile::MakefileLists;
 
 const WAIVERS: &str = "waivers.vlt";
 
 /// The treatment of questionable Verilog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Lint {
+pub enum LintMode {
     /// Every warning of `-Wall` is an error.
     #[default]
     Strict,
@@ -37,7 +37,7 @@ pub enum Lint {
     Lenient,
 }
 
-impl Lint {
+impl LintMode {
     const fn flags(self) -> &'static [&'static str] {
         match self {
             Self::Strict => &["-Wall"],
@@ -60,9 +60,9 @@ pub struct VerilatorJob {
     /// Whether the model can write FST waves.
     pub trace: bool,
     /// The optimization level of the C++ compiler.
-    pub optimize: Optimize,
+    pub optimize: OptimizationLevel,
     /// The treatment of questionable Verilog.
-    pub lint: Lint,
+    pub lint: LintMode,
     /// The ports of the top module whose widths are checked, with these widths.
     pub port_bits: Vec<PortBits>,
     /// Further arguments of Verilator, such as `--assert`.
@@ -79,7 +79,7 @@ pub fn build(
     cache: &Cache,
     job: &VerilatorJob,
 ) -> Result<PathBuf, ToolError> {
-    let key = job.key(toolchain)?;
+    let key = job.cache_key(toolchain)?;
     cache.keep_or_build(&key, EXECUTABLE, |dir| {
         let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
         let built = build_in(toolchain, cache, job, work.path())?;
@@ -97,7 +97,7 @@ pub fn is_built(
     cache: &Cache,
     job: &VerilatorJob,
 ) -> Result<bool, ToolError> {
-    Ok(cache.holds(&job.key(toolchain)?, EXECUTABLE))
+    Ok(cache.contains(&job.cache_key(toolchain)?, EXECUTABLE))
 }
 
 /// Runs Verilator's lint over the sources.
@@ -138,7 +138,7 @@ pub fn elaborate(
         .args(["--xml-only", "--xml-output", HIERARCHY, "--no-timing", "--top-module", top])
         // By default Verilator treats a loop of more than 1,024 iterations as endless.
         .args(["--unroll-count", "1000000"])
-        .args(Lint::Lenient.flags())
+        .args(LintMode::Lenient.flags())
         .args(parameters);
     let invocation = with_sources(invocation, dir.path(), sources, None)?;
     toolchain.run_checked(&invocation)?;
@@ -147,10 +147,10 @@ pub fn elaborate(
 }
 
 impl VerilatorJob {
-    fn key(&self, toolchain: &Toolchain) -> Result<Key, ToolError> {
+    fn cache_key(&self, toolchain: &Toolchain) -> Result<CacheKey, ToolError> {
         let key = tools_key("verilator", toolchain)?
             .list("flags", &self.flags())
-            .list("compiler flags", &compile::flags(self.trace))
+            .list("compiler flags", &compiler::header_flags(self.trace))
             .field("port bits", format!("{:?}", self.port_bits))
             .field("optimize", self.optimize.flag())
             .field("main", &self.cpp_main)
@@ -187,13 +187,13 @@ fn build_in(
     toolchain.run_checked(&verilate)?;
     let header = dir.join(format!("{}.h", job.prefix()));
     let header = fs::read_to_string(&header).map_err(ToolError::io("read", &header))?;
-    ports::check_header(&job.top, &header, &job.port_bits)?;
-    files::write(dir, MAIN, job.cpp_main.as_bytes())?;
-    let makefile = Makefile::read(dir, &job.prefix())?;
-    let compiler = Compiler::new(toolchain, &makefile.include, job.trace)?;
+    port_widths::check_header(&job.top, &header, &job.port_bits)?;
+    source_files::write_file(dir, MAIN, job.cpp_main.as_bytes())?;
+    let makefile = MakefileLists::read(dir, &job.prefix())?;
+    let compiler = ModelCompiler::new(toolchain, &makefile.include, job.trace)?;
     // The model is compiled first, because only its sources may have mistakes.
-    let mut objects = compiler.model(cache, dir, &makefile, job.optimize)?;
-    objects.extend(compiler.run_time(cache, &makefile)?);
+    let mut objects = compiler.compile_model(cache, dir, &makefile, job.optimize)?;
+    objects.extend(compiler.compile_run_time(cache, &makefile)?);
     compiler.link(dir, &objects, &makefile)
 }
 
@@ -205,10 +205,10 @@ fn with_sources(
     sources: &[Source],
     vlt: Option<&str>,
 ) -> Result<Invocation, ToolError> {
-    files::write_sources(dir, sources)?;
+    source_files::write_sources(dir, sources)?;
     let mut invocation = invocation.dir(dir).merge_stderr().timeout(LIMIT);
     if let Some(vlt) = vlt {
-        files::write(dir, WAIVERS, vlt.as_bytes())?;
+        source_files::write_file(dir, WAIVERS, vlt.as_bytes())?;
         invocation = invocation.arg(WAIVERS);
     }
     let names = sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));

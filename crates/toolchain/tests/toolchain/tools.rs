@@ -128,7 +128,7 @@ fn verilator_lint_is_strict_unless_told() {
     assert!(verilator::lint(&tools, &job.sources, "counter", None).is_err());
     let waiver = "`verilator_config\nlint_off -rule WIDTH -file \"counter.v\"\n";
     verilator::lint(&tools, &job.sources, "counter", Some(waiver)).unwrap();
-    job.lint = verilator::Lint::Lenient;
+    job.lint = verilator::LintMode::Lenient;
     verilator::build(&tools, &cache, &job).unwrap();
 }
 
@@ -138,7 +138,7 @@ fn a_broken_main_shows_the_compiler_error() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let (tools, cache) = (Toolchain::system(), Cache::at(folder.path()).unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::in_folder(folder.path()).unwrap());
     let job = VerilatorJob { cpp_main: "int main() { return x; }".to_owned(), ..counter(false) };
     let error = verilator::build(&tools, &cache, &job).unwrap_err().to_string();
     assert!(error.contains("‘x’") || error.contains("'x'"), "{error}");
@@ -150,7 +150,7 @@ fn icarus_compiles_and_runs() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let dir = tempfile::tempdir().unwrap();
     let job = IverilogJob {
         sources: vec![source("bench.v", BENCH), source("rtl/counter.v", COUNTER)],
@@ -175,7 +175,7 @@ fn yosys_runs_a_script() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let job = YosysJob {
         sources: vec![source("counter.v", COUNTER)],
         script: "read_verilog counter.v\nsynth -top counter\ntee -o stat.json stat -json\n".into(),
@@ -188,7 +188,7 @@ fn yosys_runs_a_script() {
 
     let wanting = YosysJob { outputs: vec!["other.json".to_owned()], ..job.clone() };
     let error = yosys::run(&tools, &cache, &wanting).unwrap_err();
-    assert!(matches!(error, ToolError::NoOutput { .. }), "{error}");
+    assert!(matches!(error, ToolError::MissingOutput { .. }), "{error}");
     let broken = YosysJob { script: "read_verilog missing.v\n".to_owned(), ..job };
     let error = yosys::run(&tools, &cache, &broken).unwrap_err().to_string();
     assert!(error.contains("missing.v"), "{error}");
@@ -199,7 +199,7 @@ fn nextpnr_places_routes_and_caches() {
     if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::temporary().unwrap());
     let synthesis = YosysJob {
         sources: vec![source("counter.v", COUNTER)],
         script: "read_verilog counter.v\nsynth_ice40 -top counter -json out.json\n".to_owned(),
@@ -209,7 +209,7 @@ fn nextpnr_places_routes_and_caches() {
     let up5k = ["--up5k", "--package", "sg48", "--pcf-allow-unconstrained"].map(str::to_owned);
     let job = NextpnrJob {
         tool: Tool::NextpnrIce40,
-        beside: None,
+        extra_file: None,
         args: up5k.to_vec(),
         seed: 1,
         netlist: netlist.clone(),

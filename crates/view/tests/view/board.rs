@@ -5,26 +5,26 @@
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
-use foveate_packets::{Register, write};
+use foveate_packets::{RegisterPacket, packet_writer};
 use serde_json::Value;
 
 use crate::client::{get, open, wait_for, write};
-use crate::line::Line;
-use crate::sent::{CORE, street};
+use crate::line::SerialLine;
+use crate::sent::{CORE, street_stream};
 
 /// Answers every command with its address plus one, or with the written value, and returns all
 /// commands. `spoil` may replace the bytes of an answer.
-fn answer(
-    mut line: Line,
+fn answer_commands(
+    mut line: SerialLine,
     spoil: impl Fn(usize, Vec<u8>) -> Vec<u8> + Send + 'static,
-) -> Receiver<Register> {
+) -> Receiver<RegisterPacket> {
     let (tell, told) = channel();
     thread::spawn(move || {
         for number in 0.. {
             let asked = line.command();
-            let value = if asked.written { asked.value } else { u32::from(asked.address) + 1 };
+            let value = if asked.is_write { asked.value } else { u32::from(asked.address) + 1 };
             let mut bytes = Vec::new();
-            write::register(&mut bytes, Register { value, ..asked });
+            packet_writer::append_register(&mut bytes, RegisterPacket { value, ..asked });
             line.send(&spoil(number, bytes));
             if tell.send(asked).is_err() {
                 return;
@@ -41,14 +41,14 @@ fn value(told: &Value, address: u32) -> Option<u64> {
 
 #[test]
 fn registers_are_read_and_thresholds_written() {
-    let line = Line::new();
+    let line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
-    let commands = answer(line, |_, bytes| bytes);
+    let commands = answer_commands(line, |_, bytes| bytes);
     let page = wait_for(view.link(), "registers", |told| value(told, 0x1000) == Some(0x1001));
     for address in [0x20, 0x24, 0x28, 0x2C, 0x34, 0x38, 0x3C, 0x40, 0x100, 0x104] {
-        assert_eq!(value(&page.told, address), Some(u64::from(address) + 1), "{address:#x}");
+        assert_eq!(value(&page.state, address), Some(u64::from(address) + 1), "{address:#x}");
     }
-    assert!(commands.try_iter().all(|asked| !asked.written && asked.value == 0));
+    assert!(commands.try_iter().all(|asked| !asked.is_write && asked.value == 0));
     let page = String::from_utf8(get(view.link(), "").body).unwrap();
     for part in [
         "\"name\":\"edge_level\"",
@@ -60,8 +60,8 @@ fn registers_are_read_and_thresholds_written() {
     }
 
     assert_eq!(write(view.link(), 0x104, 5).status, 200);
-    let written: Vec<Register> = commands.try_iter().filter(|asked| asked.written).collect();
-    assert_eq!(written, [Register { address: 0x104, written: true, value: 5 }]);
+    let written: Vec<RegisterPacket> = commands.try_iter().filter(|asked| asked.is_write).collect();
+    assert_eq!(written, [RegisterPacket { address: 0x104, is_write: true, value: 5 }]);
     assert_eq!(write(view.link(), 0x28, 0x41).status, 200);
     // This is a restart, with the other bits of the control as they are.
     assert_eq!(write(view.link(), 0x20, 5).status, 200);
@@ -69,10 +69,10 @@ fn registers_are_read_and_thresholds_written() {
     for (address, value) in
         [(0x100, 1 << 32), (0x104, 70_000), (0x34, 0), (0x20, 8), (0x1000, 1), (0x200, 1), (0, 1)]
     {
-        let refused = write(view.link(), address, value);
+        let refused = packet_writer(view.link(), address, value);
         assert_eq!(refused.status, 409, "{address:#x}: {}", String::from_utf8_lossy(&refused.body));
     }
-    let written: Vec<Register> = commands.try_iter().filter(|asked| asked.written).collect();
+    let written: Vec<RegisterPacket> = commands.try_iter().filter(|asked| asked.is_write).collect();
     let written: Vec<(u16, u32)> =
         written.iter().map(|asked| (asked.address, asked.value)).collect();
     assert_eq!(written, [(0x28, 0x41), (0x20, 5)]);
@@ -80,9 +80,9 @@ fn registers_are_read_and_thresholds_written() {
 
 #[test]
 fn answers_that_are_lost_or_of_others_are_asked_for_again() {
-    let line = Line::new();
+    let line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
-    let commands = answer(line, |number, mut bytes| match number {
+    let commands = answer_commands(line, |number, mut bytes| match number {
         // The first answer is damaged. The second is preceded by one of another register.
         0 => {
             bytes[9] ^= 1;
@@ -90,15 +90,15 @@ fn answers_that_are_lost_or_of_others_are_asked_for_again() {
         }
         1 => {
             let mut other = Vec::new();
-            write::register(&mut other, Register { address: 0x40, written: false, value: 9 });
+            packet_writer::append_register(&mut other, RegisterPacket { address: 0x40, is_write: false, value: 9 });
             [other, bytes].concat()
         }
         _ => bytes,
     });
     // The registers are complete after the first round.
     let page = wait_for(view.link(), "registers", |told| told["registers"].is_array());
-    assert_eq!((value(&page.told, 0), value(&page.told, 0x40)), (Some(1), Some(0x41)));
-    assert_eq!(page.told["losses"]["bytes"], 1);
+    assert_eq!((value(&page.state, 0), value(&page.state, 0x40)), (Some(1), Some(0x41)));
+    assert_eq!(page.state["losses"]["bytes"], 1);
     let asked: Vec<u16> = commands.try_iter().take(3).map(|asked| asked.address).collect();
     assert_eq!(asked[..2], [0, 0]);
     assert_ne!(asked[2], 0);
@@ -106,39 +106,39 @@ fn answers_that_are_lost_or_of_others_are_asked_for_again() {
 
 #[test]
 fn answers_between_packets_change_no_frame() {
-    let sent = street(&CORE, 2);
-    let mut line = Line::new();
+    let sent = street_stream(&CORE, 2);
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     // The board answers one command after the other, each behind a frame.
     for (number, frame) in (1u64..).zip(&sent.frames) {
         let asked = line.command();
         line.send(frame);
         let mut bytes = Vec::new();
-        write::register(&mut bytes, Register { value: 7, ..asked });
+        packet_writer::append_register(&mut bytes, RegisterPacket { value: 7, ..asked });
         line.send(&bytes);
         let page = wait_for(view.link(), "frame", |told| told["frames"] == number);
-        assert_eq!(page.told["losses"], serde_json::json!({}));
+        assert_eq!(page.state["losses"], serde_json::json!({}));
     }
 }
 
 #[test]
 fn a_board_that_does_not_answer_is_said_and_asked_again() {
-    let mut line = Line::new();
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
-    let asked = |line: &mut Line| line.command().address;
+    let asked = |line: &mut SerialLine| line.command().address;
     // There are three attempts, and three more in the next round.
     assert_eq!(asked(&mut line), 0);
     let page = wait_for(view.link(), "list", |told| told["registers"].is_array());
-    let list = page.told["registers"].as_array().unwrap();
+    let list = page.state["registers"].as_array().unwrap();
     assert!(list.iter().all(|own| own["value"].is_null()), "{list:?}");
     let all: Vec<u16> = (0..5).map(|_| asked(&mut line)).collect();
     assert_eq!(all, [0; 5]);
 }
 
 #[test]
-fn without_a_core_on_a_bus_nobody_is_asked() {
+fn without_a_core_on_axi_no_registers_are_read() {
     let ports = &CORE[..1];
-    let line = Line::new();
+    let line = SerialLine::new();
     let view = open(&line.path, ports, None).unwrap();
     let page = String::from_utf8(get(view.link(), "").body).unwrap();
     assert!(page.contains("const REGISTERS = null;"));

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use foveate_pictures::page::browser::chromium;
 
 use crate::client::{open, wait_for};
-use crate::sent::{CORE, first, street};
+use crate::sent::{CORE, first_packet, street_stream};
 
 /// The longest time that Chromium may take.
 const LIMIT: Duration = Duration::from_secs(120);
@@ -34,10 +34,10 @@ fn printed(command: &mut Command, file: &Path) -> String {
 fn a_browser_draws_the_screen_and_says_what_is_lost() {
     let Some(program) = chromium() else { return eprintln!("skipped: there is no Chromium") };
     let folder = tempfile::tempdir().unwrap();
-    let (sent, file) = (street(&CORE, 3), folder.path().join("packets.bin"));
+    let (sent, file) = (street_stream(&CORE, 3), folder.path().join("packets.bin"));
     let mut bytes = sent.bytes();
     // The damaged packet is the first ROW packet.
-    let row = first(&bytes).len();
+    let row = first_packet(&bytes).len();
     bytes[row + 9] ^= 1;
     fs::write(&file, bytes).unwrap();
     let view = open(&file, &CORE, None).unwrap();

@@ -6,15 +6,15 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use foveate_design::Config;
-use foveate_view::{Play, View, ViewError, ViewOptions};
+use foveate_design::DesignConfig;
+use foveate_view::{PlayMode, View, ViewError, ViewOptions};
 
-use crate::client::{get, open, parts, request};
-use crate::sent::{CORE, street};
+use crate::client::{get, open, link_parts, request};
+use crate::sent::{CORE, street_stream};
 
 fn view(folder: &Path) -> View {
     let file = folder.join("packets.bin");
-    fs::write(&file, street(&CORE, 1).bytes()).unwrap();
+    fs::write(&file, street_stream(&CORE, 1).bytes()).unwrap();
     open(&file, &CORE, None).unwrap()
 }
 
@@ -22,7 +22,7 @@ fn view(folder: &Path) -> View {
 fn only_the_link_opens_the_page() {
     let folder = tempfile::tempdir().unwrap();
     let view = view(folder.path());
-    let (host, token) = parts(view.link());
+    let (host, token) = link_parts(view.link());
     let status = |line: &str, named: &str| {
         request(host, &format!("{line} HTTP/1.1\r\nHost: {named}\r\n\r\n")).status
     };
@@ -104,7 +104,7 @@ fn what_cannot_be_shown_is_refused_at_once() {
     assert!(refused(&folder.path().join("none"), None).contains("none"));
     assert!(refused(folder.path(), None).contains("is a folder"));
     assert!(refused(Path::new("/dev/null"), None).contains("no serial port"));
-    assert!(refused(Path::new("-"), Some(Play::Looped)).contains("no file"));
+    assert!(refused(Path::new("-"), Some(PlayMode::Looped)).contains("no file"));
     let file = folder.path().join("packets.bin");
     fs::write(&file, "").unwrap();
     for (address, is_refused) in
@@ -112,7 +112,7 @@ fn what_cannot_be_shown_is_refused_at_once() {
     {
         let options = ViewOptions {
             input: file.clone(),
-            config: Config::default(),
+            config: DesignConfig::default(),
             baud: 9600,
             address: address.parse().unwrap(),
             play: None,

@@ -5,16 +5,16 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::PathBuf;
 
-use foveate_packets::{Found, Packet, Register, Splitter};
+use foveate_packets::{StreamItem, Packet, RegisterPacket, PacketSplitter};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
 /// The board's end of the line.
-pub(crate) struct Line {
+pub(crate) struct SerialLine {
     board: File,
     pub(crate) path: PathBuf,
 }
 
-impl Line {
+impl SerialLine {
     pub(crate) fn new() -> Self {
         let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
         grantpt(&board).unwrap();
@@ -28,13 +28,13 @@ impl Line {
     }
 
     /// Returns the next command, which must be exactly a REGISTER packet.
-    pub(crate) fn command(&mut self) -> Register {
+    pub(crate) fn command(&mut self) -> RegisterPacket {
         let mut bytes = [0; 24];
         self.board.read_exact(&mut bytes).unwrap();
-        let mut splitter = Splitter::default();
+        let mut splitter = PacketSplitter::default();
         splitter.feed(&bytes);
         match splitter.next(None) {
-            Found::Packet { frame: 0, packet: Packet::Register(register) } => register,
+            StreamItem::Packet { frame: 0, packet: Packet::Register(register) } => register,
             found => panic!("{bytes:?}: {found:?}"),
         }
     }

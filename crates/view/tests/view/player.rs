@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 
 use foveate_camera::CameraConfig;
 use foveate_footage::{InputOptions, open};
-use foveate_frame::Plane;
+use foveate_frame::FramePixels;
 use foveate_view::{Player, PlayerOptions, ViewError};
 use serde_json::Value;
 
-use crate::client::{Answer, get, parts, request};
+use crate::client::{HttpResponse, get, link_parts, request};
 
 fn play(inputs: &[&str]) -> Result<Player, ViewError> {
     play_at(inputs, "127.0.0.1:0")
@@ -37,8 +37,8 @@ fn frame(link: &str, after: i64) -> (Value, Vec<u8>) {
     (serde_json::from_slice(text).unwrap(), pixels.to_owned())
 }
 
-fn restart(link: &str) -> Answer {
-    let (host, token) = parts(link);
+fn restart(link: &str) -> HttpResponse {
+    let (host, token) = link_parts(link);
     request(host, &format!("POST /{token}/restart HTTP/1.1\r\nHost: {host}\r\n\r\n"))
 }
 
@@ -48,9 +48,9 @@ fn expected() -> Vec<Vec<u8>> {
     let mut source = open(&["scene:street"], &CameraConfig::default(), &options).unwrap();
     let mut frames = Vec::new();
     while let Some(next) = source.next_frame().unwrap() {
-        match next.frame.plane() {
-            Plane::Bytes(pixels) => frames.push(pixels.to_vec()),
-            Plane::Words(_) => panic!("8 bits are bytes"),
+        match next.frame.borrowed_pixels() {
+            FramePixels::Bytes(pixels) => frames.push(pixels.to_vec()),
+            FramePixels::Words(_) => panic!("8 bits are bytes"),
         }
     }
     assert!(frames.len() == 3 && frames[0] != frames[1] && frames[1] != frames[2]);
@@ -82,7 +82,7 @@ fn a_clip_waits_for_the_page_and_loses_no_frame() {
         assert_eq!(restart(&link).status, 200);
         after = if round == 0 { -1 } else { after };
     }
-    assert!(player.news().is_empty() && player.frames() >= 6);
+    assert!(player.take_messages().is_empty() && player.frames_decoded() >= 6);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_page_that_asks_for_a_frame_far_ahead_does_not_run_the_clip_off() {
     let link = player.link();
     let (head, found) = frame(&link, i64::MAX);
     assert!(head["status"] == "running" && found.is_empty(), "{head}");
-    assert!(player.frames() < 3, "all {} frames were read", player.frames());
+    assert!(player.frames_decoded() < 3, "all {} frames were read", player.frames_decoded());
     assert!(frame(&link, 0).1 == expected()[1], "the clip goes on with another frame");
 }
 
@@ -104,7 +104,7 @@ fn only_the_link_opens_the_page_and_its_frames() {
     assert!(get(&link, "").head.contains("frame-ancestors 'none'"));
     assert_eq!(get(&link, "restart").status, 405);
     assert_eq!(get(&link, "register").status, 404);
-    let (host, token) = parts(&link);
+    let (host, token) = link_parts(&link);
     for path in ["", "frames?after=-1"] {
         for (token, named) in [("x", host), (&token[1..], host), (token, "evil.example")] {
             let asked = format!("GET /{token}/{path} HTTP/1.1\r\nHost: {named}\r\n\r\n");
@@ -135,7 +135,7 @@ fn an_input_that_breaks_off_says_why() {
     assert!(head["status"] != "running" && found.is_empty(), "{head}");
     let patience = Instant::now() + Duration::from_secs(20);
     let news = loop {
-        let news = player.news();
+        let news = player.take_messages();
         if !news.is_empty() || Instant::now() > patience {
             break news;
         }

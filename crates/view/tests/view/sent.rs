@@ -3,26 +3,26 @@
 
 use std::fs;
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, open};
-use foveate_simulator::{EventTables, Medium, Packets, RunOptions, Silent, Simulation};
+use foveate_simulator::{EventTableOptions, PictureFormat, PacketContent, RunOptions, SilentHooks, Simulation};
 
 /// A stream, and what the page must show of it.
-pub(crate) struct Sent {
+pub(crate) struct SentStream {
     /// The packets of each frame.
     pub(crate) frames: Vec<Vec<u8>>,
     /// The decisions and pixels of each frame: a byte per region, then a byte per pixel.
     pub(crate) pictures: Vec<Vec<u8>>,
 }
 
-impl Sent {
+impl SentStream {
     pub(crate) fn bytes(&self) -> Vec<u8> {
         self.frames.concat()
     }
 }
 
 /// Returns the packet at the beginning of `bytes`.
-pub(crate) fn first(bytes: &[u8]) -> &[u8] {
+pub(crate) fn first_packet(bytes: &[u8]) -> &[u8] {
     &bytes[..8 * usize::from(u16::from_le_bytes([bytes[2], bytes[3]]))]
 }
 
@@ -34,24 +34,24 @@ pub(crate) const CORE: [&str; 4] = [
     "temporal.reference='last-sent'",
 ];
 
-pub(crate) fn street(set: &[&str], frames: u32) -> Sent {
+pub(crate) fn street_stream(set: &[&str], frames: u32) -> SentStream {
     let folder = tempfile::tempdir().unwrap();
-    let config = Config::from_toml_with("", set).unwrap();
+    let config = DesignConfig::from_toml_with("", set).unwrap();
     let limit = InputOptions { frames: Some(frames), ..InputOptions::default() };
     let source = open(&["scene:street"], &config.camera, &limit).unwrap();
     let options = RunOptions {
-        rendered: Some(Medium::Png),
-        events: EventTables { csv: true, ..EventTables::default() },
-        packets: Some(Packets::Plain),
+        rendered: Some(PictureFormat::Png),
+        events: EventTableOptions { csv: true, ..EventTableOptions::default() },
+        packets: Some(PacketContent::Plain),
         ..RunOptions::default()
     };
     let out = folder.path().join("out");
-    Simulation::new(&config, source).unwrap().run(&out, &options, &mut Silent).unwrap();
+    Simulation::new(&config, source).unwrap().run(&out, &options, &mut SilentHooks).unwrap();
 
     let (stream, mut frames) = (fs::read(out.join("packets.bin")).unwrap(), vec![Vec::new()]);
     let mut rest = &stream[..];
     while !rest.is_empty() {
-        let packet = first(rest);
+        let packet = first_packet(rest);
         rest = &rest[packet.len()..];
         frames.last_mut().unwrap().extend(packet);
         // The END packet is the last one of its frame.
@@ -83,5 +83,5 @@ pub(crate) fn street(set: &[&str], frames: u32) -> Sent {
             _ => panic!("a rendered frame is grey"),
         }
     }
-    Sent { frames, pictures }
+    SentStream { frames, pictures }
 }

@@ -6,11 +6,11 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use foveate_view::Play;
+use foveate_view::PlayMode;
 
-use crate::client::{get, next, open, parts, wait_for};
-use crate::line::Line;
-use crate::sent::{CORE, Sent, street};
+use crate::client::{get, page_after, open, link_parts, wait_for};
+use crate::line::SerialLine;
+use crate::sent::{CORE, SentStream, street_stream};
 
 /// Designs with every rendering of irrelevant regions, some with more bits per pixel than a page.
 const DESIGNS: [&[&str]; 4] = [
@@ -27,8 +27,8 @@ const DESIGNS: [&[&str]; 4] = [
 #[test]
 fn frames_over_a_line_are_those_of_the_simulator() {
     for set in DESIGNS {
-        let Sent { frames, pictures } = street(set, 5);
-        let mut line = Line::new();
+        let SentStream { frames, pictures } = street_stream(set, 5);
+        let mut line = SerialLine::new();
         let view = open(&line.path, set, None).unwrap();
         let mut bytes = 0;
         for (number, (packets, picture)) in (0u64..).zip(frames.iter().zip(&pictures)) {
@@ -36,25 +36,25 @@ fn frames_over_a_line_are_those_of_the_simulator() {
             packets.chunks(1000).for_each(|piece| line.send(piece));
             let page = wait_for(view.link(), "frame", |told| told["frames"] == number + 1);
             assert!(page.picture == *picture, "frame {number} of {set:?} differs");
-            let newest = &page.told["history"][0];
+            let newest = &page.state["history"][0];
             assert_eq!(
                 (&newest["number"], &newest["bytes"]),
                 (&number.into(), &packets.len().into())
             );
-            let regions = picture.iter().take(picture.len() - pixels(&page.told));
+            let regions = picture.iter().take(picture.len() - pixels(&page.state));
             assert_eq!(newest["active"], regions.filter(|&byte| byte & 3 == 3).count());
             bytes += packets.len();
             assert_eq!(
-                (&page.told["bytes"], &page.told["status"]),
+                (&page.state["bytes"], &page.state["status"]),
                 (&bytes.into(), &"running".into())
             );
-            assert_eq!(page.told["losses"], serde_json::json!({}));
+            assert_eq!(page.state["losses"], serde_json::json!({}));
         }
         // A browser that knows all changes gets nothing again.
-        let told = next(view.link(), 0).told;
-        let again = next(view.link(), told["change"].as_u64().unwrap());
-        assert!(again.picture.is_empty() && again.told["history"] == serde_json::json!([]));
-        assert_eq!(view.frames(), 5);
+        let told = page_after(view.link(), 0).state;
+        let again = page_after(view.link(), told["change"].as_u64().unwrap());
+        assert!(again.picture.is_empty() && again.state["history"] == serde_json::json!([]));
+        assert_eq!(view.frames_shown(), 5);
     }
 }
 
@@ -67,15 +67,15 @@ fn pixels(told: &serde_json::Value) -> usize {
 #[test]
 fn a_file_is_played_by_its_times_to_its_end() {
     let folder = tempfile::tempdir().unwrap();
-    let (sent, file) = (street(&CORE, 7), folder.path().join("packets.bin"));
+    let (sent, file) = (street_stream(&CORE, 7), folder.path().join("packets.bin"));
     fs::write(&file, sent.bytes()).unwrap();
     // The frames have 1/30 s between them.
-    for (play, least, most) in [(None, 199, 5000), (Some(Play::AtOnce), 0, 199)] {
+    for (play, least, most) in [(None, 199, 5000), (Some(PlayMode::AtOnce), 0, 199)] {
         let view = open(&file, &CORE, play).unwrap();
         let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
         assert!(page.picture == sent.pictures[6]);
-        assert_eq!(page.told["frames"], 7);
-        let shown: Vec<u64> = page.told["history"]
+        assert_eq!(page.state["frames"], 7);
+        let shown: Vec<u64> = page.state["history"]
             .as_array()
             .unwrap()
             .iter()
@@ -83,7 +83,7 @@ fn a_file_is_played_by_its_times_to_its_end() {
             .collect();
         let took = shown[0] - shown[6];
         assert!((least..most).contains(&took), "{play:?}: {took} ms");
-        let news = view.news();
+        let news = view.take_messages();
         assert!(news.iter().any(|text| text.contains("has ended; frames shown: 7")), "{news:?}");
     }
 }
@@ -91,25 +91,25 @@ fn a_file_is_played_by_its_times_to_its_end() {
 #[test]
 fn a_file_is_played_again_and_again() {
     let folder = tempfile::tempdir().unwrap();
-    let (sent, file) = (street(&CORE, 3), folder.path().join("packets.bin"));
+    let (sent, file) = (street_stream(&CORE, 3), folder.path().join("packets.bin"));
     fs::write(&file, sent.bytes()).unwrap();
-    let view = open(&file, &CORE, Some(Play::Looped)).unwrap();
+    let view = open(&file, &CORE, Some(PlayMode::Looped)).unwrap();
     let page = wait_for(view.link(), "third round", |told| told["frames"].as_u64() > Some(8));
     assert_eq!(
-        (&page.told["status"], &page.told["losses"]),
+        (&page.state["status"], &page.state["losses"]),
         (&"running".into(), &serde_json::json!({}))
     );
-    assert_eq!(view.news().len(), 1);
+    assert_eq!(view.take_messages().len(), 1);
 }
 
 #[test]
 fn a_fifo_is_shown_as_it_comes() {
     let folder = tempfile::tempdir().unwrap();
-    let (sent, fifo) = (street(&CORE, 3), folder.path().join("fifo"));
+    let (sent, fifo) = (street_stream(&CORE, 3), folder.path().join("fifo"));
     let made = std::process::Command::new("mkfifo").arg(&fifo).status().unwrap();
     assert!(made.success());
     let view = open(&fifo, &CORE, None).unwrap();
-    assert_eq!(next(view.link(), 0).told["status"], "waiting");
+    assert_eq!(page_after(view.link(), 0).state["status"], "waiting");
     let mut writer = fs::OpenOptions::new().write(true).open(&fifo).unwrap();
     writer.write_all(&sent.frames[0]).unwrap();
     let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
@@ -122,13 +122,13 @@ fn a_fifo_is_shown_as_it_comes() {
 #[test]
 fn a_browser_that_does_not_read_stops_nobody() {
     let set = ["frame={width=1280,height=800}", "region.size=16"];
-    let sent = street(&set, 2);
+    let sent = street_stream(&set, 2);
     let (first, again) = (&sent.frames[0], &sent.frames[1]);
-    let mut line = Line::new();
+    let mut line = SerialLine::new();
     let view = open(&line.path, &set, None).unwrap();
     line.send(first);
     wait_for(view.link(), "frame", |told| told["frames"] == 1);
-    let (host, token) = parts(view.link());
+    let (host, token) = link_parts(view.link());
     let mut stuck = TcpStream::connect(host).unwrap();
     for _ in 0..20 {
         let ask = format!("GET /{token}/next?after=0 HTTP/1.1\r\nHost: {host}\r\n\r\n");

@@ -8,22 +8,22 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use foveate_footage::InputOptions;
-use foveate_view::{Play, Player, PlayerOptions};
+use foveate_view::{PlayMode, Player, PlayerOptions};
 
-use crate::client::{get, open, parts, request};
-use crate::sent::{CORE, street};
+use crate::client::{get, open, link_parts, request};
+use crate::sent::{CORE, street_stream};
 
 /// The number of foreign connections, which is more than the server keeps.
-const MANY: usize = 100;
+const CONNECTION_COUNT: usize = 100;
 /// The time within which a browser that behaves well is served, also on a busy machine.
-const PROMPT: Duration = Duration::from_secs(3);
+const SERVING_LIMIT: Duration = Duration::from_secs(3);
 
 /// Runs a test on both pages that the library serves.
 fn on_both_pages(test: impl Fn(&str)) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("packets.bin");
-    fs::write(&file, street(&CORE, 1).bytes()).unwrap();
-    let view = open(&file, &CORE, Some(Play::AtOnce)).unwrap();
+    fs::write(&file, street_stream(&CORE, 1).bytes()).unwrap();
+    let view = open(&file, &CORE, Some(PlayMode::AtOnce)).unwrap();
     test(view.link());
     let player = Player::open(PlayerOptions {
         inputs: Vec::new(),
@@ -39,28 +39,28 @@ fn on_both_pages(test: impl Fn(&str)) {
 }
 
 /// Returns connections that have sent the beginning of a request and nothing else.
-fn begun(host: &str, text: &str) -> Vec<TcpStream> {
+fn begin_requests(host: &str, text: &str) -> Vec<TcpStream> {
     let begin = |_| {
         let mut stream = TcpStream::connect(host).unwrap();
         // The server may have closed the connection already.
         let _ = stream.write_all(text.as_bytes());
         stream
     };
-    (0..MANY).map(begin).collect()
+    (0..CONNECTION_COUNT).map(begin).collect()
 }
 
 fn is_served_promptly(link: &str, what: &str) {
     let start = Instant::now();
     assert_eq!(get(link, what).status, 200, "{what:?} is not served");
-    assert!(start.elapsed() < PROMPT, "{what:?} took {:?}", start.elapsed());
+    assert!(start.elapsed() < SERVING_LIMIT, "{what:?} took {:?}", start.elapsed());
 }
 
 #[test]
 fn connections_of_strangers_keep_the_page_from_nobody() {
     on_both_pages(|link| {
-        let (host, _) = parts(link);
+        let (host, _) = link_parts(link);
         for text in ["", "G", "GET /x/ HTTP/1.1\r\n", "GET /x/ HTTP/1.1\r\nHost: x\r\n\r\n"] {
-            let held = begun(host, text);
+            let held = begin_requests(host, text);
             is_served_promptly(link, "");
             drop(held);
         }
@@ -70,12 +70,12 @@ fn connections_of_strangers_keep_the_page_from_nobody() {
 #[test]
 fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
     on_both_pages(|link| {
-        let (host, token) = parts(link);
+        let (host, token) = link_parts(link);
         let whole = format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n");
         // The first request is served and its connection stays open. The others ask for more than a
         // connection holds, and do not read it.
         for text in [whole.clone(), whole.repeat(30)] {
-            let held = begun(host, &text);
+            let held = begin_requests(host, &text);
             is_served_promptly(link, "");
             drop(held);
         }
@@ -83,7 +83,7 @@ fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
 }
 
 /// Sends a byte every now and then. Returns the time until the server closes the connection.
-fn dripped(host: &str, text: &str) -> Duration {
+fn drip_request(host: &str, text: &str) -> Duration {
     let mut stream = TcpStream::connect(host).unwrap();
     stream.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
     let start = Instant::now();
@@ -108,15 +108,15 @@ fn dripped(host: &str, text: &str) -> Duration {
 fn a_request_has_a_time_in_total_not_for_each_byte() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("packets.bin");
-    fs::write(&file, street(&CORE, 1).bytes()).unwrap();
-    let view = open(&file, &CORE, Some(Play::AtOnce)).unwrap();
-    let (host, token) = parts(view.link());
+    fs::write(&file, street_stream(&CORE, 1).bytes()).unwrap();
+    let view = open(&file, &CORE, Some(PlayMode::AtOnce)).unwrap();
+    let (host, token) = link_parts(view.link());
     let texts = [
         "GET /xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx".to_owned(),
         format!("POST /{token}/register HTTP/1.1\r\nHost: {host}\r\nContent-Length: 4000\r\n\r\n"),
     ];
     std::thread::scope(|scope| {
-        let listen = |text| scope.spawn(move || dripped(host, text));
+        let listen = |text| scope.spawn(move || drip_request(host, text));
         let all: Vec<_> = texts.iter().map(|text| listen(text.as_str())).collect();
         for listened in all {
             let listened = listened.join().unwrap();
@@ -128,7 +128,7 @@ fn a_request_has_a_time_in_total_not_for_each_byte() {
 #[test]
 fn a_request_that_is_too_long_or_says_a_thing_twice_ends_the_connection() {
     on_both_pages(|link| {
-        let (host, token) = parts(link);
+        let (host, token) = link_parts(link);
         let status = |more: &str| {
             request(host, &format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n{more}\r\n")).status
         };

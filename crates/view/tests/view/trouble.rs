@@ -4,19 +4,19 @@
 
 use std::fs;
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_view::View;
 use serde_json::json;
 
 use crate::client::{open, wait_for};
-use crate::line::Line;
-use crate::sent::{CORE, first, street};
+use crate::line::SerialLine;
+use crate::sent::{CORE, first_packet, street_stream};
 
 /// Collects messages until one contains all of `parts`.
 fn wait_for_news(view: &View, parts: &[&str]) -> Vec<String> {
     let mut all = Vec::new();
     for _ in 0..2000 {
-        all.extend(view.news());
+        all.extend(view.take_messages());
         if all.iter().any(|text: &String| parts.iter().all(|part| text.contains(part))) {
             return all;
         }
@@ -27,32 +27,32 @@ fn wait_for_news(view: &View, parts: &[&str]) -> Vec<String> {
 
 #[test]
 fn damage_is_listed_and_the_rest_is_shown() {
-    let sent = street(&CORE, 3);
-    let mut line = Line::new();
+    let sent = street_stream(&CORE, 3);
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     line.send(&sent.frames[0]);
     let mut damaged = sent.frames[1].clone();
-    let frame = first(&damaged).len();
+    let frame = first_packet(&damaged).len();
     // The damaged packet is the first ROW packet of the second frame.
     assert_eq!(damaged[frame + 1] & 15, 2);
     damaged[frame + 9] ^= 1;
-    let row = first(&damaged[frame..]).len();
+    let row = first_packet(&damaged[frame..]).len();
     line.send(&damaged);
     line.send(&sent.frames[2]);
     let page = wait_for(view.link(), "third frame", |told| told["frames"] == 3);
-    assert_eq!(page.told["losses"], json!({"bytes": 1, "row": 1}));
+    assert_eq!(page.state["losses"], json!({"bytes": 1, "row": 1}));
     let listed = [
         "frame 1, row 0: decisions are missing".to_owned(),
         format!("{row} bytes from byte {} on are no packet", sent.frames[0].len() + frame),
     ];
-    assert_eq!(page.told["listed"], json!(listed));
+    assert_eq!(page.state["listed"], json!(listed));
     wait_for_news(&view, &["row 0: decisions are missing"]);
 }
 
 #[test]
 fn many_losses_are_counted_but_not_all_told() {
     let folder = tempfile::tempdir().unwrap();
-    let (sent, file) = (street(&CORE, 40), folder.path().join("packets.bin"));
+    let (sent, file) = (street_stream(&CORE, 40), folder.path().join("packets.bin"));
     // Every second frame has no END packet.
     let odd = |(number, frame): (usize, &Vec<u8>)| {
         let end = if number % 2 == 1 { frame.len() - 24 } else { frame.len() };
@@ -60,9 +60,9 @@ fn many_losses_are_counted_but_not_all_told() {
     };
     let bytes: Vec<u8> = sent.frames.iter().enumerate().flat_map(odd).collect();
     fs::write(&file, bytes).unwrap();
-    let view = open(&file, &CORE, Some(foveate_view::Play::AtOnce)).unwrap();
+    let view = open(&file, &CORE, Some(foveate_view::PlayMode::AtOnce)).unwrap();
     let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
-    assert_eq!((&page.told["losses"], &page.told["frames"]), (&json!({"end": 20}), &40.into()));
+    assert_eq!((&page.state["losses"], &page.state["frames"]), (&json!({"end": 20}), &40.into()));
     let news = wait_for_news(&view, &["has ended"]);
     assert_eq!(news.iter().filter(|text| text.contains("END packet is missing")).count(), 10);
     assert_eq!(news.iter().filter(|text| text.contains("more losses")).count(), 1, "{news:?}");
@@ -71,11 +71,11 @@ fn many_losses_are_counted_but_not_all_told() {
 #[test]
 fn another_design_is_refused_until_the_right_one_comes() {
     let other = ["frame={width=40,height=30}", "region.size=5"];
-    let (own, foreign) = (street(&CORE, 1), street(&other, 2));
-    let mut line = Line::new();
+    let (own, foreign) = (street_stream(&CORE, 1), street_stream(&other, 2));
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     let print =
-        |set: &[&str]| Config::from_toml_with("", set).unwrap().validate().unwrap().fingerprint();
+        |set: &[&str]| DesignConfig::from_toml_with("", set).unwrap().validate().unwrap().fingerprint();
     line.send(&foreign.bytes());
     let parts = [&*print(&CORE), &*print(&other)];
     let both = |text: &str| parts.iter().all(|part| text.contains(part));
@@ -85,9 +85,9 @@ fn another_design_is_refused_until_the_right_one_comes() {
     line.send(&own.bytes());
     let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
     assert!(page.picture == own.pictures[0]);
-    assert_eq!((&page.told["refused"], &page.told["losses"]), (&json!(null), &json!({})));
+    assert_eq!((&page.state["refused"], &page.state["losses"]), (&json!(null), &json!({})));
     // The refusal is reported once, not with every frame.
-    assert_eq!(view.news().iter().filter(|text| both(text)).count(), 0);
+    assert_eq!(view.take_messages().iter().filter(|text| both(text)).count(), 0);
     // The design changes during the stream.
     line.send(&foreign.bytes());
     wait_for(view.link(), "message again", |told| told["refused"].as_str().is_some_and(both));
@@ -106,7 +106,7 @@ fn at_time(packets: &[u8], time: u64) -> Vec<u8> {
 #[test]
 fn a_time_that_cannot_be_right_does_not_stop_the_picture() {
     let folder = tempfile::tempdir().unwrap();
-    let sent = street(&CORE, 4);
+    let sent = street_stream(&CORE, 4);
     for wrong in [1 << 63, u64::MAX, 0] {
         let file = folder.path().join("packets.bin");
         let mut frames = sent.frames.clone();
@@ -114,9 +114,9 @@ fn a_time_that_cannot_be_right_does_not_stop_the_picture() {
         fs::write(&file, frames.concat()).unwrap();
         let view = open(&file, &CORE, None).unwrap();
         let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
-        assert_eq!(page.told["frames"], 4, "{wrong}");
+        assert_eq!(page.state["frames"], 4, "{wrong}");
         assert!(page.picture == sent.pictures[3]);
-        let losses = page.told["losses"]["time"].as_u64().unwrap();
+        let losses = page.state["losses"]["time"].as_u64().unwrap();
         assert!((1..=2).contains(&losses), "{losses} losses");
         wait_for_news(&view, &["frame 2: its time is before the last frame or more than a day"]);
     }
@@ -125,7 +125,7 @@ fn a_time_that_cannot_be_right_does_not_stop_the_picture() {
 #[test]
 fn a_long_pause_is_said_and_cut() {
     let folder = tempfile::tempdir().unwrap();
-    let sent = street(&CORE, 2);
+    let sent = street_stream(&CORE, 2);
     let file = folder.path().join("packets.bin");
     let late = at_time(&sent.frames[1], 3_600_000_000);
     fs::write(&file, [&sent.frames[0][..], &late].concat()).unwrap();
@@ -143,27 +143,27 @@ fn a_long_pause_is_said_and_cut() {
 fn refusals_that_alternate_with_frames_do_not_flood_the_terminal() {
     let folder = tempfile::tempdir().unwrap();
     let other = ["frame={width=40,height=30}", "region.size=5"];
-    let (own, foreign) = (street(&CORE, 40), street(&other, 1));
+    let (own, foreign) = (street_stream(&CORE, 40), street_stream(&other, 1));
     let both = |frame: &Vec<u8>| [&foreign.frames[0][..56], frame].concat();
     let file = folder.path().join("packets.bin");
     fs::write(&file, own.frames.iter().flat_map(both).collect::<Vec<u8>>()).unwrap();
-    let view = open(&file, &CORE, Some(foveate_view::Play::AtOnce)).unwrap();
+    let view = open(&file, &CORE, Some(foveate_view::PlayMode::AtOnce)).unwrap();
     let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
-    assert_eq!(page.told["frames"], 40);
+    assert_eq!(page.state["frames"], 40);
     let news = wait_for_news(&view, &["has ended"]);
     assert_eq!(news.iter().filter(|text| text.contains("was sent by design")).count(), 10);
 }
 
 #[test]
 fn noise_without_end_is_said() {
-    let sent = street(&CORE, 1);
-    let mut line = Line::new();
+    let sent = street_stream(&CORE, 1);
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     for _ in 0..20 {
         line.send(&[0x5A; 1 << 16]);
     }
     let page = wait_for(view.link(), "loss", |told| told["losses"]["bytes"] == 1);
-    assert_eq!(page.told["frames"], 0);
+    assert_eq!(page.state["frames"], 0);
     wait_for_news(&view, &["bytes from byte 0 on are no packet"]);
     line.send(&sent.frames[0]);
     let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
@@ -172,31 +172,31 @@ fn noise_without_end_is_said() {
 
 #[test]
 fn silence_is_said_until_something_comes() {
-    let sent = street(&CORE, 2);
-    let mut line = Line::new();
+    let sent = street_stream(&CORE, 2);
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     line.send(&sent.frames[0]);
     let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
-    assert_eq!(page.told["silent"], false);
+    assert_eq!(page.state["silent"], false);
     wait_for_news(&view, &["nothing has come", "2 s"]);
     let page = wait_for(view.link(), "silence", |told| told["silent"] == true);
-    assert_eq!(page.told["status"], "running");
+    assert_eq!(page.state["status"], "running");
     line.send(&sent.frames[1]);
     let page = wait_for(view.link(), "frame", |told| told["frames"] == 2);
-    assert_eq!(page.told["silent"], false);
+    assert_eq!(page.state["silent"], false);
 }
 
 #[test]
 fn a_port_that_is_gone_is_said() {
-    let sent = street(&CORE, 1);
-    let mut line = Line::new();
+    let sent = street_stream(&CORE, 1);
+    let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     line.send(&sent.frames[0]);
     wait_for(view.link(), "frame", |told| told["frames"] == 1);
     let path = line.path.display().to_string();
     drop(line);
     let page = wait_for(view.link(), "message", |told| told["status"] == "gone");
-    assert!(page.told["text"].as_str().unwrap().contains(&path), "{}", page.told);
+    assert!(page.state["text"].as_str().unwrap().contains(&path), "{}", page.state);
     // The last frame is still shown.
     assert!(page.picture == sent.pictures[0]);
     wait_for_news(&view, &[&path, "is gone"]);

@@ -11,9 +11,9 @@ use foveate_web::exports::{
 };
 
 /// A generator of random numbers, the same in every run.
-struct Random(u64);
+struct RandomNumbers(u64);
 
-impl Random {
+impl RandomNumbers {
     fn below(&mut self, end: u32) -> u32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         u32::try_from(self.0 >> 40).unwrap() % end
@@ -31,7 +31,7 @@ impl Random {
 
 #[test]
 fn any_calls_in_any_order_are_answered() {
-    let mut random = Random(7);
+    let mut random = RandomNumbers(7);
     let (mut answered, mut refused) = (0, 0);
     for _ in 0..30_000 {
         let (handle, x, y) = (random.number(8), random.number(4), random.number(4));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that a page computes what the model computes, and that the facts about a camera are true.
 
-use foveate_design::{Config, PRESETS};
+use foveate_design::{DesignConfig, PRESETS};
 use foveate_frame::{Frame, convert_depth, luma};
 use foveate_model::FunctionalCamera;
-use foveate_web::Desk;
+use foveate_web::PageCameras;
 
 pub(crate) const SIZE: (u32, u32) = (61, 43);
 const FOUR: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"}]";
@@ -24,12 +24,12 @@ pub(crate) fn configurations() -> Vec<String> {
         ],
         &["frame.pixel_bits=16", "region.size=16", "render.irrelevant=\"hold\""],
     ];
-    let more = more.map(|keys| Config::from_toml_with("", keys).unwrap().to_toml());
+    let more = more.map(|keys| DesignConfig::from_toml_with("", keys).unwrap().to_toml());
     presets.map(|preset| preset.toml.to_owned()).chain(more).collect()
 }
 
-pub(crate) fn grey(desk: &mut Desk, number: u32) -> Vec<u8> {
-    desk.scene(b"street", SIZE, 8, number).unwrap().to_vec()
+pub(crate) fn grey(desk: &mut PageCameras, number: u32) -> Vec<u8> {
+    desk.scene_frame(b"street", SIZE, 8, number).unwrap().to_vec()
 }
 
 /// Returns the frame that the model takes.
@@ -39,9 +39,9 @@ pub(crate) fn frame(grey: &[u8], bits: u32) -> Frame {
 }
 
 #[test]
-fn every_camera_is_the_models() {
+fn every_camera_equals_the_model() {
     for toml in configurations() {
-        let mut desk = Desk::default();
+        let mut desk = PageCameras::default();
         let (handle, _) = desk.configure(toml.as_bytes(), SIZE).unwrap();
         let design = desk.camera(handle).unwrap().design().clone();
         let bits = design.pixel_bits();
@@ -60,7 +60,7 @@ fn every_camera_is_the_models() {
                     .collect::<Vec<_>>(),
                 expected.scores
             );
-            assert_eq!(sent.bits, design.bits_sent(1, design.values_of(&expected.actions)));
+            assert_eq!(sent.bits, design.bits_sent(1, design.values_sent_per_frame(&expected.actions)));
             let count =
                 |bits: &[bool]| u32::try_from(bits.iter().filter(|&&bit| bit).count()).unwrap();
             assert_eq!(
@@ -91,7 +91,7 @@ fn every_camera_is_the_models() {
 /// Colours are converted to grey by the rule of images. A camera that was reset equals a new one.
 #[test]
 fn colours_are_the_luma_of_images_and_a_reset_is_a_new_start() {
-    let mut desk = Desk::default();
+    let mut desk = PageCameras::default();
     let (first, _) = desk.configure(b"", SIZE).unwrap();
     let colours: Vec<u8> =
         grey(&mut desk, 5).iter().flat_map(|&grey| [grey, 255 - grey, grey / 2, 9]).collect();
@@ -118,11 +118,11 @@ fn colours_are_the_luma_of_images_and_a_reset_is_a_new_start() {
 /// The TOML of a camera describes the same camera, and its bounds belong to its keys.
 #[test]
 fn facts_are_those_of_the_camera() {
-    let mut desk = Desk::default();
+    let mut desk = PageCameras::default();
     for toml in configurations() {
         let (handle, facts) = desk.configure(toml.as_bytes(), SIZE).unwrap();
         let design = desk.camera(handle).unwrap().design().clone();
-        let again = Config::from_toml(facts["toml"].as_str().unwrap()).unwrap();
+        let again = DesignConfig::from_toml(facts["toml"].as_str().unwrap()).unwrap();
         assert_eq!(again.validate().unwrap().fingerprint(), design.fingerprint());
         assert_eq!(facts["fingerprint"], design.fingerprint());
         assert_eq!(facts["raw_bits_per_frame"], u64::from(61 * 43 * design.pixel_bits()));
@@ -130,25 +130,25 @@ fn facts_are_those_of_the_camera() {
             let path = format!("/{}", key.replace('.', "/"));
             assert!(facts["config"].pointer(&path).is_some(), "{key} is no key of {facts}");
         }
-        desk.free(handle).unwrap();
+        desk.remove(handle).unwrap();
     }
 }
 
 #[test]
 fn what_is_described_can_be_asked_for() {
-    let mut desk = Desk::default();
-    let told = desk.describe().unwrap();
+    let mut desk = PageCameras::default();
+    let told = desk.description().unwrap();
     for preset in told["presets"].as_array().unwrap() {
         let size = if preset["name"] == "raster" { (640, 480) } else { SIZE };
         let (handle, _) =
             desk.configure(preset["toml"].as_str().unwrap().as_bytes(), size).unwrap();
-        desk.free(handle).unwrap();
+        desk.remove(handle).unwrap();
     }
     for scene in told["scenes"].as_array().unwrap() {
         let (name, frames) = (scene["name"].as_str().unwrap(), scene["frames"].as_u64().unwrap());
         let frames = u32::try_from(frames).unwrap();
-        let first = desk.scene(name.as_bytes(), SIZE, 8, 0).unwrap().to_vec();
-        assert_eq!(desk.scene(name.as_bytes(), SIZE, 8, frames).unwrap(), first, "{name}");
+        let first = desk.scene_frame(name.as_bytes(), SIZE, 8, 0).unwrap().to_vec();
+        assert_eq!(desk.scene_frame(name.as_bytes(), SIZE, 8, frames).unwrap(), first, "{name}");
     }
     let keys = told["keys"].as_array().unwrap();
     let key = |name: &str| keys.iter().find(|key| key["key"] == name).unwrap();

@@ -4,14 +4,14 @@
 
 use crate::cameras::{SIZE, configurations, frame, grey};
 use foveate_model::FunctionalCamera;
-use foveate_model::explain::{Explanation, Moment};
-use foveate_web::Desk;
+use foveate_model::explanation::{RegionExplanation, FrameIdentification};
+use foveate_web::PageCameras;
 
 #[test]
 fn every_region_of_every_frame_is_explained_as_by_the_model() {
     let (mut compared, mut with_summary, mut without_reference) = (0, 0, 0);
     for toml in configurations() {
-        let mut desk = Desk::default();
+        let mut desk = PageCameras::default();
         let (handle, _) = desk.configure(toml.as_bytes(), SIZE).unwrap();
         let design = desk.camera(handle).unwrap().design().clone();
         let mut model = FunctionalCamera::new(&design);
@@ -20,12 +20,12 @@ fn every_region_of_every_frame_is_explained_as_by_the_model() {
             let camera = desk.camera(handle).unwrap();
             camera.step_grey(&grey, Some(u64::from(number) * 7)).unwrap();
             let before: Vec<_> =
-                (0..design.regions()).map(|region| model.remembered(region)).collect();
+                (0..design.regions()).map(|region| model.region_memory(region)).collect();
             let outcome = model.step(&frame(&grey, design.pixel_bits())).unwrap();
             let moment =
-                Moment { number: number.into(), name: "here", t_us: u64::from(number) * 7 };
+                FrameIdentification { number: number.into(), name: "here", t_us: u64::from(number) * 7 };
             for (region, before) in (0..).zip(before) {
-                let expected = Explanation::of(&design, moment, region, before, outcome);
+                let expected = RegionExplanation::from_outcome(&design, moment, region, before, outcome);
                 let place = (region % design.columns(), region / design.columns());
                 let told = camera.explain(place, "here").unwrap();
                 assert_eq!(told, expected, "{toml}");
@@ -43,7 +43,7 @@ fn every_region_of_every_frame_is_explained_as_by_the_model() {
 
 #[test]
 fn what_is_not_there_cannot_be_explained() {
-    let mut desk = Desk::default();
+    let mut desk = PageCameras::default();
     let (handle, _) = desk.configure(b"", SIZE).unwrap();
     let camera = desk.camera(handle).unwrap();
     let refused = |camera: &foveate_web::LiveCamera, place| {

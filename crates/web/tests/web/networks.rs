@@ -6,7 +6,7 @@ use foveate_network::onnx::{
     AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
     TensorTypeProto, TypeProto, ValueInfoProto, data_type,
 };
-use foveate_web::{Desk, Looked, NetworkDesk};
+use foveate_web::{PageCameras, NetworkComparison, PageNetwork};
 use prost::Message as _;
 use serde_json::{Value, json};
 
@@ -22,7 +22,7 @@ fn value(name: &str, shape: &[i64]) -> ValueInfoProto {
 
 /// Returns a network of one convolution, whose output of `[1, 6, 5, 7]` has the form of
 /// `FastestDet` with one class.
-fn file() -> Vec<u8> {
+fn network_file() -> Vec<u8> {
     let tensor = |name: &str, dims: &[i64], values: Vec<f32>| TensorProto {
         name: Some(name.to_owned()),
         dims: dims.to_vec(),
@@ -57,35 +57,35 @@ fn file() -> Vec<u8> {
     model.encode_to_vec()
 }
 
-fn open(desk: &mut NetworkDesk, wishes: &Value, bits: u32) -> Result<Value, String> {
+fn open(desk: &mut PageNetwork, wishes: &Value, bits: u32) -> Result<Value, String> {
     let wishes = wishes.to_string();
     desk.open(wishes.as_bytes(), SIZE, bits).map_err(|error| error.to_string())
 }
 
-fn wishes() -> Value {
+fn settings() -> Value {
     json!({ "name": "squares.onnx", "framing": "letterbox", "detect": "fastestdet,score=0.6" })
 }
 
-fn opened(bits: u32) -> (NetworkDesk, Value) {
-    let mut desk = NetworkDesk::default();
-    desk.take(file()).unwrap();
-    let told = open(&mut desk, &wishes(), bits).unwrap();
+fn open_network(bits: u32) -> (PageNetwork, Value) {
+    let mut desk = PageNetwork::default();
+    desk.set_file(network_file()).unwrap();
+    let told = open(&mut desk, &settings(), bits).unwrap();
     (desk, told)
 }
 
-fn look(desk: &NetworkDesk, whole: &[u16], seen: &[u16], bits: u32) -> Result<Looked, String> {
+fn look(desk: &PageNetwork, whole: &[u16], seen: &[u16], bits: u32) -> Result<NetworkComparison, String> {
     let pixels = whole.iter().chain(seen);
     let bytes: Vec<u8> = if bits <= 8 {
         pixels.map(|pixel| pixel.to_le_bytes()[0]).collect()
     } else {
         pixels.flat_map(|pixel| pixel.to_le_bytes()).collect()
     };
-    desk.look(&bytes).map_err(|error| error.to_string())
+    desk.compare(&bytes).map_err(|error| error.to_string())
 }
 
 #[test]
-fn what_is_guessed_is_told_as_the_command_takes_it() {
-    let (mut desk, told) = opened(8);
+fn guessed_settings_are_reported_as_the_command_takes_them() {
+    let (mut desk, told) = open_network(8);
     assert_eq!(told["input"], json!({ "width": 56, "height": 40, "channels": 1 }));
     assert_eq!(told["options"], "--framing letterbox --detect fastestdet,score=0.6,overlap=0.45");
     assert_eq!((&told["likely"], &told["classes"]), (&json!("fastestdet"), &json!(1)));
@@ -99,9 +99,9 @@ fn what_is_guessed_is_told_as_the_command_takes_it() {
 /// The whole frame is bright on the left, and the screen only in the upper left: half of the
 /// detections are kept. The depth changes nothing.
 #[test]
-fn both_pictures_are_looked_at() {
+fn whole_frame_and_screen_are_compared() {
     for bits in [1, 8, 12] {
-        let (desk, _) = opened(bits);
+        let (desk, _) = open_network(bits);
         let bright = (1 << bits) - 1;
         let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
         let frame = |is: &dyn Fn(usize, usize) -> bool| -> Vec<u16> {
@@ -127,11 +127,11 @@ fn what_is_refused_has_a_message() {
         let problem = problem.unwrap_err();
         assert!(problem.contains(says), "{problem}");
     };
-    let mut desk = NetworkDesk::default();
-    refused(open(&mut desk, &wishes(), 8), "there is no network");
-    desk.take(b"no network".to_vec()).unwrap();
-    refused(open(&mut desk, &wishes(), 8), "`squares.onnx` is not an ONNX model");
-    desk.take(file()).unwrap();
+    let mut desk = PageNetwork::default();
+    refused(open(&mut desk, &settings(), 8), "there is no network");
+    desk.set_file(b"no network".to_vec()).unwrap();
+    refused(open(&mut desk, &settings(), 8), "`squares.onnx` is not an ONNX model");
+    desk.set_file(network_file()).unwrap();
     for (key, wrong, says) in [
         ("framing", "fill", "letterbox=416x416"),
         ("mean", "1,x", "`x`: expected a number"),
@@ -141,14 +141,14 @@ fn what_is_refused_has_a_message() {
         ("detect", "ssd", "`found` [1, 6, 5, 7]"),
         ("colour", "red", "unknown field `colour`"),
     ] {
-        let mut wishes = wishes();
+        let mut wishes = settings();
         wishes[key] = json!(wrong);
         refused(open(&mut desk, &wishes, 8), says);
-        assert!(desk.look(&[]).unwrap_err().to_string().contains("there is no network"));
+        assert!(desk.compare(&[]).unwrap_err().to_string().contains("there is no network"));
     }
-    refused(open(&mut desk, &wishes(), 17), "pixels of 17 bits");
+    refused(open(&mut desk, &settings(), 17), "pixels of 17 bits");
     let pixels = (SIZE.0 * SIZE.1) as usize;
-    let (desk, _) = opened(5);
+    let (desk, _) = open_network(5);
     let problem = look(&desk, &vec![0; pixels], &[], 5).unwrap_err();
     assert!(problem.contains("bytes are no frame"), "{problem}");
     let problem = look(&desk, &vec![0; pixels], &vec![32; pixels], 5).unwrap_err();
@@ -159,14 +159,14 @@ fn what_is_refused_has_a_message() {
 #[test]
 fn planes_of_a_camera_are_those_of_its_depth() {
     for bits in [5, 8, 12] {
-        let mut cameras = Desk::default();
+        let mut cameras = PageCameras::default();
         let toml = format!("[frame]\npixel_bits = {bits}\n");
         let (handle, _) = cameras.configure(toml.as_bytes(), SIZE).unwrap();
-        let grey = cameras.scene(b"street", SIZE, 8, 0).unwrap().to_vec();
+        let grey = cameras.scene_frame(b"street", SIZE, 8, 0).unwrap().to_vec();
         let camera = cameras.camera(handle).unwrap();
         camera.step_grey(&grey, None).unwrap();
         let planes = [camera.pixels(), camera.engine().rendered()].map(|plane| plane.to_words());
-        let (desk, _) = opened(bits);
+        let (desk, _) = open_network(bits);
         assert!(look(&desk, &planes[0], &planes[1], bits).is_ok());
     }
 }

@@ -2,15 +2,15 @@
 //! Tests that wrong input gives a message with the fault and with what would be right, and changes
 //! nothing.
 
-use foveate_web::{Desk, MAX_CAMERAS};
+use foveate_web::{PageCameras, MAX_CAMERAS};
 
 fn refused<T>(result: Result<T, foveate_web::WebError>) -> String {
     result.err().map(|error| error.to_string()).unwrap()
 }
 
 #[test]
-fn what_is_wrong_is_said() {
-    let mut desk = Desk::default();
+fn faults_are_reported() {
+    let mut desk = PageCameras::default();
     for (toml, size, words) in [
         (&b"[region]\nsize = 65\n"[..], (16, 16), "2..=64"),
         (b"[regoin]\n", (16, 16), "did you mean `region`"),
@@ -22,14 +22,14 @@ fn what_is_wrong_is_said() {
         let message = refused(desk.configure(toml, size));
         assert!(message.contains(words), "{message}");
     }
-    assert!(refused(desk.scene(b"steet", (8, 8), 8, 0)).contains("did you mean `street`"));
-    assert!(refused(desk.scene(b"street", (8, 0), 8, 0)).contains("8x0 pixels"));
-    assert!(refused(desk.scene(b"street", (u32::MAX, u32::MAX), 8, 0)).contains("refused"));
+    assert!(refused(desk.scene_frame(b"steet", (8, 8), 8, 0)).contains("did you mean `street`"));
+    assert!(refused(desk.scene_frame(b"street", (8, 0), 8, 0)).contains("8x0 pixels"));
+    assert!(refused(desk.scene_frame(b"street", (u32::MAX, u32::MAX), 8, 0)).contains("refused"));
 }
 
 #[test]
 fn frames_of_another_length_change_nothing() {
-    let mut desk = Desk::default();
+    let mut desk = PageCameras::default();
     let (handle, _) = desk.configure(b"", (16, 12)).unwrap();
     let camera = desk.camera(handle).unwrap();
     camera.step_grey(&[100; 16 * 12], None).unwrap();
@@ -46,12 +46,12 @@ fn frames_of_another_length_change_nothing() {
 }
 
 #[test]
-fn cameras_are_few_and_end() {
-    let mut desk = Desk::default();
+fn the_number_of_cameras_is_limited_and_they_can_be_removed() {
+    let mut desk = PageCameras::default();
     let all: Vec<u32> = (0..MAX_CAMERAS).map(|_| desk.configure(b"", (8, 8)).unwrap().0).collect();
     assert!(refused(desk.configure(b"", (8, 8))).contains("8 cameras already"));
-    desk.free(all[3]).unwrap();
-    assert!(refused(desk.free(all[3])).contains("no camera number 3"));
+    desk.remove(all[3]).unwrap();
+    assert!(refused(desk.remove(all[3])).contains("no camera number 3"));
     assert!(refused(desk.camera(u32::MAX)).contains("no camera number"));
     assert_eq!(desk.configure(b"", (8, 8)).unwrap().0, all[3]);
 }

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card about area and speed: lanes, memory, frames per second and folds.
 
-use foveate_design::{Area, Decimal, Design, LaneMemory, MemoryChoice, SerialDesign};
+use foveate_design::{SlotArea, Decimal, Design, LaneMemory, MemoryChoice, SerialDesign};
 use serde::Serialize;
 
-use crate::args::{Clock, Rate};
+use crate::args::{ClockFrequency, FramesPerSecond};
 use crate::error::CliError;
 
 /// The lanes of a serial design, as the card shows them.
 #[derive(Serialize)]
-pub(super) struct Array {
+pub(super) struct LaneArray {
     pub(super) lanes: u32,
     pub(super) fold: u32,
     pub(super) feed: &'static str,
-    pub(super) memory: Memory,
+    pub(super) memory: LaneMemoryFigures,
 }
 
 /// The memory of a lane, in words of one pixel.
 #[derive(Serialize)]
-pub(super) struct Memory {
+pub(super) struct LaneMemoryFigures {
     pub(super) kind: &'static str,
     /// The reason for the kind of memory, in words.
     pub(super) why: String,
@@ -38,7 +38,7 @@ pub(super) struct AreaRow {
 
 /// The frames per second at a clock.
 #[derive(Serialize)]
-pub(super) struct FrameRate {
+pub(super) struct ReachedFrameRate {
     pub(super) clock_hz: u64,
     pub(super) frames_per_second: f64,
     #[serde(skip)]
@@ -47,7 +47,7 @@ pub(super) struct FrameRate {
 
 /// The clock that a frame rate needs, for a design whose clock is not known.
 #[derive(Serialize)]
-pub(super) struct Needed {
+pub(super) struct RequiredClock {
     pub(super) frames_per_second: f64,
     pub(super) clock_hz: u64,
     #[serde(skip)]
@@ -57,7 +57,7 @@ pub(super) struct Needed {
 /// The largest fold that reaches a frame rate, or the rate of fold 1 if no fold reaches it. A
 /// design that does not fold has fold 1.
 #[derive(Serialize)]
-pub(super) struct Proposal {
+pub(super) struct FoldProposal {
     pub(super) wanted: f64,
     /// True if `fold` reaches the frame rate.
     pub(super) reached: bool,
@@ -69,10 +69,10 @@ pub(super) struct Proposal {
     pub(super) text: String,
 }
 
-impl Array {
-    pub(super) fn of(design: SerialDesign<'_>) -> Self {
+impl LaneArray {
+    pub(super) fn from_design(design: SerialDesign<'_>) -> Self {
         let memory = design.lane_memory();
-        let row = |area: &Area| AreaRow {
+        let row = |area: &SlotArea| AreaRow {
             area: area.kind.to_string(),
             base: area.base,
             side: area.side,
@@ -82,9 +82,9 @@ impl Array {
             lanes: design.lanes(),
             fold: design.fold(),
             feed: design.feed().name(),
-            memory: Memory {
+            memory: LaneMemoryFigures {
                 kind: memory.kind.name(),
-                why: why(&memory),
+                why: memory_reason(&memory),
                 read_latency: memory.kind.read_latency(),
                 words: memory.depth,
                 slot_words: memory.slot_words,
@@ -95,10 +95,10 @@ impl Array {
 }
 
 /// Returns the reason for the kind of a lane's memory.
-fn why(memory: &LaneMemory) -> String {
-    match memory.why {
+fn memory_reason(memory: &LaneMemory) -> String {
+    match memory.choice {
         MemoryChoice::Configured => "as hardware.memory says".to_owned(),
-        MemoryChoice::Limit(most) => {
+        MemoryChoice::LutLimit(most) => {
             let luts = memory.luts;
             let side = if luts <= most { "within" } else { "above" };
             format!(
@@ -108,22 +108,22 @@ fn why(memory: &LaneMemory) -> String {
     }
 }
 
-impl FrameRate {
-    pub(super) fn of(clock: Clock, clocks: u64) -> Self {
+impl ReachedFrameRate {
+    pub(super) fn at_clock(clock: ClockFrequency, clocks: u64) -> Self {
         Self {
             clock_hz: clock.0,
-            frames_per_second: per_second(clock, clocks),
-            text: format!("{} frames/s at {clock}", shown(clock, clocks)),
+            frames_per_second: frames_per_second(clock, clocks),
+            text: format!("{} frames/s at {clock}", frames_per_second_text(clock, clocks)),
         }
     }
 }
 
-impl Needed {
+impl RequiredClock {
     /// Returns the clock for the frame rate `wanted`, or for 1000 frames per second if none is
     /// given.
-    pub(super) fn of(wanted: Option<Rate>, clocks: u64) -> Self {
-        let rate = wanted.unwrap_or(Rate(Decimal::whole(1000)));
-        let clock = rate.needs(clocks);
+    pub(super) fn for_frame_rate(wanted: Option<FramesPerSecond>, clocks: u64) -> Self {
+        let rate = wanted.unwrap_or(FramesPerSecond(Decimal::from_whole(1000)));
+        let clock = rate.required_clock(clocks);
         let mut text =
             format!("{clocks} clocks per frame; {} frames/s need a clock of {clock}", rate.0);
         if wanted.is_some() {
@@ -133,18 +133,18 @@ impl Needed {
     }
 }
 
-impl Proposal {
+impl FoldProposal {
     /// Proposes a fold for a design that folds, whatever its own fold. For any other design, it
     /// states whether the design reaches the rate as it is.
-    pub(super) fn of(design: &Design, rate: Rate, clock: Clock) -> Result<Self, CliError> {
-        let (most, folds) = (rate.max_clocks(clock), design.organization().folds());
+    pub(super) fn for_design(design: &Design, rate: FramesPerSecond, clock: ClockFrequency) -> Result<Self, CliError> {
+        let (most, folds) = (rate.max_clocks(clock), design.organization().has_folding());
         let reaches = design.timing().clocks_per_frame() <= most;
         let found = if folds { design.largest_fold(most) } else { reaches.then_some(1) };
         let fold = found.unwrap_or(1);
         let best = design.with_fold(fold)?;
         let clocks = best.timing().clocks_per_frame();
         let reach =
-            format!("{clocks} clocks per frame, {} frames/s at {clock}", shown(clock, clocks));
+            format!("{clocks} clocks per frame, {} frames/s at {clock}", frames_per_second_text(clock, clocks));
         let lanes = best.regions().div_ceil(fold);
         let wanted = rate.0;
         let text = match found {
@@ -163,7 +163,7 @@ impl Proposal {
             fold,
             lanes,
             cycles_per_frame: clocks,
-            frames_per_second: per_second(clock, clocks),
+            frames_per_second: frames_per_second(clock, clocks),
             text,
         })
     }
@@ -171,13 +171,13 @@ impl Proposal {
 
 /// Returns the frames per second. Both arguments are far below 2^53.
 #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
-fn per_second(clock: Clock, clocks: u64) -> f64 {
+fn frames_per_second(clock: ClockFrequency, clocks: u64) -> f64 {
     clock.0 as f64 / clocks as f64
 }
 
 /// Returns the frames per second, rounded down: whole from 100 on, else with two digits after the
 /// point.
-fn shown(clock: Clock, clocks: u64) -> String {
+fn frames_per_second_text(clock: ClockFrequency, clocks: u64) -> String {
     let hundredths = clock.0 * 100 / clocks;
     match hundredths {
         10_000.. => (hundredths / 100).to_string(),

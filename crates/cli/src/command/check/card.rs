@@ -1,59 +1,59 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The card: all values that follow from a configuration, in the form of its JSON.
 
-use foveate_design::{Config, Design, Direction, Hardware, Port, Timing};
+use foveate_design::{DesignConfig, Design, PortDirection, Hardware, Port, DesignTiming};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::array::{Array, FrameRate, Needed, Proposal};
-use crate::args::{Clock, Rate};
+use super::array::{LaneArray, ReachedFrameRate, RequiredClock, FoldProposal};
+use crate::args::{ClockFrequency, FramesPerSecond};
 use crate::error::CliError;
 
 /// All values that follow from a configuration.
 #[derive(Serialize)]
-pub(super) struct Card {
+pub(super) struct DesignCard {
     pub(super) format_version: u32,
     pub(super) fingerprint: String,
-    pub(super) config: Config,
-    pub(super) grid: Grid,
+    pub(super) config: DesignConfig,
+    pub(super) grid: RegionGrid,
     pub(super) pixel_max: u32,
     pub(super) region_pixels: u32,
-    pub(super) stream: Stream,
-    pub(super) features: Vec<Feature>,
+    pub(super) stream: RegionStream,
+    pub(super) features: Vec<FeatureRow>,
     pub(super) count_bits: u32,
     /// The lanes, for a serial design only.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) array: Option<Array>,
-    pub(super) timing: Clocks,
+    pub(super) array: Option<LaneArray>,
+    pub(super) timing: TimingFigures,
     /// The frame rate at the given clock. It is left out if no clock is given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) rate: Option<FrameRate>,
+    pub(super) rate: Option<ReachedFrameRate>,
     /// The clock that is needed. It is left out if a clock is given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) needs: Option<Needed>,
+    pub(super) needs: Option<RequiredClock>,
     /// The proposed fold. It is left out unless both a clock and a frame rate are given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) proposal: Option<Proposal>,
+    pub(super) proposal: Option<FoldProposal>,
     pub(super) rpu_ports: Vec<PortRow>,
     pub(super) rcm_ports: Vec<PortRow>,
 }
 
 #[derive(Serialize)]
-pub(super) struct Grid {
+pub(super) struct RegionGrid {
     pub(super) columns: u32,
     pub(super) rows: u32,
     pub(super) regions: u32,
 }
 
 #[derive(Serialize)]
-pub(super) struct Stream {
+pub(super) struct RegionStream {
     pub(super) halo: u32,
     pub(super) side: u32,
     pub(super) pixels: u32,
 }
 
 #[derive(Serialize)]
-pub(super) struct Feature {
+pub(super) struct FeatureRow {
     pub(super) feature: &'static str,
     pub(super) level: Option<u32>,
     pub(super) level_bits: Option<u32>,
@@ -63,7 +63,7 @@ pub(super) struct Feature {
 }
 
 /// The timing figures of the organization by their names, with `phases` if it has phases.
-pub(super) struct Clocks(pub(super) Timing);
+pub(super) struct TimingFigures(pub(super) DesignTiming);
 
 #[derive(Serialize)]
 struct PhaseRow<'a> {
@@ -71,7 +71,7 @@ struct PhaseRow<'a> {
     steps: u64,
 }
 
-impl Serialize for Clocks {
+impl Serialize for TimingFigures {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         for (name, value) in self.0.figures() {
@@ -96,48 +96,48 @@ pub(super) struct PortRow {
     pub(super) doc: String,
 }
 
-impl Card {
-    pub(super) fn of(
+impl DesignCard {
+    pub(super) fn from_design(
         design: &Design,
-        clock: Option<Clock>,
-        wanted: Option<Rate>,
+        clock: Option<ClockFrequency>,
+        wanted: Option<FramesPerSecond>,
     ) -> Result<Self, CliError> {
         let clocks = design.timing().clocks_per_frame();
-        let propose = |(clock, rate)| Proposal::of(design, rate, clock);
+        let propose = |(clock, rate)| FoldProposal::for_design(design, rate, clock);
         Ok(Self {
             format_version: 2,
             fingerprint: design.fingerprint(),
             config: design.config(),
-            grid: Grid {
+            grid: RegionGrid {
                 columns: design.columns(),
                 rows: design.rows(),
                 regions: design.regions(),
             },
             pixel_max: design.pixel_max(),
             region_pixels: design.region_pixels(),
-            stream: Stream {
+            stream: RegionStream {
                 halo: design.halo(),
                 side: design.stream_side(),
                 pixels: design.stream_pixels(),
             },
-            features: design.features().iter().map(Feature::of).collect(),
+            features: design.features().iter().map(FeatureRow::from_feature).collect(),
             count_bits: design.count_bits(),
-            timing: Clocks(design.timing()),
+            timing: TimingFigures(design.timing()),
             array: match design.hardware() {
-                Hardware::Serial(own) => Some(Array::of(design.on(own))),
+                Hardware::Serial(own) => Some(LaneArray::from_design(design.with_hardware(own))),
                 Hardware::Pipelined(_) | Hardware::Raster(_) => None,
             },
-            rate: clock.map(|clock| FrameRate::of(clock, clocks)),
-            needs: clock.is_none().then(|| Needed::of(wanted, clocks)),
+            rate: clock.map(|clock| ReachedFrameRate::at_clock(clock, clocks)),
+            needs: clock.is_none().then(|| RequiredClock::for_frame_rate(wanted, clocks)),
             proposal: clock.zip(wanted).map(propose).transpose()?,
-            rpu_ports: design.rpu_ports().iter().map(PortRow::of).collect(),
-            rcm_ports: design.rcm_ports().iter().map(PortRow::of).collect(),
+            rpu_ports: design.rpu_ports().iter().map(PortRow::from_port).collect(),
+            rcm_ports: design.rcm_ports().iter().map(PortRow::from_port).collect(),
         })
     }
 }
 
-impl Feature {
-    fn of(feature: &foveate_design::SpatialFeature) -> Self {
+impl FeatureRow {
+    fn from_feature(feature: &foveate_design::SpatialFeature) -> Self {
         Self {
             feature: feature.kind().name(),
             level: feature.level(),
@@ -150,12 +150,12 @@ impl Feature {
 }
 
 impl PortRow {
-    fn of(port: &Port) -> Self {
+    fn from_port(port: &Port) -> Self {
         Self {
             name: port.name.clone(),
             direction: match port.direction {
-                Direction::Input => "input",
-                Direction::Output => "output",
+                PortDirection::Input => "input",
+                PortDirection::Output => "output",
             },
             width: port.width,
             lanes: port.lanes,

@@ -5,7 +5,7 @@ mod array;
 mod card;
 mod text;
 
-use self::card::Card;
+use self::card::DesignCard;
 use self::text::text;
 use crate::args::{CheckArgs, DesignArgs};
 use crate::error::CliError;
@@ -25,11 +25,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
                 .to_owned(),
         ));
     }
-    let card = Card::of(&design, args.clock, args.min_fps)?;
+    let card = DesignCard::from_design(&design, args.clock, args.min_fps)?;
     if args.json {
-        output::json(&card)?;
+        output::print_json(&card)?;
     } else if !args.quiet {
-        output::text(&text(&design, &card))?;
+        output::print_text(&text(&design, &card))?;
     }
     match card.proposal {
         Some(proposal) if !proposal.reached => Err(CliError::Failed(proposal.text)),

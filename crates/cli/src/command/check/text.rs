@@ -5,11 +5,11 @@ use std::fmt::Write;
 
 use foveate_design::{Design, Hardware, Neighborhood, Periphery, RasterDesign, RasterMemory};
 
-use super::array::{Array, Memory};
-use super::card::{Card, Feature, PortRow};
+use super::array::{LaneArray, LaneMemoryFigures};
+use super::card::{DesignCard, FeatureRow, PortRow};
 use crate::output;
 
-pub(super) fn text(design: &Design, card: &Card) -> String {
+pub(super) fn text(design: &Design, card: &DesignCard) -> String {
     let mut lines = vec![
         ("design", card.fingerprint.clone()),
         (
@@ -40,11 +40,11 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
     lines.extend(design.periphery().map(|own| ("periphery", periphery_line(own))));
-    lines.push(("organization", design.config().hardware.in_words()));
+    lines.push(("organization", design.config().hardware.description()));
     match design.hardware() {
         Hardware::Raster(own) => {
-            let core = design.on(own);
-            lines.push(("stream", word_line(core.pixels_per_clock())));
+            let core = design.with_hardware(own);
+            lines.push(("stream", raster_stream_line(core.pixels_per_clock())));
             lines.push(("memory", raster_memory_line(core)));
         }
         Hardware::Pipelined(_) | Hardware::Serial(_) => {
@@ -55,7 +55,7 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
         lines.push(("lanes", lanes_line(array)));
         lines.push(("lane memory", memory_line(design, &array.memory)));
     }
-    lines.extend(card.timing.0.text().iter().cloned());
+    lines.extend(card.timing.0.descriptions().iter().cloned());
     lines.extend(card.rate.iter().map(|rate| ("rate", rate.text.clone())));
     lines.extend(card.needs.iter().map(|needed| ("rate", needed.text.clone())));
     if let Some(proposal) = &card.proposal {
@@ -64,14 +64,14 @@ pub(super) fn text(design: &Design, card: &Card) -> String {
     let mut text = String::new();
     for (name, value) in lines {
         let start = format!("{name:<17} ");
-        wrap(&mut text, &start, &value);
+        push_wrapped(&mut text, &start, &value);
     }
-    ports(&mut text, "rpu", &card.rpu_ports);
-    ports(&mut text, "rcm", &card.rcm_ports);
+    push_ports(&mut text, "rpu", &card.rpu_ports);
+    push_ports(&mut text, "rcm", &card.rcm_ports);
     text
 }
 
-fn feature_line(feature: &Feature) -> String {
+fn feature_line(feature: &FeatureRow) -> String {
     let level = feature.level.map(|level| format!("level {level}, ")).unwrap_or_default();
     format!(
         "{level}votes from {} on; scores 0..={}, {} bits",
@@ -100,7 +100,7 @@ fn periphery_line(own: &Periphery) -> String {
     format!("{means} where SRS is 0, sent again when one differs by more than {}", own.level)
 }
 
-fn stream_line(design: &Design, card: &Card) -> String {
+fn stream_line(design: &Design, card: &DesignCard) -> String {
     let halo = match design.neighborhood() {
         Neighborhood::Isolated => String::new(),
         Neighborhood::Shared => format!(", halo {} included", card.stream.halo),
@@ -109,26 +109,26 @@ fn stream_line(design: &Design, card: &Card) -> String {
 }
 
 /// Returns the line about the stream of a core that takes the frame row by row (`raster`).
-fn word_line(pixels: u32) -> String {
+fn raster_stream_line(pixels: u32) -> String {
     let word = if pixels == 1 { "pixel".to_owned() } else { format!("word of {pixels} pixels") };
     format!("the frame row by row, a {word} at every clock")
 }
 
 fn raster_memory_line(design: RasterDesign<'_>) -> String {
-    let memories = RasterMemory::all_of(design);
+    let memories = RasterMemory::all_memories(design);
     let bits = memories.iter().map(RasterMemory::total_bits).sum::<u64>();
-    match RasterMemory::store_of(design) {
+    match RasterMemory::frame_store(design) {
         Some(store) => format!("{bits} bits, {} of them references", store.total_bits()),
         None => format!("{bits} bits, and references outside of the core"),
     }
 }
 
-fn lanes_line(array: &Array) -> String {
+fn lanes_line(array: &LaneArray) -> String {
     let each = if array.fold == 1 { "region" } else { "regions" };
     format!("{}, {} {each} each, {} feed", array.lanes, array.fold, array.feed)
 }
 
-fn memory_line(design: &Design, memory: &Memory) -> String {
+fn memory_line(design: &Design, memory: &LaneMemoryFigures) -> String {
     let areas = memory.areas.iter().map(|row| format!("{0} {1}x{1}", row.area, row.side));
     format!(
         "{} words of {} bits, {} per slot for {}; {} ({})",
@@ -141,20 +141,20 @@ fn memory_line(design: &Design, memory: &Memory) -> String {
     )
 }
 
-fn ports(text: &mut String, module: &str, rows: &[PortRow]) {
+fn push_ports(text: &mut String, module: &str, rows: &[PortRow]) {
     let _ = writeln!(text, "\nports of {module}");
     for row in rows {
         let lanes = if row.lanes == 1 { String::new() } else { format!("{} x ", row.lanes) };
         let bits = format!("{lanes}{}", row.width);
         let start = format!("  {:<6} {bits:>10}  {:<18} ", row.direction, row.name);
-        wrap(text, &start, &row.doc);
+        push_wrapped(text, &start, &row.doc);
     }
 }
 
 /// Appends `start` and `rest`. Lines that do not fit go on below the beginning of `rest`.
-fn wrap(text: &mut String, start: &str, rest: &str) {
+fn push_wrapped(text: &mut String, start: &str, rest: &str) {
     let indent = " ".repeat(start.len());
-    let options = textwrap::Options::new(output::width())
+    let options = textwrap::Options::new(output::text_width())
         .initial_indent(start)
         .subsequent_indent(&indent)
         .break_words(false);

@@ -6,13 +6,13 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, open};
-use foveate_simulator::{Recording, RunOptions, Simulation};
+use foveate_simulator::{PacketRecording, RunOptions, Simulation};
 use foveate_staging::{FolderKind, StagedFolder};
 use serde::Serialize;
 
-use super::super::simulate::Terminal;
+use super::super::simulate::ClipTerminal;
 use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::interrupt;
@@ -23,8 +23,8 @@ const RECEIVED: &str = "received";
 const SIMULATED: &str = "simulated";
 /// The kind of the folder. An earlier folder is replaced if nothing else is in it.
 const END_TO_END: FolderKind = FolderKind {
-    what: "a clip through the hardware (its packets.bin)",
-    is: |folder| folder.join(PACKETS).is_file(),
+    description: "a clip through the hardware (its packets.bin)",
+    matches: |folder| folder.join(PACKETS).is_file(),
 };
 
 /// The folder while it is being written.
@@ -36,7 +36,7 @@ impl EndToEndFolder {
         Ok(StagedFolder::check(folder, END_TO_END, true)?)
     }
 
-    pub(super) fn begin(folder: &Path) -> Result<Self, CliError> {
+    pub(super) fn create(folder: &Path) -> Result<Self, CliError> {
         Ok(Self(StagedFolder::new(folder, END_TO_END, true)?))
     }
 
@@ -46,22 +46,22 @@ impl EndToEndFolder {
     }
 
     /// Returns the error with the final path of the folder in place of the temporary one.
-    pub(super) fn named(&self, error: CliError) -> CliError {
+    pub(super) fn with_final_path(&self, error: CliError) -> CliError {
         match error {
-            CliError::Cosim(error) => CliError::Cosim(error.named(&self.0)),
+            CliError::Cosim(error) => CliError::Cosim(error.with_final_paths(&self.0)),
             other => other,
         }
     }
 
     /// Moves the folder with its contents to its final path. Does nothing if there are no packets.
-    pub(super) fn end(self) -> Result<(), CliError> {
+    pub(super) fn commit(self) -> Result<(), CliError> {
         if self.packets().is_file() { Ok(self.0.commit()?) } else { Ok(()) }
     }
 }
 
 /// The comparison of the receiver's screen with the results of `simulate`.
 #[derive(Debug, Serialize)]
-pub(super) struct EndToEnd {
+pub(super) struct EndToEndReport {
     frames: u64,
     /// The number of arrays and pictures that were compared.
     files: usize,
@@ -71,7 +71,7 @@ pub(super) struct EndToEnd {
     simulated: PathBuf,
 }
 
-impl EndToEnd {
+impl EndToEndReport {
     pub(super) fn agrees(&self) -> bool {
         self.differences.is_empty()
     }
@@ -91,12 +91,12 @@ impl EndToEnd {
 }
 
 /// Decodes the packets that the core has sent, simulates the same frames, and compares the results.
-pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEnd, CliError> {
+pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEndReport, CliError> {
     let EndToEndFolder(staged) = trip;
-    let told = |folder: &Path| staged.shown(folder);
+    let told = |folder: &Path| staged.shown_path(folder);
     let folder = staged.folder();
-    let config = args.design.read()?;
-    let mut hooks = Terminal::new(true)?;
+    let config = args.design.config()?;
+    let mut hooks = ClipTerminal::new(true)?;
     let options = RunOptions::default();
     let (received, simulated) = (folder.join(RECEIVED), folder.join(SIMULATED));
     let simulation = simulation(args, &config)?;
@@ -106,20 +106,20 @@ pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEn
     let packets = folder.join(PACKETS);
     let mut stream = File::open(&packets).map_err(CliError::io("read the packets", &packets))?;
     let name = told(&packets).display().to_string();
-    let recording = Recording { config: &config, stream: &mut stream, name: &name };
+    let recording = PacketRecording { config: &config, stream: &mut stream, name: &name };
     let decoded = recording.decode(&received, &options, &mut hooks);
-    let decoded = decoded.map_err(|error| error.named(staged))?;
-    hooks.verdict(&told(&received), decoded.summary.problem)?;
+    let decoded = decoded.map_err(|error| error.with_shown_paths(staged))?;
+    hooks.check_complete(&told(&received), decoded.summary.problem)?;
     let summary = simulation.run(&simulated, &options, &mut hooks);
-    let summary = summary.map_err(|error| error.named(staged))?;
-    hooks.verdict(&told(&simulated), summary.problem)?;
+    let summary = summary.map_err(|error| error.with_shown_paths(staged))?;
+    hooks.check_complete(&told(&simulated), summary.problem)?;
     let (files, differences) = differences(&received, &simulated)?;
     let (received, simulated) = (told(&received), told(&simulated));
-    Ok(EndToEnd { frames: summary.frames, files, differences, received, simulated })
+    Ok(EndToEndReport { frames: summary.frames, files, differences, received, simulated })
 }
 
-fn simulation(args: &CosimArgs, config: &Config) -> Result<Simulation, CliError> {
-    let (frames, interrupt) = (Some(args.frames), interrupt::request());
+fn simulation(args: &CosimArgs, config: &DesignConfig) -> Result<Simulation, CliError> {
+    let (frames, interrupt) = (Some(args.frames), interrupt::stop_request());
     let input = InputOptions { frames, interrupt, ..InputOptions::default() };
     Ok(Simulation::new(config, open(&args.inputs, &config.camera, &input)?)?)
 }
@@ -128,8 +128,8 @@ fn simulation(args: &CosimArgs, config: &Config) -> Result<Simulation, CliError>
 /// model's. A picture that only one of the two has counts and differs, too. Only the receiver's
 /// arrays are compared: the model also has scores, which packets do not carry.
 fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>), CliError> {
-    let arrays = names(received)?.into_iter().filter(|name| name.ends_with(".npy"));
-    let pictures = [received, simulated].map(|folder| names(&folder.join("rendered")));
+    let arrays = file_names(received)?.into_iter().filter(|name| name.ends_with(".npy"));
+    let pictures = [received, simulated].map(|folder| file_names(&folder.join("rendered")));
     let pictures = pictures.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
     let all: BTreeSet<String> =
         arrays.chain(pictures.map(|name| format!("rendered/{name}"))).collect();
@@ -142,7 +142,7 @@ fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>)
 }
 
 /// Returns the names of the files in a folder.
-fn names(folder: &Path) -> Result<Vec<String>, CliError> {
+fn file_names(folder: &Path) -> Result<Vec<String>, CliError> {
     let entries = fs::read_dir(folder).map_err(CliError::io("read the folder", folder))?;
     let name = |entry: std::io::Result<fs::DirEntry>| {
         let entry = entry.map_err(CliError::io("read the folder", folder))?;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_cosim::{BusJob, Job, Level, Simulator, Stimulus, prefixes};
+use foveate_cosim::{BusJob, CosimJob, CosimLevel, Simulator, Stimulus, core_prefixes};
 use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, Top};
 use foveate_toolchain::check_source_name;
@@ -16,15 +16,15 @@ use crate::error::CliError;
 const VERILOG_LIMIT: u64 = 1 << 26;
 /// The clocks of the whole frame that are enough if `--full` is not given: some ten seconds of
 /// simulation of a raster core.
-const ENOUGH: u64 = 40_000_000;
+const ENOUGH_CLOCKS: u64 = 40_000_000;
 
 /// A co-simulation: of an array clock by clock, or of a core on AXI packet by packet.
-pub(super) enum Work {
-    Array(Box<Job>),
+pub(super) enum CosimJob {
+    Array(Box<CosimJob>),
     Axi(Box<BusJob>),
 }
 
-impl Work {
+impl CosimJob {
     pub(super) fn name(&self) -> String {
         match self {
             Self::Array(job) => job.name(),
@@ -34,43 +34,43 @@ impl Work {
 }
 
 /// The co-simulations of a command, and the inputs that they share.
-pub(super) struct Plan {
+pub(super) struct CosimPlan {
     pub(super) design: Design,
     /// The given Verilog; `None` if it is generated.
     pub(super) rtl: Option<Vec<SourceFile>>,
     pub(super) prefix: Prefix,
     /// The co-simulations, the smallest first; there is at least one.
-    pub(super) works: Vec<Work>,
+    pub(super) jobs: Vec<CosimJob>,
 }
 
-impl Plan {
+impl CosimPlan {
     /// Makes the core on AXI write its packets into `file`.
     pub(super) fn keep_packets(&mut self, file: &Path) {
-        for work in &mut self.works {
-            if let Work::Axi(job) = work {
+        for work in &mut self.jobs {
+            if let CosimJob::Axi(job) = work {
                 job.packets = Some(file.to_owned());
             }
         }
     }
 }
 
-pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
+pub(super) fn plan(args: &CosimArgs) -> Result<CosimPlan, CliError> {
     let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
     let rtl = args.rtl.as_deref().map(read_rtl).transpose()?;
     let prefix = match rtl.as_deref() {
-        Some(sources) => prefix_of(args, &design, sources)?,
+        Some(sources) => core_prefix(args, &design, sources)?,
         None => Prefix::default(),
     };
     let array = |level| {
         let rounds = args.rounds.unwrap_or(match level {
-            Level::Rpu => 3,
-            Level::Rcm { .. } | Level::Full => 1,
+            CosimLevel::Rpu => 3,
+            CosimLevel::Rcm { .. } | CosimLevel::Full => 1,
         });
         // The whole frame is simulated in addition to a small frame, to which all sequences are
         // applied.
-        let enough = (!args.full && level == Level::Full).then_some(ENOUGH);
-        let stimulus = Stimulus { level, seed: args.seed, rounds, frames: frames.clone(), enough };
-        let mut job = Job::new(&design, stimulus, &args.replay)?;
+        let enough = (!args.full && level == CosimLevel::Full).then_some(ENOUGH_CLOCKS);
+        let stimulus = Stimulus { level, seed: args.seed, rounds, frames: frames.clone(), sufficient_clocks: enough };
+        let mut job = CosimJob::new(&design, stimulus, &args.replay)?;
         job.simulator = match args.simulator {
             SimulatorChoice::Verilator => Simulator::Verilator,
             SimulatorChoice::Iverilog => Simulator::Iverilog,
@@ -78,27 +78,27 @@ pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
         job.trace = args.trace;
         job.sources = rtl.clone().unwrap_or(job.sources);
         job.prefix = prefix.clone();
-        Ok(Work::Array(Box::new(job)))
+        Ok(CosimJob::Array(Box::new(job)))
     };
-    let levels = levels(args, &design, rtl.as_deref(), &prefix)?;
-    let mut works: Vec<Work> = levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
-    if let Some(mut job) = axi(args, &design)? {
+    let levels = array_levels(args, &design, rtl.as_deref(), &prefix)?;
+    let mut works: Vec<CosimJob> = levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
+    if let Some(mut job) = axi_job(args, &design)? {
         job.seed = args.seed;
         job.rounds = args.rounds.unwrap_or(1);
         job.frames = frames;
         job.sources = rtl.clone().unwrap_or(job.sources);
         job.prefix = prefix.clone();
-        works.push(Work::Axi(Box::new(job)));
+        works.push(CosimJob::Axi(Box::new(job)));
     }
-    Ok(Plan { design, rtl, prefix, works })
+    Ok(CosimPlan { design, rtl, prefix, jobs: works })
 }
 
 /// Returns the job of the core on AXI, if it is to be simulated.
-fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
+fn axi_job(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
     let is_part = args.full || args.netlist || args.simulator == SimulatorChoice::Iverilog;
     let packets = args.packets.clone();
     let is_asked =
-        args.level == Some(args::Level::Axi) || packets.is_some() || args.end_to_end.is_some();
+        args.level == Some(args::DesignPart::Axi) || packets.is_some() || args.end_to_end.is_some();
     let option = match (&args.packets, &args.end_to_end) {
         (Some(_), _) => "--packets",
         (None, Some(_)) => "--end-to-end",
@@ -119,48 +119,48 @@ fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
 }
 
 /// Returns true if all of the Verilog is to be simulated: it is given, and no part of it is chosen.
-pub(super) fn is_whole(args: &CosimArgs) -> bool {
+pub(super) fn is_whole_folder(args: &CosimArgs) -> bool {
     args.rtl.is_some() && args.level.is_none() && !args.full
 }
 
-fn levels(
+fn array_levels(
     args: &CosimArgs,
     design: &Design,
     rtl: Option<&[SourceFile]>,
     prefix: &Prefix,
-) -> Result<Vec<Level>, CliError> {
+) -> Result<Vec<CosimLevel>, CliError> {
     let one = match (args.full, args.level, args.grid) {
-        (true, ..) => Level::Full,
-        (false, Some(args::Level::Rcm), Some((columns, rows))) => Level::Rcm { columns, rows },
-        (false, Some(args::Level::Rcm), None) => Level::sample(design),
+        (true, ..) => CosimLevel::Full,
+        (false, Some(args::DesignPart::Rcm), Some((columns, rows))) => CosimLevel::Rcm { columns, rows },
+        (false, Some(args::DesignPart::Rcm), None) => CosimLevel::small_array(design),
         (false, _, Some(_)) => {
             let message = "--grid is for --level rcm; add it or leave --grid out";
             return Err(CliError::Usage(message.to_owned()));
         }
-        (false, Some(args::Level::Rpu), None) => Level::Rpu,
-        (false, Some(args::Level::Axi), None) => return Ok(Vec::new()),
+        (false, Some(args::DesignPart::Rpu), None) => CosimLevel::Rpu,
+        (false, Some(args::DesignPart::Axi), None) => return Ok(Vec::new()),
         (false, None, None) => match rtl {
-            Some(sources) => return Ok(Level::all_of(design, sources, prefix)),
-            None => Level::Rpu,
+            Some(sources) => return Ok(CosimLevel::for_sources(design, sources, prefix)),
+            None => CosimLevel::Rpu,
         },
     };
     Ok(vec![one])
 }
 
 /// Returns the prefix of the core in these files: the given one, or the only one in the files.
-fn prefix_of(
+fn core_prefix(
     args: &CosimArgs,
     design: &Design,
     sources: &[SourceFile],
 ) -> Result<Prefix, CliError> {
     if args.prefix.is_some() {
-        return Ok(Prefix::asked(args.prefix.as_deref(), design)?);
+        return Ok(Prefix::from_request(args.prefix.as_deref(), design)?);
     }
-    let found = prefixes(sources);
+    let found = core_prefixes(sources);
     if found.len() <= 1 {
         return Ok(found.into_iter().next().unwrap_or_default());
     }
-    let tops = found.iter().map(|prefix| format!("`{}`", prefix.name(Top::Rcm.module())));
+    let tops = found.iter().map(|prefix| format!("`{}`", prefix.prefixed_name(Top::Rcm.module())));
     let message = format!(
         "the folder of --rtl holds several cores, {}; choose one with --prefix, such as --prefix {}",
         tops.collect::<Vec<_>>().join(", "),
@@ -179,7 +179,7 @@ fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
             check_source_name(&name)
                 .map_err(|error| CliError::Usage(format!("{error}; rename the file of --rtl")))?;
             let contents =
-                foveate_reading::text(&path, VERILOG_LIMIT).map_err(CliError::io("read", &path))?;
+                foveate_reading::read_text(&path, VERILOG_LIMIT).map_err(CliError::io("read", &path))?;
             files.push(SourceFile { path: format!("rtl/{name}"), contents });
         }
     }

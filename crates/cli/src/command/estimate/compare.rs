@@ -2,11 +2,11 @@
 //! `foveate estimate --compare`: the designs of the table.
 
 use foveate_design::{
-    Config, ConfigError, Design, FeatureKind, Feed, Filter, Organization, SpatialConfig,
+    DesignConfig, ConfigError, Design, FeatureKind, PixelFeed, DenoiseFilter, Organization, SpatialConfig,
 };
-use foveate_estimate::{Comparison, FoldCost, Skipped, cheapest_fold};
+use foveate_estimate::{DesignComparison, FoldCost, SkippedDesign, cheapest_fold};
 
-use super::flow::Flow;
+use super::synthesis::SynthesisTools;
 use crate::args::EstimateArgs;
 use crate::error::CliError;
 use crate::output;
@@ -17,7 +17,7 @@ use crate::progress::Progress;
 const FOLDED_RATES: [u64; 2] = [500, 30];
 
 /// A row of the table, before its synthesis.
-struct Wanted {
+struct PlannedRow {
     name: String,
     /// The name under which the row is reported, once for the whole family, if the design is
     /// refused.
@@ -25,26 +25,26 @@ struct Wanted {
     design: Result<Design, ConfigError>,
 }
 
-pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
-    let base = args.design.read()?;
+pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliError> {
+    let base = args.design.config()?;
     args.design.design()?;
     let given = args.clock.map(f64::from);
-    let mut comparison = Comparison::new(given);
-    let wanted = organizations(&base);
+    let mut comparison = DesignComparison::new(given);
+    let wanted = organization_rows(&base);
     let progress = Progress::new(args.quiet);
     let all = (wanted.len() + FOLDED_RATES.len()) as u64;
     let rows = wanted.into_iter().map(Ok);
-    let folded = FOLDED_RATES.into_iter().map(|rate| folded(&base, rate, given, flow));
+    let folded = FOLDED_RATES.into_iter().map(|rate| folded_row(&base, rate, given, flow));
     for (done, row) in (0..).zip(rows.chain(folded)) {
-        progress.steps("synthesizing with Yosys", done, all);
-        let Wanted { name, family, design } = row?;
+        progress.report_steps("synthesizing with Yosys", done, all);
+        let PlannedRow { name, family, design } = row?;
         match design {
             Ok(design) => {
                 let report = flow.estimate(&design, false)?;
                 comparison.push(name, report);
             }
             Err(error) => {
-                let skipped = Skipped { name: family, reason: error.to_string() };
+                let skipped = SkippedDesign { name: family, reason: error.to_string() };
                 if !comparison.skipped.contains(&skipped) {
                     comparison.skipped.push(skipped);
                 }
@@ -53,29 +53,29 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     }
     progress.finish();
     if args.json {
-        output::json(&comparison)
+        output::print_json(&comparison)
     } else if args.markdown {
-        output::text(&comparison.markdown())
+        output::print_text(&comparison.markdown())
     } else {
-        output::text(&comparison.text(output::width()))
+        output::print_text(&comparison.text(output::text_width()))
     }
 }
 
 /// Returns the rows of the design in each organization with each feature, without and with
 /// denoising.
-fn organizations(base: &Config) -> Vec<Wanted> {
+fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
     let mut list = Vec::new();
     for &organization in Organization::ALL {
-        for &filter in Filter::ALL {
+        for &filter in DenoiseFilter::ALL {
             for &kind in FeatureKind::ALL {
                 let mut config = with_feature(base, kind, filter);
                 config.hardware.organization = organization;
                 config.hardware.fold = 1;
                 let median = match filter {
-                    Filter::None => "",
-                    Filter::Median3x3 => " median",
+                    DenoiseFilter::None => "",
+                    DenoiseFilter::Median3x3 => " median",
                 };
-                list.push(Wanted {
+                list.push(PlannedRow {
                     name: format!("{organization} {kind}{median}"),
                     family: organization.to_string(),
                     design: config.validate(),
@@ -86,7 +86,7 @@ fn organizations(base: &Config) -> Vec<Wanted> {
     list
 }
 
-fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
+fn with_feature(base: &DesignConfig, kind: FeatureKind, filter: DenoiseFilter) -> DesignConfig {
     let mut config = base.clone();
     config.camera.denoise.filter = filter;
     let own = base.camera.spatial.iter().find(|entry| entry.feature == kind).cloned();
@@ -96,23 +96,23 @@ fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
 
 /// Returns the row of a serial array with the median, the default feature and raster feed, in the
 /// cheapest number of lanes that reaches `rate` frames per second.
-fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<Wanted, CliError> {
+fn folded_row(base: &DesignConfig, rate: u64, given: Option<f64>, flow: &SynthesisTools) -> Result<PlannedRow, CliError> {
     let feature = FeatureKind::default();
-    let mut config = with_feature(base, feature, Filter::Median3x3);
+    let mut config = with_feature(base, feature, DenoiseFilter::Median3x3);
     config.hardware.organization = Organization::Serial;
-    config.hardware.feed = Some(Feed::Raster);
+    config.hardware.feed = Some(PixelFeed::Raster);
     config.hardware.fold = 1;
     let synthesize = |design: &Design| {
         let report = flow.estimate(design, false)?;
         let clock_mhz = given.or(report.clock.as_ref().map(|clock| clock.mhz));
-        Ok::<_, CliError>(FoldCost { clock_mhz, area: *report.whole() })
+        Ok::<_, CliError>(FoldCost { clock_mhz, area: *report.whole_area() })
     };
     let design = match config.validate() {
         Ok(single) => Ok(cheapest_fold(single, rate, synthesize)?),
         Err(error) => Err(error),
     };
     let fold = design.as_ref().map_or(1, |design| design.slots());
-    Ok(Wanted {
+    Ok(PlannedRow {
         name: format!("serial {feature} median raster fold {fold}"),
         family: "serial with raster feed".to_owned(),
         design,

@@ -5,30 +5,30 @@ use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{RouteJob, place_and_route, render_routes_markdown, render_routes_text};
 
-use super::flow::Flow;
-use crate::args::{EstimateArgs, Level};
+use super::synthesis::SynthesisTools;
+use crate::args::{EstimateArgs, DesignPart};
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Progress;
 
 const NOT_ON_AXI: &str = "--level axi is for a core on AXI; this design has hardware.interface = \"ports\", so set it to \"axi\"";
 
-pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
+pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliError> {
     let design = args.design.design()?;
-    let job = job(args, &design)?;
+    let job = route_job(args, &design)?;
     let progress = Progress::new(args.quiet);
-    progress.work("placing and routing with nextpnr");
+    progress.report_work("placing and routing with nextpnr");
     let report = place_and_route(&flow.toolchain, &flow.cache, &job, &args.place_and_route);
     progress.finish();
     let report = report?;
     if args.json {
-        output::json(&report)?;
+        output::print_json(&report)?;
     } else if args.markdown {
-        output::text(&render_routes_markdown(&report))?;
+        output::print_text(&render_routes_markdown(&report))?;
     } else {
-        output::text(&render_routes_text(&report, output::width()))?;
+        output::print_text(&render_routes_text(&report, output::text_width()))?;
     }
-    match report.misfits().as_slice() {
+    match report.shortage_sentences().as_slice() {
         [] => Ok(()),
         misfits => Err(CliError::Failed(misfits.join("; "))),
     }
@@ -36,13 +36,13 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
 
 /// Returns the job to place. Without `--level` it is the core on AXI if the design is one, and one
 /// RPU otherwise.
-fn job(args: &EstimateArgs, design: &Design) -> Result<RouteJob, CliError> {
+fn route_job(args: &EstimateArgs, design: &Design) -> Result<RouteJob, CliError> {
     let of = |top| RouteJob::of(design, top, args.seeds, args.portable);
-    let on_bus = || RouteJob::on_bus(design, args.seeds, args.portable);
+    let on_bus = || RouteJob::for_axi_core(design, args.seeds, args.portable);
     match args.level {
         None => Ok(on_bus().unwrap_or_else(|| of(Top::Rpu))),
-        Some(Level::Rpu) => Ok(of(Top::Rpu)),
-        Some(Level::Rcm) => Ok(of(Top::Rcm)),
-        Some(Level::Axi) => on_bus().ok_or_else(|| CliError::Usage(NOT_ON_AXI.to_owned())),
+        Some(DesignPart::Rpu) => Ok(of(Top::Rpu)),
+        Some(DesignPart::Rcm) => Ok(of(Top::Rcm)),
+        Some(DesignPart::Axi) => on_bus().ok_or_else(|| CliError::Usage(NOT_ON_AXI.to_owned())),
     }
 }

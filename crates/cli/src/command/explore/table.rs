@@ -8,15 +8,15 @@ use foveate_estimate::ramb36;
 use foveate_explore::{DesignRow, Exploration};
 
 /// A column: its name, and the function that writes its cells.
-type Column = (&'static str, fn(&DesignRow) -> String);
+type PointColumn = (&'static str, fn(&DesignRow) -> String);
 
-const COLUMNS: [Column; 16] = [
+const COLUMNS: [PointColumn; 16] = [
     ("flips %", |row| percent(row.figures.action_flips)),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
     ("IoU", |row| format!("{:.3}", row.figures.active_iou)),
     ("active %", |row| percent(row.figures.active)),
-    ("score errors", scores),
+    ("score errors", score_errors),
     ("PSNR ideal", |row| decibels(row.figures.psnr_ideal)),
     ("SSIM ideal", |row| format!("{:.3}", row.figures.ssim_ideal)),
     ("PSNR input", |row| decibels(row.figures.psnr_input)),
@@ -28,8 +28,8 @@ const COLUMNS: [Column; 16] = [
     ("clocks", |row| row.clocks_per_frame.to_string()),
     ("MHz", |row| row.speed.map_or_else(String::new, |speed| speed.clock_text())),
     ("frames/s", |row| row.speed.map_or_else(String::new, |speed| speed.rate_text())),
-    ("LUT/FF/mem", unit),
-    ("array LUT", array),
+    ("LUT/FF/mem", unit_cell),
+    ("array LUT", array_cell),
 ];
 
 fn percent(share: f64) -> String {
@@ -41,7 +41,7 @@ fn decibels(value: Option<f64>) -> String {
 }
 
 /// Returns the largest, mean and RMS error of every score that can be compared.
-fn scores(row: &DesignRow) -> String {
+fn score_errors(row: &DesignRow) -> String {
     let score = |score: &foveate_explore::ScoreError| {
         let digits = |value: f64| {
             format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -57,14 +57,14 @@ fn scores(row: &DesignRow) -> String {
     row.figures.scores.iter().map(score).collect::<Vec<_>>().join(", ")
 }
 
-fn unit(row: &DesignRow) -> String {
+fn unit_cell(row: &DesignRow) -> String {
     let figures = row.silicon.as_ref().map(|silicon| &silicon.unit);
     figures.map_or_else(String::new, |unit| {
         format!("{}/{}/{}", unit.lut_total_packed, unit.ff, unit.lut_memory_packed)
     })
 }
 
-fn array(row: &DesignRow) -> String {
+fn array_cell(row: &DesignRow) -> String {
     let figures = row.silicon.as_ref().map(|silicon| &silicon.array);
     figures.map_or_else(String::new, |array| match array.bram18 {
         0 => array.lut_total_packed.to_string(),
@@ -86,7 +86,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
         let _ = writeln!(
             text,
             "| {} | {} |",
-            found.described(row).replace('|', "\\|"),
+            found.settings_text(row).replace('|', "\\|"),
             cells.join(" | ")
         );
     }
@@ -103,7 +103,7 @@ pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
         front.len()
     );
     for row in front {
-        let _ = writeln!(text, "\n{}: {}", row.number, found.described(row));
+        let _ = writeln!(text, "\n{}: {}", row.number, found.settings_text(row));
         let figures = COLUMNS.iter().map(|(name, cell)| (name, cell(row)));
         let shown = figures.filter(|(_, cell)| !cell.is_empty());
         let line: Vec<String> = shown.map(|(name, cell)| format!("{name} {cell}")).collect();

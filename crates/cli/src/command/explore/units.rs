@@ -4,51 +4,51 @@
 
 use std::path::Path;
 
-use foveate_explore::{ExploreError, Request, measure_unit, plan};
+use foveate_explore::{ExploreError, ExploreRequest, measure_unit, plan_units};
 
-use super::Terminal;
+use super::ExploreTerminal;
 use crate::args::ExploreArgs;
 use crate::error::CliError;
 use crate::output;
 
 /// Prints one unit per line, as compact JSON.
 pub(super) fn print_plan(
-    request: &Request<'_>,
+    request: &ExploreRequest<'_>,
     folder: &Path,
-    terminal: &Terminal,
+    terminal: &ExploreTerminal,
 ) -> Result<(), CliError> {
-    let units = plan(request, folder, terminal);
-    terminal.shown.finish();
+    let units = plan_units(request, folder, terminal);
+    terminal.progress.finish();
     let lines = units?.iter().map(serde_json::to_string).collect::<Result<Vec<_>, _>>();
     let lines =
         lines.map_err(|error| CliError::Usage(format!("cannot write the plan: {error}")))?;
-    output::text(&lines.iter().map(|line| format!("{line}\n")).collect::<String>())
+    output::print_text(&lines.iter().map(|line| format!("{line}\n")).collect::<String>())
 }
 
-pub(super) fn measure(
+pub(super) fn run_unit(
     args: &ExploreArgs,
-    request: &Request<'_>,
+    request: &ExploreRequest<'_>,
     unit: &str,
     folder: &Path,
-    terminal: &Terminal,
+    terminal: &ExploreTerminal,
 ) -> Result<(), CliError> {
     let done = measure_unit(request, unit, folder, terminal);
-    terminal.shown.finish();
+    terminal.progress.finish();
     let done = match done {
         Err(ExploreError::Cancelled) => {
             return Err(CliError::Interrupted { path: folder.to_owned() });
         }
-        Err(error @ ExploreError::Broken { .. }) => {
+        Err(error @ ExploreError::IncompleteClip { .. }) => {
             return Err(CliError::Failed(error.to_string()));
         }
         other => other?,
     };
     if args.json {
-        output::json(&done)
+        output::print_json(&done)
     } else if args.quiet {
         Ok(())
     } else {
-        output::text(&format!(
+        output::print_text(&format!(
             "{}: {} designs over {}\n",
             done.file,
             done.combinations.len(),

@@ -19,35 +19,35 @@ use crate::error::CliError;
 use crate::output;
 
 /// The arguments that are valid for arrays, too.
-const OF_ARRAYS: [&str; 7] = ["network", "inputs", "output", "force", "json", "quiet", "threads"];
+const ARRAY_ARGUMENTS: [&str; 7] = ["network", "inputs", "output", "force", "json", "quiet", "threads"];
 /// The arguments that are valid for a check, too.
-const OF_CHECK: [&str; 5] = ["network", "check", "json", "resize", "threads"];
+const CHECK_ARGUMENTS: [&str; 5] = ["network", "check", "json", "resize", "threads"];
 
 /// Runs the network on arrays.
-pub(super) fn arrays(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
+pub(super) fn run_arrays(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
     if let Some(other) = args.inputs.iter().find(|input| !is_array(input)) {
         return Err(CliError::Usage(format!(
             "`{}` is no array (.npy), but other inputs are; give arrays alone, one for each input of the network, or clips alone",
             other.display()
         )));
     }
-    only(words, &OF_ARRAYS, "with arrays, which no camera looks at")?;
+    refuse_other_arguments(words, &ARRAY_ARGUMENTS, "with arrays, which no camera looks at")?;
     let summary = infer_arrays(&args.network, &args.inputs, folder, args.force)?;
     match (args.json, args.quiet) {
-        (true, _) => output::json(&summary),
-        (false, false) => output::text(&of_arrays(folder, &summary)),
+        (true, _) => output::print_json(&summary),
+        (false, false) => output::print_text(&arrays_text(folder, &summary)),
         (false, true) => Ok(()),
     }
 }
 
 /// Checks all nodes of the network.
-pub(super) fn check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
-    only(words, &OF_CHECK, "with --check, which reads no frames")?;
+pub(super) fn run_check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
+    refuse_other_arguments(words, &CHECK_ARGUMENTS, "with --check, which reads no frames")?;
     let checked = check_network(&args.network, args.input.resize.unwrap_or(OPEN_SIZE))?;
     if args.json {
-        output::json(&checked)?;
+        output::print_json(&checked)?;
     } else {
-        output::text(&of_check(&args.network, &checked))?;
+        output::print_text(&check_text(&args.network, &checked))?;
     }
     match checked.problems.len() {
         0 => Ok(()),
@@ -61,7 +61,7 @@ pub(super) fn check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError
 
 /// Fails if an argument outside of `allowed` is given. `here` names the use of the command in the
 /// message.
-fn only(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError> {
+fn refuse_other_arguments(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError> {
     let command = Cli::command();
     let matches = command.clone().get_matches_from(words);
     let Some((name, matches)) = matches.subcommand() else { return Ok(()) };
@@ -90,7 +90,7 @@ fn shape(lengths: &[usize]) -> String {
     format!("{lengths:?}")
 }
 
-fn of_arrays(folder: &Path, summary: &ArraySummary) -> String {
+fn arrays_text(folder: &Path, summary: &ArraySummary) -> String {
     let mut text = format!("{}: outputs of {}\n", folder.display(), summary.network.display());
     let line = |of: &str, array: &ArrayFile| {
         let name = array.name.as_ref().map(|name| format!("{name} ")).unwrap_or_default();
@@ -104,11 +104,11 @@ fn of_arrays(folder: &Path, summary: &ArraySummary) -> String {
     text
 }
 
-fn of_check(path: &Path, checked: &NetworkReport) -> String {
+fn check_text(path: &Path, checked: &NetworkReport) -> String {
     let name = path.display();
     if let Some(facts) = &checked.network {
         let all = format!("{name}: all {} nodes can be run\n", checked.nodes);
-        return all + &of_facts(facts);
+        return all + &network_text(facts);
     }
     let mut text =
         format!("{name}: {} of {} nodes cannot be run\n", checked.problems.len(), checked.nodes);
@@ -120,7 +120,7 @@ fn of_check(path: &Path, checked: &NetworkReport) -> String {
     text
 }
 
-fn of_facts(facts: &NetworkFacts) -> String {
+fn network_text(facts: &NetworkFacts) -> String {
     let mut text = format!("input      {}, layout {}\n", shape(&facts.input), facts.layout);
     for (name, lengths) in &facts.outputs {
         let _ = writeln!(text, "output     {name} {}", shape(lengths));

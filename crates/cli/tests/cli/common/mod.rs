@@ -16,7 +16,7 @@ pub(crate) fn foveate(args: &[&str]) -> Command {
 /// Returns the command as a terminal starts it, for tests that send signals. Tests that run under
 /// `nohup` or in the background of a script inherit ignored signals, and so would the command.
 #[cfg(unix)]
-pub(crate) fn listening() -> std::process::Command {
+pub(crate) fn foveate_with_signals() -> std::process::Command {
     if cfg!(target_os = "linux") {
         let mut command = std::process::Command::new("env");
         command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_foveate")]);
@@ -45,7 +45,7 @@ pub(crate) fn run_in(folder: &Path, args: &[&str]) -> CommandOutput {
 }
 
 /// Runs the command in `folder`, and fails unless its exit code is 0. Returns its standard output.
-pub(crate) fn succeed_in(folder: &Path, args: &[&str]) -> String {
+pub(crate) fn run_successfully(folder: &Path, args: &[&str]) -> String {
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, 0, "{args:?}: {}", outcome.stderr);
     outcome.stdout
@@ -53,7 +53,7 @@ pub(crate) fn succeed_in(folder: &Path, args: &[&str]) -> String {
 
 /// Runs the command in `folder`, and expects the exit code `code` and one line on standard error,
 /// besides warnings, that contains all of `parts`.
-pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) -> CommandOutput {
+pub(crate) fn expect_failure(folder: &Path, code: i32, args: &[&str], parts: &[&str]) -> CommandOutput {
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, code, "{args:?}: {}", outcome.stderr);
     let errors = outcome.stderr.lines().filter(|line| !line.starts_with("foveate: warning: "));

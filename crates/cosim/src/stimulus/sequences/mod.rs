@@ -6,34 +6,34 @@ mod pipelined;
 mod raster;
 mod serial;
 
-use super::ahead::ThresholdAim;
-use super::memory::Lapse;
-use super::motif::Motif;
+use super::threshold_aimer::ThresholdAim;
+use super::faulty_store::StoreFault;
+use super::stimulus_pattern::StimulusPattern;
 use super::random::Random;
 use foveate_design::{Design, Hardware};
 
 /// A sequence of frames with one property in common.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sequence {
+pub(super) struct FrameSequence {
     /// The name of the sequence in reports.
     pub(super) name: &'static str,
     /// The patterns of the regions, frame by frame.
-    pub(super) motifs: &'static [Motif],
+    pub(super) patterns: &'static [StimulusPattern],
     /// True if every region starts at another pattern.
-    pub(super) mixed: bool,
+    pub(super) is_mixed: bool,
     /// The state of the core at the end of the sequence.
-    pub(super) end: End,
+    pub(super) end: SequenceEnd,
     /// The choice of thresholds.
     pub(super) aim: ThresholdAim,
     /// True if the sink stalls so long that regions are lost.
-    pub(super) stalls: bool,
+    pub(super) sink_stalls: bool,
     /// The fault of the external frame store, if there is one.
-    pub(super) lapse: Lapse,
+    pub(super) store_fault: StoreFault,
 }
 
 /// The state at which the reset of the next sequence comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
+pub(super) enum SequenceEnd {
     /// Some clocks after all pixels have left.
     Drained,
     /// Between the beats of a frame, up to the given number of clocks after one.
@@ -41,7 +41,7 @@ pub(super) enum End {
     /// Up to the given number of clocks after the last beat of a frame.
     Flushing(u64),
     /// The clock at which the lanes begin with a frame, or soon after it.
-    Begun,
+    LanesStarted,
     /// Any clock of the work on a frame, or, about every second time, the clock before the first
     /// score is at the ports. `first_score` is the number of clocks from that score until the core
     /// is ready.
@@ -53,49 +53,49 @@ pub(super) enum End {
     /// Up to the given number of clocks after the first pixel that leaves.
     Leaving(u64),
     /// The edge at which a region would be lost in the middle, if there is one.
-    Losing,
+    BeforeLoss,
 }
 
-impl Sequence {
+impl FrameSequence {
     /// A sequence whose regions show different patterns, with thresholds that meet them exactly; at
     /// the end everything leaves.
-    const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Self {
-        Self::aimed(ThresholdAim::Exact, name, motifs)
+    const fn with_exact_thresholds(name: &'static str, motifs: &'static [StimulusPattern]) -> Self {
+        Self::with_aim(ThresholdAim::Exact, name, motifs)
     }
 
     /// A sequence like that of `mixed`, with another choice of thresholds.
-    const fn aimed(aim: ThresholdAim, name: &'static str, motifs: &'static [Motif]) -> Self {
+    const fn with_aim(aim: ThresholdAim, name: &'static str, motifs: &'static [StimulusPattern]) -> Self {
         Self {
             name,
-            motifs,
-            mixed: true,
-            end: End::Drained,
+            patterns: motifs,
+            is_mixed: true,
+            end: SequenceEnd::Drained,
             aim,
-            stalls: false,
-            lapse: Lapse::None,
+            sink_stalls: false,
+            store_fault: StoreFault::None,
         }
     }
 
     /// A sequence with as many relevant regions as possible, which ends at `end`.
-    const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Self {
-        Self { end, ..Self::aimed(ThresholdAim::Least, name, motifs) }
+    const fn ending_at(name: &'static str, motifs: &'static [StimulusPattern], end: SequenceEnd) -> Self {
+        Self { end, ..Self::with_aim(ThresholdAim::Smallest, name, motifs) }
     }
 }
 
 /// Returns sequences in which every region shows a summary, the same one behind a reset, pixels,
 /// and that summary again.
-const fn means_around_a_reset() -> [Sequence; 2] {
-    use Motif::{Noise, Same, Zero};
-    let aimed = Sequence::aimed;
+const fn mean_sequences_around_reset() -> [FrameSequence; 2] {
+    use StimulusPattern::{Noise, Same, Zero};
+    let aimed = FrameSequence::with_aim;
     [
-        Sequence {
-            mixed: false,
-            ..aimed(ThresholdAim::Unaimed, "means before a reset", &[Noise, Zero, Zero])
+        FrameSequence {
+            is_mixed: false,
+            ..aimed(ThresholdAim::Independent, "means before a reset", &[Noise, Zero, Zero])
         },
-        Sequence {
-            mixed: false,
+        FrameSequence {
+            is_mixed: false,
             ..aimed(
-                ThresholdAim::Unaimed,
+                ThresholdAim::Independent,
                 "means behind a reset",
                 &[Zero, Noise, Zero, Same, Noise],
             )
@@ -104,17 +104,17 @@ const fn means_around_a_reset() -> [Sequence; 2] {
 }
 
 /// Returns all sequences of a design, the most telling first.
-pub(super) fn sequences(design: &Design) -> Vec<Sequence> {
+pub(super) fn sequences(design: &Design) -> Vec<FrameSequence> {
     match design.hardware() {
-        Hardware::Pipelined(own) => pipelined::sequences(design.on(own)),
-        Hardware::Serial(own) => serial::sequences(design.on(own)),
-        Hardware::Raster(own) => raster::sequences(design.on(own)),
+        Hardware::Pipelined(own) => pipelined::sequences(design.with_hardware(own)),
+        Hardware::Serial(own) => serial::sequences(design.with_hardware(own)),
+        Hardware::Raster(own) => raster::sequences(design.with_hardware(own)),
     }
 }
 
 /// The pattern of pauses between pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Gaps {
+pub(super) enum GapPattern {
     /// A pixel comes at every clock, and frames follow at once.
     None,
     /// Pauses are random, and most frames follow at once.
@@ -124,7 +124,7 @@ pub(super) enum Gaps {
     Bursts,
 }
 
-impl Gaps {
+impl GapPattern {
     pub(super) const ALL: [Self; 3] = [Self::None, Self::Random, Self::Bursts];
 
     /// Returns the number of clocks without a pixel before the next one.

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a pipelined RPU, and of an array of them.
 
-use super::super::ahead::ThresholdAim;
-use super::super::motif::Motif::*;
-use super::super::pace::settling_clocks;
-use super::{End, Sequence, means_around_a_reset};
+use super::super::threshold_aimer::ThresholdAim;
+use super::super::stimulus_pattern::StimulusPattern::*;
+use super::super::drain_timing::settling_clocks;
+use super::{SequenceEnd, FrameSequence, mean_sequences_around_reset};
 use foveate_design::PipelinedDesign;
 
 /// Returns all sequences, the most telling first.
-pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
-    let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
-    let flushing = End::Flushing(settling_clocks(design));
+pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<FrameSequence> {
+    let (mixed, aimed) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim);
+    let flushing = SequenceEnd::Flushing(settling_clocks(design));
     // The reset comes at once, while most is under way.
-    let loading = End::Loading(0);
-    let cut = |end, sequence| Sequence { end, ..sequence };
-    let configured = ThresholdAim::Design;
+    let loading = SequenceEnd::Loading(0);
+    let cut = |end, sequence| FrameSequence { end, ..sequence };
+    let configured = ThresholdAim::Configured;
     let mut list = vec![
         mixed("extremes", &[Max, Zero, Max, Max, Checkerboard, TwoPoint]),
         mixed("noise", &[Noise, Noise, Binary, Noise]),
@@ -25,7 +25,7 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
         mixed("changes", &[Smooth, Bump, Bump, LightStep, Bump, Same]),
         cut(flushing, aimed(configured, "reset after one frame", &[Ramp])),
         mixed("halves", &[HalfMean, TwoPoint, HalfMean, TwoPoint]),
-        aimed(ThresholdAim::Restless, "restless", &[Noise, Smooth, Binary, Ramp]),
+        aimed(ThresholdAim::EveryClock, "restless", &[Noise, Smooth, Binary, Ramp]),
         mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Flat, Same, Noise]),
         mixed("corners", &[HotCorner, Ring, HotCorner, Ring]),
         cut(loading, aimed(configured, "reset in a frame, full", &[Max, Max])),
@@ -53,12 +53,12 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
             ),
             aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
             mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
-            aimed(ThresholdAim::Held, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
+            aimed(ThresholdAim::HeldRegions, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
         ]);
-        list.extend(means_around_a_reset());
+        list.extend(mean_sequences_around_reset());
     }
-    let leaving = aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise]);
+    let leaving = aimed(ThresholdAim::Independent, "reset while pixels leave", &[Noise]);
     // The reset at the end is that of the next sequence. The last two sequences belong together.
-    list.insert(list.len() - 2, cut(End::Leaving(0), leaving));
+    list.insert(list.len() - 2, cut(SequenceEnd::Leaving(0), leaving));
     list
 }

@@ -1,48 +1,48 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a raster core.
 
-use super::super::ahead::ThresholdAim;
-use super::super::memory::Lapse;
-use super::super::motif::Motif::*;
-use super::{End, Sequence, means_around_a_reset};
+use super::super::threshold_aimer::ThresholdAim;
+use super::super::faulty_store::StoreFault;
+use super::super::stimulus_pattern::StimulusPattern::*;
+use super::{SequenceEnd, FrameSequence, mean_sequences_around_reset};
 use foveate_design::{RasterDesign, RasterTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
 /// alternate with the others, so that the remaining state meets another kind of frame each time.
-pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
-    let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
-    let loading = End::Loading(2);
-    let timing = RasterTiming::of(design);
-    let flushing = End::Flushing(timing.edges_to_ready());
-    let leaving = End::Leaving(2 * u64::from(timing.region_words));
+pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<FrameSequence> {
+    let (mixed, aimed, cut) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
+    let loading = SequenceEnd::Loading(2);
+    let timing = RasterTiming::from_design(design);
+    let flushing = SequenceEnd::Flushing(timing.edges_to_ready());
+    let leaving = SequenceEnd::Leaving(2 * u64::from(timing.region_words));
     let mut sequences = vec![
-        Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+        FrameSequence { is_mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
         cut("reset while loading", &[Noise, Ramp], loading),
-        Sequence {
-            stalls: true,
-            ..cut("losses", &[Noise, Same, Binary, Same, Same, Noise], End::Drained)
+        FrameSequence {
+            sink_stalls: true,
+            ..cut("losses", &[Noise, Same, Binary, Same, Same, Noise], SequenceEnd::Drained)
         },
         cut("reset in the flush", &[Noise, Binary], flushing),
         mixed("steps", &[Step, Ring, HotCorner, Ramp]),
-        Sequence { stalls: true, ..cut("reset after losses", &[Noise, Max, Binary], leaving) },
-        Sequence { stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], End::Losing) },
+        FrameSequence { sink_stalls: true, ..cut("reset after losses", &[Noise, Max, Binary], leaving) },
+        FrameSequence { sink_stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], SequenceEnd::BeforeLoss) },
         mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
         cut("reset while pixels leave", &[Noise], leaving),
-        aimed(ThresholdAim::Design, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
+        aimed(ThresholdAim::Configured, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
         cut("reset after one frame", &[TwoPoint], flushing),
-        aimed(ThresholdAim::Least, "blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel]),
-        Sequence {
-            stalls: true,
+        aimed(ThresholdAim::Smallest, "blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel]),
+        FrameSequence {
+            sink_stalls: true,
             ..aimed(
-                ThresholdAim::Least,
+                ThresholdAim::Smallest,
                 "blanked and lost",
                 &[Noise, Zero, Noise, Same, Zero, Noise, Same],
             )
         },
         mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
         mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
-        Sequence {
-            mixed: false,
+        FrameSequence {
+            is_mixed: false,
             ..aimed(
                 ThresholdAim::Largest,
                 "largest",
@@ -51,17 +51,17 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
         },
     ];
     if design.periphery().is_some() {
-        sequences.extend(means());
+        sequences.extend(mean_sequences());
         // All regions send means, and one mean is on the ports; a reset must follow.
-        sequences.push(Sequence {
-            mixed: false,
-            end: End::Leaving(0),
-            ..aimed(ThresholdAim::Unaimed, "reset while means leave", &[Zero])
+        sequences.push(FrameSequence {
+            is_mixed: false,
+            end: SequenceEnd::Leaving(0),
+            ..aimed(ThresholdAim::Independent, "reset while means leave", &[Zero])
         });
-        sequences.extend(means_around_a_reset());
+        sequences.extend(mean_sequences_around_reset());
     }
-    if design.frames_are_kept_outside() {
-        sequences.extend(failing(flushing));
+    if design.has_external_store() {
+        sequences.extend(store_fault_sequences(flushing));
     }
     sequences
 }
@@ -69,22 +69,22 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
 /// Returns sequences with means that meet the level or miss it by one, means that are lost, means
 /// that stay on the screen while their region is held, and means that leave beside relevant regions
 /// which drift away from what was last sent.
-fn means() -> [Sequence; 6] {
-    let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
-    let configured = ThresholdAim::Design;
+fn mean_sequences() -> [FrameSequence; 6] {
+    let (mixed, aimed) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim);
+    let configured = ThresholdAim::Configured;
     [
         aimed(configured, "means", &[Flat, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep]),
-        Sequence {
-            stalls: true,
+        FrameSequence {
+            sink_stalls: true,
             ..aimed(configured, "means lost", &[Flat, MeanStep, Same, Step, Same, MeanStep, Flat])
         },
         aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
         mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
-        aimed(ThresholdAim::Held, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
-        Sequence {
-            mixed: false,
+        aimed(ThresholdAim::HeldRegions, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
+        FrameSequence {
+            is_mixed: false,
             ..aimed(
-                ThresholdAim::Drifting,
+                ThresholdAim::DriftingRegions,
                 "means beside pixels",
                 &[Step, Fade, Fade, Step, Fade, Fade, HotCorner, Fade, Fade],
             )
@@ -93,31 +93,31 @@ fn means() -> [Sequence; 6] {
 }
 
 /// Returns the sequences with a faulty external frame store.
-fn failing(flushing: End) -> [Sequence; 7] {
-    let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
-    let loading = End::Loading(2);
+fn store_fault_sequences(flushing: SequenceEnd) -> [FrameSequence; 7] {
+    let (mixed, aimed, cut) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
+    let loading = SequenceEnd::Loading(2);
     [
-        Sequence {
-            lapse: Lapse::Late,
+        FrameSequence {
+            store_fault: StoreFault::Late,
             ..mixed("late references", &[Smooth, Bump, Same, Noise, Same])
         },
-        Sequence {
-            lapse: Lapse::Late,
+        FrameSequence {
+            store_fault: StoreFault::Late,
             ..cut("reset after an underrun", &[Noise, Binary, Ramp, Noise], loading)
         },
-        Sequence {
-            lapse: Lapse::Gone,
-            ..aimed(ThresholdAim::Least, "lost references", &[Noise, Same, Same, Noise])
+        FrameSequence {
+            store_fault: StoreFault::Missing,
+            ..aimed(ThresholdAim::Smallest, "lost references", &[Noise, Same, Same, Noise])
         },
         cut("reset while references come", &[Noise, Same, Same], loading),
-        Sequence {
-            lapse: Lapse::Wrong,
+        FrameSequence {
+            store_fault: StoreFault::Wrong,
             ..mixed("wrong references", &[Ramp, Same, Same, Noise, Same])
         },
-        Sequence {
-            lapse: Lapse::Wrong,
-            mixed: false,
-            ..aimed(ThresholdAim::Design, "wrong references of extremes", &[Max, Max, Zero, Zero])
+        FrameSequence {
+            store_fault: StoreFault::Wrong,
+            is_mixed: false,
+            ..aimed(ThresholdAim::Configured, "wrong references of extremes", &[Max, Max, Zero, Zero])
         },
         cut("reset after wrong references", &[Smooth, Same], flushing),
     ]

@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a serial array.
 
-use super::super::ahead::ThresholdAim;
-use super::super::motif::Motif::*;
-use super::{End, Sequence, means_around_a_reset};
-use foveate_design::{Phase, SerialDesign, SerialTiming};
+use super::super::threshold_aimer::ThresholdAim;
+use super::super::stimulus_pattern::StimulusPattern::*;
+use super::{SequenceEnd, FrameSequence, mean_sequences_around_reset};
+use foveate_design::{SerialPhase, SerialDesign, SerialTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
 /// alternate with the others, so that the remaining state meets another kind of frame each time.
-pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
-    let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
-    let loading = End::Loading(2);
-    let timing = SerialTiming::of(design);
-    let before = |&&(phase, _): &&(Phase, u64)| phase != Phase::RotateCount;
+pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
+    let (mixed, aimed, cut) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
+    let loading = SequenceEnd::Loading(2);
+    let timing = SerialTiming::from_design(design);
+    let before = |&&(phase, _): &&(SerialPhase, u64)| phase != SerialPhase::RotateCount;
     let steps: u64 = timing.phases().iter().take_while(before).map(|&(_, steps)| steps).sum();
     let first_score = timing.edges_to_ready() - timing.edges_to_step(steps);
-    let working = End::Working { first_score };
-    let rotating = End::Rotating(design.lanes().into());
+    let working = SequenceEnd::Working { first_score };
+    let rotating = SequenceEnd::Rotating(design.lanes().into());
     // The pixels of the last slot leave last.
-    let unloading = End::Finishing(timing.phases().last().expect("a frame has phases").1);
-    let ready = End::Finishing(2);
-    let passes = |&&(phase, _): &&(Phase, u64)| matches!(phase, Phase::RotateCount | Phase::Means);
+    let unloading = SequenceEnd::Finishing(timing.phases().last().expect("a frame has phases").1);
+    let ready = SequenceEnd::Finishing(2);
+    let passes = |&&(phase, _): &&(SerialPhase, u64)| matches!(phase, SerialPhase::RotateCount | SerialPhase::ComputeMeans);
     let passing =
-        End::Rotating(timing.phases().iter().filter(passes).map(|&(_, steps)| steps).sum());
+        SequenceEnd::Rotating(timing.phases().iter().filter(passes).map(|&(_, steps)| steps).sum());
     let mut list = vec![
-        Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+        FrameSequence { is_mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
         cut("reset while loading", &[Noise, Ramp], loading),
         mixed("steps", &[Step, Ring, HotCorner, Ramp]),
-        cut("reset at the start", &[Binary], End::Begun),
+        cut("reset at the start", &[Binary], SequenceEnd::LanesStarted),
         mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
         cut("reset in a rotation", &[Noise, Binary], rotating),
-        aimed(ThresholdAim::Design, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
+        aimed(ThresholdAim::Configured, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
         cut("reset while unloading", &[Noise], unloading),
-        cut("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel], End::Drained),
+        cut("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel], SequenceEnd::Drained),
         cut("reset at work", &[TwoPoint, Max], working),
         mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
         cut("reset when ready", &[Max], ready),
         mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
-        Sequence {
-            mixed: false,
+        FrameSequence {
+            is_mixed: false,
             ..aimed(
                 ThresholdAim::Largest,
                 "largest",
@@ -59,22 +59,22 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
                 cut("reset while means leave", &[Flat, MeanStep], unloading),
                 cut("reset while means pass", &[MeanStep, Flat], passing),
                 aimed(
-                    ThresholdAim::Design,
+                    ThresholdAim::Configured,
                     "means kept",
                     &[Flat, MeanStep, MeanStep, Step, MeanStep, MeanStep],
                 ),
             ],
         );
         list.push(aimed(
-            ThresholdAim::Held,
+            ThresholdAim::HeldRegions,
             "means held",
             &[Noise, Same, Same, MeanStep, Same, MeanStep],
         ));
-        list.extend(means_around_a_reset());
+        list.extend(mean_sequences_around_reset());
     }
-    let leaving = Sequence {
-        end: End::Leaving(0),
-        ..aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise])
+    let leaving = FrameSequence {
+        end: SequenceEnd::Leaving(0),
+        ..aimed(ThresholdAim::Independent, "reset while pixels leave", &[Noise])
     };
     // The reset at the end is that of the next sequence. The last two sequences belong together.
     list.insert(list.len() - 2, leaving);

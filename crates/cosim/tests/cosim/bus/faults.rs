@@ -29,11 +29,11 @@ pub(crate) const MEANS: &[&str] = &[
 ];
 
 /// A core whose references depend on what was sent, and so on every threshold.
-pub(crate) const SENT: &[&str] =
+pub(crate) const LAST_SENT: &[&str] =
     &["frame={width=64,height=40}", "denoise.filter='none'", "temporal.reference='last-sent'"];
 
 /// A core whose regions come faster than their places are known.
-pub(crate) const SHORT: &[&str] = &[
+pub(crate) const SHORT_REGIONS: &[&str] = &[
     "frame={width=64,height=132}",
     "region.size=4",
     "denoise.filter='none'",
@@ -42,7 +42,7 @@ pub(crate) const SHORT: &[&str] = &[
 ];
 
 /// A fault: one edit of one file.
-pub(crate) struct Fault {
+pub(crate) struct BusFault {
     /// The module whose file is edited.
     pub(crate) module: &'static str,
     /// The text, which the file must contain exactly once.
@@ -57,13 +57,13 @@ const fn fault(
     module: &'static str,
     from: &'static str,
     to: &'static str,
-) -> Fault {
-    Fault { module, from, to, design }
+) -> BusFault {
+    BusFault { module, from, to, design }
 }
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[BusFault] = &[
     fault(SMALL, "packet_crc", "32'hEDB88320", "32'hEDB88321"),
     fault(SMALL, "packet_crc", "columns[from][to]", "columns[from][31-to]"),
     fault(SMALL, "packet_place", "next >= DIVISOR", "next > DIVISOR"),
@@ -84,7 +84,7 @@ pub(crate) const FAULTS: &[Fault] = &[
 
     fault(SMALL, "packet_regions", "ends = take && last_i && !abort_i", "ends = take && last_i"),
     fault(SMALL, "packet_regions", "ready_o = !full && !ending_q", "ready_o = !ending_q"),
-    fault(SHORT, "packet_regions", "whole_o = (ends || ending_q) && !unknown", "whole_o = ends"),
+    fault(SHORT_REGIONS, "packet_regions", "whole_o = (ends || ending_q) && !unknown", "whole_o = ends"),
     fault(MEANS, "packet_regions", "{frame_q, summary_q, row, column};", "{frame_q, !summary_q, row, column};"),
     fault(MEANS, "packet_regions", "summary ? ONE", "1'b0 ? ONE"),
     fault(SMALL, "packet_regions", "wire [VALUE_BITS:0] value = first_i ?", "wire [VALUE_BITS:0] value = 1'b0 ?"),
@@ -148,15 +148,15 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "rcm_axi", ".time_i(frame_time)", ".time_i(time_q)"),
     fault(MEANS, "rcm_axi", ".summary_level_i(summary_level)", ".summary_level_i(s_axis_video_tdata[9:0])"),
 
-    fault(SENT, "axi_registers", "        if (begin_i) edge_level_taken_q <= edge_level_q;\n", ""),
-    fault(SENT, "axi_registers", "        if (begin_i) edge_min_taken_q <= edge_min_q;\n", ""),
-    fault(SENT, "axi_registers", "        if (begin_i) temporal_level_taken_q <= temporal_level_q;\n", ""),
-    fault(SENT, "axi_registers", "        if (begin_i) temporal_min_taken_q <= temporal_min_q;\n", ""),
+    fault(LAST_SENT, "axi_registers", "        if (begin_i) edge_level_taken_q <= edge_level_q;\n", ""),
+    fault(LAST_SENT, "axi_registers", "        if (begin_i) edge_min_taken_q <= edge_min_q;\n", ""),
+    fault(LAST_SENT, "axi_registers", "        if (begin_i) temporal_level_taken_q <= temporal_level_q;\n", ""),
+    fault(LAST_SENT, "axi_registers", "        if (begin_i) temporal_min_taken_q <= temporal_min_q;\n", ""),
     fault(MEANS, "axi_registers", "        if (begin_i) variance_min_taken_q <= variance_min_q;\n", ""),
     fault(MEANS, "axi_registers", "        if (begin_i) summary_level_taken_q <= summary_level_q;\n", ""),
     fault(SMALL, "axi_registers", "if (row_dropped_i || interrupt_test", "if (row_dropped_i && !(write_q && written == 10'd10) || interrupt_test"),
     fault(SMALL, "axi_registers", "if (frame_done_i || interrupt_test", "if (frame_done_i && !(write_q && written == 10'd10) || interrupt_test"),
     fault(SMALL, "axi_registers", "if (eol_early_i || interrupt_test", "if (eol_early_i && !(write_q && written == 10'd10) || interrupt_test"),
     fault(SMALL, "axi_registers", "if (region_dropped_i || interrupt_test", "if (region_dropped_i && !(write_q && written == 10'd10) || interrupt_test"),
-    fault(SENT, "raster_valid", "if (lost_i) lost_bits_q", "if (1'b0) lost_bits_q"),
+    fault(LAST_SENT, "raster_valid", "if (lost_i) lost_bits_q", "if (1'b0) lost_bits_q"),
 ];

@@ -3,10 +3,10 @@
 
 pub(crate) mod faults;
 
-use crate::common::{in_parallel, sampled};
-use faults::{FAULTS, Fault};
+use crate::common::{in_parallel, sampled_faults};
+use faults::{FAULTS, BusFault};
 use foveate_cosim::{BusJob, CosimReport};
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;
@@ -55,16 +55,16 @@ pub(crate) const DESIGNS: &[&[&str]] = &[
     ],
 ];
 
-pub(crate) fn on_axi(keys: &[&str]) -> Design {
-    let raster = Config::from_toml_with("", &["hardware.organization='raster'"]).unwrap();
-    let config = Config::from_toml_with(&raster.to_toml(), keys).unwrap();
-    Config::from_toml_with(&config.to_toml(), &["hardware.interface='axi'"])
+pub(crate) fn axi_design(keys: &[&str]) -> Design {
+    let raster = DesignConfig::from_toml_with("", &["hardware.organization='raster'"]).unwrap();
+    let config = DesignConfig::from_toml_with(&raster.to_toml(), keys).unwrap();
+    DesignConfig::from_toml_with(&config.to_toml(), &["hardware.interface='axi'"])
         .unwrap()
         .validate()
         .unwrap_or_else(|error| panic!("{keys:?}: {error}"))
 }
 
-pub(crate) fn run(
+pub(crate) fn run_bus_job(
     design: &Design,
     output: &Path,
     edit: impl FnOnce(&mut BusJob),
@@ -82,9 +82,9 @@ fn packets_and_registers_of_cores_on_axi_are_those_of_the_model() {
     }
     let output = tempfile::tempdir().unwrap();
     let failures = in_parallel(DESIGNS, |keys| {
-        let design = on_axi(keys);
+        let design = axi_design(keys);
         let folder = output.path().join(design.fingerprint());
-        let report = run(&design, &folder, |_| {})?;
+        let report = run_bus_job(&design, &folder, |_| {})?;
         match &report.mismatch {
             None if report.passed() && report.situations.missing().is_empty() => Ok(()),
             _ => Err(format!("{keys:?}: {report}: {:?}, {}", report.mismatch, report.situations)),
@@ -94,19 +94,19 @@ fn packets_and_registers_of_cores_on_axi_are_those_of_the_model() {
 }
 
 #[test]
-fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
+fn every_planted_fault_of_the_axi_periphery_is_caught() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let faults = sampled(FAULTS, |fault| fault.module);
-    let numbered: Vec<(usize, &Fault)> = faults.into_iter().enumerate().collect();
+    let faults = sampled_faults(FAULTS, |fault| fault.module);
+    let numbered: Vec<(usize, &BusFault)> = faults.into_iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, fault)| {
-        let Fault { module, from, to, design } = fault;
-        let design = on_axi(design);
+        let BusFault { module, from, to, design } = fault;
+        let design = axi_design(design);
         let path = format!("rtl/{module}.v");
         let mut found = 0;
-        let report = run(&design, &output.path().join(number.to_string()), |job| {
+        let report = run_bus_job(&design, &output.path().join(number.to_string()), |job| {
             for file in job.sources.iter_mut().filter(|file| file.path == path) {
                 found = file.contents.matches(from).count();
                 file.contents = file.contents.replace(from, to);
@@ -135,15 +135,15 @@ fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
 
 /// The unchanged cores pass, or the tests above would show nothing.
 #[test]
-fn the_designs_of_the_faults_pass_without_one() {
+fn the_designs_of_the_bus_faults_pass_without_a_fault() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let designs = [faults::SMALL, faults::ODD, faults::MEANS, faults::SENT, faults::SHORT];
+    let designs = [faults::SMALL, faults::ODD, faults::MEANS, faults::LAST_SENT, faults::SHORT_REGIONS];
     let failures = in_parallel(&designs, |keys| {
-        let design = on_axi(keys);
-        let report = run(&design, &output.path().join(design.fingerprint()), |_| {})?;
+        let design = axi_design(keys);
+        let report = run_bus_job(&design, &output.path().join(design.fingerprint()), |_| {})?;
         match &report.mismatch {
             None if report.passed() && report.situations.missing().is_empty() => Ok(()),
             _ => Err(format!("{keys:?}: {report}: {:?}, {}", report.mismatch, report.situations)),
@@ -159,14 +159,14 @@ fn every_seed_reaches_the_situations_of_cores_on_axi() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let seeds: Vec<(&[&str], u64)> = [faults::SMALL, faults::MEANS, faults::SENT]
+    let seeds: Vec<(&[&str], u64)> = [faults::SMALL, faults::MEANS, faults::LAST_SENT]
         .into_iter()
         .flat_map(|keys| (2..6).map(move |seed| (keys, seed * 1_000_003)))
         .collect();
     let failures = in_parallel(&seeds, |&(keys, seed)| {
-        let design = on_axi(keys);
+        let design = axi_design(keys);
         let folder = output.path().join(format!("{} {seed}", design.fingerprint()));
-        let report = run(&design, &folder, |job| job.seed = seed)?;
+        let report = run_bus_job(&design, &folder, |job| job.seed = seed)?;
         match &report.mismatch {
             None if report.situations.missing().is_empty() => Ok(()),
             _ => Err(format!("{keys:?}, {seed}: {report}, {}", report.situations)),

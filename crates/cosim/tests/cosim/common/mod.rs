@@ -4,9 +4,9 @@
 pub(crate) mod serial;
 pub(crate) mod vectors;
 
-use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
-use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::{every, require_tools, takes_whole_lists};
+use foveate_cosim::{CosimError, CosimReport, CosimJob, CosimLevel, Simulator, Stimulus};
+use foveate_design::{DesignConfig, Design, FeatureKind, SpatialConfig};
+use foveate_toolchain::testing::{sampling_step, require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Toolchain};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConf
 }
 
 /// Returns the name of a configuration, from the keys that all organizations have.
-pub(crate) fn name(config: &Config) -> String {
+pub(crate) fn config_name(config: &DesignConfig) -> String {
     let kinds: Vec<_> = config.camera.spatial.iter().map(|s| s.feature.name()).collect();
     let blocks = config.camera.periphery.blocks.map_or(String::new(), |q| format!(" q={q}"));
     format!(
@@ -41,7 +41,7 @@ pub(crate) fn name(config: &Config) -> String {
 
 /// Returns the place on each axis of item `number` of a list that goes through all values of these
 /// axes, the last axis fastest.
-pub(crate) fn places(number: usize, axes: &[usize]) -> Vec<usize> {
+pub(crate) fn axis_positions(number: usize, axes: &[usize]) -> Vec<usize> {
     let mut behind: usize = axes.iter().product();
     let place = |axis: &usize| {
         behind /= axis;
@@ -53,9 +53,9 @@ pub(crate) fn places(number: usize, axes: &[usize]) -> Vec<usize> {
 /// Returns a part of such a list in which every value of an axis still meets every value of any
 /// other axis; or the whole list if whole lists are taken. The part is one half, or one quarter if
 /// the first axis has four values and the last three have two.
-pub(crate) fn meeting<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
+pub(crate) fn pairwise_part<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
     assert_eq!(list.len(), axes.iter().product::<usize>());
-    let is_in = |number: usize| match *places(number, axes) {
+    let is_in = |number: usize| match *axis_positions(number, axes) {
         _ if takes_whole_lists() => true,
         // The places on the last two axes follow from the one before them and from a bit of the
         // first.
@@ -77,7 +77,7 @@ pub(crate) fn in_turn<T: Copy>(all: &[T], turn: usize) -> T {
 }
 
 /// Returns the design of a configuration for a frame of the given grid of regions.
-pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
+pub(crate) fn design(config: &DesignConfig, regions: (u32, u32)) -> Design {
     let mut config = config.clone();
     let side = config.camera.region.size;
     (config.camera.frame.width, config.camera.frame.height) =
@@ -86,12 +86,12 @@ pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
 }
 
 /// Returns true if every simulator is installed.
-pub(crate) fn simulators() -> bool {
+pub(crate) fn has_simulators() -> bool {
     Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools()))
 }
 
 /// Returns a stimulus without frames of the caller.
-pub(crate) fn directed(level: Level, rounds: u32) -> Stimulus {
+pub(crate) fn directed_stimulus(level: CosimLevel, rounds: u32) -> Stimulus {
     Stimulus { level, rounds, ..Stimulus::default() }
 }
 
@@ -101,16 +101,16 @@ pub(crate) fn cosimulate(
     simulator: Simulator,
     stimulus: Stimulus,
     output: &Path,
-    edit: impl FnOnce(&mut Job),
+    edit: impl FnOnce(&mut CosimJob),
 ) -> Result<CosimReport, CosimError> {
-    let mut job = Job::new(design, stimulus, output)?;
+    let mut job = CosimJob::new(design, stimulus, output)?;
     job.simulator = simulator;
     edit(&mut job);
     job.run(&Toolchain::system(), &Cache::from_env()?, &mut |_| {})
 }
 
 /// Checks that a co-simulation finds no mismatch. Fails with the report otherwise.
-pub(crate) fn agrees(
+pub(crate) fn check_agreement(
     what: &str,
     design: &Design,
     simulator: Simulator,
@@ -126,11 +126,11 @@ pub(crate) fn agrees(
 
 /// Returns the faults that every run of the tests plants, from a list that takes long to build: the
 /// first fault of each module, and each eighth of the others; or all if whole lists are taken.
-pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
+pub(crate) fn sampled_faults<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
     let taken =
-        numbered.filter(|(number, fault)| seen.insert(module(fault)) || number % every(8) == 0);
+        numbered.filter(|(number, fault)| seen.insert(module(fault)) || number % sampling_step(8) == 0);
     taken.map(|(_, fault)| fault).collect()
 }
 

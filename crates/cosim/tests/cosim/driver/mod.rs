@@ -2,27 +2,27 @@
 //! The C driver of a core on AXI: beside a simulated core, and over damaged streams, for processors
 //! of 32 and 64 bits.
 
-use crate::bus::on_axi;
-use crate::common::{in_parallel, sampled};
-use foveate_design::{Action, Design};
-use foveate_emit::{AXI_TOP, Kind, on_bus, registers, software};
+use crate::bus::axi_design;
+use crate::common::{in_parallel, sampled_faults};
+use foveate_design::{RegionAction, Design};
+use foveate_emit::{AXI_TOP, FieldKind, axi_modules, axi_registers, axi_software};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
-use foveate_packets::{Decision, End, Found, Layout, Packet, RegionFlags, Splitter, write};
+use foveate_packets::{RegionDecision, EndPacket, StreamItem, PacketLayout, Packet, RegionFlags, PacketSplitter, packet_writer};
 use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
+use foveate_toolchain::verilator::{self, LintMode, VerilatorJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-const CORE: &str = include_str!("core.cpp");
-const MAIN: &str = include_str!("main.c");
-const STREAM: &str = include_str!("stream.c");
+const CORE_SOURCE: &str = include_str!("core.cpp");
+const MAIN_SOURCE: &str = include_str!("main.c");
+const STREAM_SOURCE: &str = include_str!("stream.c");
 /// The C compiler, which is installed together with that of C++.
 const COMPILER: &str = "cc";
 /// The flags with which the driver must compile without a warning.
-const STRICT: &[&str] = &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+const STRICT_FLAGS: &[&str] = &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
 /// Each design, with the thresholds that the software sets.
 const DESIGNS: &[(&[&str], &[&str])] = &[
     (
@@ -41,17 +41,17 @@ const DESIGNS: &[(&[&str], &[&str])] = &[
 ];
 
 /// The replaced text of the driver, and its replacement.
-type Fault = Option<(&'static str, &'static str)>;
+type DriverFault = Option<(&'static str, &'static str)>;
 
 /// Returns a design with other settings.
-fn with(design: &Design, keys: &[&str]) -> Design {
-    let config = foveate_design::Config::from_toml_with(&design.config().to_toml(), keys).unwrap();
+fn with_settings(design: &Design, keys: &[&str]) -> Design {
+    let config = foveate_design::DesignConfig::from_toml_with(&design.config().to_toml(), keys).unwrap();
     config.validate().unwrap()
 }
 
 /// Returns frames in which a block of noise moves over a still background; every third frame is
 /// noise.
-fn film(design: &Design, count: u32) -> Vec<Frame> {
+fn test_frames(design: &Design, count: u32) -> Vec<Frame> {
     let mut random = fastrand::Rng::with_seed(7);
     let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
     let largest = (1_u32 << bits) - 1;
@@ -79,7 +79,7 @@ fn bytes_of(frame: &Frame) -> Vec<u8> {
 
 /// Returns the compiler flags for the processor widths: 64 bits, and, without a fault, also 32 bits
 /// if the C compiler can make programs for it.
-fn widths(fault: Fault) -> &'static [&'static str] {
+fn width_flags(fault: DriverFault) -> &'static [&'static str] {
     if fault.is_some() {
         return &["-m64"];
     }
@@ -99,11 +99,11 @@ fn widths(fault: Fault) -> &'static [&'static str] {
 fn compile(
     design: &Design,
     (name, text): (&str, &str),
-    fault: Fault,
+    fault: DriverFault,
     dir: &Path,
     flags: &[&str],
 ) -> PathBuf {
-    for file in software(design) {
+    for file in axi_software(design) {
         let name = Path::new(&file.path).file_name().unwrap().to_owned();
         let mut contents = file.contents;
         if let (Some((from, to)), true) = (fault, name == "foveate.c") {
@@ -115,7 +115,7 @@ fn compile(
     fs::write(dir.join(name), text).unwrap();
     let program = dir.join(format!("program{}", flags[0]));
     let made = Command::new(COMPILER)
-        .args(if fault.is_some() { &STRICT[..1] } else { STRICT })
+        .args(if fault.is_some() { &STRICT_FLAGS[..1] } else { STRICT_FLAGS })
         .args(flags)
         .args(["-O1", "foveate.c", name, "-o"])
         .arg(&program)
@@ -127,9 +127,9 @@ fn compile(
 }
 
 /// Builds a simulated core that answers to a processor.
-fn simulated(design: &Design) -> PathBuf {
-    let sources: Vec<Source> = on_bus(design).unwrap().into_iter().map(Source::from).collect();
-    let raster = design.raster().unwrap();
+fn build_simulated_core(design: &Design) -> PathBuf {
+    let sources: Vec<Source> = axi_modules(design).unwrap().into_iter().map(Source::from).collect();
+    let raster = design.as_raster().unwrap();
     let quiet = design.width() * design.region_size() * 3 + 1000;
     let constants = [
         ("WIDTH", design.width()),
@@ -139,23 +139,23 @@ fn simulated(design: &Design) -> PathBuf {
         ("QUIET", quiet),
     ];
     let text = |(name, value): &(&str, u32)| format!("#define {name} {value}\n");
-    let cpp_main = constants.iter().map(text).collect::<String>() + CORE;
+    let cpp_main = constants.iter().map(text).collect::<String>() + CORE_SOURCE;
     let job = VerilatorJob {
         sources,
         top: AXI_TOP.to_owned(),
         cpp_main,
-        lint: Lint::Lenient,
+        lint: LintMode::Lenient,
         ..VerilatorJob::default()
     };
     verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
 }
 
 /// Returns the thresholds of a design as an argument of the C compiler.
-fn thresholds(design: &Design) -> String {
-    let list = registers(design.raster().unwrap());
+fn threshold_flag(design: &Design) -> String {
+    let list = axi_registers(design.as_raster().unwrap());
     let values = list.iter().filter_map(|register| match register.fields.as_slice() {
         [field] => match field.kind {
-            Kind::Threshold { reset } => {
+            FieldKind::Threshold { reset } => {
                 Some(format!("FOVEATE_THRESHOLD({}, {reset}u)", register.name.to_uppercase()))
             }
             _ => None,
@@ -167,9 +167,9 @@ fn thresholds(design: &Design) -> String {
 
 /// Runs software that sets up a core, lets frames come, and paints what leaves. The screen must be
 /// that of the model.
-fn play(design: &Design, changed: &Design, fault: Fault) -> Result<(), String> {
+fn check_screen(design: &Design, changed: &Design, fault: DriverFault) -> Result<(), String> {
     let dir = tempfile::tempdir().unwrap();
-    let frames = film(design, 7);
+    let frames = test_frames(design, 7);
     fs::write(dir.path().join("frames"), frames.iter().flat_map(bytes_of).collect::<Vec<_>>())
         .unwrap();
     let mut model = FunctionalCamera::new(changed);
@@ -183,10 +183,10 @@ fn play(design: &Design, changed: &Design, fault: Fault) -> Result<(), String> {
         }
         expected.extend(bytes_of(&model.step(frame).unwrap().rendered));
     }
-    let core = simulated(design);
-    for width in widths(fault) {
-        let flags = [width, &*thresholds(changed)];
-        let program = compile(design, ("main.c", MAIN), fault, dir.path(), &flags);
+    let core = build_simulated_core(design);
+    for width in width_flags(fault) {
+        let flags = [width, &*threshold_flag(changed)];
+        let program = compile(design, ("main.c", MAIN_SOURCE), fault, dir.path(), &flags);
         let screen = dir.path().join("screen");
         let mut simulation = Command::new(&core)
             .arg(dir.path().join("frames"))
@@ -201,8 +201,8 @@ fn play(design: &Design, changed: &Design, fault: Fault) -> Result<(), String> {
             .output()
             .unwrap();
         simulation.wait().unwrap();
-        let said = String::from_utf8_lossy(&software.stderr);
-        if !software.status.success() {
+        let said = String::from_utf8_lossy(&axi_software.stderr);
+        if !axi_software.status.success() {
             return Err(format!("{width}: {said}"));
         }
         let shown = fs::read(&screen).unwrap();
@@ -224,32 +224,32 @@ fn software_with_the_driver_runs_a_core_and_shows_what_the_model_shows() {
         return;
     }
     let failures = in_parallel(DESIGNS, |(keys, changes)| {
-        let design = on_axi(keys);
-        play(&design, &with(&design, changes), None).map_err(|error| format!("{keys:?}: {error}"))
+        let design = axi_design(keys);
+        check_screen(&design, &with_settings(&design, changes), None).map_err(|error| format!("{keys:?}: {error}"))
     });
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
 /// Returns the packets of some frames.
-fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
+fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
     let mut model = FunctionalCamera::new(design);
     let mut bytes = Vec::new();
     let columns = design.columns();
-    for (number, frame) in (0..).zip(film(design, 4)) {
+    for (number, frame) in (0..).zip(test_frames(design, 4)) {
         let seen = model.step(&frame).unwrap().clone();
-        write::frame(&mut bytes, layout, number, (1000 * u64::from(number), number == 0));
+        packet_writer::append_frame(&mut bytes, layout, number, (1000 * u64::from(number), number == 0));
         let mut sent = 0;
         for row in 0..design.rows() {
             let at = |column: u32| (row * columns + column) as usize;
-            let decisions: Vec<Decision> = (0..columns)
+            let decisions: Vec<RegionDecision> = (0..columns)
                 .map(at)
-                .map(|at| Decision {
+                .map(|at| RegionDecision {
                     srs: seen.srs[at],
                     trs: seen.trs[at],
-                    summary: seen.actions[at] == Action::Summarize,
+                    summary: seen.actions[at] == RegionAction::Summarize,
                 })
                 .collect();
-            write::row(&mut bytes, layout, number, row, &decisions).unwrap();
+            packet_writer::append_row(&mut bytes, layout, number, row, &decisions).unwrap();
             for column in 0..columns {
                 let summary = decisions[column as usize].summary;
                 let values = match (summary, seen.active[at(column)]) {
@@ -262,14 +262,14 @@ fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
                     (false, false) => continue,
                 };
                 let flags = RegionFlags { raw: layout.info().raw, summary };
-                write::region(&mut bytes, layout, number, (row, column), (flags, &values)).unwrap();
+                packet_writer::append_region(&mut bytes, layout, number, (row, column), (flags, &values)).unwrap();
                 sent += 1;
             }
         }
-        write::end(
+        packet_writer::append_end(
             &mut bytes,
             number,
-            End { regions_sent: sent, regions_dropped: number, rows_dropped: number / 2 },
+            EndPacket { regions_sent: sent, regions_dropped: number, rows_dropped: number / 2 },
         )
         .unwrap();
     }
@@ -277,22 +277,22 @@ fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
 }
 
 /// Returns the packets that the receiver of `foveate-packets` finds, in the format of `stream.c`.
-fn found(layout: &Layout, bytes: &[u8]) -> String {
-    let mut splitter = Splitter::default();
+fn expected_lines(layout: &PacketLayout, bytes: &[u8]) -> String {
+    let mut splitter = PacketSplitter::default();
     splitter.feed(bytes);
-    splitter.complete();
+    splitter.mark_complete();
     let (mut text, mut lost) = (String::new(), 0);
     let sum = |values: &mut dyn Iterator<Item = u32>| {
         values.fold(0_u32, |sum, value| sum.wrapping_mul(31).wrapping_add(value))
     };
     loop {
         let line = match splitter.next(Some(layout)) {
-            Found::Nothing => break,
-            Found::Skipped { bytes, .. } => {
+            StreamItem::Pending => break,
+            StreamItem::Skipped { bytes, .. } => {
                 lost += bytes;
                 continue;
             }
-            Found::Packet { frame, packet } => match packet {
+            StreamItem::Packet { frame, packet } => match packet {
                 Packet::Frame(info) => format!("1 {frame} {} 0 0 0", info.version),
                 Packet::Row(row) => {
                     let codes = row.decisions.iter().map(|one| {
@@ -330,13 +330,13 @@ fn crc(bytes: &[u8]) -> u32 {
 }
 
 /// Returns the number of words of the packet that begins here, from its header.
-fn words(bytes: &[u8]) -> usize {
+fn packet_words(bytes: &[u8]) -> usize {
     usize::from(u16::from_le_bytes([bytes[2], bytes[3]]))
 }
 
 /// Changes a packet to one that no core of this design sends, mostly with a correct CRC. One bit
 /// differs in its header or, in a FRAME, in the first word of its content.
-fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
+fn forge_packet(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
     let kind = [1, 2, 4, 5][random.usize(0..4)];
     let of_kind: Vec<usize> = starts
         .iter()
@@ -344,7 +344,7 @@ fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
         .filter(|&at| bytes[at] == 0xFA && bytes[at + 1] & 15 == kind)
         .collect();
     let Some(&start) = of_kind.get(random.usize(0..of_kind.len().max(1))) else { return };
-    let true_words = words(&bytes[start..]);
+    let true_words = packet_words(&bytes[start..]);
     let looked_at = if kind == 1 { 16 } else { 8 };
     bytes[start + random.usize(0..looked_at)] ^= 1 << random.u8(0..8);
     if kind == 4 && random.bool() {
@@ -352,7 +352,7 @@ fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
         bytes[start + 1] |= 4 << 4;
         bytes[start + 2..start + 4].copy_from_slice(&[2, 0]);
     }
-    let words = if random.bool() { true_words } else { words(&bytes[start..]).max(2) };
+    let words = if random.bool() { true_words } else { packet_words(&bytes[start..]).max(2) };
     let end = start + 8 * words;
     if end <= bytes.len() {
         let crc = crc(&bytes[start..end - 4]);
@@ -361,27 +361,27 @@ fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
 }
 
 /// Returns the offsets of the packets in a stream without damage.
-fn starts(bytes: &[u8]) -> Vec<usize> {
-    let next = |&at: &usize| Some(at + 8 * words(&bytes[at..])).filter(|&at| at < bytes.len());
+fn packet_offsets(bytes: &[u8]) -> Vec<usize> {
+    let next = |&at: &usize| Some(at + 8 * packet_words(&bytes[at..])).filter(|&at| at < bytes.len());
     std::iter::successors(Some(0), next).collect()
 }
 
 /// Checks that the driver finds in damaged streams of a design what the receiver finds.
-fn listen(design: &Design, fault: Fault) -> Result<(), String> {
-    let layout = Layout::new(design, false, 100_000_000).unwrap();
+fn check_damaged_streams(design: &Design, fault: DriverFault) -> Result<(), String> {
+    let layout = PacketLayout::new(design, false, 100_000_000).unwrap();
     let whole = packets(design, &layout);
-    let starts = starts(&whole);
+    let starts = packet_offsets(&whole);
     let dir = tempfile::tempdir().unwrap();
-    for width in widths(fault) {
+    for width in width_flags(fault) {
         // A program of 64 bits ends if it reads outside of its memory.
         let checked = ["-m64", "-fsanitize=address,undefined", "-fno-sanitize-recover"];
         let flags = if *width == "-m64" { &checked[..] } else { &[*width][..] };
-        let program = compile(design, ("stream.c", STREAM), fault, dir.path(), flags);
+        let program = compile(design, ("stream.c", STREAM_SOURCE), fault, dir.path(), flags);
         let mut random = fastrand::Rng::with_seed(11);
         for round in 0..40 {
             let mut bytes = whole.clone();
             for _ in 0..20 * (round % 2) {
-                forge(&mut bytes, &starts, &mut random);
+                forge_packet(&mut bytes, &starts, &mut random);
             }
             for _ in 0..round / 2 {
                 let at = random.usize(0..bytes.len() - 9);
@@ -399,7 +399,7 @@ fn listen(design: &Design, fault: Fault) -> Result<(), String> {
             let stdin = fs::File::open(dir.path().join("bytes")).unwrap();
             let output = Command::new(&program).stdin(stdin).output().unwrap();
             let (said, expected) =
-                (String::from_utf8_lossy(&output.stdout), found(&layout, &bytes));
+                (String::from_utf8_lossy(&output.stdout), expected_lines(&layout, &bytes));
             if !output.status.success() || said != expected {
                 let first = said.lines().zip(expected.lines()).find(|(one, other)| one != other);
                 let log = String::from_utf8_lossy(&output.stderr);
@@ -416,7 +416,7 @@ fn the_driver_finds_in_damaged_streams_what_the_receiver_finds() {
         return;
     }
     for (keys, _) in DESIGNS {
-        listen(&on_axi(keys), None).unwrap_or_else(|error| panic!("{keys:?}: {error}"));
+        check_damaged_streams(&axi_design(keys), None).unwrap_or_else(|error| panic!("{keys:?}: {error}"));
     }
 }
 
@@ -472,11 +472,11 @@ fn every_planted_fault_of_the_driver_is_caught() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let missed = in_parallel(&sampled(FAULTS, |_| "foveate.c"), |&&fault| {
+    let missed = in_parallel(&sampled_faults(FAULTS, |_| "foveate.c"), |&&fault| {
         let is_missed = DESIGNS.iter().all(|(keys, changes)| {
-            let design = on_axi(keys);
-            listen(&design, Some(fault)).is_ok()
-                && play(&design, &with(&design, changes), Some(fault)).is_ok()
+            let design = axi_design(keys);
+            check_damaged_streams(&design, Some(fault)).is_ok()
+                && check_screen(&design, &with_settings(&design, changes), Some(fault)).is_ok()
         });
         if is_missed { Err(format!("`{}` -> `{}`", fault.0, fault.1)) } else { Ok(()) }
     });

@@ -2,14 +2,14 @@
 //! The faults of deep designs: a missing register, an additional one, or one that forgets its
 //! reset.
 
-use super::faults::{Fault, fault};
-use super::planted::Planted::{
-    Deep, DeepMoments, DeepSent, SerialDeep, SerialDeepSent as SerialSent,
+use super::faults::{RtlFault, fault};
+use super::fault_designs::FaultDesign::{
+    Deep, DeepMadVariance, DeepSent, SerialDeep, SerialDeepSent as SerialSent,
 };
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("constant", Deep, "rpu", ".DEPTH(3)) u_denoised_valid", ".DEPTH(2)) u_denoised_valid"),
     fault("constant", Deep, "rpu", ".DEPTH(3)) u_denoised_valid", ".DEPTH(4)) u_denoised_valid"),
     fault("constant", Deep, "rpu", ".DEPTH(3)) u_denoised_raw", ".DEPTH(2)) u_denoised_raw"),
@@ -31,7 +31,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "forward ? previous_changed : sent_changed", "forward ? sent_changed : previous_changed"),
     fault("operator", DeepSent, "rpu",
         "always @(posedge clk_i) sent_difference <=", "always @* sent_difference ="),
-    fault("index", DeepMoments, "rpu",
+    fault("index", DeepMadVariance, "rpu",
         "forward ? second_changed : sent_changed", "forward ? previous_changed : sent_changed"),
     fault("operator", DeepSent, "edge_detector",
         "assign compared_sum   = compared_sum_q;", "assign compared_sum   = sum;"),
@@ -46,14 +46,14 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Deep, "corner_detector", "assign dark   = dark_q;", "assign dark   = darker;"),
     fault("operator", Deep, "corner_detector",
         "assign hit_o  = hit_q;", "assign hit_o  = |bright_run || |dark_run;"),
-    fault("operator", DeepMoments, "deviation_sum",
+    fault("operator", DeepMadVariance, "deviation_sum",
         "always @(posedge clk_i) difference_q <=", "always @* difference_q ="),
-    fault("constant", DeepMoments, "deviation_sum", "{start, 1'b1} +", "{start, 1'b0} +"),
-    fault("operator", DeepMoments, "variance_score",
+    fault("constant", DeepMadVariance, "deviation_sum", "{start, 1'b1} +", "{start, 1'b0} +"),
+    fault("operator", DeepMadVariance, "variance_score",
         "assign smaller = smaller_q;", "assign smaller = sum * sum;"),
-    fault("index", DeepMoments, "rpu", ".value_i(square_q)", ".value_i(square)"),
-    fault("index", DeepMoments, "rpu", ".last_i(square_last_q)", ".last_i(front_last)"),
-    fault("reset", DeepMoments, "rpu", "square_step_q <= front_step && !rst_i;", "square_step_q <= front_step;"),
+    fault("index", DeepMadVariance, "rpu", ".value_i(square_q)", ".value_i(square)"),
+    fault("index", DeepMadVariance, "rpu", ".last_i(square_last_q)", ".last_i(front_last)"),
+    fault("reset", DeepMadVariance, "rpu", "square_step_q <= front_step && !rst_i;", "square_step_q <= front_step;"),
     fault("index", DeepSent, "deep_last_sent", "pixels_q[address_q] <=", "pixels_q[address_i] <="),
     fault("operator", DeepSent, "deep_last_sent", "if (step_i && forward_i)", "if (step_i && !forward_i)"),
     fault("operator", DeepSent, "deep_last_sent",

@@ -2,36 +2,36 @@
 //! The faults of the pipelined organization. After a change of the RTL, a text that is no longer
 //! found is replaced by one with the same effect.
 
-use super::planted::Planted::{
-    self, Banked, Constant, Corner, MadSent, Moments, Paper, Sent, Shared, Variance,
+use super::fault_designs::FaultDesign::{
+    self, Banked, Constant, Corner, MadSent, MadVariance, Paper, LastSent, Shared, Variance,
 };
 
 /// A fault: one edit of one file.
-pub(crate) struct Fault {
+pub(crate) struct RtlFault {
     /// The kind of the fault: operator, constant, width, index or reset.
-    pub(crate) what: &'static str,
+    pub(crate) kind: &'static str,
     /// The module whose file is edited.
     pub(crate) module: &'static str,
     /// The text, which the file must contain exactly once.
     pub(crate) from: &'static str,
     pub(crate) to: &'static str,
     /// The design in which the fault is planted.
-    pub(crate) design: Planted,
+    pub(crate) design: FaultDesign,
 }
 
 pub(super) const fn fault(
     what: &'static str,
-    design: Planted,
+    design: FaultDesign,
     module: &'static str,
     from: &'static str,
     to: &'static str,
-) -> Fault {
-    Fault { what, module, from, to, design }
+) -> RtlFault {
+    RtlFault { kind: what, module, from, to, design }
 }
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("index", Paper, "rcm", "pixel_i[REGION*8+:8]", "pixel_i[(REGION^1)*8+:8]"),
     fault("index", Shared, "rcm", "row * COLUMNS + column;", "column * ROWS + row;"),
     fault("constant", Shared, "rcm", "row == 0, ", "row == 1, "),
@@ -41,7 +41,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Paper, "vote", "score_i >= minimum_i", "score_i == minimum_i"),
     fault("width", Constant, "vote",
         "score_i >= minimum_i", "score_i[WIDTH-2:0] >= minimum_i[WIDTH-2:0]"),
-    fault("constant", Sent, "vote", "score_i >= minimum_i", "score_i + 1'b1 >= minimum_i"),
+    fault("constant", LastSent, "vote", "score_i >= minimum_i", "score_i + 1'b1 >= minimum_i"),
     fault("operator", Paper, "decision", "srs_o && trs_o", "srs_o || trs_o"),
     fault("operator", Corner, "decision", "ALL ? &votes_i", "!ALL ? &votes_i"),
     fault("width", Corner, "decision", "&votes_i : ", "&votes_i[0] :"),
@@ -125,11 +125,11 @@ pub(crate) const FAULTS: &[Fault] = &[
         "if (advance_i) center_q", "if (!advance_i) center_q"),
     fault("index", Paper, "line_delay",
         "line_q[WIDTH*(DEPTH-1)+:WIDTH]", "line_q[WIDTH*(DEPTH-2)+:WIDTH]"),
-    fault("constant", Sent, "line_delay", "if (advance_i) line_q", "if (1'b1) line_q"),
-    fault("constant", Moments, "position_counter", "PIXELS - 1;", "PIXELS - 2;"),
-    fault("reset", Moments, "position_counter",
+    fault("constant", LastSent, "line_delay", "if (advance_i) line_q", "if (1'b1) line_q"),
+    fault("constant", MadVariance, "position_counter", "PIXELS - 1;", "PIXELS - 2;"),
+    fault("reset", MadVariance, "position_counter",
         "if (rst_i) address_q <= {ADDRESS_BITS{1'b0}};\n        else if", "if"),
-    fault("width", Moments, "position_counter",
+    fault("width", MadVariance, "position_counter",
         "address_q + 1'b1", "{1'b0, address_q[ADDRESS_BITS-2:0] + 1'b1}"),
     fault("operator", Paper, "frame_progress",
         "done_o <= step_i && last_i", "done_o <= step_i || last_i"),
@@ -137,7 +137,7 @@ pub(crate) const FAULTS: &[Fault] = &[
         "            stored_o <= 1'b0;", "            stored_o <= stored_o;"),
     fault("reset", Paper, "frame_progress",
         "            done_o   <= 1'b0;", "            done_o   <= step_i && last_i;"),
-    fault("constant", Moments, "frame_progress", "second_o <= stored_o", "second_o <= 1'b1"),
+    fault("constant", MadVariance, "frame_progress", "second_o <= stored_o", "second_o <= 1'b1"),
     fault("index", Paper, "frame_store",
         "            assign data_o = pixels_q[address_i];",
         "            assign data_o = pixels_q[address_i ^ 1'b1];"),
@@ -150,51 +150,51 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Banked, "frame_store", "(PIXELS + 255) / 256", "PIXELS / 256"),
     fault("constant", Banked, "frame_store", "256 : REST;", "256 : REST - 1;"),
     fault("width", Banked, "frame_store", "$clog2(DEPTH)", "$clog2(DEPTH) - 1"),
-    fault("operator", Sent, "last_sent", "decided_i && !srs_i", "decided_i && srs_i"),
-    fault("index", Sent, "last_sent", "forward_i ? pixel_i : sent", "forward_i ? sent : pixel_i"),
-    fault("constant", Sent, "last_sent", "valid_q && !blanked", "valid_q"),
-    fault("reset", Sent, "last_sent",
+    fault("operator", LastSent, "last_sent", "decided_i && !srs_i", "decided_i && srs_i"),
+    fault("index", LastSent, "last_sent", "forward_i ? pixel_i : sent", "forward_i ? sent : pixel_i"),
+    fault("constant", LastSent, "last_sent", "valid_q && !blanked", "valid_q"),
+    fault("reset", LastSent, "last_sent",
         "if (rst_i) valid_q <= 1'b0;\n        else valid_q", "valid_q"),
     fault("constant", MadSent, "candidate_count", "= PIXELS;", "= PIXELS - 1;"),
     fault("index", MadSent, "candidate_count",
         "previous_sent_i ? previous_count_i", "!previous_sent_i ? previous_count_i"),
-    fault("operator", Moments, "region_sum", ": sum_o) + value", ": sum_o) - value"),
-    fault("reset", Moments, "region_sum",
+    fault("operator", MadVariance, "region_sum", ": sum_o) + value", ": sum_o) - value"),
+    fault("reset", MadVariance, "region_sum",
         "            sum_o  <= {SUM_BITS{1'b0}};\n        end else begin",
         "            sum_o  <= sum_o;\n        end else begin"),
-    fault("width", Moments, "region_sum",
+    fault("width", MadVariance, "region_sum",
         "{{(SUM_BITS - WIDTH) {1'b0}}, value_i}",
         "{{(SUM_BITS - WIDTH + 1) {1'b0}}, value_i[WIDTH-2:0]}"),
-    fault("constant", Moments, "region_sum", "(done_o ? {SUM_BITS{1'b0}} : sum_o)", "sum_o"),
-    fault("operator", Moments, "region_mean", "scaled + HALF", "scaled - HALF"),
-    fault("constant", Moments, "region_mean", "scaled + HALF", "scaled + HALF - 1'b1"),
-    fault("index", Moments, "region_mean",
+    fault("constant", MadVariance, "region_sum", "(done_o ? {SUM_BITS{1'b0}} : sum_o)", "sum_o"),
+    fault("operator", MadVariance, "region_mean", "scaled + HALF", "scaled - HALF"),
+    fault("constant", MadVariance, "region_mean", "scaled + HALF", "scaled + HALF - 1'b1"),
+    fault("index", MadVariance, "region_mean",
         "product[SHIFT+:MEAN_BITS]", "product[SHIFT+1+:MEAN_BITS]"),
     fault("constant", MadSent, "region_mean", ", FACTOR};", ", FACTOR - 1'b1};"),
-    fault("operator", Moments, "deviation_sum",
+    fault("operator", MadVariance, "deviation_sum",
         "scaled < mean_i ? mean_i - scaled", "scaled < mean_i ? scaled - mean_i"),
-    fault("reset", Moments, "deviation_sum", "rst_i || !enable_i", "!enable_i"),
-    fault("constant", Moments, "deviation_sum", "rst_i || !enable_i", "rst_i"),
-    fault("width", Moments, "deviation_sum",
+    fault("reset", MadVariance, "deviation_sum", "rst_i || !enable_i", "!enable_i"),
+    fault("constant", MadVariance, "deviation_sum", "rst_i || !enable_i", "rst_i"),
+    fault("width", MadVariance, "deviation_sum",
         "{{(SUM_BITS - MEAN_BITS) {1'b0}}, deviation}",
         "{{(SUM_BITS - MEAN_BITS + 1) {1'b0}}, deviation[MEAN_BITS-2:0]}"),
-    fault("operator", Moments, "variance_score",
+    fault("operator", MadVariance, "variance_score",
         "larger - smaller", "larger + smaller"),
-    fault("width", Moments, "variance_score",
+    fault("width", MadVariance, "variance_score",
         "score[SCORE_BITS-1:0]", "{1'b0, score[SCORE_BITS-2:0]}"),
-    fault("constant", Moments, "variance_score", "FACTOR = PIXELS", "FACTOR = PIXELS - 1"),
+    fault("constant", MadVariance, "variance_score", "FACTOR = PIXELS", "FACTOR = PIXELS - 1"),
     fault("reset", Variance, "variance_score",
         "if (rst_i) score_o <= {SCORE_BITS{1'b0}};\n        else if", "if"),
-    fault("reset", Moments, "score_hold",
+    fault("reset", MadVariance, "score_hold",
         "if (rst_i) score_o <= {WIDTH{1'b0}};\n        else if", "if"),
-    fault("constant", Moments, "score_hold", "if (load_i)", "if (1'b1)"),
+    fault("constant", MadVariance, "score_hold", "if (load_i)", "if (1'b1)"),
     fault("operator", Paper, "forward_gate", "!step_i || !forward_i", "!step_i && !forward_i"),
     fault("reset", Paper, "forward_gate", "rst_i || !step_i", "!step_i"),
     fault("constant", Constant, "rpu", "TEMPORAL_MIN = 5'd5", "TEMPORAL_MIN = 5'd6"),
     fault("constant", Constant, "rpu", "TEMPORAL_LEVEL = 8'd8", "TEMPORAL_LEVEL = 8'd9"),
     fault("constant", Constant, "rpu", "EDGE_MIN = 5'd5", "EDGE_MIN = 5'd4"),
     fault("constant", Constant, "rpu", "EDGE_LEVEL = 11'd100", "EDGE_LEVEL = 11'd98"),
-    fault("reset", Moments, "rpu",
+    fault("reset", MadVariance, "rpu",
         "tail_step <= front_step && !rst_i;", "tail_step <= front_step;"),
-    fault("operator", Moments, "rpu", "done && second", "done"),
+    fault("operator", MadVariance, "rpu", "done && second", "done"),
 ];

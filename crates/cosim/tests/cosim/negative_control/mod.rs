@@ -4,45 +4,45 @@
 
 mod deep_faults;
 mod faults;
-mod planted;
+mod fault_designs;
 mod raster_faults;
 mod serial_faults;
 mod serial_summary_faults;
 mod summary_faults;
 mod sync_faults;
 
-use crate::common::{agrees, cosimulate, directed, in_parallel, sampled, simulators};
-use faults::Fault;
-use foveate_cosim::{CosimReport, Job, Level, Recording, Simulator};
-use foveate_toolchain::testing::{every, require_tools};
+use crate::common::{check_agreement, cosimulate, directed_stimulus, in_parallel, sampled_faults, has_simulators};
+use faults::RtlFault;
+use foveate_cosim::{CosimReport, CosimJob, CosimLevel, Recording, Simulator};
+use foveate_toolchain::testing::{sampling_step, require_tools};
 use foveate_toolchain::{Cache, Toolchain};
-use planted::Planted;
+use fault_designs::FaultDesign;
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::process::Command;
 use std::sync::{Arc, Mutex, OnceLock};
 
 /// The vectors that the first fault of a design makes for the later ones.
-type Shared = Arc<OnceLock<Recording>>;
+type SharedRecording = Arc<OnceLock<Recording>>;
 
 /// The vectors of each design at each level.
 #[derive(Default)]
-struct Vectors(Mutex<HashMap<(Planted, Level), Shared>>);
+struct DesignVectors(Mutex<HashMap<(FaultDesign, CosimLevel), SharedRecording>>);
 
-impl Vectors {
+impl DesignVectors {
     /// Calls `work` with the vectors of a design at a level.
-    fn with<T>(&self, planted: Planted, level: Level, work: impl FnOnce(&Recording) -> T) -> T {
+    fn with_recording<T>(&self, planted: FaultDesign, level: CosimLevel, work: impl FnOnce(&Recording) -> T) -> T {
         let slot = Arc::clone(self.0.lock().unwrap().entry((planted, level)).or_default());
-        let make = || directed(level, 1).record(&planted.design(), &mut |_, _| {}).unwrap();
+        let make = || directed_stimulus(level, 1).record(&planted.design(), &mut |_, _| {}).unwrap();
         work(slot.get_or_init(make))
     }
 }
 
-fn plant(fault: &Fault, vectors: &Vectors, output: &Path) -> Result<CosimReport, String> {
-    let Fault { what, module, from, to, .. } = fault;
+fn run_with_fault(fault: &RtlFault, vectors: &DesignVectors, output: &Path) -> Result<CosimReport, String> {
+    let RtlFault { kind: what, module, from, to, .. } = fault;
     let path = format!("rtl/{module}.v");
     let level = fault.design.level(module);
-    let mut job = Job::new(&fault.design.design(), directed(level, 1), output).unwrap();
+    let mut job = CosimJob::new(&fault.design.design(), directed_stimulus(level, 1), output).unwrap();
     job.simulator = fault.design.simulator();
     match job.sources.iter_mut().find(|file| file.path == path) {
         None => return Err(format!("{module}: not in this design")),
@@ -54,20 +54,20 @@ fn plant(fault: &Fault, vectors: &Vectors, output: &Path) -> Result<CosimReport,
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let run = |recording: &_| job.run_on(recording, &toolchain, &cache, &mut |_| {});
-    let report = vectors.with(fault.design, level, run);
+    let report = vectors.with_recording(fault.design, level, run);
     report.map_err(|error| format!("{module}, {what}: {error}"))
 }
 
-fn all_are_caught<'a>(faults: impl IntoIterator<Item = &'a Fault>) {
-    if !simulators() {
+fn assert_all_caught<'a>(faults: impl IntoIterator<Item = &'a RtlFault>) {
+    if !has_simulators() {
         return;
     }
-    let (output, vectors) = (tempfile::tempdir().unwrap(), Vectors::default());
-    let numbered: Vec<(usize, &Fault)> = faults.into_iter().enumerate().collect();
+    let (output, vectors) = (tempfile::tempdir().unwrap(), DesignVectors::default());
+    let numbered: Vec<(usize, &RtlFault)> = faults.into_iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, fault)| {
         let folder = output.path().join(number.to_string());
-        let Fault { what, module, from, to, .. } = fault;
-        let report = plant(fault, &vectors, &folder)?;
+        let RtlFault { kind: what, module, from, to, .. } = fault;
+        let report = run_with_fault(fault, &vectors, &folder)?;
         if report.passed() {
             return Err(format!("{module}, {what}: not caught: `{from}` -> `{to}`: {report}"));
         }
@@ -84,55 +84,55 @@ fn all_are_caught<'a>(faults: impl IntoIterator<Item = &'a Fault>) {
 }
 
 /// Returns the faults that every run plants, from a list that takes long.
-fn planted(faults: &'static [Fault]) -> Vec<&'static Fault> {
-    sampled(faults, |fault| fault.module)
+fn sampled_of(faults: &'static [RtlFault]) -> Vec<&'static RtlFault> {
+    sampled_faults(faults, |fault| fault.module)
 }
 
 #[test]
 fn every_planted_fault_is_caught() {
-    all_are_caught(faults::FAULTS);
+    assert_all_caught(faults::FAULTS);
 }
 
 #[test]
 fn every_planted_fault_of_deep_pipelining_is_caught() {
-    all_are_caught(deep_faults::FAULTS);
+    assert_all_caught(deep_faults::FAULTS);
 }
 
 #[test]
 fn every_planted_fault_of_summaries_is_caught() {
-    all_are_caught(summary_faults::FAULTS);
+    assert_all_caught(summary_faults::FAULTS);
 }
 
 #[test]
 fn every_planted_fault_of_summaries_of_raster_cores_is_caught() {
-    all_are_caught(planted(summary_faults::RASTER));
+    assert_all_caught(sampled_of(summary_faults::RASTER));
 }
 
 #[test]
 fn every_planted_fault_of_the_serial_organization_is_caught() {
-    all_are_caught(planted(serial_faults::FAULTS));
+    assert_all_caught(sampled_of(serial_faults::FAULTS));
 }
 
 #[test]
 fn every_planted_fault_of_serial_summaries_is_caught() {
-    all_are_caught(planted(serial_summary_faults::FAULTS));
+    assert_all_caught(sampled_of(serial_summary_faults::FAULTS));
 }
 
 #[test]
 fn every_planted_fault_of_the_raster_organization_is_caught() {
-    all_are_caught(planted(raster_faults::FAULTS));
+    assert_all_caught(sampled_of(raster_faults::FAULTS));
 }
 
 #[test]
-fn every_planted_fault_of_what_finds_frames_is_caught() {
-    all_are_caught(sync_faults::FAULTS);
+fn every_planted_fault_of_frame_sync_is_caught() {
+    assert_all_caught(sync_faults::FAULTS);
 }
 
 /// The lists that every run plants whole.
-const ALWAYS: [&[Fault]; 4] =
+const ALWAYS: [&[RtlFault]; 4] =
     [faults::FAULTS, deep_faults::FAULTS, summary_faults::FAULTS, sync_faults::FAULTS];
 /// The lists of which every run plants a part.
-const SAMPLED: [&[Fault]; 4] = [
+const SAMPLED: [&[RtlFault]; 4] = [
     summary_faults::RASTER,
     serial_faults::FAULTS,
     serial_summary_faults::FAULTS,
@@ -140,20 +140,20 @@ const SAMPLED: [&[Fault]; 4] = [
 ];
 
 /// Returns the faults of every organization.
-fn all_faults() -> impl Iterator<Item = &'static Fault> {
+fn all_faults() -> impl Iterator<Item = &'static RtlFault> {
     ALWAYS.into_iter().chain(SAMPLED).flatten()
 }
 
 /// Returns the faults that this run plants.
-fn planted_faults() -> impl Iterator<Item = &'static Fault> {
-    ALWAYS.into_iter().flatten().chain(SAMPLED.into_iter().flat_map(planted))
+fn planted_faults() -> impl Iterator<Item = &'static RtlFault> {
+    ALWAYS.into_iter().flatten().chain(SAMPLED.into_iter().flat_map(sampled_of))
 }
 
 /// The unchanged designs pass, or the tests above would show nothing. Other tests simulate similar
 /// designs, so a short run takes every fourth.
 #[test]
 fn every_design_passes_without_a_fault() {
-    if !simulators() {
+    if !has_simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
@@ -163,12 +163,12 @@ fn every_design_passes_without_a_fault() {
             designs.push(fault.design);
         }
     }
-    let designs: Vec<Planted> = designs.into_iter().step_by(every(4)).collect();
+    let designs: Vec<FaultDesign> = designs.into_iter().step_by(sampling_step(4)).collect();
     let failures = in_parallel(&designs, |planted| {
         let folder = output.path().join(format!("{planted:?}"));
-        let stimulus = directed(planted.level(""), 1);
+        let stimulus = directed_stimulus(planted.level(""), 1);
         let name = format!("{planted:?}");
-        agrees(&name, &planted.design(), planted.simulator(), stimulus, &folder)
+        check_agreement(&name, &planted.design(), planted.simulator(), stimulus, &folder)
     });
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
@@ -182,7 +182,7 @@ fn every_module_has_a_fault() {
     let modules = foveate_emit::LEAVES.iter().map(|leaf| leaf.name).chain(rendered);
     let missing: Vec<&str> = modules.filter(|module| !covered.contains(module)).collect();
     assert!(missing.is_empty(), "no fault is planted in {missing:?}");
-    let kinds: BTreeSet<&str> = all_faults().map(|fault| fault.what).collect();
+    let kinds: BTreeSet<&str> = all_faults().map(|fault| fault.kind).collect();
     assert_eq!(kinds, BTreeSet::from(["constant", "index", "operator", "reset", "width"]));
 }
 
@@ -194,20 +194,20 @@ fn the_replay_of_a_fault_shows_it_again() {
         }
         let output = tempfile::tempdir().unwrap();
         let folder = output.path().join("replay");
-        let edit = |job: &mut Job| {
+        let edit = |job: &mut CosimJob| {
             let vote = job.sources.iter_mut().find(|file| file.path == "rtl/vote.v").unwrap();
             vote.contents = vote.contents.replace("score_i >= minimum_i", "score_i > minimum_i");
             job.trace = true;
         };
-        let design = Planted::Constant.design();
+        let design = FaultDesign::Constant.design();
         let report =
-            cosimulate(&design, simulator, directed(Level::Rpu, 1), &folder, edit).unwrap();
+            cosimulate(&design, simulator, directed_stimulus(CosimLevel::Rpu, 1), &folder, edit).unwrap();
         let mismatch = report.mismatch.unwrap();
         assert!(folder.join("waves.fst").is_file());
         let readme = std::fs::read_to_string(folder.join("README.md")).unwrap();
         assert!(readme.contains(&mismatch.to_string()), "{readme}");
         assert!(mismatch.ports.len() > 1, "the decision is wrong, and what follows: {mismatch:?}");
-        assert!(mismatch.at.contains("of frame "), "{mismatch:?}");
+        assert!(mismatch.activity.contains("of frame "), "{mismatch:?}");
         let again = Command::new(folder.join("replay.sh")).output().unwrap();
         let log = String::from_utf8_lossy(&again.stdout).into_owned();
         assert_eq!(again.status.code(), Some(1), "{log}");

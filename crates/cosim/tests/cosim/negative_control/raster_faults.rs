@@ -4,15 +4,15 @@
 //! The flags of the lower border have no faults here. They change nothing in frames that the core
 //! completes below, because the rows that it adds repeat the last one.
 
-use super::faults::{Fault, fault};
-use super::planted::Planted::{
-    RasterBanks as Banks, RasterLost as Lost, RasterMoments as Moments, RasterOutside as Outside,
+use super::faults::{RtlFault, fault};
+use super::fault_designs::FaultDesign::{
+    RasterBanks as Banks, RasterLost as Lost, RasterMadVariance as Moments, RasterExternal as Outside,
     RasterPairs as Pairs, RasterPaper as Paper, RasterSent as Sent,
 };
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("constant", Paper, "raster_memory", "if (write_i) words_q", "words_q"),
     fault("index", Paper, "raster_memory", "words_q[read_address_i]", "words_q[write_address_i]"),
     fault("width", Paper, "raster_memory", "<= data_i;", "<= {1'b0, data_i[WIDTH-2:0]};"),

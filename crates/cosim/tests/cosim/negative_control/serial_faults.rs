@@ -6,8 +6,8 @@
 //! that is written to a wrong place after a reset is overwritten by the next frame. The candidate
 //! of a median is never negative, so all its signs are equal.
 
-use super::faults::{Fault, fault};
-use super::planted::Planted::{
+use super::faults::{RtlFault, fault};
+use super::fault_designs::FaultDesign::{
     SerialBlock as Block, SerialConstant as Constant, SerialCorner as Corner, SerialEdge as Edge,
     SerialFold as Fold, SerialMad as Mad, SerialMany as Many, SerialPaper as Paper,
     SerialRaster as Raster, SerialSent as Sent, SerialVariance as Variance,
@@ -15,7 +15,7 @@ use super::planted::Planted::{
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("operator", Paper, "carry_adder", "} - {~other_i", "} + {~other_i"),
     fault("constant", Paper, "carry_adder", "~carry_i}", "1'b0}"),
     fault("constant", Mad, "carry_adder", "~carry_i}", "1'b1}"),

@@ -4,14 +4,14 @@
 //! A sum that passes during a reset is compared and written all the same. This is never visible,
 //! because the next frame starts over.
 
-use super::faults::{Fault, fault};
-use super::planted::Planted::{
+use super::faults::{RtlFault, fault};
+use super::fault_designs::FaultDesign::{
     SerialMeans as Means, SerialMeansMany as Many, SerialMeansRaster as Raster,
 };
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("operator", Means, "serial_summary", ".level_i(level_i), .above_o(above)", ".level_i(level_i - 1'b1), .above_o(above)"),
     fault("index", Raster, "serial_summary", "mean = product[SHIFT+:WIDTH]", "mean = product[SHIFT-1+:WIDTH]"),
     fault("index", Means, "serial_summary", "second ? in_second : in_first", "in_first"),

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of summaries in the pipelined and raster organizations.
 
-use super::faults::{Fault, fault};
-use super::planted::Planted::{
+use super::faults::{RtlFault, fault};
+use super::fault_designs::FaultDesign::{
     Means, MeansDeep, MeansOne, MeansPixel, MeansSecond, RasterMeans, RasterMeansDeep,
     RasterMeansOne, RasterMeansSent,
 };
 
 /// All faults of the pipelined organization, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("constant", Means, "block_place", "column == {{(BITS - 1) {1'b0}}, 1'b1}", "column == {BITS{1'b0}}"),
     fault("operator", Means, "block_place", "is_next_row ? ~|row : &row", "&row"),
     fault("index", Means, "block_place", "is_next_row = ~|address_i[0+:ROW]", "is_next_row = ~|address_i[0+:BITS]"),
@@ -74,7 +74,7 @@ pub(crate) const FAULTS: &[Fault] = &[
 
 /// All faults of raster cores, by module.
 #[rustfmt::skip]
-pub(crate) const RASTER: &[Fault] = &[
+pub(crate) const RASTER: &[RtlFault] = &[
     fault("constant", RasterMeans, "raster_parts", "LAST = SIZE - 1;", "LAST = SIZE - 2;"),
     fault("operator", RasterMeans, "raster_parts", "else if (step_i && last) part_q", "else if (step_i) part_q"),
     fault("constant", RasterMeansOne, "raster_parts", "last && SIZE != 1 << BITS", "last && 1'b0"),

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of the frame synchronization, in front of each organization.
 
-use super::faults::{Fault, fault};
-use super::planted::Planted::{
+use super::faults::{RtlFault, fault};
+use super::fault_designs::FaultDesign::{
     SyncPipelined as Pipelined, SyncRaster as Raster, SyncSerial as Serial,
 };
 
 /// All faults, by module.
 #[rustfmt::skip]
-pub(crate) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[RtlFault] = &[
     fault("operator", Pipelined, "frame_sync", "fits = inside_q != sof_i;", "fits = inside_q || sof_i;"),
     fault("operator", Raster, "frame_sync", "fits = inside_q != sof_i;", "fits = inside_q == sof_i;"),
     fault("operator", Pipelined, "frame_sync", "comes = open_i && valid_i && !fill_q;", "comes = open_i && valid_i;"),

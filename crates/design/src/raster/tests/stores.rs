@@ -3,7 +3,7 @@
 
 use super::{config, design, refusal};
 use crate::raster::RasterTiming;
-use crate::{Design, Direction, PortRole, Qualifier, Store};
+use crate::{Design, PortDirection, PortRole, OutputQualifier, FrameStoreKind};
 
 const LAST_SENT: &str = "temporal.reference=last-sent";
 
@@ -49,9 +49,9 @@ fn only_a_raster_core_has_the_keys() {
                 )
             );
         }
-        assert!(design(&[&other]).forwards());
+        assert!(design(&[&other]).has_forwarding());
     }
-    let error = crate::Config::from_toml_with("", &["hardware.forward=1"]).unwrap_err();
+    let error = crate::DesignConfig::from_toml_with("", &["hardware.forward=1"]).unwrap_err();
     assert_eq!(error.to_string(), "`hardware.forward`: 1 is not valid; it takes true or false");
 }
 
@@ -60,14 +60,14 @@ fn forwarding_is_the_default_and_changes_no_fingerprint() {
     let plain = design(&[]);
     let named = design(&["hardware.forward=true"]);
     assert_eq!((named.fingerprint(), named.config()), (plain.fingerprint(), plain.config()));
-    assert!(plain.forwards() && !plain.config().to_toml().contains("forward"));
+    assert!(plain.has_forwarding() && !plain.config().to_toml().contains("forward"));
     let alone = design(&["hardware.forward=false", "hardware.store=external"]);
-    assert!(!alone.forwards() && alone.raster().unwrap().store() == Store::External);
+    assert!(!alone.has_forwarding() && alone.as_raster().unwrap().store() == FrameStoreKind::External);
     assert_eq!(
-        alone.config().hardware.in_words(),
+        alone.config().hardware.description(),
         "raster, 1 pixel per clock, plain pipelining, external store, no forwarding"
     );
-    let again = crate::Config::from_toml(&alone.config().to_toml()).unwrap();
+    let again = crate::DesignConfig::from_toml(&alone.config().to_toml()).unwrap();
     assert_eq!(again, alone.config());
     let prints: std::collections::BTreeSet<String> = ["block", "ultra", "single-port", "external"]
         .iter()
@@ -80,14 +80,14 @@ fn forwarding_is_the_default_and_changes_no_fingerprint() {
     assert_eq!(prints.len(), 8);
 }
 
-fn named(design: &Design, direction: Direction) -> Vec<(String, u32)> {
+fn named(design: &Design, direction: PortDirection) -> Vec<(String, u32)> {
     let ports = design.rcm_ports();
     let own = ports.iter().filter(|port| port.direction == direction);
     own.map(|port| (port.name.clone(), port.bits())).collect()
 }
 
 /// Returns the ports of a core for 64x40 pixels in words of four pixels: 8x5 regions.
-fn ports_of(more: &[&str], direction: Direction) -> Vec<(String, u32)> {
+fn ports_of(more: &[&str], direction: PortDirection) -> Vec<(String, u32)> {
     let own = [
         "frame.width=64",
         "frame.height=40",
@@ -112,7 +112,7 @@ fn a_store_outside_has_two_streams() {
     let own = |list: &[(&str, u32)]| -> Vec<(String, u32)> {
         list.iter().map(|&(name, bits)| (name.to_owned(), bits)).collect()
     };
-    assert_eq!(ports_of(&more, Direction::Input), own(&inputs));
+    assert_eq!(ports_of(&more, PortDirection::Input), own(&inputs));
     let outputs = [
         ("ready_o", 1),
         ("reference_ready_o", 1),
@@ -141,16 +141,16 @@ fn a_store_outside_has_two_streams() {
         ("lost_region_o", 6),
         ("lost_frame_o", 8),
     ];
-    assert_eq!(ports_of(&more, Direction::Output), own(&outputs));
+    assert_eq!(ports_of(&more, PortDirection::Output), own(&outputs));
     for port in design(&more).rcm_ports() {
         let is_stored = matches!(port.role, PortRole::StorePixel | PortRole::StoreLast);
-        let with_store = port.qualifier == Qualifier::With(PortRole::StoreValid);
+        let with_store = port.qualifier == OutputQualifier::WhileSet(PortRole::StoreValid);
         assert_eq!(is_stored, with_store, "{}", port.name);
         let is_streamed = port.name.starts_with("reference") || port.name == "underrun_o";
-        assert!(!is_streamed || port.qualifier == Qualifier::Always, "{}", port.name);
+        assert!(!is_streamed || port.qualifier == OutputQualifier::Always, "{}", port.name);
     }
     // The ports do not depend on the kind of a store inside of the core.
-    for direction in [Direction::Input, Direction::Output] {
+    for direction in [PortDirection::Input, PortDirection::Output] {
         let block = ports_of(&[], direction);
         for store in ["ultra", "single-port"] {
             assert_eq!(ports_of(&[&format!("hardware.store={store}")], direction), block);
@@ -161,25 +161,25 @@ fn a_store_outside_has_two_streams() {
 #[test]
 fn without_forwarding_decisions_are_all_that_leaves() {
     let more = ["hardware.forward=false"];
-    for direction in [Direction::Input, Direction::Output] {
+    for direction in [PortDirection::Input, PortDirection::Output] {
         let mut whole = ports_of(&[], direction);
         whole.retain(|(name, _)| !name.starts_with("forward_") && !name.starts_with("lost_"));
         assert_eq!(ports_of(&more, direction), whole);
     }
-    assert_eq!(ports_of(&more, Direction::Output).len(), 8);
+    assert_eq!(ports_of(&more, PortDirection::Output).len(), 8);
 }
 
 /// A core without forwarding has the numbers of a core with forwarding, except those of the buffer
 /// and of the last word.
 #[test]
 fn numbers_follow_the_store_and_forwarding() {
-    let timing = |more: &[&str]| RasterTiming::of(design(more).raster().unwrap());
+    let timing = |more: &[&str]| RasterTiming::from_design(design(more).as_raster().unwrap());
     let plain = timing(&[]);
     for store in ["ultra", "single-port", "external"] {
         assert_eq!(timing(&[&format!("hardware.store={store}")]), plain);
     }
     let alone = timing(&["hardware.forward=false"]);
-    assert_eq!(alone, RasterTiming { buffer_rows: 0, forwards: false, ..plain });
+    assert_eq!(alone, RasterTiming { buffer_rows: 0, has_forwarding: false, ..plain });
     let mad = "spatial=[{feature=\"mad\"}]";
     assert_eq!(timing(&["hardware.forward=false", mad]).buffer_rows, 3);
     // The lookup latency is S - 1, and S - 2 in a deep core.
@@ -192,12 +192,12 @@ fn numbers_follow_the_store_and_forwarding() {
     let answers = design(&["hardware.forward=false"]).timing();
     let departure = answers.departure();
     assert_eq!(departure.forward_clocks, departure.decision_clocks);
-    let leaves = answers.text().iter().find(|(heading, _)| *heading == "pixels leave");
+    let leaves = answers.descriptions().iter().find(|(heading, _)| *heading == "pixels leave");
     assert_eq!(leaves.map(|(_, text)| text.as_str()), Some("never: only decisions do"));
 }
 
 #[test]
 fn the_lone_core_keeps_its_store() {
     let lone = design(&["hardware.store=external", "hardware.forward=false"]).lone_unit();
-    assert!(!lone.forwards() && lone.raster().unwrap().store() == Store::External);
+    assert!(!lone.has_forwarding() && lone.as_raster().unwrap().store() == FrameStoreKind::External);
 }

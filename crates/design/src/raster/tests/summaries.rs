@@ -2,8 +2,8 @@
 //! Tests of the additions of a periphery to a core, and of the keys that it can be combined with.
 
 use super::{config, design, refusal};
-use crate::raster::{RasterMemory, RasterStream, RasterTiming};
-use crate::{Action, Direction, PortRole, Qualifier};
+use crate::raster::{RasterMemory, RasterStreamTiming, RasterTiming};
+use crate::{RegionAction, PortDirection, PortRole, OutputQualifier};
 
 const MEAN: &str = "render.irrelevant=mean";
 
@@ -50,13 +50,13 @@ fn a_word_lies_in_one_block_and_means_have_to_leave() {
 #[test]
 fn ports_tell_means_from_pixels() {
     let own = [
-        ("summary_level_i", Direction::Input, PortRole::SummaryLevel, Qualifier::Always, 8),
-        ("summary_o", Direction::Output, PortRole::Summary, Qualifier::Always, 1),
+        ("summary_level_i", PortDirection::Input, PortRole::SummaryLevel, OutputQualifier::Always, 8),
+        ("summary_o", PortDirection::Output, PortRole::Summary, OutputQualifier::Always, 1),
         (
             "forward_summary_o",
-            Direction::Output,
+            PortDirection::Output,
             PortRole::ForwardSummary,
-            Qualifier::With(PortRole::ForwardValid),
+            OutputQualifier::WhileSet(PortRole::ForwardValid),
             1,
         ),
     ];
@@ -78,7 +78,7 @@ fn ports_tell_means_from_pixels() {
 
 #[test]
 fn numbers_are_those_without_but_for_low_frames_which_wait() {
-    let timing = |more: &[&str]| RasterTiming::of(design(more).raster().unwrap());
+    let timing = |more: &[&str]| RasterTiming::from_design(design(more).as_raster().unwrap());
     for more in [&["hardware.pipelining=deep"][..], &["spatial=[{feature=\"mad\"}]"], &[]] {
         let with = timing(&[&[MEAN], more].concat());
         assert_eq!(with.summary_words, Some(4));
@@ -118,7 +118,7 @@ fn a_summary_has_no_more_words_than_a_region() {
         let least = ["temporal.min_count=1", "spatial.0.min_score=1"];
         let overrides = [&[MEAN, size, blocks, pixels][..], &least].concat();
         if let Ok(design) = config(&overrides).validate() {
-            let timing = RasterTiming::of(design.raster().unwrap());
+            let timing = RasterTiming::from_design(design.as_raster().unwrap());
             let words = timing.summary_words.unwrap();
             assert!(words.max(2) <= timing.region_words, "{overrides:?}");
             taken += 1;
@@ -133,7 +133,7 @@ fn a_summary_has_no_more_words_than_a_region() {
 fn memories_of_means() {
     let of = |more: &[&str]| {
         let frame = ["frame.width=64", "frame.height=64"];
-        let memories = RasterMemory::all_of(design(&[&frame, more].concat()).raster().unwrap());
+        let memories = RasterMemory::all_memories(design(&[&frame, more].concat()).as_raster().unwrap());
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
     let plain = of(&[]);
@@ -162,15 +162,15 @@ fn a_stream_of_summaries() {
         "spatial=[{feature=\"variance\",min_score=1}]",
         "temporal.min_count=1",
     ];
-    let timing = RasterTiming::of(design(&keys).raster().unwrap());
+    let timing = RasterTiming::from_design(design(&keys).as_raster().unwrap());
     assert_eq!((timing.row_words, timing.summary_words, timing.region_words), (32, Some(1), 2));
-    let mut stream = RasterStream::new(timing, 1);
+    let mut stream = RasterStreamTiming::new(timing, 1);
     let read = |row: u32| (u128::from(row) * 32, u128::from(row + 1) * 32);
-    let rows = stream.frame(read, &[Action::Summarize; 128]);
+    let rows = stream.advance_frame(read, &[RegionAction::Summarize; 128]);
     let last = 64 + u128::from(timing.decision_latency);
-    assert_eq!(rows[0].decided, last);
-    let first_left = last - 31 + u128::from(timing.to_first_word());
-    assert_eq!(rows[0].left, Some(first_left + 2 * 31));
-    let rows = stream.frame(read, &[Action::Hold; 128]);
-    assert!(rows.iter().all(|row| row.left.is_none()));
+    assert_eq!(rows[0].last_decision, last);
+    let first_left = last - 31 + u128::from(timing.clocks_to_first_word());
+    assert_eq!(rows[0].last_word, Some(first_left + 2 * 31));
+    let rows = stream.advance_frame(read, &[RegionAction::Hold; 128]);
+    assert!(rows.iter().all(|row| row.last_word.is_none()));
 }

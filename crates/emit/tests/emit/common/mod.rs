@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Designs to emit: every value of the configuration occurs with every other at least once.
 
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_toolchain::testing::takes_whole_lists;
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
@@ -9,13 +9,13 @@ use std::process::{Command, Stdio};
 /// Selects from a list the designs that have a pair of values that no earlier design has. Every
 /// pair of values of the whole list thus occurs in the selection, and a slow tool runs on fewer
 /// designs. Returns the whole list where tests take whole lists.
-pub(crate) fn meeting(list: Vec<String>) -> Vec<String> {
+pub(crate) fn covering_pairs(list: Vec<String>) -> Vec<String> {
     if takes_whole_lists() {
         return list;
     }
     let mut met = BTreeSet::new();
     let is_new = |toml: &String| {
-        let pairs = pairs(toml);
+        let pairs = value_pairs(toml);
         let new = !pairs.is_subset(&met);
         met.extend(pairs);
         new
@@ -25,7 +25,7 @@ pub(crate) fn meeting(list: Vec<String>) -> Vec<String> {
 
 /// Returns each pair of values of a configuration that change what its Verilog contains, and not
 /// only its widths.
-fn pairs(toml: &str) -> BTreeSet<(String, String)> {
+fn value_pairs(toml: &str) -> BTreeSet<(String, String)> {
     const KEYS: [&str; 11] = [
         "spatial",
         "size",
@@ -59,7 +59,7 @@ pub(crate) fn has_tclsh() -> bool {
 }
 
 pub(crate) fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
 const FEATURES: [&str; 7] = [
@@ -82,7 +82,7 @@ fn most_blocks(size: u32) -> u32 {
 }
 
 /// Returns configurations of pipelined designs as TOML.
-pub(crate) fn matrix() -> Vec<String> {
+pub(crate) fn pipelined_matrix() -> Vec<String> {
     let mut list = Vec::new();
     for (index, features) in FEATURES.iter().enumerate() {
         for choice in 0..8 {
@@ -184,7 +184,7 @@ pub(crate) fn serial_matrix() -> Vec<String> {
 const RASTER_SHAPES: [(u32, u32); 9] =
     [(8, 1), (4, 2), (2, 1), (8, 4), (3, 1), (16, 2), (5, 1), (64, 4), (6, 2)];
 /// Rows of regions, and the pixels that the last column and row of regions lack.
-const RASTER_ENDS: [(u32, u32, u32); 5] = [(3, 0, 0), (1, 1, 0), (2, 0, 1), (4, 1, 1), (5, 1, 0)];
+const RASTER_GRIDS: [(u32, u32, u32); 5] = [(3, 0, 0), (1, 1, 0), (2, 0, 1), (4, 1, 1), (5, 1, 0)];
 
 /// Returns configurations of raster designs as TOML, with the smallest width that is allowed.
 pub(crate) fn raster_matrix() -> Vec<String> {
@@ -193,7 +193,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
         for choice in 0..16 {
             let (size, word) = RASTER_SHAPES[(index * 2 + choice) % RASTER_SHAPES.len()];
             let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];
-            let (rows, beside, below) = RASTER_ENDS[(index * 3 + choice) % RASTER_ENDS.len()];
+            let (rows, beside, below) = RASTER_GRIDS[(index * 3 + choice) % RASTER_GRIDS.len()];
             let columns = (16 * word).div_ceil(size).max(4);
             let fits = |blocks: &u32| size.is_multiple_of(*blocks * word);
             let periphery = match [4, 2, 1].into_iter().find(fits) {
@@ -231,7 +231,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
 
 /// Raster designs with a large frame, or with choices that the matrix lacks: each branch of a
 /// store, of rows that repeat, and of a core that forwards nothing.
-pub(crate) const MORE: [&str; 14] = [
+pub(crate) const EXTRA_RASTER_DESIGNS: [&str; 14] = [
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep'}",
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='plain'}",
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep',store='ultra'}",
@@ -252,14 +252,14 @@ pub(crate) const MORE: [&str; 14] = [
 
 /// Returns the designs of the matrices of all organizations, and [`MORE`].
 pub(crate) fn every_design() -> Vec<String> {
-    let more = MORE.iter().map(|toml| (*toml).to_owned());
-    [matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
+    let more = EXTRA_RASTER_DESIGNS.iter().map(|toml| (*toml).to_owned());
+    [pipelined_matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
 }
 
 /// Returns raster designs on AXI: those of the matrix whose pixels leave, and one with an external
 /// frame store.
 pub(crate) fn every_design_on_a_bus() -> Vec<String> {
-    let leaves = |toml: &String| design(toml).forwards();
+    let leaves = |toml: &String| design(toml).has_forwarding();
     let on_axi = |toml: String| toml.replacen("[hardware]\n", "[hardware]\ninterface = 'axi'\n", 1);
     let outside = "frame={width=64,height=21}\nhardware={organization='raster',store='external',interface='axi'}";
     let matrix = raster_matrix().into_iter().filter(leaves).map(on_axi);

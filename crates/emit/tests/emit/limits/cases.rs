@@ -6,18 +6,18 @@ use foveate_toolchain::Source;
 use std::collections::BTreeSet;
 
 /// A module with parameters that differ from their defaults.
-pub(super) struct Case {
+pub(super) struct LimitCase {
     pub(super) module: String,
     /// The names and values of the parameters.
     pub(super) parameters: Vec<(String, String)>,
     /// The missing module at which elaboration stops; `None` if the parameters are in range.
-    pub(super) refused: Option<String>,
+    pub(super) refusing_limit: Option<String>,
 }
 
 /// Returns the cases of `limits.txt`. The parameters of a line that must elaborate also hold for
 /// the lines below it.
-pub(super) fn cases() -> Vec<Case> {
-    let mut list: Vec<Case> = Vec::new();
+pub(super) fn cases() -> Vec<LimitCase> {
+    let mut list: Vec<LimitCase> = Vec::new();
     let mut common: Vec<(String, String)> = Vec::new();
     let lines = include_str!("../limits.txt").lines().map(str::trim);
     for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
@@ -37,7 +37,7 @@ pub(super) fn cases() -> Vec<Case> {
                 parameters.extend(common.iter().filter(|(name, _)| first(name)).cloned());
             }
         }
-        list.push(Case { module, parameters, refused });
+        list.push(LimitCase { module, parameters, refusing_limit: refused });
     }
     list
 }
@@ -61,7 +61,7 @@ fn leaf(name: &str) -> &'static Leaf {
     all_leaves().find(|leaf| leaf.name == name).unwrap_or_else(|| panic!("no leaf {name}"))
 }
 
-impl Case {
+impl LimitCase {
     /// Returns the text of the module with the parameters of the case.
     fn text(&self) -> String {
         let text = leaf(&self.module).contents.to_owned();
@@ -87,7 +87,7 @@ impl Case {
 
     /// Returns the module under another name, which is also appended to its limits. When many such
     /// modules are elaborated together, each limit then refuses only its own module.
-    pub(super) fn named(&self, name: &str) -> String {
+    pub(super) fn renamed_text(&self, name: &str) -> String {
         let text = self.text();
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let limits: BTreeSet<&str> =

@@ -13,26 +13,26 @@ use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::boxes::limits::{self, MAX_BOXES};
-use crate::boxes::name::key;
-use crate::boxes::{BoxError, Labelled};
+use crate::boxes::image_name::comparison_name;
+use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
 
 #[derive(Deserialize)]
-struct Document {
+struct CocoDocument {
     #[serde(deserialize_with = "limited")]
-    images: Vec<Image>,
+    images: Vec<CocoImage>,
     #[serde(deserialize_with = "limited")]
-    annotations: Vec<Annotation>,
+    annotations: Vec<CocoAnnotation>,
 }
 
 #[derive(Deserialize)]
-struct Image {
+struct CocoImage {
     id: u64,
     file_name: String,
 }
 
 #[derive(Deserialize)]
-struct Annotation {
+struct CocoAnnotation {
     image_id: u64,
     bbox: [f64; 4],
     #[serde(default)]
@@ -40,18 +40,18 @@ struct Annotation {
 }
 
 /// Reads the boxes of every image, by the name of the image.
-pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxError> {
+pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, BoxError> {
     let wrong = |problem| BoxError::File { path: path.to_owned(), problem };
-    let document: Document = serde_json::from_reader(limits::open(path)?).map_err(|error| {
+    let document: CocoDocument = serde_json::from_reader(limits::open(path)?).map_err(|error| {
         if error.is_io() {
             return BoxError::Io { path: path.to_owned(), source: error.into() };
         }
         wrong(format!("{error}; expected a JSON object of COCO with `images` and `annotations`"))
     })?;
     let mut names: HashMap<u64, String> = HashMap::new();
-    let mut images: HashMap<String, Vec<Labelled>> = HashMap::new();
-    for Image { id, file_name } in document.images {
-        let name = key(&file_name)
+    let mut images: HashMap<String, Vec<LabelledBox>> = HashMap::new();
+    for CocoImage { id, file_name } in document.images {
+        let name = comparison_name(&file_name)
             .ok_or_else(|| wrong(format!("the image with the id {id} has no file name")))?;
         if images.insert(name.clone(), Vec::new()).is_some() {
             return Err(wrong(format!("two images are called `{name}`")));
@@ -60,23 +60,23 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxErr
             return Err(wrong(format!("two images have the id {id}")));
         }
     }
-    for (number, Annotation { image_id, bbox, iscrowd }) in (1..).zip(document.annotations) {
+    for (number, CocoAnnotation { image_id, bbox, iscrowd }) in (1..).zip(document.annotations) {
         let wrong = |problem: String| wrong(format!("annotation {number}: {problem}"));
-        let rect = Rect::of_sides(bbox).map_err(wrong)?;
+        let rect = Rect::from_corner_and_size(bbox).map_err(wrong)?;
         let boxes = names.get(&image_id).and_then(|name| images.get_mut(name));
         let boxes = boxes.ok_or_else(|| wrong(format!("no image has the id {image_id}")))?;
         if iscrowd == 0 {
-            boxes.push(Labelled { rect, track: None });
+            boxes.push(LabelledBox { rect, track: None });
         }
     }
     Ok(images)
 }
 
 /// Deserializes a list of at most [`MAX_BOXES`] items.
-fn limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
-    struct Limited<T>(PhantomData<T>);
+fn deserialize_limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+    struct LimitedListVisitor<T>(PhantomData<T>);
 
-    impl<'de, T: Deserialize<'de>> Visitor<'de> for Limited<T> {
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for LimitedListVisitor<T> {
         type Value = Vec<T>;
 
         fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -87,7 +87,7 @@ fn limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Ve
             let mut items = Vec::new();
             while let Some(item) = list.next_element()? {
                 if items.len() == MAX_BOXES {
-                    return Err(A::Error::custom(limits::too_many()));
+                    return Err(A::Error::custom(limits::too_many_boxes()));
                 }
                 items.push(item);
             }
@@ -95,5 +95,5 @@ fn limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Ve
         }
     }
 
-    from.deserialize_seq(Limited(PhantomData))
+    from.deserialize_seq(LimitedListVisitor(PhantomData))
 }

@@ -10,7 +10,7 @@ use csv::{ErrorKind, Position, StringRecord};
 use crate::boxes::BoxError;
 
 /// Parses a field as a finite number.
-pub(crate) fn number(name: &str, text: &str) -> Result<f64, String> {
+pub(crate) fn parse_number(name: &str, text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
         .filter(|value: &f64| value.is_finite())
@@ -18,10 +18,10 @@ pub(crate) fn number(name: &str, text: &str) -> Result<f64, String> {
 }
 
 /// Parses a field as a whole number of at least `least`. It may have a decimal point, as in `3.0`.
-pub(crate) fn whole(name: &str, text: &str, least: u32) -> Result<u64, String> {
+pub(crate) fn parse_whole(name: &str, text: &str, least: u32) -> Result<u64, String> {
     // Above this limit, `f64` cannot represent every whole number.
     const MOST: f64 = 9e15;
-    let value = number(name, text).ok();
+    let value = parse_number(name, text).ok();
     let value = value.filter(|v| v.fract() == 0.0 && (f64::from(least)..MOST).contains(v));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     value.map(|value| value as u64).ok_or_else(|| {
@@ -31,19 +31,19 @@ pub(crate) fn whole(name: &str, text: &str, least: u32) -> Result<u64, String> {
 }
 
 /// Parses fields as numbers, with the names of their columns for messages.
-pub(crate) fn numbers<const N: usize>(
+pub(crate) fn parse_numbers<const N: usize>(
     names: [&str; N],
     texts: [&str; N],
 ) -> Result<[f64; N], String> {
     let mut values = [0.0; N];
     for (value, (name, text)) in values.iter_mut().zip(names.into_iter().zip(texts)) {
-        *value = number(name, text)?;
+        *value = parse_number(name, text)?;
     }
     Ok(values)
 }
 
 /// Returns an error about a record, with the number of its line.
-pub(crate) fn in_line(path: &Path, record: &StringRecord, problem: String) -> BoxError {
+pub(crate) fn error_in_line(path: &Path, record: &StringRecord, problem: String) -> BoxError {
     match record.position().map(|place| line_of(path, place)) {
         Some(Ok(line)) => BoxError::Line { path: path.to_owned(), line, problem },
         Some(Err(source)) => BoxError::Io { path: path.to_owned(), source },
@@ -67,7 +67,7 @@ fn line_of(path: &Path, place: &Position) -> io::Result<u64> {
 }
 
 /// Returns the error for a record that cannot be read as text.
-pub(crate) fn unreadable(path: &Path, error: csv::Error) -> BoxError {
+pub(crate) fn unreadable_record(path: &Path, error: csv::Error) -> BoxError {
     let path = path.to_owned();
     match error.into_kind() {
         ErrorKind::Io(source) => BoxError::Io { path, source },

@@ -4,7 +4,7 @@
 pub(crate) mod coco;
 pub(crate) mod field;
 pub(crate) mod mot;
-pub(crate) mod table;
+pub(crate) mod csv_table;
 pub(crate) mod yolo;
 
 use std::io::Read;
@@ -15,7 +15,7 @@ use crate::boxes::limits;
 
 /// A format of boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum BoxFormat {
     /// `gt.txt` of MOT16, MOT17 and MOT20.
     Mot,
     /// A JSON document of images and annotations.
@@ -26,7 +26,7 @@ pub enum Format {
     Csv,
 }
 
-impl Format {
+impl BoxFormat {
     /// Returns the name of the format in messages and notes.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -40,7 +40,7 @@ impl Format {
 
     /// Detects the format of a file or folder: JSON begins with a brace, MOT with a number, CSV
     /// with the names of its columns.
-    pub(crate) fn of(path: &Path) -> Result<Self, BoxError> {
+    pub(crate) fn detect(path: &Path) -> Result<Self, BoxError> {
         if path.is_dir() {
             return Ok(Self::Yolo);
         }
@@ -48,7 +48,7 @@ impl Format {
             let problem = format!(
                 "{problem}; expected rows of MOT, JSON of COCO, CSV with the columns {}, or a folder of YOLO \
                  files",
-                table::COLUMNS.join(", ")
+                csv_table::COLUMNS.join(", ")
             );
             BoxError::File { path: path.to_owned(), problem }
         };

@@ -12,9 +12,9 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::field::{in_line, numbers, unreadable, whole};
+use super::field::{error_in_line, parse_numbers, unreadable_record, parse_whole};
 use crate::boxes::limits::{self, MAX_BOXES};
-use crate::boxes::{BoxError, Labelled};
+use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
 
 const COLUMNS: [&str; 9] =
@@ -23,27 +23,27 @@ const PEDESTRIAN: f64 = 1.0;
 const LEAST_VISIBLE: f64 = 0.25;
 
 /// Reads the objects of every frame that has a row, by the number of the frame.
-pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<Labelled>>, BoxError> {
-    let mut file = foveate_reading::table(
+pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<LabelledBox>>, BoxError> {
+    let mut file = foveate_reading::table_reader(
         ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All),
         limits::open(path)?,
     );
-    let mut frames: BTreeMap<u64, Vec<Labelled>> = BTreeMap::new();
+    let mut frames: BTreeMap<u64, Vec<LabelledBox>> = BTreeMap::new();
     let mut seen = HashSet::new();
     for record in file.records() {
-        let record = record.map_err(|error| unreadable(path, error))?;
-        let wrong = |problem| in_line(path, &record, problem);
+        let record = record.map_err(|error| unreadable_record(path, error))?;
+        let wrong = |problem| error_in_line(path, &record, problem);
         if seen.len() == MAX_BOXES {
-            return Err(wrong(limits::too_many()));
+            return Err(wrong(limits::too_many_boxes()));
         }
-        let row = row(&record).map_err(wrong)?;
+        let row = parse_row(&record).map_err(wrong)?;
         if !seen.insert((row.frame, row.track)) {
             let MotRow { frame, track, .. } = row;
             return Err(wrong(format!("track {track} has a second box in frame {frame}")));
         }
         let objects = frames.entry(row.frame).or_default();
         if row.is_object {
-            objects.push(Labelled { rect: row.rect, track: Some(row.track) });
+            objects.push(LabelledBox { rect: row.rect, track: Some(row.track) });
         }
     }
     Ok(frames)
@@ -56,7 +56,7 @@ struct MotRow {
     is_object: bool,
 }
 
-fn row(record: &StringRecord) -> Result<MotRow, String> {
+fn parse_row(record: &StringRecord) -> Result<MotRow, String> {
     let fields: Vec<&str> = record.iter().collect();
     let Ok([frame, track, left, top, width, height, counted, class, visibility]) =
         <[&str; COLUMNS.len()]>::try_from(fields)
@@ -64,13 +64,13 @@ fn row(record: &StringRecord) -> Result<MotRow, String> {
         let (columns, names) = (record.len(), COLUMNS.join(", "));
         return Err(format!("the row has {columns} columns; expected {}: {names}", COLUMNS.len()));
     };
-    let frame = whole("frame", frame, 1)?;
-    let track = whole("track", track, 0)?;
+    let frame = parse_whole("frame", frame, 1)?;
+    let track = parse_whole("track", track, 0)?;
     let names = [COLUMNS[2], COLUMNS[3], COLUMNS[4], COLUMNS[5]];
-    let [left, top, width, height] = numbers(names, [left, top, width, height])?;
+    let [left, top, width, height] = parse_numbers(names, [left, top, width, height])?;
     let names = [COLUMNS[6], COLUMNS[7], COLUMNS[8]];
-    let [counted, class, visible] = numbers(names, [counted, class, visibility])?;
-    let rect = Rect::of_sides([left - 1.0, top - 1.0, width, height])?;
+    let [counted, class, visible] = parse_numbers(names, [counted, class, visibility])?;
+    let rect = Rect::from_corner_and_size([left - 1.0, top - 1.0, width, height])?;
     let is_object = counted != 0.0 && class == PEDESTRIAN && visible >= LEAST_VISIBLE;
     Ok(MotRow { frame, track, rect, is_object })
 }

@@ -6,9 +6,9 @@
 use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
 
-use super::field::{numbers, whole};
+use super::field::{parse_numbers, parse_whole};
 use crate::boxes::limits::{self, MAX_BOXES};
-use crate::boxes::{BoxError, Labelled};
+use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
 
 /// The largest length of a line in bytes, with its end. Five numbers take a few dozen bytes.
@@ -16,12 +16,12 @@ const MAX_LINE: usize = 4096;
 const COLUMNS: [&str; 5] = ["class", "x", "y", "width", "height"];
 
 /// Finds the file of an image below `folder`, with as many of the image's folders as exist there.
-pub(crate) fn file_of(folder: &Path, names: &[String]) -> Option<PathBuf> {
+pub(crate) fn find_file(folder: &Path, names: &[String]) -> Option<PathBuf> {
     names.iter().map(|name| folder.join(name).with_extension("txt")).find(|file| file.is_file())
 }
 
 /// Reads the boxes of an image of this size.
-pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Labelled>, BoxError> {
+pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<LabelledBox>, BoxError> {
     let mut reader = limits::open(path)?;
     let mut boxes = Vec::new();
     for number in 1.. {
@@ -45,27 +45,27 @@ pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Label
             continue;
         }
         if boxes.len() == MAX_BOXES {
-            return Err(wrong(limits::too_many()));
+            return Err(wrong(limits::too_many_boxes()));
         }
-        let shares = shares(&fields).map_err(wrong)?;
+        let shares = parse_fractions(&fields).map_err(wrong)?;
         let rect = shares.scaled(f64::from(width), f64::from(height));
-        boxes.push(Labelled { rect, track: None });
+        boxes.push(LabelledBox { rect, track: None });
     }
     Ok(boxes)
 }
 
 /// Returns the box in fractions of the image.
-fn shares(fields: &[&str]) -> Result<Rect, String> {
+fn parse_fractions(fields: &[&str]) -> Result<Rect, String> {
     let [class, x, y, width, height] = *fields else {
         let (found, names) = (fields.len(), COLUMNS.join(", "));
         return Err(format!("the line has {found} numbers; expected 5: {names}"));
     };
-    whole("class", class, 0)?;
+    parse_whole("class", class, 0)?;
     let names = [COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4]];
-    let values = numbers(names, [x, y, width, height])?;
+    let values = parse_numbers(names, [x, y, width, height])?;
     if let Some(value) = values.iter().find(|value| !(0.0..=1.0).contains(*value)) {
         return Err(format!("{value} is no share of the image; expected 0 to 1"));
     }
     let [x, y, width, height] = values;
-    Rect::of_sides([x - width / 2.0, y - height / 2.0, width, height])
+    Rect::from_corner_and_size([x - width / 2.0, y - height / 2.0, width, height])
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A reader of the bits of entropy-coded data, up to the next marker.
 
-use crate::picture::fault::PictureFault;
+use crate::picture::damage::PictureFault;
 
 /// Reads the bits of a JPEG from a position on. The zero byte that is stuffed after FF is removed.
 /// The data ends at a marker, which stays unread, or at the end of the file.
@@ -14,25 +14,25 @@ pub(super) struct BitReader<'a> {
     buffer: u64,
     /// The number of unread bits.
     count: u32,
-    ended: bool,
+    has_ended: bool,
 }
 
 impl<'a> BitReader<'a> {
     pub(super) fn new(bytes: &'a [u8], at: usize) -> Self {
-        Self { bytes, at, buffer: 0, count: 0, ended: false }
+        Self { bytes, at, buffer: 0, count: 0, has_ended: false }
     }
 
     /// Fills the buffer with at least 32 bits, if that many remain before the marker.
     #[inline]
     fn fill(&mut self) {
-        while self.count <= 56 && !self.ended {
+        while self.count <= 56 && !self.has_ended {
             match self.bytes.get(self.at) {
                 Some(0xFF) => match self.bytes.get(self.at + 1) {
                     Some(0) => self.push(0xFF, 2),
-                    _ => self.ended = true,
+                    _ => self.has_ended = true,
                 },
                 Some(&byte) => self.push(byte, 1),
-                None => self.ended = true,
+                None => self.has_ended = true,
             }
         }
     }
@@ -60,7 +60,7 @@ impl<'a> BitReader<'a> {
         if self.count < bits {
             self.fill();
             if self.count < bits {
-                return Err(self.short());
+                return Err(self.missing_bits_fault());
             }
         }
         self.buffer <<= bits;
@@ -77,7 +77,7 @@ impl<'a> BitReader<'a> {
     }
 
     /// Returns the fault for missing bits: the file is cut, or a marker comes too early.
-    fn short(&self) -> PictureFault {
+    fn missing_bits_fault(&self) -> PictureFault {
         match self.marker() {
             None => PictureFault::truncated("its coded pixels end before the last row"),
             Some(0xD9) => PictureFault::damaged("coded pixels are missing before its end (EOI)"),
@@ -89,7 +89,7 @@ impl<'a> BitReader<'a> {
 
     /// Ends a run of data, after which only the bits that fill its last byte may be left. Returns
     /// the position of the marker that follows.
-    pub(super) fn end(&mut self) -> Result<usize, PictureFault> {
+    pub(super) fn end_run(&mut self) -> Result<usize, PictureFault> {
         self.fill();
         if self.count >= 8 {
             return Err(PictureFault::damaged("there is more coded data than its pixels need"));

@@ -2,9 +2,9 @@
 //! The check of the codes of a block of 8x8 coefficients.
 
 use super::bits::BitReader;
-use super::frame::Process;
+use super::frame::CodingProcess;
 use super::huffman::HuffmanTable;
-use crate::picture::fault::PictureFault;
+use crate::picture::damage::PictureFault;
 
 /// The coefficients that a scan sends, and the range of their bits.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +14,8 @@ pub(super) struct SpectralBand {
     pub(super) last: u8,
     /// The lowest bit that earlier scans sent, or 0 if none did; the field `low` is the lowest bit
     /// that this scan sends.
-    pub(super) high: u8,
-    pub(super) low: u8,
+    pub(super) previous_low_bit: u8,
+    pub(super) low_bit: u8,
 }
 
 /// The largest absolute DC coefficient of a block of 8-bit pixels, with a margin of a factor of
@@ -23,28 +23,28 @@ pub(super) struct SpectralBand {
 const LARGEST_DC: i32 = 2047;
 
 /// The state between the blocks of a scan.
-pub(super) struct Block {
+pub(super) struct BlockChecker {
     band: SpectralBand,
-    process: Process,
+    process: CodingProcess,
     /// The last DC coefficient of every component.
     predicted: [i32; 4],
     /// The number of blocks to come that have no code of their own.
-    empty: u32,
+    empty_blocks: u32,
     /// The number of blocks whose codes are all zero bits although none of their coefficients is
     /// zero.
-    erased: u32,
+    erased_blocks: u32,
 }
 
 type TablePair<'a> = (Option<&'a HuffmanTable>, Option<&'a HuffmanTable>);
 
-impl Block {
-    pub(super) fn new(band: SpectralBand, process: Process) -> Self {
-        Self { band, process, predicted: [0; 4], empty: 0, erased: 0 }
+impl BlockChecker {
+    pub(super) fn new(band: SpectralBand, process: CodingProcess) -> Self {
+        Self { band, process, predicted: [0; 4], empty_blocks: 0, erased_blocks: 0 }
     }
 
     /// Ends a run of blocks and resets the predictions.
     pub(super) fn restart(&mut self) -> Result<(), PictureFault> {
-        if self.empty > 0 {
+        if self.empty_blocks > 0 {
             return Err(PictureFault::damaged("a run of empty blocks goes beyond its last block"));
         }
         self.predicted = [0; 4];
@@ -63,16 +63,16 @@ impl Block {
         let table = |table: Option<_>| {
             table.ok_or_else(|| PictureFault::damaged("a scan has no Huffman table"))
         };
-        match (self.process, self.band.first, self.band.high) {
-            (Process::Sequential, ..) => {
-                self.mean(place, table(dc)?, bits)?;
+        match (self.process, self.band.first, self.band.previous_low_bit) {
+            (CodingProcess::Sequential, ..) => {
+                self.follow_dc(place, table(dc)?, bits)?;
                 let full = coefficients(table(ac)?, bits)?;
-                if full { self.note_full(bits) } else { Ok(()) }
+                if full { self.count_full_block(bits) } else { Ok(()) }
             }
-            (Process::Progressive, 0, 0) => self.mean(place, table(dc)?, bits),
-            (Process::Progressive, 0, _) => bits.skip(1),
-            (Process::Progressive, _, 0) => self.first_pass(table(ac)?, nonzero, bits),
-            (Process::Progressive, ..) => self.refine(table(ac)?, nonzero, bits),
+            (CodingProcess::Progressive, 0, 0) => self.follow_dc(place, table(dc)?, bits),
+            (CodingProcess::Progressive, 0, _) => bits.skip(1),
+            (CodingProcess::Progressive, _, 0) => self.follow_first_pass(table(ac)?, nonzero, bits),
+            (CodingProcess::Progressive, ..) => self.follow_refinement(table(ac)?, nonzero, bits),
         }
     }
 
@@ -80,9 +80,9 @@ impl Block {
     /// the file decodes as such blocks with all coefficients -1, and no real picture has two of
     /// them.
     #[cold]
-    fn note_full(&mut self, bits: &BitReader<'_>) -> Result<(), PictureFault> {
-        self.erased += u32::from(bits.follows_zeros());
-        if self.erased > 1 {
+    fn count_full_block(&mut self, bits: &BitReader<'_>) -> Result<(), PictureFault> {
+        self.erased_blocks += u32::from(bits.follows_zeros());
+        if self.erased_blocks > 1 {
             return Err(PictureFault::damaged("zeros stand where its coded pixels should be"));
         }
         Ok(())
@@ -90,7 +90,7 @@ impl Block {
 
     /// Follows the code of the DC coefficient.
     #[inline]
-    fn mean(
+    fn follow_dc(
         &mut self,
         place: usize,
         table: &HuffmanTable,
@@ -105,7 +105,7 @@ impl Block {
         let change = if negative { value - (1 << length) + 1 } else { value };
         let mean = &mut self.predicted[place];
         *mean += change;
-        if (*mean << self.band.low).abs() > LARGEST_DC {
+        if (*mean << self.band.low_bit).abs() > LARGEST_DC {
             return Err(PictureFault::damaged(
                 "the mean of a block is beyond that of 8-bit pixels",
             ));
@@ -114,14 +114,14 @@ impl Block {
     }
 
     /// Follows the high bits of coefficients in a progressive picture.
-    fn first_pass(
+    fn follow_first_pass(
         &mut self,
         table: &HuffmanTable,
         nonzero: &mut u64,
         bits: &mut BitReader<'_>,
     ) -> Result<(), PictureFault> {
-        if self.empty > 0 {
-            self.empty -= 1;
+        if self.empty_blocks > 0 {
+            self.empty_blocks -= 1;
             return Ok(());
         }
         let last = u32::from(self.band.last);
@@ -131,7 +131,7 @@ impl Block {
             match (run, length) {
                 (15, 0) => at += 16,
                 (run, 0) => {
-                    self.empty = (1 << run) + bits.take(run)? - 1;
+                    self.empty_blocks = (1 << run) + bits.take(run)? - 1;
                     return Ok(());
                 }
                 _ => {
@@ -149,7 +149,7 @@ impl Block {
     }
 
     /// Follows one more bit of coefficients that were sent before.
-    fn refine(
+    fn follow_refinement(
         &mut self,
         table: &HuffmanTable,
         nonzero: &mut u64,
@@ -157,10 +157,10 @@ impl Block {
     ) -> Result<(), PictureFault> {
         let last = u32::from(self.band.last);
         let mut at = u32::from(self.band.first);
-        while self.empty == 0 && at <= last {
+        while self.empty_blocks == 0 && at <= last {
             let (run, length) = run_and_length(table.symbol(bits)?);
             if length == 0 && run < 15 {
-                self.empty = (1 << run) + bits.take(run)?;
+                self.empty_blocks = (1 << run) + bits.take(run)?;
                 break;
             }
             if length > 1 {
@@ -187,14 +187,14 @@ impl Block {
             }
             at += 1;
         }
-        if self.empty > 0 {
+        if self.empty_blocks > 0 {
             let rest = (*nonzero).checked_shr(at).unwrap_or(0) << at.min(63);
             let here = if at > last { 0 } else { rest & (u64::MAX >> (63 - last)) };
             // There are at most 63 of these bits, which may be more than the buffer holds.
             let here = here.count_ones();
             bits.skip(here / 2)?;
             bits.skip(here - here / 2)?;
-            self.empty -= 1;
+            self.empty_blocks -= 1;
         }
         Ok(())
     }

@@ -2,17 +2,17 @@
 //! The header of the frame of a JPEG: its process, its size, and the blocks of its components.
 
 use crate::limits::MAX_SIDE;
-use crate::picture::fault::PictureFault;
+use crate::picture::damage::PictureFault;
 
 /// The way in which coefficients are distributed over scans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Process {
+pub(super) enum CodingProcess {
     Sequential,
     Progressive,
 }
 
 /// A component of the picture, such as its luma.
-pub(super) struct Component {
+pub(super) struct FrameComponent {
     pub(super) id: u8,
     /// The numbers of blocks across and down in a unit of an interleaved scan.
     pub(super) sampling: (u32, u32),
@@ -29,17 +29,17 @@ pub(super) struct Component {
 
 /// The header of a frame.
 pub(super) struct FrameHeader {
-    pub(super) process: Process,
+    pub(super) process: CodingProcess,
     /// The numbers of units across and down in an interleaved scan.
     pub(super) units: (u32, u32),
-    pub(super) components: Vec<Component>,
+    pub(super) components: Vec<FrameComponent>,
 }
 
 impl FrameHeader {
     /// Reads the segment of a marker SOF0, SOF1 or SOF2. Returns `None` for pictures that this
     /// check does not follow: other depths than 8 bits, a height that comes later, and sizes beyond
     /// the limits.
-    pub(super) fn read(process: Process, segment: &[u8]) -> Result<Option<Self>, PictureFault> {
+    pub(super) fn read(process: CodingProcess, segment: &[u8]) -> Result<Option<Self>, PictureFault> {
         let wrong = || PictureFault::damaged("the header of its frame (SOF) is wrong");
         let [depth, h1, h0, w1, w0, count, rest @ ..] = segment else { return Err(wrong()) };
         let (height, width) = (u16::from_be_bytes([*h1, *h0]), u16::from_be_bytes([*w1, *w0]));
@@ -66,8 +66,8 @@ impl FrameHeader {
             }
             let side = |size: u32, own: u32, most: u32| (size * own).div_ceil(most).div_ceil(8);
             let stride = units.0 * across;
-            let kept = if process == Process::Progressive { stride * units.1 * down } else { 0 };
-            components.push(Component {
+            let kept = if process == CodingProcess::Progressive { stride * units.1 * down } else { 0 };
+            components.push(FrameComponent {
                 id: part[0],
                 sampling: (across, down),
                 blocks: (side(width, across, most.0), side(height, down, most.1)),

@@ -2,10 +2,10 @@
 //! The Huffman tables of a JPEG.
 
 use super::bits::BitReader;
-use crate::picture::fault::PictureFault;
+use crate::picture::damage::PictureFault;
 
 /// The number of bits that index the short table.
-const SHORT: u32 = 9;
+const SHORT_BITS: u32 = 9;
 
 /// A table of codes.
 #[derive(Clone)]
@@ -22,7 +22,7 @@ pub(super) struct HuffmanTable {
 impl HuffmanTable {
     /// Makes a table from the numbers of its codes of each length, 1 to 16, and its symbols.
     pub(super) fn new(counts: [u8; 16], symbols: &[u8]) -> Result<Self, PictureFault> {
-        let mut short = vec![(0, 0); 1 << SHORT];
+        let mut short = vec![(0, 0); 1 << SHORT_BITS];
         let mut long = [(0, 0); 17];
         let (mut code, mut next) = (0_u32, 0_usize);
         for (length, count) in (1_u8..).zip(counts) {
@@ -32,9 +32,9 @@ impl HuffmanTable {
                 if code >> bits != 0 {
                     return Err(PictureFault::damaged("a Huffman table has too many codes"));
                 }
-                if bits <= SHORT {
-                    let from = (code << (SHORT - bits)) as usize;
-                    let entries = short.iter_mut().skip(from).take(1 << (SHORT - bits));
+                if bits <= SHORT_BITS {
+                    let from = (code << (SHORT_BITS - bits)) as usize;
+                    let entries = short.iter_mut().skip(from).take(1 << (SHORT_BITS - bits));
                     entries.for_each(|entry| *entry = (length, symbols[next]));
                 }
                 code += 1;
@@ -50,12 +50,12 @@ impl HuffmanTable {
     #[inline]
     pub(super) fn symbol(&self, bits: &mut BitReader<'_>) -> Result<u8, PictureFault> {
         let next = u32::from(bits.peek());
-        let (length, symbol) = self.short[(next >> (16 - SHORT)) as usize];
+        let (length, symbol) = self.short[(next >> (16 - SHORT_BITS)) as usize];
         if length > 0 {
             bits.skip(length.into())?;
             return Ok(symbol);
         }
-        for length in SHORT + 1..=16 {
+        for length in SHORT_BITS + 1..=16 {
             let (beyond, first) = self.long[length as usize];
             if next < beyond {
                 bits.skip(length)?;

@@ -2,10 +2,10 @@
 //! The check of the coded data of one scan, block by block, without computing a pixel.
 
 use super::bits::{BitReader, marker_at};
-use super::block::{Block, SpectralBand};
-use super::frame::{FrameHeader, Process};
+use super::block::{BlockChecker, SpectralBand};
+use super::frame::{FrameHeader, CodingProcess};
 use super::huffman::HuffmanTable;
-use crate::picture::fault::PictureFault;
+use crate::picture::damage::PictureFault;
 
 /// The Huffman tables and the restart interval that the segments before a scan defined.
 #[derive(Default)]
@@ -51,17 +51,17 @@ impl ScanHeader {
             parts.push(ScanComponent { component, dc, ac });
         }
         let band = match frame.process {
-            Process::Sequential => SpectralBand { first: 0, last: 63, high: 0, low: 0 },
-            Process::Progressive => {
+            CodingProcess::Sequential => SpectralBand { first: 0, last: 63, previous_low_bit: 0, low_bit: 0 },
+            CodingProcess::Progressive => {
                 let band = SpectralBand {
                     first: last[0],
                     last: last[1],
-                    high: last[2] >> 4,
-                    low: last[2] & 15,
+                    previous_low_bit: last[2] >> 4,
+                    low_bit: last[2] & 15,
                 };
                 let of_one = if band.first == 0 { band.last == 0 } else { count == 1 };
-                let refines = band.high == 0 || band.high == band.low + 1;
-                if band.first > band.last || band.last > 63 || band.low > 13 || !of_one || !refines
+                let refines = band.previous_low_bit == 0 || band.previous_low_bit == band.low_bit + 1;
+                if band.first > band.last || band.last > 63 || band.low_bit > 13 || !of_one || !refines
                 {
                     return Err(wrong());
                 }
@@ -79,40 +79,40 @@ impl ScanHeader {
         bytes: &[u8],
         at: usize,
     ) -> Result<usize, PictureFault> {
-        self.note_progress(frame)?;
+        self.record_sent_bits(frame)?;
         let units = match self.parts.as_slice() {
             [alone] => frame.components[alone.component].blocks,
             _ => frame.units,
         };
         let total = u64::from(units.0) * u64::from(units.1);
         let mut bits = BitReader::new(bytes, at);
-        let mut block = Block::new(self.band, frame.process);
+        let mut block = BlockChecker::new(self.band, frame.process);
         let mut done = 0;
         let mut restarts = 0;
         for y in 0..units.1 {
             for x in 0..units.0 {
-                self.unit(frame, tables, (x, y), &mut block, &mut bits)?;
+                self.follow_unit(frame, tables, (x, y), &mut block, &mut bits)?;
                 done += 1;
                 let due = tables.interval > 0 && done % u64::from(tables.interval) == 0;
                 if due && done < total {
                     block.restart()?;
-                    let next = restart(&mut bits, bytes, restarts)?;
+                    let next = skip_restart_marker(&mut bits, bytes, restarts)?;
                     bits.restart(next);
                     restarts = (restarts + 1) % 8;
                 }
             }
         }
         block.restart()?;
-        bits.end()
+        bits.end_run()
     }
 
     /// Follows the blocks of one unit.
-    fn unit(
+    fn follow_unit(
         &self,
         frame: &mut FrameHeader,
         tables: &HuffmanTables,
         (x, y): (u32, u32),
-        block: &mut Block,
+        block: &mut BlockChecker,
         bits: &mut BitReader<'_>,
     ) -> Result<(), PictureFault> {
         for (place, part) in self.parts.iter().enumerate() {
@@ -133,8 +133,8 @@ impl ScanHeader {
 
     /// Records which bits of the coefficients this scan sends. Each coefficient is sent once or, in
     /// a progressive picture, from its high bits to its low bits.
-    fn note_progress(&self, frame: &mut FrameHeader) -> Result<(), PictureFault> {
-        let SpectralBand { first, last, high, low } = self.band;
+    fn record_sent_bits(&self, frame: &mut FrameHeader) -> Result<(), PictureFault> {
+        let SpectralBand { first, last, previous_low_bit: high, low_bit: low } = self.band;
         for part in &self.parts {
             let sent = &mut frame.components[part.component].sent;
             let mut known = sent[usize::from(first)..=usize::from(last)].iter_mut();
@@ -155,8 +155,8 @@ impl ScanHeader {
 }
 
 /// Skips the restart marker with this number. Returns the position after it.
-fn restart(bits: &mut BitReader<'_>, bytes: &[u8], number: u8) -> Result<usize, PictureFault> {
-    match marker_at(bytes, bits.end()?) {
+fn skip_restart_marker(bits: &mut BitReader<'_>, bytes: &[u8], number: u8) -> Result<usize, PictureFault> {
+    match marker_at(bytes, bits.end_run()?) {
         Some((marker, next)) if marker == 0xD0 + number => Ok(next),
         Some((marker, _)) => Err(PictureFault::damaged(format!(
             "marker {marker:02X} stands where restart marker {:02X} should be",

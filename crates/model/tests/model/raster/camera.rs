@@ -2,20 +2,20 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{Action, Design, Payload, Store};
+use foveate_design::{RegionAction, Design, Payload, FrameStoreKind};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
 
-use super::driver::{Driver, Job, Manner, Trace};
-use super::recipe::{Misread, RasterRecipe};
+use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, RasterTrace};
+use super::raster_parameters::{PlantedMisreading, RasterParameters};
 use crate::hard_cases::hard_frames;
-use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
-use crate::screen::Screen;
+use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::screen::ReceiverScreen;
 
 /// Checks that the decision on the ports is that of the camera.
 fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     let at = shown.region as usize;
-    let summary = outcome.actions[at] == Action::Summarize;
+    let summary = outcome.actions[at] == RegionAction::Summarize;
     let due = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
     let said = (shown.srs, shown.trs, shown.active, shown.summary);
     assert_eq!(said, due, "decision of region {at}");
@@ -26,14 +26,14 @@ fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
 
 /// Checks that the last decision comes at the clock of `Departure`. If all regions are active, the
 /// last word leaves at its clock; otherwise it leaves no later.
-fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &Trace) {
+fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &RasterTrace) {
     let departure = design.timing().departure();
     let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
     let decided = (departure.take_clocks + departure.decision_clocks) as usize;
     assert_eq!(last(|shown| shown.decision_valid), Some(decided));
     let left = (departure.take_clocks + departure.forward_clocks) as usize;
     match last(|shown| shown.forward_valid) {
-        found if !design.forwards() => assert_eq!(found, None),
+        found if !design.has_forwarding() => assert_eq!(found, None),
         found if outcome.active.iter().all(|&active| active) => assert_eq!(found, Some(left)),
         found => assert!(found <= Some(left)),
     }
@@ -41,47 +41,47 @@ fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &Trace) 
 
 /// Writes the pixels of an active region to the screen for a core without forwarding. A receiver
 /// gets them from its own copy of the frame, raw or as it is scored.
-fn keep(screen: &mut Screen, driver: &Driver, frame: &Frame, region: u32) {
+fn show_active_region(screen: &mut ReceiverScreen, driver: &RasterDriver, frame: &Frame, region: u32) {
     let scored = driver.rcm.reference(region).unwrap();
     let width = screen.design.columns() * screen.design.region_size();
     for (position, &pixel) in (0..).zip(scored) {
-        let place = screen.place(region, position);
+        let place = screen.pixel_index(region, position);
         let (x, y) = (place as u32 % width, place as u32 / width);
         screen.pixels[place] = match screen.design.payload() {
             Payload::Denoised => pixel,
-            Payload::Raw => frame.clamped(x.into(), y.into()),
+            Payload::Raw => frame.get_clamped(x.into(), y.into()),
         };
     }
 }
 
 /// Plays one frame after the other. Each frame leaves completely before the next, so that the
 /// screen can be compared.
-fn check(recipe: &RasterRecipe, film: &[Frame]) {
+fn check(recipe: &RasterParameters, film: &[Frame]) {
     let design = recipe.design();
-    let thresholds = foveate_model::Thresholds::of(&design);
+    let thresholds = foveate_model::ThresholdInputs::from_camera(&design);
     let (mut camera, mut driver) =
-        (FunctionalCamera::new(&design), Driver::new(recipe, Manner::DENSE));
-    let mut screen = Screen::black(&design);
+        (FunctionalCamera::new(&design), RasterDriver::new(recipe, RasterTraffic::DENSE));
+    let mut screen = ReceiverScreen::black(&design);
     let rest = 2 * recipe.words() + 100;
     for frame in film {
         let outcome = camera.step(frame).unwrap();
-        let trace = driver.run(&[Job { frame: frame.clone(), thresholds }], rest, i64::MAX);
-        driver.begin();
+        let trace = driver.run(&[RasterStimulus { frame: frame.clone(), thresholds }], rest, i64::MAX);
+        driver.restart_trace();
         let mut decisions = 0;
         for shown in &trace.shown[1..] {
             if shown.decision_valid {
                 compare(shown, outcome);
-                screen.act(shown.region, (shown.srs, shown.trs, shown.summary));
+                screen.apply_decision(shown.region, (shown.srs, shown.trs, shown.summary));
                 decisions += 1;
             }
             if shown.active && !recipe.forward {
-                keep(&mut screen, &driver, frame, shown.region);
+                show_active_region(&mut screen, &driver, frame, shown.region);
             }
             if shown.forward_valid {
                 let region = shown.forward_region;
                 assert_eq!(shown.forward_summary, screen.summaries[region as usize]);
                 for (position, &pixel) in (shown.forward_position..).zip(&shown.forward_pixels) {
-                    screen.show(region, position, pixel);
+                    screen.show_value(region, position, pixel);
                 }
             }
         }
@@ -103,10 +103,10 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
 }
 
 /// Returns the recipe of a number. Its choices change at different rates with the number.
-pub(super) fn recipe(number: usize) -> RasterRecipe {
+pub(super) fn recipe(number: usize) -> RasterParameters {
     let on = |speed: usize| number / speed % 2 == 1;
     let feature =
-        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 2 };
+        |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 2 };
     let all = [
         feature("edge", 120, 3000),
         feature("mad", 0, 9000),
@@ -117,10 +117,10 @@ pub(super) fn recipe(number: usize) -> RasterRecipe {
     let features = (0..count).map(|turn| all[(number / 4 + turn) % 4].clone()).collect();
     let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
     let columns = 4.max((16 * pixels + side - 1) / side);
-    let periphery = PeripheryRecipe::number(number / 3, side, 255)
+    let periphery = PeripheryParameters::from_number(number / 3, side, 255)
         .filter(|periphery| side / periphery.blocks % pixels == 0);
-    RasterRecipe {
-        base: Recipe {
+    RasterParameters {
+        base: DesignParameters {
             width: columns * side - number as i64 % side,
             height: [2, 3, 4][number % 3] * side - number as i64 / 2 % side,
             bits: 8,
@@ -138,11 +138,11 @@ pub(super) fn recipe(number: usize) -> RasterRecipe {
             constant: on(5),
             deep: false,
         },
-        pixels,
+        word_pixels: pixels,
         deep: on(7),
-        store: Store::Block,
+        store: FrameStoreKind::Block,
         forward: true,
-        misread: Misread::default(),
+        misread: PlantedMisreading::default(),
     }
 }
 
@@ -161,7 +161,7 @@ fn a_core_with_any_store_shows_what_the_camera_shows() {
     for number in 0..56 {
         let mut recipe = recipe(number);
         recipe.base.last_sent = false;
-        recipe.store = [Store::External, Store::SinglePort, Store::External][number % 3];
+        recipe.store = [FrameStoreKind::External, FrameStoreKind::SinglePort, FrameStoreKind::External][number % 3];
         recipe.forward = number % 5 > 1 || recipe.base.periphery.is_some();
         let film = hard_frames(&recipe.base);
         check(&recipe, &film);

@@ -4,31 +4,31 @@
 
 use std::collections::VecDeque;
 
-use foveate_design::{Action, RasterStream, RasterTiming, RowDeparture};
+use foveate_design::{RegionAction, RasterStreamTiming, RasterTiming, RowDeparture};
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
 use super::camera::recipe;
-use super::driver::words;
-use super::recipe::RasterRecipe;
-use crate::frames::Random;
+use super::driver::frame_words;
+use super::raster_parameters::RasterParameters;
+use crate::frames::SeededRandom;
 use crate::hard_cases::hard_frames;
 
 /// The pace of a sensor: clocks from word to word, and clocks between frames.
-type Pace = (u64, u64);
+type SensorPace = (u64, u64);
 
 /// The stream of a sensor: the words with the edges at which they have been read, and the begin and
 /// the pace of each frame.
-struct Sensor {
+struct SensorStream {
     words: VecDeque<(u64, Vec<u16>)>,
-    begins: Vec<(u64, Pace)>,
+    begins: Vec<(u64, SensorPace)>,
 }
 
-fn sensor(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> Sensor {
-    let (mut sensor, mut now) = (Sensor { words: VecDeque::new(), begins: Vec::new() }, 0);
+fn sensor_stream(recipe: &RasterParameters, film: &[Frame], paces: &[SensorPace]) -> SensorStream {
+    let (mut sensor, mut now) = (SensorStream { words: VecDeque::new(), begins: Vec::new() }, 0);
     for (frame, &pace) in film.iter().zip(paces.iter().cycle()) {
         sensor.begins.push((now, pace));
-        for word in words(recipe, frame, &mut Random(7)) {
+        for word in frame_words(recipe, frame, &mut SeededRandom(7)) {
             now += pace.0;
             sensor.words.push_back((now, word));
         }
@@ -38,12 +38,12 @@ fn sensor(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> Sensor {
 }
 
 /// Returns the outputs of the core after every edge until nothing is under way.
-fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<RasterOutput> {
+fn core_outputs(recipe: &RasterParameters, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<RasterOutput> {
     let design = recipe.design();
-    let (mut rcm, thresholds) = (RasterRcm::new(design.raster().unwrap()), Thresholds::of(&design));
-    let nothing = vec![0; recipe.pixels as usize];
+    let (mut rcm, thresholds) = (RasterRcm::new(design.as_raster().unwrap()), ThresholdInputs::from_camera(&design));
+    let nothing = vec![0; recipe.word_pixels as usize];
     let mut shown = vec![rcm.output().clone()];
-    let mut left = RasterTiming::of(design.raster().unwrap()).edges_to_ready() + 5;
+    let mut left = RasterTiming::from_design(design.as_raster().unwrap()).edges_to_ready() + 5;
     while left > 0 {
         let now = shown.len() as u64;
         let word = words.front().filter(|(read, _)| *read <= now).map(|(_, word)| word.clone());
@@ -70,36 +70,36 @@ fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<Ras
 /// The observed results of a frame: the actions of its regions, and for every row of regions the
 /// edges after which its last decision and its last word were on the ports.
 #[derive(Default)]
-struct Seen {
-    actions: Vec<Action>,
+struct ObservedFrame {
+    actions: Vec<RegionAction>,
     rows: Vec<RowDeparture>,
 }
 
-fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
+fn observed_frames(recipe: &RasterParameters, shown: &[RasterOutput]) -> Vec<ObservedFrame> {
     let (columns, regions) = (recipe.base.columns(), recipe.base.columns() * recipe.base.rows());
-    let mut frames: Vec<Seen> = Vec::new();
+    let mut frames: Vec<ObservedFrame> = Vec::new();
     let mut waiting = VecDeque::new();
     for (edge, output) in shown.iter().enumerate() {
         if output.decision_valid {
             if output.region == 0 {
-                frames.push(Seen::default());
+                frames.push(ObservedFrame::default());
             }
             let (frame, row) = (frames.len() - 1, (i64::from(output.region) / columns) as usize);
-            let Seen { actions, rows } = &mut frames[frame];
+            let ObservedFrame { actions, rows } = &mut frames[frame];
             let action = match (output.active, output.summary) {
-                (true, _) => Action::Forward,
-                (false, true) => Action::Summarize,
-                (false, false) => Action::Hold,
+                (true, _) => RegionAction::Forward,
+                (false, true) => RegionAction::Summarize,
+                (false, false) => RegionAction::Hold,
             };
             actions.push(action);
-            rows.resize(row + 1, RowDeparture { decided: 0, left: None });
-            rows[row].decided = edge as u128;
+            rows.resize(row + 1, RowDeparture { last_decision: 0, last_word: None });
+            rows[row].last_decision = edge as u128;
             let leaves = output.active && recipe.forward || output.summary;
             waiting.extend(leaves.then_some((frame, row)));
         }
         if output.forward_valid && output.forward_last {
             let (frame, row) = waiting.pop_front().unwrap();
-            frames[frame].rows[row].left = Some(edge as u128);
+            frames[frame].rows[row].last_word = Some(edge as u128);
         }
     }
     assert!(waiting.is_empty() && !shown.last().unwrap().lost);
@@ -109,33 +109,33 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
 
 /// Counts of the rows of regions that have been compared.
 #[derive(Debug, Default)]
-struct Rows {
+struct RowCounts {
     compared: usize,
     /// Rows that sent the pixels of some of their regions, and nothing of others.
-    partly: usize,
+    partly_sent: usize,
     /// Rows that sent a summary.
     with_summaries: usize,
     /// Rows that sent both a summary and pixels.
     mixed: usize,
 }
 
-fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace], rows: &mut Rows) {
-    let sensor = sensor(recipe, film, paces);
-    let seen = seen(recipe, &shown(recipe, sensor.words));
+fn check(recipe: &RasterParameters, film: &[Frame], paces: &[SensorPace], rows: &mut RowCounts) {
+    let sensor = sensor_stream(recipe, film, paces);
+    let seen = observed_frames(recipe, &core_outputs(recipe, sensor.words));
     assert_eq!(seen.len(), film.len());
-    let mut stream = RasterStream::new(RasterTiming::of(recipe.design().raster().unwrap()), 1);
+    let mut stream = RasterStreamTiming::new(RasterTiming::from_design(recipe.design().as_raster().unwrap()), 1);
     for (seen, (begin, (word, _))) in seen.iter().zip(sensor.begins) {
-        let of_row = word * recipe.taken_of_row() as u64;
+        let of_row = word * recipe.taken_row_words() as u64;
         let read = |row: u32| {
             let begin = begin + u64::from(row) * of_row;
             (begin.into(), (begin + of_row).into())
         };
-        assert_eq!(stream.frame(read, &seen.actions), seen.rows, "{paces:?}, {recipe:?}");
+        assert_eq!(stream.advance_frame(read, &seen.actions), seen.rows, "{paces:?}, {recipe:?}");
         rows.compared += seen.rows.len();
         for actions in seen.actions.chunks(recipe.base.columns() as usize) {
             let has = |action| actions.contains(&action);
-            let (forwards, summarizes) = (has(Action::Forward), has(Action::Summarize));
-            rows.partly += usize::from(forwards && has(Action::Hold));
+            let (forwards, summarizes) = (has(RegionAction::Forward), has(RegionAction::Summarize));
+            rows.partly_sent += usize::from(forwards && has(RegionAction::Hold));
             rows.with_summaries += usize::from(summarizes);
             rows.mixed += usize::from(summarizes && forwards);
         }
@@ -144,9 +144,9 @@ fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace], rows: &mut Rows)
 
 /// Returns frames in which each region changes, with equal probability, or stays as it was in the
 /// frame before.
-fn blinking(recipe: &RasterRecipe) -> Vec<Frame> {
+fn blinking_frames(recipe: &RasterParameters) -> Vec<Frame> {
     let (width, height) = (recipe.base.width as u32, recipe.base.height as u32);
-    let mut random = Random(3);
+    let mut random = SeededRandom(3);
     let mut light = vec![false; (recipe.base.columns() * recipe.base.rows()) as usize];
     let frame = |_| {
         light.iter_mut().for_each(|light| *light ^= random.below(2) > 0);
@@ -162,11 +162,11 @@ fn blinking(recipe: &RasterRecipe) -> Vec<Frame> {
 
 /// The regions of a frame that leave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Leaving {
+enum SentRegions {
     /// All regions leave.
     All,
     /// Random regions leave.
-    Some,
+    Random,
     /// Random regions leave, with pixels or with summaries.
     Mixed,
 }
@@ -176,21 +176,21 @@ enum Leaving {
 /// words can, or slower, with and without pauses.
 #[test]
 fn every_row_of_regions_leaves_when_the_design_says() {
-    let mut rows = Rows::default();
+    let mut rows = RowCounts::default();
     for number in 0..56 {
-        for leaving in [Leaving::All, Leaving::Some, Leaving::Mixed] {
+        for leaving in [SentRegions::All, SentRegions::Random, SentRegions::Mixed] {
             let mut recipe = recipe(number);
             let needs_pixels = recipe.base.last_sent || recipe.base.periphery.is_some();
             recipe.forward = number % 9 > 0 || needs_pixels;
-            recipe.base.temporal_min = i64::from(leaving != Leaving::All);
-            if leaving != Leaving::Mixed {
+            recipe.base.temporal_min = i64::from(leaving != SentRegions::All);
+            if leaving != SentRegions::Mixed {
                 recipe.base.features.iter_mut().for_each(|feature| feature.min_milli = 0);
             } else if recipe.base.periphery.is_none() {
                 continue;
             }
             let film = match leaving {
-                Leaving::All => hard_frames(&recipe.base),
-                Leaving::Some | Leaving::Mixed => blinking(&recipe),
+                SentRegions::All => hard_frames(&recipe.base),
+                SentRegions::Random | SentRegions::Mixed => blinking_frames(&recipe),
             };
             for paces in [&[(1, 0)][..], &[(3, 0)], &[(1, 400), (7, 11), (2, 0)]] {
                 check(&recipe, &film, paces, &mut rows);
@@ -198,6 +198,6 @@ fn every_row_of_regions_leaves_when_the_design_says() {
         }
     }
     // There must be enough rows of all kinds, so that the queue is both filled and bypassed.
-    assert!(rows.compared > 4_000 && rows.partly > 1_000, "{rows:?}");
+    assert!(rows.compared > 4_000 && rows.partly_sent > 1_000, "{rows:?}");
     assert!(rows.with_summaries > 300 && rows.mixed > 50, "{rows:?}");
 }

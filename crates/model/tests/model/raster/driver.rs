@@ -4,57 +4,57 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
-use super::memory::{Faults, Memory};
-use super::recipe::RasterRecipe;
-use crate::frames::Random;
+use super::memory::{MemoryFaultRates, ExternalMemory};
+use super::raster_parameters::RasterParameters;
+use crate::frames::SeededRandom;
 
 /// The clocks at which the sink is ready.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Sink {
+pub(crate) enum SinkPattern {
     /// The sink is ready in this percentage of clocks, at random.
-    Often(i64),
+    Percent(i64),
     /// The sink is alternately ready and not ready for up to this number of clocks.
-    Turns(i64),
+    Alternating(i64),
 }
 
 /// The pattern in which words come and leave.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Manner {
+pub(crate) struct RasterTraffic {
     /// Percentage of clocks without a word although the core is ready.
     pub(crate) gaps: i64,
     /// Longest pause between frames in clocks.
-    pub(crate) between: i64,
+    pub(crate) max_pause: i64,
     /// Percentage of clocks with a word although the core is not ready.
     pub(crate) pushing: i64,
-    pub(crate) sink: Sink,
+    pub(crate) sink: SinkPattern,
     /// Faults of the external memory, if there is one.
-    pub(crate) faults: Faults,
+    pub(crate) faults: MemoryFaultRates,
     pub(crate) seed: u64,
 }
 
-impl Manner {
+impl RasterTraffic {
     pub(crate) const DENSE: Self = Self {
         gaps: 0,
-        between: 0,
+        max_pause: 0,
         pushing: 0,
-        sink: Sink::Often(100),
-        faults: Faults::NONE,
+        sink: SinkPattern::Percent(100),
+        faults: MemoryFaultRates::NONE,
         seed: 0,
     };
 }
 
 /// A frame with its thresholds.
-pub(crate) struct Job {
+pub(crate) struct RasterStimulus {
     pub(crate) frame: Frame,
-    pub(crate) thresholds: Thresholds,
+    pub(crate) thresholds: ThresholdInputs,
 }
 
 /// The inputs and outputs since a reset. Element x belongs to edge x, and element 0 to the time
 /// before the first edge.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Trace {
+pub(crate) struct RasterTrace {
     pub(crate) valid: Vec<bool>,
     pub(crate) sink: Vec<bool>,
     /// The references and their valid bits, if the core has these ports.
@@ -62,52 +62,52 @@ pub(crate) struct Trace {
     pub(crate) shown: Vec<RasterOutput>,
 }
 
-impl Trace {
+impl RasterTrace {
     /// Returns the number of the last edge.
     pub(crate) fn end(&self) -> i64 {
         self.shown.len() as i64 - 1
     }
 }
 
-pub(crate) struct Driver {
-    recipe: RasterRecipe,
+pub(crate) struct RasterDriver {
+    recipe: RasterParameters,
     pub(crate) rcm: RasterRcm,
-    manner: Manner,
-    memory: Memory,
-    random: Random,
-    trace: Trace,
+    manner: RasterTraffic,
+    memory: ExternalMemory,
+    random: SeededRandom,
+    trace: RasterTrace,
     /// Clocks that are left until the run ends.
-    left: i64,
+    clocks_left: i64,
     /// Clocks left of the current phase of the sink, and true if the sink is ready in it.
-    turn: (i64, bool),
+    sink_phase: (i64, bool),
     decisions: i64,
-    noise: Thresholds,
+    noise: ThresholdInputs,
 }
 
-impl Driver {
-    pub(crate) fn new(recipe: &RasterRecipe, manner: Manner) -> Self {
+impl RasterDriver {
+    pub(crate) fn new(recipe: &RasterParameters, manner: RasterTraffic) -> Self {
         let design = recipe.design();
-        let rcm = RasterRcm::new(design.raster().unwrap());
+        let rcm = RasterRcm::new(design.as_raster().unwrap());
         let mut driver = Self {
             recipe: recipe.clone(),
             rcm,
             manner,
-            memory: Memory::new(recipe, manner.faults, manner.seed),
-            random: Random(manner.seed),
-            trace: Trace::default(),
-            left: i64::MAX,
-            turn: (0, true),
+            memory: ExternalMemory::new(recipe, manner.faults, manner.seed),
+            random: SeededRandom(manner.seed),
+            trace: RasterTrace::default(),
+            clocks_left: i64::MAX,
+            sink_phase: (0, true),
             decisions: 0,
-            noise: Thresholds::of(&design),
+            noise: ThresholdInputs::from_camera(&design),
         };
-        driver.begin();
+        driver.restart_trace();
         driver
     }
 
     /// Resets the core for some clocks, with random values at its ports.
     pub(crate) fn reset(&mut self, clocks: i64) {
         for _ in 0..clocks {
-            let (word, thresholds) = (self.junk(), self.noise());
+            let (word, thresholds) = (self.ignored_word(), self.ignored_thresholds());
             let (valid, forward_ready) = (self.random.below(2) > 0, self.random.below(2) > 0);
             let input = CoreInput {
                 reset: true,
@@ -122,35 +122,35 @@ impl Driver {
             };
             self.rcm.step(&input);
         }
-        self.memory.forget();
-        self.begin();
+        self.memory.clear();
+        self.restart_trace();
     }
 
     /// Starts a new record of inputs and outputs.
-    pub(crate) fn begin(&mut self) {
+    pub(crate) fn restart_trace(&mut self) {
         self.decisions = 0;
         let shown = vec![self.rcm.output().clone()];
         let references = vec![(false, Vec::new())];
-        self.trace = Trace { valid: vec![false], sink: vec![false], references, shown };
+        self.trace = RasterTrace { valid: vec![false], sink: vec![false], references, shown };
     }
 
     /// Feeds the frames, lets `rest` clocks pass, and returns the record. The run ends after
     /// `clocks` clocks, whatever is under way.
-    pub(crate) fn run(&mut self, jobs: &[Job], rest: i64, clocks: i64) -> Trace {
-        self.left = clocks;
+    pub(crate) fn run(&mut self, jobs: &[RasterStimulus], rest: i64, clocks: i64) -> RasterTrace {
+        self.clocks_left = clocks;
         for (number, job) in (1..).zip(jobs) {
-            let pause = self.random.below(self.manner.between + 1);
+            let pause = self.random.below(self.manner.max_pause + 1);
             for _ in 0..pause {
                 self.idle(&job.thresholds);
             }
             self.feed(job);
             // Thresholds may change only from here on.
-            while !self.is_settled(number) && self.left > 0 {
+            while !self.may_change_thresholds(number) && self.clocks_left > 0 {
                 self.idle(&job.thresholds);
             }
         }
         for _ in 0..rest {
-            let noise = self.noise();
+            let noise = self.ignored_thresholds();
             self.idle(&noise);
         }
         std::mem::take(&mut self.trace)
@@ -158,16 +158,16 @@ impl Driver {
 
     /// Returns true if the thresholds may change: without `mad` when the core is ready again, with
     /// `mad` after the last decision.
-    fn is_settled(&self, frames: i64) -> bool {
+    fn may_change_thresholds(&self, frames: i64) -> bool {
         let regions = self.recipe.base.columns() * self.recipe.base.rows();
         let is_decided = self.decisions == frames * regions;
         self.rcm.output().ready && (is_decided || !self.recipe.has_mad())
     }
 
-    fn feed(&mut self, job: &Job) {
-        for word in words(&self.recipe, &job.frame, &mut self.random) {
+    fn feed(&mut self, job: &RasterStimulus) {
+        for word in frame_words(&self.recipe, &job.frame, &mut self.random) {
             while !self.rcm.output().ready || self.random.below(100) < self.manner.gaps {
-                if self.left == 0 {
+                if self.clocks_left == 0 {
                     return;
                 }
                 self.idle(&job.thresholds);
@@ -176,19 +176,19 @@ impl Driver {
         }
     }
 
-    fn idle(&mut self, thresholds: &Thresholds) {
-        let junk = self.junk();
+    fn idle(&mut self, thresholds: &ThresholdInputs) {
+        let junk = self.ignored_word();
         let pushes = !self.rcm.output().ready && self.random.below(100) < self.manner.pushing;
         self.step(pushes, &junk, thresholds);
     }
 
-    fn step(&mut self, valid: bool, pixels: &[u16], thresholds: &Thresholds) {
-        if self.left == 0 {
+    fn step(&mut self, valid: bool, pixels: &[u16], thresholds: &ThresholdInputs) {
+        if self.clocks_left == 0 {
             return;
         }
-        self.left -= 1;
-        let forward_ready = self.sink();
-        let (reference_valid, reference) = self.memory.show(self.rcm.output());
+        self.clocks_left -= 1;
+        let forward_ready = self.is_sink_ready();
+        let (reference_valid, reference) = self.memory.reference_port(self.rcm.output());
         let input = CoreInput {
             reset: false,
             valid,
@@ -209,27 +209,27 @@ impl Driver {
         self.trace.shown.push(shown);
     }
 
-    fn sink(&mut self) -> bool {
+    fn is_sink_ready(&mut self) -> bool {
         match self.manner.sink {
-            Sink::Often(percent) => self.random.below(100) < percent,
-            Sink::Turns(longest) => {
-                if self.turn.0 == 0 {
-                    self.turn = (1 + self.random.below(longest), !self.turn.1);
+            SinkPattern::Percent(percent) => self.random.below(100) < percent,
+            SinkPattern::Alternating(longest) => {
+                if self.sink_phase.0 == 0 {
+                    self.sink_phase = (1 + self.random.below(longest), !self.sink_phase.1);
                 }
-                self.turn.0 -= 1;
-                self.turn.1
+                self.sink_phase.0 -= 1;
+                self.sink_phase.1
             }
         }
     }
 
     /// Returns a word that the core must ignore.
-    fn junk(&mut self) -> Vec<u16> {
+    fn ignored_word(&mut self) -> Vec<u16> {
         let top = self.recipe.base.pixel_max() + 1;
-        (0..self.recipe.pixels).map(|_| self.random.below(top) as u16).collect()
+        (0..self.recipe.word_pixels).map(|_| self.random.below(top) as u16).collect()
     }
 
     /// Returns thresholds that the core must ignore.
-    fn noise(&mut self) -> Thresholds {
+    fn ignored_thresholds(&mut self) -> ThresholdInputs {
         let mut noise = self.noise;
         noise.temporal_level = self.random.below(2) as u32;
         noise.temporal_min_count = self.random.below(5) as u32;
@@ -241,13 +241,13 @@ impl Driver {
 }
 
 /// Returns the words of a frame. Pixels beyond its right border are random.
-pub(crate) fn words(recipe: &RasterRecipe, frame: &Frame, random: &mut Random) -> Vec<Vec<u16>> {
+pub(crate) fn frame_words(recipe: &RasterParameters, frame: &Frame, random: &mut SeededRandom) -> Vec<Vec<u16>> {
     let top = recipe.base.pixel_max() + 1;
     let mut words = Vec::new();
     for y in 0..frame.height() {
         let mut row = frame.row(y).to_vec();
-        row.resize((recipe.taken_of_row() * recipe.pixels) as usize, random.below(top) as u16);
-        words.extend(row.chunks_exact(recipe.pixels as usize).map(<[u16]>::to_vec));
+        row.resize((recipe.taken_row_words() * recipe.word_pixels) as usize, random.below(top) as u16);
+        words.extend(row.chunks_exact(recipe.word_pixels as usize).map(<[u16]>::to_vec));
     }
     words
 }

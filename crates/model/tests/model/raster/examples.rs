@@ -4,8 +4,8 @@
 
 use std::ops::RangeInclusive;
 
-use foveate_design::{Config, Design, RasterTiming};
-use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_design::{DesignConfig, Design, RasterTiming};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
 /// Returns a design with one feature, in which all regions are active in every frame.
 pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
@@ -15,7 +15,7 @@ pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design 
          [hardware]\norganization = \"raster\"\n",
         frame.0, frame.1
     );
-    Config::from_toml_with(&toml, more).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with(&toml, more).unwrap().validate().unwrap()
 }
 
 /// Returns the outputs after every edge up to `last` while one frame of ones is applied as fast as
@@ -25,9 +25,9 @@ pub(super) fn play(
     last: usize,
     sink: impl Fn(usize) -> bool,
 ) -> Vec<RasterOutput> {
-    let mut rcm = RasterRcm::new(design.raster().unwrap());
-    let ones = vec![1; design.raster().unwrap().pixels_per_clock() as usize];
-    let thresholds = Thresholds::of(design);
+    let mut rcm = RasterRcm::new(design.as_raster().unwrap());
+    let ones = vec![1; design.as_raster().unwrap().pixels_per_clock() as usize];
+    let thresholds = ThresholdInputs::from_camera(design);
     let mut left = design.timing().pixels_per_frame();
     let mut outputs = vec![rcm.output().clone()];
     for edge in 1..=last {
@@ -54,7 +54,7 @@ pub(super) fn edges(outputs: &[RasterOutput], which: impl Fn(&RasterOutput) -> b
     (0..outputs.len()).filter(|&edge| which(&outputs[edge])).collect()
 }
 
-pub(super) fn list(edges: RangeInclusive<usize>) -> Vec<usize> {
+pub(super) fn edge_list(edges: RangeInclusive<usize>) -> Vec<usize> {
     edges.collect()
 }
 
@@ -78,12 +78,12 @@ fn a_frame_with_one_window() {
     let design = design("edge", (16, 8), &[]);
     let outputs = play(&design, 240, |_| true);
     // T0 is 128 and Z is 17.
-    assert_eq!(edges(&outputs, |output| !output.ready), list(128..=151));
+    assert_eq!(edges(&outputs, |output| !output.ready), edge_list(128..=151));
     let due = [(76, 0), (80, 1), (84, 2), (88, 3), (140, 4), (144, 5), (148, 6), (152, 7)];
     assert_eq!(decisions(&outputs), due);
     // Region 0 enters the queue at edge 77, is held at 79 and fetched from 80 on. From then on the
     // words follow each other without a gap.
-    assert_eq!(edges(&outputs, |output| output.forward_valid), list(81..=208));
+    assert_eq!(edges(&outputs, |output| output.forward_valid), edge_list(81..=208));
     for (word, output) in outputs[81..=208].iter().enumerate() {
         let (region, position) = (word / 16, word % 16);
         assert_eq!(
@@ -107,11 +107,11 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let outputs = play(&previous, 300, |_| true);
     // `ready_o` is 0 after the last word of each of the first six rows. T0 is 111 and Z is 1 + 16 +
     // 17.
-    let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=157)].concat();
+    let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=157)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
     assert_eq!(decisions(&outputs), [(146, 0), (150, 1), (154, 2), (158, 3)]);
     // Region 0 is held at edge 149. Four regions of 32 words leave.
-    assert_eq!(edges(&outputs, |output| output.forward_valid), list(151..=278));
+    assert_eq!(edges(&outputs, |output| output.forward_valid), edge_list(151..=278));
     let positions: Vec<u32> = (151..=182).map(|edge| outputs[edge].forward_position).collect();
     assert_eq!(positions, (0..32).map(|word| 2 * word).collect::<Vec<u32>>());
 
@@ -119,10 +119,10 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let last_sent = design("variance", (29, 7), &more);
     let outputs = play(&last_sent, 300, |_| true);
     // The last word is on the ports after edge 278 and is taken at 279.
-    let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=278)].concat();
+    let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
-    let most = |design| RasterTiming::of(design).most_clocks_per_frame();
-    assert_eq!((most(previous.raster().unwrap()), most(last_sent.raster().unwrap())), (158, 279));
+    let most = |design| RasterTiming::from_design(design).max_clocks_per_frame();
+    assert_eq!((most(previous.as_raster().unwrap()), most(last_sent.as_raster().unwrap())), (158, 279));
 }
 
 /// The first word of row of regions g is stored at edge 64 g + 21. The sink is not ready before
@@ -135,10 +135,10 @@ fn a_sink_that_stalls_loses_two_rows_of_regions() {
     // edges apart.
     let due = [149, 150, 152, 154, 213, 214, 216, 218];
     assert_eq!(losses(&outputs), due);
-    assert_eq!(edges(&outputs, |output| output.lost), list(149..=540));
+    assert_eq!(edges(&outputs, |output| output.lost), edge_list(149..=540));
     assert_eq!(outputs[540].lost_count, 8);
     // Two words of region 0 had been fetched. Region 8 is held from edge 220 on.
-    assert_eq!(edges(&outputs, |output| output.forward_valid), list(81..=528));
+    assert_eq!(edges(&outputs, |output| output.forward_valid), edge_list(81..=528));
     let word = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
     assert!((81..400).all(|edge| word(edge) == (0, 0)));
     assert_eq!([400, 401, 402, 416, 417].map(word), [(0, 1), (8, 0), (8, 1), (8, 15), (9, 0)]);
@@ -198,8 +198,8 @@ fn the_second_pass_decides_one_region_after_the_other() {
     let outputs = play(&design, 300, |_| true);
     let due = [(81, 0), (97, 1), (113, 2), (129, 3), (145, 4), (161, 5), (177, 6), (193, 7)];
     assert_eq!(decisions(&outputs), due);
-    assert_eq!(edges(&outputs, |output| !output.ready), list(128..=133));
-    assert_eq!(edges(&outputs, |output| output.forward_valid), list(86..=213));
+    assert_eq!(edges(&outputs, |output| !output.ready), edge_list(128..=133));
+    assert_eq!(edges(&outputs, |output| output.forward_valid), edge_list(86..=213));
     let departure = design.timing().departure();
     assert_eq!((departure.decision_clocks, departure.forward_clocks), (193 - 128, 213 - 128));
 }
@@ -233,8 +233,8 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
 #[test]
 fn frames_have_numbers() {
     let design = design("edge", (16, 4), &[]);
-    let mut rcm = RasterRcm::new(design.raster().unwrap());
-    let thresholds = Thresholds::of(&design);
+    let mut rcm = RasterRcm::new(design.as_raster().unwrap());
+    let thresholds = ThresholdInputs::from_camera(&design);
     let (mut whole, mut lost, mut taken, mut decided) = (Vec::new(), Vec::new(), 0, 0);
     while taken < 600 * 64 {
         let before = rcm.output().clone();
@@ -272,9 +272,9 @@ fn frames_have_numbers() {
 #[test]
 fn after_a_reset_nothing_is_shown() {
     let design = design("edge", (16, 16), &[]);
-    let mut rcm = RasterRcm::new(design.raster().unwrap());
+    let mut rcm = RasterRcm::new(design.as_raster().unwrap());
     let fresh = rcm.clone();
-    let thresholds = Thresholds::of(&design);
+    let thresholds = ThresholdInputs::from_camera(&design);
     let input = CoreInput {
         reset: false,
         valid: true,

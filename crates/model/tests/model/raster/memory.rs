@@ -6,61 +6,61 @@ use std::collections::VecDeque;
 
 use foveate_model::RasterOutput;
 
-use super::recipe::RasterRecipe;
-use crate::frames::Random;
+use super::raster_parameters::RasterParameters;
+use crate::frames::SeededRandom;
 
 /// The rates of faults, per thousand words that the core asks for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Faults {
+pub(crate) struct MemoryFaultRates {
     /// No word is valid. The word comes one later, or never.
     pub(crate) missing: i64,
     /// The word is valid and wrong.
     pub(crate) wrong: i64,
 }
 
-impl Faults {
+impl MemoryFaultRates {
     pub(crate) const NONE: Self = Self { missing: 0, wrong: 0 };
 }
 
-pub(crate) struct Memory {
-    is_there: bool,
+pub(crate) struct ExternalMemory {
+    is_present: bool,
     pixels: i64,
     top: i64,
-    faults: Faults,
-    random: Random,
+    faults: MemoryFaultRates,
+    random: SeededRandom,
     queue: VecDeque<Vec<u16>>,
 }
 
-impl Memory {
-    pub(crate) fn new(recipe: &RasterRecipe, faults: Faults, seed: u64) -> Self {
-        let (is_there, pixels) = (recipe.is_outside(), recipe.pixels);
-        let (top, random) = (recipe.base.pixel_max() + 1, Random(seed ^ 0x5eed));
-        Self { is_there, pixels, top, faults, random, queue: VecDeque::new() }
+impl ExternalMemory {
+    pub(crate) fn new(recipe: &RasterParameters, faults: MemoryFaultRates, seed: u64) -> Self {
+        let (is_there, pixels) = (recipe.has_external_store(), recipe.word_pixels);
+        let (top, random) = (recipe.base.pixel_max() + 1, SeededRandom(seed ^ 0x5eed));
+        Self { is_present: is_there, pixels, top, faults, random, queue: VecDeque::new() }
     }
 
-    pub(crate) fn forget(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.queue.clear();
     }
 
     /// Returns the reference port at the next edge, for the outputs before it.
-    pub(crate) fn show(&mut self, before: &RasterOutput) -> (bool, Vec<u16>) {
-        if !self.is_there {
+    pub(crate) fn reference_port(&mut self, before: &RasterOutput) -> (bool, Vec<u16>) {
+        if !self.is_present {
             return (self.random.below(2) > 0, Vec::new());
         }
         if !before.reference_ready {
             // The core must ignore this value.
-            return (self.random.below(2) > 0, self.junk());
+            return (self.random.below(2) > 0, self.random_word());
         }
         let chance = self.random.below(1000);
         if chance < self.faults.missing {
             if chance % 2 == 0 {
                 self.queue.pop_front();
             }
-            return (false, self.junk());
+            return (false, self.random_word());
         }
         match self.queue.pop_front() {
-            None => (false, self.junk()),
-            Some(_) if chance < self.faults.missing + self.faults.wrong => (true, self.junk()),
+            None => (false, self.random_word()),
+            Some(_) if chance < self.faults.missing + self.faults.wrong => (true, self.random_word()),
             Some(word) => (true, word),
         }
     }
@@ -72,7 +72,7 @@ impl Memory {
         }
     }
 
-    fn junk(&mut self) -> Vec<u16> {
+    fn random_word(&mut self) -> Vec<u16> {
         (0..self.pixels).map(|_| self.random.below(self.top) as u16).collect()
     }
 }

@@ -3,15 +3,15 @@
 //! against waveforms that are computed by hand, and against the functional camera.
 
 mod camera;
-mod controls;
+mod planted_faults;
 mod departure;
 mod driver;
 mod examples;
-mod expected;
+mod raster_oracle;
 mod memory;
 mod properties;
-mod reading;
-mod recipe;
+mod readout;
+mod raster_parameters;
 mod stores;
 mod streams;
 mod summaries;

@@ -5,35 +5,35 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::Thresholds;
+use foveate_model::ThresholdInputs;
 use proptest::prelude::*;
 
-use super::driver::{Driver, Job, Manner, Sink};
-use super::expected::{Check, Oracle};
-use super::memory::Faults;
-use super::recipe::{RasterRecipe, raster_recipes};
-use crate::frames::{Random, Script, film, scripts};
+use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, SinkPattern};
+use super::raster_oracle::{RasterCheckResult, RasterOracle};
+use super::memory::MemoryFaultRates;
+use super::raster_parameters::{RasterParameters, arbitrary_raster_parameters};
+use crate::frames::{SeededRandom, ClipScript, make_clip, arbitrary_scripts};
 
-fn manners() -> impl Strategy<Value = Manner> {
+fn arbitrary_traffic() -> impl Strategy<Value = RasterTraffic> {
     let gaps = prop_oneof![3 => Just(0i64), 1 => 1i64..70];
     let pushing = prop_oneof![Just(0i64), Just(50), Just(100)];
     let sink = prop_oneof![
-        2 => Just(Sink::Often(100)),
-        2 => (5i64..100).prop_map(Sink::Often),
-        1 => Just(Sink::Often(0)),
-        2 => (2i64..60).prop_map(Sink::Turns),
-        2 => (60i64..3000).prop_map(Sink::Turns),
+        2 => Just(SinkPattern::Percent(100)),
+        2 => (5i64..100).prop_map(SinkPattern::Percent),
+        1 => Just(SinkPattern::Percent(0)),
+        2 => (2i64..60).prop_map(SinkPattern::Alternating),
+        2 => (60i64..3000).prop_map(SinkPattern::Alternating),
     ];
     let faults = prop_oneof![
-        2 => Just(Faults::NONE),
-        1 => (0i64..20, 0i64..20).prop_map(|(missing, wrong)| Faults { missing, wrong }),
-        1 => (0i64..500, 0i64..500).prop_map(|(missing, wrong)| Faults { missing, wrong }),
+        2 => Just(MemoryFaultRates::NONE),
+        1 => (0i64..20, 0i64..20).prop_map(|(missing, wrong)| MemoryFaultRates { missing, wrong }),
+        1 => (0i64..500, 0i64..500).prop_map(|(missing, wrong)| MemoryFaultRates { missing, wrong }),
     ];
     let source = (gaps, 0i64..20, pushing);
     (source, sink, faults, any::<u64>()).prop_map(
-        |((gaps, between, pushing), sink, faults, seed)| Manner {
+        |((gaps, between, pushing), sink, faults, seed)| RasterTraffic {
             gaps,
-            between,
+            max_pause: between,
             pushing,
             sink,
             faults,
@@ -43,9 +43,9 @@ fn manners() -> impl Strategy<Value = Manner> {
 }
 
 /// Returns the recipe with other thresholds, if they are inputs.
-fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
+fn with_other_thresholds(recipe: &RasterParameters, seed: u64) -> RasterParameters {
     let mut recipe = recipe.clone();
-    let mut random = Random(seed);
+    let mut random = SeededRandom(seed);
     if recipe.base.constant || random.below(3) == 0 {
         return recipe;
     }
@@ -63,10 +63,10 @@ fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
 }
 
 /// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
-fn applied(recipe: &RasterRecipe) -> Thresholds {
+fn applied_thresholds(recipe: &RasterParameters) -> ThresholdInputs {
     if recipe.base.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
-        return Thresholds {
+        return ThresholdInputs {
             level,
             min_score,
             temporal_level: 0,
@@ -74,36 +74,36 @@ fn applied(recipe: &RasterRecipe) -> Thresholds {
             summary_level: 0,
         };
     }
-    Thresholds::of(&recipe.design())
+    ThresholdInputs::from_camera(&recipe.design())
 }
 
 /// A clip with the thresholds of each frame.
-pub(crate) struct Film {
+pub(crate) struct RasterClip {
     pub(crate) frames: Vec<Frame>,
-    pub(crate) recipes: Vec<RasterRecipe>,
+    pub(crate) recipes: Vec<RasterParameters>,
 }
 
-impl Film {
-    pub(crate) fn new(recipe: &RasterRecipe, script: &Script) -> Self {
-        let recipes = script.iter().map(|&(_, seed)| changed(recipe, seed)).collect();
-        Self { frames: film(&recipe.base, script), recipes }
+impl RasterClip {
+    pub(crate) fn new(recipe: &RasterParameters, script: &ClipScript) -> Self {
+        let recipes = script.iter().map(|&(_, seed)| with_other_thresholds(recipe, seed)).collect();
+        Self { frames: make_clip(&recipe.base, script), recipes }
     }
 
-    pub(crate) fn jobs(&self) -> Vec<Job> {
-        let job = |(frame, recipe): (&Frame, &RasterRecipe)| Job {
+    pub(crate) fn stimuli(&self) -> Vec<RasterStimulus> {
+        let job = |(frame, recipe): (&Frame, &RasterParameters)| RasterStimulus {
             frame: frame.clone(),
-            thresholds: applied(recipe),
+            thresholds: applied_thresholds(recipe),
         };
         self.frames.iter().zip(&self.recipes).map(job).collect()
     }
 }
 
 /// Plays frames after a reset, and stops after some clocks.
-fn sequence(driver: &mut Driver, recipe: &RasterRecipe, script: &Script, clocks: i64) -> Check {
-    let film = Film::new(recipe, script);
+fn check_sequence(driver: &mut RasterDriver, recipe: &RasterParameters, script: &ClipScript, clocks: i64) -> RasterCheckResult {
+    let film = RasterClip::new(recipe, script);
     let rest = 40 + recipe.words() / 2;
-    let trace = driver.run(&film.jobs(), rest, clocks);
-    Oracle::check(recipe, &film.recipes, &film.frames, &trace)
+    let trace = driver.run(&film.stimuli(), rest, clocks);
+    RasterOracle::check(recipe, &film.recipes, &film.frames, &trace)
 }
 
 proptest! {
@@ -111,29 +111,29 @@ proptest! {
 
     #[test]
     fn every_port_after_every_edge(
-        recipe in raster_recipes(),
-        script in scripts(4),
-        manner in manners(),
+        recipe in arbitrary_raster_parameters(),
+        script in arbitrary_scripts(4),
+        manner in arbitrary_traffic(),
     ) {
-        let mut driver = Driver::new(&recipe, manner);
+        let mut driver = RasterDriver::new(&recipe, manner);
         // A sink that is never ready stops every frame that waits for it, so the number of clocks
         // is limited.
         let clocks = 60 * recipe.advances();
-        prop_assert_eq!(sequence(&mut driver, &recipe, &script, clocks), Ok(()));
+        prop_assert_eq!(check_sequence(&mut driver, &recipe, &script, clocks), Ok(()));
     }
 
     #[test]
     fn a_reset_at_any_edge_forgets_everything(
-        recipe in raster_recipes(),
-        (before, after) in (scripts(3), scripts(2)),
-        manner in manners(),
+        recipe in arbitrary_raster_parameters(),
+        (before, after) in (arbitrary_scripts(3), arbitrary_scripts(2)),
+        manner in arbitrary_traffic(),
         (cut, held) in (any::<u64>(), 1i64..=2),
     ) {
-        let mut driver = Driver::new(&recipe, manner);
-        let clocks = Random(cut).below(recipe.advances() * before.len() as i64 + 100);
-        prop_assert_eq!(sequence(&mut driver, &recipe, &before, clocks), Ok(()));
+        let mut driver = RasterDriver::new(&recipe, manner);
+        let clocks = SeededRandom(cut).below(recipe.advances() * before.len() as i64 + 100);
+        prop_assert_eq!(check_sequence(&mut driver, &recipe, &before, clocks), Ok(()));
         driver.reset(held);
         let clocks = 60 * recipe.advances();
-        prop_assert_eq!(sequence(&mut driver, &recipe, &after, clocks), Ok(()));
+        prop_assert_eq!(check_sequence(&mut driver, &recipe, &after, clocks), Ok(()));
     }
 }

@@ -5,8 +5,8 @@
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;
 
-use foveate_design::{Config, Design};
-use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
+use foveate_design::{DesignConfig, Design};
+use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
 /// Returns a design with one feature and regions of 4x4 pixels, all of which are relevant.
 fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
@@ -16,18 +16,18 @@ fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
          [hardware]\norganization = \"raster\"\n",
         frame.0, frame.1
     );
-    Config::from_toml_with(&toml, more).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with(&toml, more).unwrap().validate().unwrap()
 }
 
-fn outside(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
+fn external_store_design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
     design(feature, frame, &[more, &["hardware.store=external"]].concat())
 }
 
 /// A test bench of a core with an external store: a queue that can return a word as soon as it is
 /// stored.
-struct Play {
+struct StoreBench {
     rcm: RasterRcm,
-    thresholds: Thresholds,
+    thresholds: ThresholdInputs,
     width: u64,
     pixels: usize,
     queue: VecDeque<Vec<u16>>,
@@ -35,14 +35,14 @@ struct Play {
     outputs: Vec<RasterOutput>,
 }
 
-impl Play {
+impl StoreBench {
     fn new(design: &Design) -> Self {
-        let rcm = RasterRcm::new(design.raster().unwrap());
+        let rcm = RasterRcm::new(design.as_raster().unwrap());
         Self {
-            thresholds: Thresholds::of(design),
+            thresholds: ThresholdInputs::from_camera(design),
             width: u64::from(design.width())
-                .div_ceil(design.raster().unwrap().pixels_per_clock().into()),
-            pixels: design.raster().unwrap().pixels_per_clock() as usize,
+                .div_ceil(design.as_raster().unwrap().pixels_per_clock().into()),
+            pixels: design.as_raster().unwrap().pixels_per_clock() as usize,
             queue: VecDeque::new(),
             outputs: vec![rcm.output().clone()],
             rcm,
@@ -57,7 +57,7 @@ impl Play {
         last: usize,
         gaps: &[usize],
         picture: impl Fn(u64) -> u16,
-        fault: impl Fn(usize) -> Fault,
+        fault: impl Fn(usize) -> MemoryFault,
     ) {
         let mut taken = 0;
         for edge in self.outputs.len()..=last {
@@ -66,9 +66,9 @@ impl Play {
             let is_asked = self.rcm.output().reference_ready;
             let oldest = self.queue.front().cloned();
             let (reference_valid, reference) = match fault(edge) {
-                Fault::None => (oldest.is_some(), oldest.unwrap_or(vec![0; self.pixels])),
-                Fault::Late => (false, vec![0; self.pixels]),
-                Fault::Wrong(pixel) => (true, vec![pixel; self.pixels]),
+                MemoryFault::None => (oldest.is_some(), oldest.unwrap_or(vec![0; self.pixels])),
+                MemoryFault::Late => (false, vec![0; self.pixels]),
+                MemoryFault::Wrong(pixel) => (true, vec![pixel; self.pixels]),
             };
             if is_asked && reference_valid {
                 self.queue.pop_front();
@@ -112,11 +112,11 @@ impl Play {
         (0..self.outputs.len()).filter(|&edge| which(&self.outputs[edge])).collect()
     }
 
-    fn asks(&self) -> Vec<usize> {
+    fn reference_edges(&self) -> Vec<usize> {
         self.edges(|output| output.reference_ready)
     }
 
-    fn stores(&self) -> Vec<usize> {
+    fn store_edges(&self) -> Vec<usize> {
         self.edges(|output| output.store_valid)
     }
 
@@ -130,7 +130,7 @@ impl Play {
 
 /// The fault of the memory at an edge.
 #[derive(Clone, Copy)]
-enum Fault {
+enum MemoryFault {
     None,
     /// The memory has no word. The same word comes at the next edge.
     Late,
@@ -138,11 +138,11 @@ enum Fault {
     Wrong(u16),
 }
 
-fn quiet(_: usize) -> Fault {
-    Fault::None
+fn no_fault(_: usize) -> MemoryFault {
+    MemoryFault::None
 }
 
-fn list(ranges: &[RangeInclusive<usize>]) -> Vec<usize> {
+fn edge_list(ranges: &[RangeInclusive<usize>]) -> Vec<usize> {
     ranges.iter().cloned().flatten().collect()
 }
 
@@ -152,10 +152,10 @@ fn list(ranges: &[RangeInclusive<usize>]) -> Vec<usize> {
 /// begins at edge 153, so b is 152.
 #[test]
 fn words_are_stored_and_references_taken_in_plain_pipelining() {
-    let mut play = Play::new(&outside("edge", (16, 8), &[]));
-    play.run(320, &[], |_| 1, quiet);
-    assert_eq!(play.stores(), list(&[21..=148, 173..=300]));
-    assert_eq!(play.asks(), list(&[171..=298]));
+    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    play.run(320, &[], |_| 1, no_fault);
+    assert_eq!(play.store_edges(), edge_list(&[21..=148, 173..=300]));
+    assert_eq!(play.reference_edges(), edge_list(&[171..=298]));
     let rows = |first: usize| (0..8).map(move |row| first + 15 + 16 * row);
     let last = play.edges(|output| output.store_valid && output.store_last);
     assert_eq!(last, rows(21).chain(rows(173)).collect::<Vec<_>>());
@@ -171,10 +171,10 @@ fn words_are_stored_and_references_taken_in_plain_pipelining() {
 /// all later ones are another clock later.
 #[test]
 fn a_gap_delays_what_the_tail_does() {
-    let mut play = Play::new(&outside("edge", (16, 8), &[]));
-    play.run(320, &[163, 193], |_| 1, quiet);
-    assert_eq!(play.asks(), list(&[172..=193, 195..=300]));
-    assert_eq!(play.stores(), list(&[21..=148, 174..=195, 197..=302]));
+    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    play.run(320, &[163, 193], |_| 1, no_fault);
+    assert_eq!(play.reference_edges(), edge_list(&[172..=193, 195..=300]));
+    assert_eq!(play.store_edges(), edge_list(&[21..=148, 174..=195, 197..=302]));
 }
 
 /// The frame has 29x7 pixels in words of two, regions of 8x8, one median, and deep pipelining. Word
@@ -188,13 +188,13 @@ fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
         "hardware.pixels_per_clock=2",
         "hardware.pipelining=deep",
     ];
-    let mut play = Play::new(&outside("variance", (29, 7), &more));
-    play.run(340, &[], |x| if x < 15 { 7 } else { 9 }, quiet);
+    let mut play = StoreBench::new(&external_store_design("variance", (29, 7), &more));
+    play.run(340, &[], |x| if x < 15 { 7 } else { 9 }, no_fault);
     let decided = play.edges(|output| output.decision_valid);
     assert_eq!(decided[..4], [155, 159, 163, 167]);
     // A row has 16 words. The core makes one of them, and one whole row.
-    assert_eq!(play.stores(), list(&[31..=158, 198..=325]));
-    assert_eq!(play.asks(), list(&[195..=322]));
+    assert_eq!(play.store_edges(), edge_list(&[31..=158, 198..=325]));
+    assert_eq!(play.reference_edges(), edge_list(&[195..=322]));
     let last = play.edges(|output| output.store_valid && output.store_last);
     assert_eq!(last[..8], [46, 62, 78, 94, 110, 126, 142, 158]);
     assert!(play.outputs[31..=158].iter().all(|output| output.store_pixels == [7, 7]));
@@ -205,29 +205,29 @@ fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
 /// and the second frame begins at edge 135.
 #[test]
 fn the_least_latency_asks_at_once() {
-    let mut play = Play::new(&outside("mad", (16, 8), &[]));
+    let mut play = StoreBench::new(&external_store_design("mad", (16, 8), &[]));
     // The third frame begins at edge 269, before the last decision of the second frame at 327.
-    play.run(330, &[], |_| 1, quiet);
-    assert_eq!(play.asks(), list(&[135..=262, 269..=330]));
-    assert_eq!(play.stores(), list(&[3..=130, 137..=264, 271..=330]));
+    play.run(330, &[], |_| 1, no_fault);
+    assert_eq!(play.reference_edges(), edge_list(&[135..=262, 269..=330]));
+    assert_eq!(play.store_edges(), edge_list(&[3..=130, 137..=264, 271..=330]));
     assert_eq!(play.counts(8), [0; 8]);
 }
 
 /// Word 5 of the second frame is in region 1. Its reference is taken at edge 177.
 #[test]
 fn what_comes_from_outside_is_what_counts() {
-    let design = outside("edge", (16, 8), &[]);
-    let counts = |fault: &dyn Fn(usize) -> Fault| {
-        let mut play = Play::new(&design);
+    let design = external_store_design("edge", (16, 8), &[]);
+    let counts = |fault: &dyn Fn(usize) -> MemoryFault| {
+        let mut play = StoreBench::new(&design);
         play.run(320, &[], |_| 1, fault);
         (play.counts(8), play.edges(|output| output.underrun))
     };
-    let wrong = counts(&|edge| if edge == 177 { Fault::Wrong(200) } else { Fault::None });
+    let wrong = counts(&|edge| if edge == 177 { MemoryFault::Wrong(200) } else { MemoryFault::None });
     assert_eq!(wrong, (vec![0, 1, 0, 0, 0, 0, 0, 0], vec![]));
     // The level is 8, so a reference of 9 is no change from 1. At edges 171 and 300 the core takes
     // no reference.
     for (edge, pixel) in [(177, 9), (171, 200), (300, 200)] {
-        let same = counts(&|at| if at == edge { Fault::Wrong(pixel) } else { Fault::None });
+        let same = counts(&|at| if at == edge { MemoryFault::Wrong(pixel) } else { MemoryFault::None });
         assert_eq!(same, (vec![0; 8], vec![]), "{edge}");
     }
 }
@@ -237,36 +237,36 @@ fn what_comes_from_outside_is_what_counts() {
 /// every row. (The value 0 instead of 1 is no change.)
 #[test]
 fn a_reference_that_is_late_shifts_all_that_follow() {
-    let mut play = Play::new(&outside("edge", (16, 8), &[]));
+    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
     let picture = |x| if x == 3 { 200 } else { 1 };
-    play.run(320, &[], picture, |edge| if edge == 172 { Fault::Late } else { Fault::None });
+    play.run(320, &[], picture, |edge| if edge == 172 { MemoryFault::Late } else { MemoryFault::None });
     assert_eq!(play.counts(8), [4, 4, 0, 0, 4, 4, 0, 0]);
     // `underrun_o` is 1 from the edge on that took the missing reference.
-    assert_eq!(play.edges(|output| output.underrun), list(&[172..=320]));
+    assert_eq!(play.edges(|output| output.underrun), edge_list(&[172..=320]));
     assert_eq!(play.queue.len(), 129, "one is left");
     // At an edge that takes no reference there is no underrun. The last reference is taken at edge
     // 299.
     for (late, first) in [(171, None), (299, Some(299)), (300, None)] {
-        let mut play = Play::new(&outside("edge", (16, 8), &[]));
-        play.run(320, &[], picture, |edge| if edge == late { Fault::Late } else { Fault::None });
+        let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+        play.run(320, &[], picture, |edge| if edge == late { MemoryFault::Late } else { MemoryFault::None });
         assert_eq!(play.edges(|output| output.underrun).first().copied(), first, "{late}");
     }
 }
 
 #[test]
 fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
-    let mut play = Play::new(&outside("edge", (16, 8), &[]));
-    play.run(200, &[], |_| 1, |edge| if edge == 180 { Fault::Late } else { Fault::None });
+    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    play.run(200, &[], |_| 1, |edge| if edge == 180 { MemoryFault::Late } else { MemoryFault::None });
     let shown = &play.outputs[200];
     assert!(shown.reference_ready && shown.store_valid && shown.underrun);
     play.reset();
-    let fresh = RasterRcm::new(outside("edge", (16, 8), &[]).raster().unwrap()).output().clone();
+    let fresh = RasterRcm::new(external_store_design("edge", (16, 8), &[]).as_raster().unwrap()).output().clone();
     assert_eq!(play.outputs[0], fresh);
     assert!(!fresh.reference_ready && !fresh.store_valid && !fresh.underrun);
     // The frame after the reset is a first frame.
-    play.run(320, &[], |_| 1, quiet);
-    assert_eq!(play.stores(), list(&[21..=148, 173..=300]));
-    assert_eq!(play.asks(), list(&[171..=298]));
+    play.run(320, &[], |_| 1, no_fault);
+    assert_eq!(play.store_edges(), edge_list(&[21..=148, 173..=300]));
+    assert_eq!(play.reference_edges(), edge_list(&[171..=298]));
     let decided = play.edges(|output| output.decision_valid);
     assert!(decided[..8].iter().all(|&edge| play.outputs[edge].temporal_count == 16));
     assert_eq!(play.counts(8), [0; 8]);
@@ -277,9 +277,9 @@ fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
 fn a_store_inside_has_no_streams() {
     let outputs = |store: &str| {
         let key = format!("hardware.store={store}");
-        let mut play = Play::new(&design("edge", (16, 8), &[&key]));
-        play.run(320, &[], |x| (x * 17) as u16, quiet);
-        assert!(play.stores().is_empty() && play.asks().is_empty());
+        let mut play = StoreBench::new(&design("edge", (16, 8), &[&key]));
+        play.run(320, &[], |x| (x * 17) as u16, no_fault);
+        assert!(play.store_edges().is_empty() && play.reference_edges().is_empty());
         play.outputs
     };
     let block = outputs("block");
@@ -293,8 +293,8 @@ fn a_store_inside_has_no_streams() {
 fn without_forwarding_only_decisions_leave() {
     for feature in ["edge", "mad"] {
         let play = |more: &[&str]| {
-            let mut play = Play::new(&design(feature, (16, 8), more));
-            play.run(320, &[], |_| 1, quiet);
+            let mut play = StoreBench::new(&design(feature, (16, 8), more));
+            play.run(320, &[], |_| 1, no_fault);
             play
         };
         let (alone, whole) = (play(&["hardware.forward=false"]), play(&[]));
@@ -310,11 +310,11 @@ fn without_forwarding_only_decisions_leave() {
         }
         assert_eq!(alone.edges(|output| output.active).len(), 8);
     }
-    let mut play = Play::new(&design("edge", (16, 8), &["hardware.forward=false"]));
-    play.run(152, &[], |_| 1, quiet);
+    let mut play = StoreBench::new(&design("edge", (16, 8), &["hardware.forward=false"]));
+    play.run(152, &[], |_| 1, no_fault);
     // The last decision of the frame is on the ports, and its region is active.
     assert!(play.outputs[152].active && !play.rcm.is_pending());
-    let mut play = Play::new(&design("edge", (16, 8), &[]));
-    play.run(152, &[], |_| 1, quiet);
+    let mut play = StoreBench::new(&design("edge", (16, 8), &[]));
+    play.run(152, &[], |_| 1, no_fault);
     assert!(play.rcm.is_pending());
 }

@@ -6,47 +6,47 @@ use std::collections::BTreeMap;
 
 use foveate_model::RasterOutput;
 
-use super::driver::Trace;
-use super::recipe::RasterRecipe;
-use crate::oracle::{Image, Seen};
+use super::driver::RasterTrace;
+use super::raster_parameters::RasterParameters;
+use crate::oracle::{OracleFrame, OracleOutcome};
 
 #[derive(Default)]
-pub(crate) struct Streams {
+pub(crate) struct ExternalStoreStreams {
     /// The edges that take a reference.
-    taking: Vec<i64>,
+    reference_edges: Vec<i64>,
     /// The words to store after each edge, each with true if it is the last of its row.
-    stored: BTreeMap<i64, (Vec<i64>, bool)>,
+    store_words: BTreeMap<i64, (Vec<i64>, bool)>,
     /// For every frame, a history in which the frame before has the pixels that the memory
     /// returned.
-    given: Vec<Vec<Seen>>,
+    reference_histories: Vec<Vec<OracleOutcome>>,
     /// The first edge that takes a reference that is not valid.
     underrun: Option<i64>,
 }
 
-impl Streams {
+impl ExternalStoreStreams {
     /// Adds a frame whose word i comes to the tail at edge `tail(i)`, if it comes.
-    pub(crate) fn frame(
+    pub(crate) fn add_frame(
         &mut self,
-        recipe: &RasterRecipe,
-        trace: &Trace,
-        denoised: &Image,
+        recipe: &RasterParameters,
+        trace: &RasterTrace,
+        denoised: &OracleFrame,
         tail: impl Fn(i64) -> Option<i64>,
     ) {
-        let is_first = self.given.is_empty() && !recipe.misread.always_takes;
+        let is_first = self.reference_histories.is_empty() && !recipe.misread.always_takes;
         let mut given = denoised.clone();
         for word in 0..recipe.words() {
             let Some(edge) = tail(word) else { break };
-            let (y, x) = (word / recipe.row(), word % recipe.row() * recipe.pixels);
+            let (y, x) = (word / recipe.row_words(), word % recipe.row_words() * recipe.word_pixels);
             let place = |x: i64| (x as usize, y as usize);
-            let pixels = (x..x + recipe.pixels).map(place);
+            let pixels = (x..x + recipe.word_pixels).map(place);
             let due = pixels.clone().map(|(x, y)| denoised[y][x]).collect();
-            let is_last = word % recipe.row() == recipe.row() - 1;
-            self.stored.insert(edge + recipe.stored(), (due, is_last));
-            let taken = edge + recipe.taking();
+            let is_last = word % recipe.row_words() == recipe.row_words() - 1;
+            self.store_words.insert(edge + recipe.store_latency(), (due, is_last));
+            let taken = edge + recipe.reference_latency();
             if is_first || taken > trace.end() {
                 continue;
             }
-            self.taking.push(taken);
+            self.reference_edges.push(taken);
             let (valid, reference) = &trace.references[taken as usize];
             if !valid {
                 self.underrun.get_or_insert(taken);
@@ -55,24 +55,24 @@ impl Streams {
                 given[y][x] = pixel.into();
             }
         }
-        let seen = |denoised| Seen {
+        let seen = |denoised| OracleOutcome {
             padded: Vec::new(),
             denoised,
             regions: Vec::new(),
             rendered: Vec::new(),
         };
-        self.given.push(if is_first { Vec::new() } else { vec![seen(given)] });
+        self.reference_histories.push(if is_first { Vec::new() } else { vec![seen(given)] });
     }
 
     /// Returns the history that a frame is compared with.
-    pub(crate) fn history(&self, frame: usize) -> &[Seen] {
-        &self.given[frame]
+    pub(crate) fn history(&self, frame: usize) -> &[OracleOutcome] {
+        &self.reference_histories[frame]
     }
 
     /// Compares the ports after an edge.
     pub(crate) fn compare(&self, edge: i64, end: i64, got: &RasterOutput) -> Result<(), String> {
         // Whether a reference is taken after the end of the trace is not known.
-        let takes = self.taking.binary_search(&(edge + 1)).is_ok();
+        let takes = self.reference_edges.binary_search(&(edge + 1)).is_ok();
         if edge < end && got.reference_ready != takes {
             return Err(format!("reference_ready_o is {} after edge {edge}", got.reference_ready));
         }
@@ -84,8 +84,8 @@ impl Streams {
             let pixels: Vec<i64> = got.store_pixels.iter().map(|&pixel| pixel.into()).collect();
             (pixels, got.store_last)
         });
-        if shown.as_ref() != self.stored.get(&edge) {
-            let due = self.stored.get(&edge);
+        if shown.as_ref() != self.store_words.get(&edge) {
+            let due = self.store_words.get(&edge);
             return Err(format!("after edge {edge} {shown:?} is stored, due is {due:?}"));
         }
         Ok(())

@@ -2,7 +2,7 @@
 //! Tests of means that leave, with every clock computed by hand from `docs/raster.md`. The edge
 //! that takes the first word has number 1.
 
-use super::examples::{decisions, design, edges, list, play};
+use super::examples::{decisions, design, edges, edge_list, play};
 
 /// A feature for which no region of a flat frame is relevant.
 const IRRELEVANT: &str = "spatial=[{feature=\"edge\",min_score=1}]";
@@ -17,7 +17,7 @@ fn means_leave_as_pixels_do() {
     assert_eq!(decisions(&outputs), due);
     assert!(due.iter().all(|&(edge, _)| outputs[edge].summary && !outputs[edge].active));
     assert_eq!(edges(&outputs, |output| output.summary).len(), 8);
-    let leaving = [list(81..=96), list(145..=160)].concat();
+    let leaving = [edge_list(81..=96), edge_list(145..=160)].concat();
     assert_eq!(edges(&outputs, |output| output.forward_valid), leaving);
     for (word, edge) in leaving.into_iter().enumerate() {
         let (output, block) = (&outputs[edge], word % 4);

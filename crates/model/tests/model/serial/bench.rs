@@ -3,19 +3,19 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, SerialRcm, Thresholds, pad, region_stream};
+use foveate_model::{CoreInput, SerialRcm, ThresholdInputs, pad, region_stream};
 
-use super::recipe::SerialRecipe;
-use super::waveform::{Facts, Shown, Timeline};
-use crate::frames::Random;
+use super::serial_parameters::SerialParameters;
+use super::expected_outputs::{RegionResults, MeaningfulOutputs, ExpectedTimeline};
+use crate::frames::SeededRandom;
 
 /// The pattern in which pixels come.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Manner {
+pub(crate) struct SerialTraffic {
     /// Percentage of clocks without a pixel although the array is ready.
     pub(crate) gaps: i64,
     /// Longest pause between frames in clocks.
-    pub(crate) between: i64,
+    pub(crate) max_pause: i64,
     /// Percentage of clocks with a pixel although the array is not ready.
     pub(crate) pushing: i64,
     /// True if clocks without inputs are skipped at once.
@@ -23,47 +23,47 @@ pub(crate) struct Manner {
     pub(crate) seed: u64,
 }
 
-impl Manner {
-    pub(crate) const DENSE: Self = Self { gaps: 0, between: 0, pushing: 0, skips: false, seed: 0 };
+impl SerialTraffic {
+    pub(crate) const DENSE: Self = Self { gaps: 0, max_pause: 0, pushing: 0, skips: false, seed: 0 };
 }
 
 /// The pixels of a frame in the order of the ports, and the expected results.
-pub(crate) struct Job {
+pub(crate) struct SerialStimulus {
     pub(crate) pixels: Vec<Vec<u16>>,
-    pub(crate) thresholds: Thresholds,
-    pub(crate) facts: Vec<Facts>,
+    pub(crate) thresholds: ThresholdInputs,
+    pub(crate) facts: Vec<RegionResults>,
 }
 
 /// The result of a check: a description of the first difference, if there is one.
-pub(crate) type Check = Result<(), String>;
+pub(crate) type SerialCheckResult = Result<(), String>;
 
-pub(crate) struct Bench {
-    pub(crate) recipe: SerialRecipe,
+pub(crate) struct SerialBench {
+    pub(crate) recipe: SerialParameters,
     pub(crate) rcm: SerialRcm,
-    timeline: Timeline,
-    manner: Manner,
-    random: Random,
+    timeline: ExpectedTimeline,
+    manner: SerialTraffic,
+    random: SeededRandom,
     /// The number of the last edge.
     pub(crate) edge: i64,
     /// The edge after which the run ends.
-    until: i64,
+    last_edge: i64,
     /// Thresholds that are applied between frames.
-    noise: Thresholds,
+    noise: ThresholdInputs,
     /// The number of clocks by which all expectations are late. It is 0 unless a test wants an
     /// error.
     pub(crate) late: i64,
 }
 
-impl Bench {
-    pub(crate) fn new(recipe: &SerialRecipe, rcm: SerialRcm, manner: Manner) -> Self {
+impl SerialBench {
+    pub(crate) fn new(recipe: &SerialParameters, rcm: SerialRcm, manner: SerialTraffic) -> Self {
         Self {
             rcm,
-            timeline: Timeline::default(),
+            timeline: ExpectedTimeline::default(),
             manner,
-            random: Random(manner.seed),
+            random: SeededRandom(manner.seed),
             edge: 0,
-            until: i64::MAX,
-            noise: Thresholds::of(&recipe.design()),
+            last_edge: i64::MAX,
+            noise: ThresholdInputs::from_camera(&recipe.design()),
             late: 0,
             recipe: recipe.clone(),
         }
@@ -71,18 +71,18 @@ impl Bench {
 
     /// Stops the run at that edge, whatever is under way.
     pub(crate) fn stop_after(&mut self, edge: i64) {
-        self.until = edge;
+        self.last_edge = edge;
     }
 
     fn is_over(&self) -> bool {
-        self.edge >= self.until
+        self.edge >= self.last_edge
     }
 
     /// Feeds the frames, each until all of its outputs have come.
-    pub(crate) fn run(&mut self, jobs: &[Job]) -> Check {
+    pub(crate) fn run(&mut self, jobs: &[SerialStimulus]) -> SerialCheckResult {
         for job in jobs {
-            let pause = self.random.below(self.manner.between + 1);
-            self.shake();
+            let pause = self.random.below(self.manner.max_pause + 1);
+            self.change_ignored_thresholds();
             self.idle(pause, &self.noise.clone())?;
             self.feed(job)?;
             self.wait(&job.thresholds)?;
@@ -90,7 +90,7 @@ impl Bench {
         self.idle(3, &self.noise.clone())
     }
 
-    fn feed(&mut self, job: &Job) -> Check {
+    fn feed(&mut self, job: &SerialStimulus) -> SerialCheckResult {
         for (pixel, pixels) in job.pixels.iter().enumerate() {
             self.wait(&job.thresholds)?;
             while self.random.below(100) < self.manner.gaps {
@@ -108,8 +108,8 @@ impl Bench {
     }
 
     /// Waits until the array is ready again.
-    fn wait(&mut self, thresholds: &Thresholds) -> Check {
-        while !self.timeline.ready(self.edge) && !self.is_over() {
+    fn wait(&mut self, thresholds: &ThresholdInputs) -> SerialCheckResult {
+        while !self.timeline.is_ready(self.edge) && !self.is_over() {
             if self.manner.skips && self.random.below(3) > 0 {
                 let left = self.timeline.ready_from - self.edge;
                 let longest = if self.random.below(2) == 0 { 9 } else { left + 2 };
@@ -118,47 +118,47 @@ impl Bench {
                 continue;
             }
             let pushed = self.random.below(100) < self.manner.pushing;
-            let junk = self.junk();
+            let junk = self.ignored_pixels();
             self.step(false, pushed, &junk, thresholds)?;
         }
         Ok(())
     }
 
-    fn idle(&mut self, clocks: i64, thresholds: &Thresholds) -> Check {
+    fn idle(&mut self, clocks: i64, thresholds: &ThresholdInputs) -> SerialCheckResult {
         for _ in 0..clocks {
             if !self.is_over() {
-                let junk = self.junk();
+                let junk = self.ignored_pixels();
                 self.step(false, false, &junk, thresholds)?;
             }
         }
         Ok(())
     }
 
-    pub(crate) fn reset(&mut self, valid: bool) -> Check {
+    pub(crate) fn reset(&mut self, valid: bool) -> SerialCheckResult {
         self.timeline.reset(self.edge + 1);
-        let junk = self.junk();
-        self.shake();
+        let junk = self.ignored_pixels();
+        self.change_ignored_thresholds();
         self.step(true, valid, &junk, &self.noise.clone())
     }
 
-    fn step(&mut self, reset: bool, valid: bool, pixels: &[u16], thresholds: &Thresholds) -> Check {
+    fn step(&mut self, reset: bool, valid: bool, pixels: &[u16], thresholds: &ThresholdInputs) -> SerialCheckResult {
         self.edge += 1;
         self.rcm.step(&CoreInput { reset, valid, ..CoreInput::idle(pixels, thresholds) });
         self.compare()
     }
 
-    fn skip(&mut self, clocks: i64) -> Check {
+    fn skip(&mut self, clocks: i64) -> SerialCheckResult {
         self.edge += clocks;
         self.rcm.skip(clocks as u64);
         self.compare()
     }
 
-    fn compare(&self) -> Check {
+    fn compare(&self) -> SerialCheckResult {
         let (edge, output) = (self.edge, self.rcm.output());
-        if output.ready != self.timeline.ready(edge) {
+        if output.ready != self.timeline.is_ready(edge) {
             return Err(format!("ready_o is {} after edge {edge}", output.ready));
         }
-        let (shown, due) = (Shown::by(output), self.timeline.shown(edge - self.late));
+        let (shown, due) = (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge - self.late));
         if shown != due {
             return Err(format!("after edge {edge}: {shown:?}, due is {due:?}"));
         }
@@ -166,7 +166,7 @@ impl Bench {
     }
 
     /// Changes the thresholds between frames, which the array must ignore.
-    fn shake(&mut self) {
+    fn change_ignored_thresholds(&mut self) {
         self.noise.temporal_level = self.random.below(2) as u32;
         self.noise.temporal_min_count = self.random.below(5) as u32;
         self.noise.summary_level = self.random.below(2) as u32;
@@ -175,7 +175,7 @@ impl Bench {
     }
 
     /// Returns pixels that the array must ignore.
-    fn junk(&mut self) -> Vec<u16> {
+    fn ignored_pixels(&mut self) -> Vec<u16> {
         let top = self.recipe.base.pixel_max() + 1;
         let seed = self.random.below(top);
         let ports = 0..self.rcm.output().forward_valid.len() as i64;
@@ -185,7 +185,7 @@ impl Bench {
 
 /// Returns the pixels of a frame in the order of the ports. A lane with an empty slot gets the
 /// pixels of another region.
-pub(crate) fn applied(recipe: &SerialRecipe, frame: &Frame) -> Vec<Vec<u16>> {
+pub(crate) fn port_pixels(recipe: &SerialParameters, frame: &Frame) -> Vec<Vec<u16>> {
     let design = recipe.design();
     let padded = pad(&design, frame).unwrap();
     if recipe.raster {
@@ -202,7 +202,7 @@ pub(crate) fn applied(recipe: &SerialRecipe, frame: &Frame) -> Vec<Vec<u16>> {
 }
 
 /// Converts streams by region to the order of the lanes.
-pub(crate) fn by_port(recipe: &SerialRecipe, streams: &[Vec<u16>]) -> Vec<Vec<u16>> {
+pub(crate) fn by_port(recipe: &SerialParameters, streams: &[Vec<u16>]) -> Vec<Vec<u16>> {
     let mut pixels = Vec::new();
     for slot in 0..recipe.fold {
         let lane = |lane: i64| &streams[(lane * recipe.fold + slot) as usize];

@@ -2,34 +2,34 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{Action, Design};
+use foveate_design::{RegionAction, Design};
 use foveate_frame::Frame;
 use foveate_model::{
-    CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, Thresholds,
+    CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, ThresholdInputs,
     region_border, region_stream,
 };
 
-use super::bench::applied;
-use super::recipe::SerialRecipe;
+use super::bench::port_pixels;
+use super::serial_parameters::SerialParameters;
 use crate::hard_cases::hard_frames;
-use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
-use crate::screen::Screen;
+use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::screen::ReceiverScreen;
 
 /// Feeds a frame as fast as it is taken. Returns the number of clocks until the array is ready
 /// again.
 fn play(
-    recipe: &SerialRecipe,
+    recipe: &SerialParameters,
     rcm: &mut SerialRcm,
     frame: &Frame,
-    screen: &mut Screen,
+    screen: &mut ReceiverScreen,
     outcome: &FunctionalOutcome,
 ) -> i64 {
-    let thresholds = Thresholds::of(&screen.design);
-    let mut pixels = applied(recipe, frame).into_iter();
-    let idle = vec![0; recipe.ports() as usize];
+    let thresholds = ThresholdInputs::from_camera(&screen.design);
+    let mut pixels = port_pixels(recipe, frame).into_iter();
+    let idle = vec![0; recipe.port_pixels() as usize];
     let (mut clocks, mut scores, mut decisions) = (0, 0, 0);
     // The last pixels may leave after the array is ready again.
-    let mut behind = recipe.address_to_data().max(1) - 1;
+    let mut behind = recipe.read_latency().max(1) - 1;
     loop {
         let now = if rcm.output().ready { pixels.next() } else { None };
         if clocks > 0 && rcm.output().ready && now.is_none() {
@@ -54,11 +54,11 @@ fn play(
         }
         if output.decision_valid {
             decisions += 1;
-            let summary = outcome.actions[at] == Action::Summarize;
+            let summary = outcome.actions[at] == RegionAction::Summarize;
             let due = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
             let said = (output.srs, output.trs, output.active, output.summary);
             assert_eq!(said, due, "decision of region {at}");
-            screen.act(output.region, (output.srs, output.trs, output.summary));
+            screen.apply_decision(output.region, (output.srs, output.trs, output.summary));
         }
         for (port, (&valid, &pixel)) in
             output.forward_valid.iter().zip(&output.forward_pixel).enumerate()
@@ -69,7 +69,7 @@ fn play(
                 } else {
                     port as u32 * recipe.fold as u32 + output.forward_slot
                 };
-                screen.show(region, output.forward_position, pixel);
+                screen.show_value(region, output.forward_position, pixel);
             }
         }
     }
@@ -79,12 +79,12 @@ fn play(
 }
 
 /// Checks that the scorer knows the results of a frame before the frame is fed.
-fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: &Design) {
-    let (thresholds, mut scorer) = (Thresholds::of(design), RegionScorer::new(design));
+fn check_prediction(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: &Design) {
+    let (thresholds, mut scorer) = (ThresholdInputs::from_camera(design), RegionScorer::new(design));
     for region in 0..design.regions() {
         let mut stream = Vec::new();
         region_stream(design, frame, region, &mut stream);
-        scorer.take(stream.into_iter(), region_border(design, region));
+        scorer.load(stream.into_iter(), region_border(design, region));
         let reference = rcm.reference(region);
         let count = scorer.temporal_count(reference, &thresholds);
         assert_eq!(count, outcome.temporal_count[region as usize]);
@@ -96,16 +96,16 @@ fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: 
     }
 }
 
-fn check(recipe: &SerialRecipe, film: &[Frame]) {
+fn check(recipe: &SerialParameters, film: &[Frame]) {
     let design = recipe.design();
     let mut camera = FunctionalCamera::new(&design);
-    let mut rcm = SerialRcm::new(design.serial().unwrap());
+    let mut rcm = SerialRcm::new(design.as_serial().unwrap());
     let side = design.region_size();
     let width = design.columns() * side;
-    let mut screen = Screen::black(&design);
+    let mut screen = ReceiverScreen::black(&design);
     for frame in film {
         let outcome = camera.step(frame).unwrap();
-        predict(&rcm, frame, outcome, &screen.design);
+        check_prediction(&rcm, frame, outcome, &screen.design);
         let clocks = play(recipe, &mut rcm, frame, &mut screen, outcome);
         let taking: i64 =
             (0..recipe.frame_pixels()).map(|pixel| recipe.clocks_of_pixel(pixel)).sum();
@@ -124,10 +124,10 @@ fn check(recipe: &SerialRecipe, film: &[Frame]) {
 }
 
 /// Returns some of the four features. `which` has one bit for each.
-fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureRecipe> {
+fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
     let max = (1i64 << bits) - 1;
     let feature =
-        |name, level, min_milli| FeatureRecipe { name, level, min_milli, fraction_bits: 1 };
+        |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 1 };
     let all = [
         feature("variance", 0, 100 * max * max),
         feature("corner", max / 2, 1000),
@@ -147,7 +147,7 @@ fn films_over_the_matrix() {
                 number += 1;
                 let on = |bit: usize| switches >> bit & 1 == 1;
                 let size = [(2 * side + 1, side + 2), (3 * side, side), (side, 1)][number % 3];
-                let base = Recipe {
+                let base = DesignParameters {
                     width: size.0,
                     height: size.1,
                     bits,
@@ -160,7 +160,7 @@ fn films_over_the_matrix() {
                     temporal_min: side,
                     last_sent: on(2),
                     blank_irrelevant: number % 5 < 3,
-                    periphery: PeripheryRecipe::number(number / 5, side, (1 << bits) - 1),
+                    periphery: PeripheryParameters::from_number(number / 5, side, (1 << bits) - 1),
                     raw_payload: on(4),
                     constant: number.is_multiple_of(11),
                     deep: number % 4 < 2,
@@ -168,7 +168,7 @@ fn films_over_the_matrix() {
                 let frames = hard_frames(&base);
                 let film: Vec<Frame> =
                     (0..4).map(|at| frames[(number + at * at) % frames.len()].clone()).collect();
-                let mut recipe = SerialRecipe { base, raster: on(3), fold: 1 };
+                let mut recipe = SerialParameters { base, raster: on(3), fold: 1 };
                 recipe.fold = 1 + number as i64 % recipe.regions();
                 check(&recipe, &film);
             }
@@ -180,7 +180,7 @@ fn films_over_the_matrix() {
 fn every_fold_of_a_grid_of_seven() {
     for raster in [false, true] {
         for fold in 1..=7 {
-            let base = Recipe {
+            let base = DesignParameters {
                 width: 28,
                 height: 4,
                 bits: 8,
@@ -193,13 +193,13 @@ fn every_fold_of_a_grid_of_seven() {
                 temporal_min: 2,
                 last_sent: true,
                 blank_irrelevant: true,
-                periphery: PeripheryRecipe::number(fold as usize, 4, 255),
+                periphery: PeripheryParameters::from_number(fold as usize, 4, 255),
                 raw_payload: false,
                 constant: false,
                 deep: false,
             };
             let film = hard_frames(&base);
-            check(&SerialRecipe { base, raster, fold }, &film);
+            check(&SerialParameters { base, raster, fold }, &film);
         }
     }
 }
@@ -207,7 +207,7 @@ fn every_fold_of_a_grid_of_seven() {
 #[test]
 fn the_largest_region() {
     for (raster, shared) in [(false, true), (true, true), (true, false)] {
-        let base = Recipe {
+        let base = DesignParameters {
             width: 65,
             height: 64,
             bits: 16,
@@ -220,12 +220,12 @@ fn the_largest_region() {
             temporal_min: 9,
             last_sent: shared,
             blank_irrelevant: false,
-            periphery: PeripheryRecipe::number(if raster { 3 } else { 5 }, 64, 65_535),
+            periphery: PeripheryParameters::from_number(if raster { 3 } else { 5 }, 64, 65_535),
             raw_payload: true,
             constant: false,
             deep: false,
         };
         let film = hard_frames(&base);
-        check(&SerialRecipe { base, raster, fold: 2 }, &film[2..5]);
+        check(&SerialParameters { base, raster, fold: 2 }, &film[2..5]);
     }
 }

@@ -4,19 +4,19 @@
 
 use std::ops::RangeInclusive;
 
-use foveate_design::{Config, Design};
-use foveate_model::{CoreInput, SerialOutput, SerialRcm, Thresholds};
+use foveate_design::{DesignConfig, Design};
+use foveate_model::{CoreInput, SerialOutput, SerialRcm, ThresholdInputs};
 
 fn design(toml: &str) -> Design {
-    Config::from_toml(toml).unwrap().validate().unwrap()
+    DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
 /// Applies a frame of ones as fast as it is taken. Returns the outputs after every edge from 1 to
 /// the one after which the array is ready again, and the edges that took a pixel.
 fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
-    let mut rcm = SerialRcm::new(design.serial().unwrap());
+    let mut rcm = SerialRcm::new(design.as_serial().unwrap());
     let ones = vec![1; rcm.output().forward_valid.len()];
-    let thresholds = Thresholds::of(design);
+    let thresholds = ThresholdInputs::from_camera(design);
     let (mut outputs, mut taken) = (vec![rcm.output().clone()], Vec::new());
     while taken.len() < pixels || !rcm.output().ready {
         if rcm.output().ready {
@@ -41,13 +41,13 @@ fn decisions(outputs: &[SerialOutput]) -> Vec<(usize, u32)> {
     said.map(|(edge, output)| (edge, output.region)).collect()
 }
 
-fn forwarding(outputs: &[SerialOutput]) -> Vec<usize> {
+fn forwarding_edges(outputs: &[SerialOutput]) -> Vec<usize> {
     let any = |edge: &usize| outputs[*edge].forward_valid.contains(&true);
     (0..outputs.len()).filter(any).collect()
 }
 
 /// Returns the edges in `edges` after which `ready_o` is 0.
-fn busy(outputs: &[SerialOutput], edges: RangeInclusive<usize>) -> Vec<usize> {
+fn busy_edges(outputs: &[SerialOutput], edges: RangeInclusive<usize>) -> Vec<usize> {
     edges.filter(|&edge| !outputs[edge].ready).collect()
 }
 
@@ -66,9 +66,9 @@ fn the_papers_frame() {
         decisions(&outputs),
         (0..784).map(|at| (65 + 6992 + at, at as u32)).collect::<Vec<_>>()
     );
-    assert_eq!(forwarding(&outputs), (65 + 7776..65 + 7840).collect::<Vec<_>>());
+    assert_eq!(forwarding_edges(&outputs), (65 + 7776..65 + 7840).collect::<Vec<_>>());
     assert!(outputs[65 + 7776].forward_valid.iter().all(|&valid| valid));
-    assert_eq!(busy(&outputs, 0..=7905), (64..=7904).collect::<Vec<_>>());
+    assert_eq!(busy_edges(&outputs, 0..=7905), (64..=7904).collect::<Vec<_>>());
     assert_eq!(outputs.len() - 1, 7905, "the next frame's first pixel is taken at edge 7906");
 }
 
@@ -90,12 +90,12 @@ fn two_slots_one_of_them_empty() {
         [(81, 0, 0), (82, 0, 2), (307, 1, 0), (308, 1, 2), (373, 0, 1), (599, 1, 1)]
     );
     assert_eq!(decisions(&outputs), [(307, 0), (308, 2), (599, 1)]);
-    assert_eq!(forwarding(&outputs), (309..=324).chain(601..=616).collect::<Vec<_>>());
+    assert_eq!(forwarding_edges(&outputs), (309..=324).chain(601..=616).collect::<Vec<_>>());
     let (slot_0, slot_1) = (&outputs[320], &outputs[602]);
     assert_eq!((&slot_0.forward_valid[..], slot_0.forward_position), (&[true, true][..], 11));
     assert_eq!((&slot_1.forward_valid[..], slot_1.forward_slot), (&[true, false][..], 1));
     assert_eq!((&slot_1.forward_pixel[..], slot_1.forward_position), (&[1, 0][..], 1));
-    assert_eq!(busy(&outputs, 0..=617), (32..=616).collect::<Vec<_>>());
+    assert_eq!(busy_edges(&outputs, 0..=617), (32..=616).collect::<Vec<_>>());
     assert_eq!(outputs.len() - 1, 32 + 584 + 1);
 }
 
@@ -118,7 +118,7 @@ fn means_leave_where_pixels_have_left() {
     assert_eq!(decisions(&outputs), [(339, 0), (340, 2), (679, 1)]);
     assert!([339, 340, 679].iter().all(|&edge| outputs[edge].summary && !outputs[edge].active));
     let leaving = [360, 364, 368, 372, 700, 704, 708, 712];
-    assert_eq!(forwarding(&outputs), leaving);
+    assert_eq!(forwarding_edges(&outputs), leaving);
     assert_eq!(leaving.map(|edge| outputs[edge].forward_position), [5, 7, 13, 15, 5, 7, 13, 15]);
     let (slot_0, slot_1) = (&outputs[360], &outputs[700]);
     assert_eq!((&slot_0.forward_pixel[..], slot_0.forward_slot), (&[1, 1][..], 0));
@@ -127,7 +127,7 @@ fn means_leave_where_pixels_have_left() {
 
     let (outputs, _) = play(&design(&format!("{toml}feed = \"raster\"\n")), 48);
     let leaving = [406, 407, 409, 410, 412, 413, 415, 416, 774, 777, 780, 783];
-    assert_eq!(forwarding(&outputs), leaving);
+    assert_eq!(forwarding_edges(&outputs), leaving);
     let place = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
     assert_eq!([406, 407, 416, 774].map(place), [(0, 5), (2, 5), (2, 15), (1, 5)]);
     assert_eq!(outputs.len() - 1, 48 + 2 * 368 + 1);
@@ -147,15 +147,15 @@ fn a_raster_frame_with_halos() {
     let (outputs, taken) = play(&design, 32);
     assert_eq!(taken[..9], [1, 5, 7, 9, 13, 17, 19, 21, 25]);
     assert_eq!((taken[16], taken[24], taken[31]), (37, 49, 69));
-    assert_eq!(busy(&outputs, 0..=12), [1, 2, 3, 5, 7, 9, 10, 11]);
+    assert_eq!(busy_edges(&outputs, 0..=12), [1, 2, 3, 5, 7, 9, 10, 11]);
     // The phases take 48 steps to compare, 2, 224, 2, then 16 rounds of 3.
     assert_eq!(scores(&outputs), [(121, 0, 0), (122, 0, 1), (347, 1, 0), (348, 1, 1)]);
     assert_eq!(decisions(&outputs), [(347, 0), (348, 1)]);
     let rounds = (0..16).flat_map(|round| [350 + 3 * round, 351 + 3 * round]);
-    assert_eq!(forwarding(&outputs), rounds.collect::<Vec<_>>());
+    assert_eq!(forwarding_edges(&outputs), rounds.collect::<Vec<_>>());
     let place = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
     assert_eq!([350, 351, 353, 396].map(place), [(0, 0), (1, 0), (0, 1), (1, 15)]);
-    assert_eq!(busy(&outputs, 70..=397), (70..=396).collect::<Vec<_>>());
+    assert_eq!(busy_edges(&outputs, 70..=397), (70..=396).collect::<Vec<_>>());
     assert_eq!(outputs.len() - 1, 72 + 324 + 1);
 }
 
@@ -174,8 +174,8 @@ fn block_memory_is_a_clock_late() {
     // to copy, and 256.
     assert_eq!(scores(&outputs), [(258 + 42_240, 0, 0), (258 + 42_240 + 1 + 531, 1, 0)]);
     assert_eq!(decisions(&outputs), [(43_030, 0)]);
-    assert_eq!(forwarding(&outputs), (43_799..=44_054).collect::<Vec<_>>());
-    assert_eq!(busy(&outputs, 256..=44_054), (256..=44_053).collect::<Vec<_>>());
+    assert_eq!(forwarding_edges(&outputs), (43_799..=44_054).collect::<Vec<_>>());
+    assert_eq!(busy_edges(&outputs, 256..=44_054), (256..=44_053).collect::<Vec<_>>());
     assert_eq!(outputs.len() - 1, 256 + 43_797 + 1);
 }
 
@@ -192,8 +192,8 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
     // 1, and 16 for the pixels.
     let steps = 96 + 2 + 43 + 2 + 16;
     let ready = 16 + 1 + steps;
-    let mut rcm = SerialRcm::new(design.serial().unwrap());
-    let thresholds = Thresholds::of(&design);
+    let mut rcm = SerialRcm::new(design.as_serial().unwrap());
+    let thresholds = ThresholdInputs::from_camera(&design);
     let mut leaves = Vec::new();
     for edge in 1..=2 * ready {
         let pixels = [if edge < ready { 100 } else { 7 }];
@@ -216,8 +216,8 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
 #[test]
 fn a_reset_takes_no_pixel_and_makes_ready() {
     let design = design("[frame]\nwidth = 8\nheight = 8\n[hardware]\norganization = \"serial\"\n");
-    let thresholds = Thresholds::of(&design);
-    let mut rcm = SerialRcm::new(design.serial().unwrap());
+    let thresholds = ThresholdInputs::from_camera(&design);
+    let mut rcm = SerialRcm::new(design.as_serial().unwrap());
     let mut step = |reset, valid| {
         let input = CoreInput { reset, valid, ..CoreInput::idle(&[9], &thresholds) };
         rcm.step(&input).ready
@@ -239,13 +239,13 @@ fn one_lane_is_a_row_of_its_slots() {
         "[frame]\nwidth = 40\nheight = 16\n[region]\nneighborhood = \"shared\"\n\
          [hardware]\norganization = \"serial\"\nfold = 3\n",
     );
-    let (outputs, taken) = play(&design.serial().unwrap().one_lane(), 3 * 144);
+    let (outputs, taken) = play(&design.as_serial().unwrap().single_lane_design(), 3 * 144);
     assert_eq!((outputs[0].forward_valid.len(), taken.len()), (1, 432));
     let regions: Vec<u32> = decisions(&outputs).into_iter().map(|(_, region)| region).collect();
     assert_eq!(regions, [0, 1, 2]);
     assert_eq!(
         outputs.len() as u64 - 1,
-        design.serial().unwrap().one_lane().timing().clocks_per_frame()
+        design.as_serial().unwrap().single_lane_design().timing().clocks_per_frame()
     );
 }
 
@@ -257,9 +257,9 @@ fn quiet_clocks_are_quiet_and_can_be_skipped() {
         let hardware = format!("hardware = {{ organization = 'serial', fold = {fold} }}");
         let design =
             design(&format!("frame = {{ width = 12, height = 4 }}\nregion.size = 4\n{hardware}\n"));
-        let mut rcm = SerialRcm::new(design.serial().unwrap());
+        let mut rcm = SerialRcm::new(design.as_serial().unwrap());
         let pixels = vec![1; rcm.output().forward_valid.len()];
-        let thresholds = Thresholds::of(&design);
+        let thresholds = ThresholdInputs::from_camera(&design);
         while rcm.output().ready {
             rcm.step(&CoreInput { valid: true, ..CoreInput::idle(&pixels, &thresholds) });
         }
@@ -307,11 +307,11 @@ fn decisions_and_pixels_leave_when_the_design_says() {
             let decided = since(last.unwrap().0);
             assert_eq!(decided, departure.decision_clocks + wait, "{hardware}, slot {slot}");
             let end = departure.forward_clocks + wait;
-            let left = forwarding(&outputs).into_iter().map(since).filter(|&edge| edge <= end);
+            let left = forwarding_edges(&outputs).into_iter().map(since).filter(|&edge| edge <= end);
             assert_eq!(left.max(), Some(end), "{hardware}, slot {slot}");
         }
         let after =
             departure.forward_clocks + u64::from(design.slots() - 1) * departure.slot_clocks;
-        assert_eq!(forwarding(&outputs).into_iter().map(since).max(), Some(after), "{hardware}");
+        assert_eq!(forwarding_edges(&outputs).into_iter().map(since).max(), Some(after), "{hardware}");
     }
 }

@@ -4,9 +4,9 @@
 
 mod bench;
 mod camera;
-mod controls;
+mod planted_faults;
 mod examples;
 mod properties;
-mod recipe;
+mod serial_parameters;
 mod streams;
-mod waveform;
+mod expected_outputs;

@@ -3,28 +3,28 @@
 //! are not taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
 use foveate_design::FeatureKind;
-use foveate_model::{CoreInput, SerialRcm, Thresholds};
+use foveate_model::{CoreInput, SerialRcm, ThresholdInputs};
 use proptest::prelude::*;
 
-use super::bench::{Bench, Check, Job, Manner, applied};
-use super::recipe::{SerialRecipe, serial_recipes};
-use super::waveform::facts;
-use crate::frames::{Random, Script, film, scripts};
-use crate::oracle::watch_changing;
-use crate::recipe::Recipe;
+use super::bench::{SerialBench, SerialCheckResult, SerialStimulus, SerialTraffic, port_pixels};
+use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
+use super::expected_outputs::region_results;
+use crate::frames::{SeededRandom, ClipScript, make_clip, arbitrary_scripts};
+use crate::oracle::oracle_history_with_thresholds;
+use crate::parameters::DesignParameters;
 
-fn manners() -> impl Strategy<Value = Manner> {
+fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     let gaps = prop_oneof![2 => Just(0i64), 1 => 1i64..70];
     let pushing = prop_oneof![Just(0i64), Just(50), Just(100)];
     (gaps, 0i64..20, pushing, any::<bool>(), any::<u64>()).prop_map(
-        |(gaps, between, pushing, skips, seed)| Manner { gaps, between, pushing, skips, seed },
+        |(gaps, between, pushing, skips, seed)| SerialTraffic { gaps, max_pause: between, pushing, skips, seed },
     )
 }
 
 /// Returns the recipe with other thresholds, if they are inputs.
-fn changed(recipe: &Recipe, seed: u64) -> Recipe {
+fn with_other_thresholds(recipe: &DesignParameters, seed: u64) -> DesignParameters {
     let mut recipe = recipe.clone();
-    let mut random = Random(seed);
+    let mut random = SeededRandom(seed);
     if recipe.constant || random.below(3) == 0 {
         return recipe;
     }
@@ -42,10 +42,10 @@ fn changed(recipe: &Recipe, seed: u64) -> Recipe {
 }
 
 /// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
-fn applied_thresholds(recipe: &Recipe) -> Thresholds {
+fn applied_thresholds(recipe: &DesignParameters) -> ThresholdInputs {
     if recipe.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
-        return Thresholds {
+        return ThresholdInputs {
             level,
             min_score,
             temporal_level: 0,
@@ -53,25 +53,25 @@ fn applied_thresholds(recipe: &Recipe) -> Thresholds {
             summary_level: 0,
         };
     }
-    Thresholds::of(&recipe.design())
+    ThresholdInputs::from_camera(&recipe.design())
 }
 
 /// Returns a clip with the thresholds of each frame and the results of the oracle.
-pub(crate) fn jobs(recipe: &SerialRecipe, script: &Script) -> Vec<Job> {
-    let film = film(&recipe.base, script);
-    let recipes: Vec<Recipe> =
-        script.iter().map(|&(_, seed)| changed(&recipe.base, seed)).collect();
-    let history = watch_changing(&recipes, &film);
-    let job = |((frame, seen), changed): ((&_, &_), &Recipe)| Job {
-        pixels: applied(recipe, frame),
+pub(crate) fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<SerialStimulus> {
+    let film = make_clip(&recipe.base, script);
+    let recipes: Vec<DesignParameters> =
+        script.iter().map(|&(_, seed)| with_other_thresholds(&recipe.base, seed)).collect();
+    let history = oracle_history_with_thresholds(&recipes, &film);
+    let job = |((frame, seen), changed): ((&_, &_), &DesignParameters)| SerialStimulus {
+        pixels: port_pixels(recipe, frame),
         thresholds: applied_thresholds(changed),
-        facts: facts(seen),
+        facts: region_results(seen),
     };
     film.iter().zip(&history).zip(&recipes).map(job).collect()
 }
 
 /// Runs some edges, resets the array, and runs a new clip from its start.
-fn interrupted(bench: &mut Bench, before: &[Job], after: &[Job], edges: i64, held: bool) -> Check {
+fn run_with_reset(bench: &mut SerialBench, before: &[SerialStimulus], after: &[SerialStimulus], edges: i64, held: bool) -> SerialCheckResult {
     bench.stop_after(edges);
     bench.run(before)?;
     bench.stop_after(i64::MAX);
@@ -87,46 +87,46 @@ proptest! {
 
     #[test]
     fn every_port_after_every_edge(
-        recipe in serial_recipes(),
-        script in scripts(4),
-        manner in manners(),
+        recipe in arbitrary_serial_parameters(),
+        script in arbitrary_scripts(4),
+        manner in arbitrary_traffic(),
     ) {
-        let rcm = SerialRcm::new(recipe.design().serial().unwrap());
-        let check = Bench::new(&recipe, rcm, manner).run(&jobs(&recipe, &script));
+        let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
+        let check = SerialBench::new(&recipe, rcm, manner).run(&stimuli(&recipe, &script));
         prop_assert_eq!(check, Ok(()));
     }
 
     #[test]
     fn a_reset_at_any_edge_forgets_everything(
-        recipe in serial_recipes(),
-        (before, after) in (scripts(3), scripts(2)),
-        manner in manners(),
+        recipe in arbitrary_serial_parameters(),
+        (before, after) in (arbitrary_scripts(3), arbitrary_scripts(2)),
+        manner in arbitrary_traffic(),
         (cut, held) in (any::<u64>(), any::<bool>()),
     ) {
-        let mut bench = Bench::new(&recipe, SerialRcm::new(recipe.design().serial().unwrap()), manner);
+        let mut bench = SerialBench::new(&recipe, SerialRcm::new(recipe.design().as_serial().unwrap()), manner);
         let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
         // A third of the resets come while pixels are taken, although that is the smaller part of a
         // frame.
         let whole = frame * before.len() as i64;
-        let edges = Random(cut).below(if cut % 3 == 0 { recipe.frame_pixels() } else { whole });
-        let (before, after) = (jobs(&recipe, &before), jobs(&recipe, &after));
-        prop_assert_eq!(interrupted(&mut bench, &before, &after, edges, held), Ok(()));
+        let edges = SeededRandom(cut).below(if cut % 3 == 0 { recipe.frame_pixels() } else { whole });
+        let (before, after) = (stimuli(&recipe, &before), stimuli(&recipe, &after));
+        prop_assert_eq!(run_with_reset(&mut bench, &before, &after, edges, held), Ok(()));
     }
 
     #[test]
     fn skipping_is_stepping(
-        recipe in serial_recipes(),
-        script in scripts(2),
+        recipe in arbitrary_serial_parameters(),
+        script in arbitrary_scripts(2),
         cut in any::<u64>(),
         clocks in prop_oneof![0u64..5, 0u64..100_000],
     ) {
-        let jobs = jobs(&recipe, &script);
-        let mut bench = Bench::new(&recipe, SerialRcm::new(recipe.design().serial().unwrap()), Manner::DENSE);
+        let jobs = stimuli(&recipe, &script);
+        let mut bench = SerialBench::new(&recipe, SerialRcm::new(recipe.design().as_serial().unwrap()), SerialTraffic::DENSE);
         let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
-        bench.stop_after(Random(cut).below(frame * jobs.len() as i64));
+        bench.stop_after(SeededRandom(cut).below(frame * jobs.len() as i64));
         prop_assert_eq!(bench.run(&jobs), Ok(()));
         let (mut stepped, mut skipped) = (bench.rcm.clone(), bench.rcm);
-        let (pixels, thresholds) = (vec![0; recipe.ports() as usize], jobs[0].thresholds);
+        let (pixels, thresholds) = (vec![0; recipe.port_pixels() as usize], jobs[0].thresholds);
         let idle =
             CoreInput::idle(&pixels, &thresholds);
         let ready_in = stepped.clocks_until_ready();

@@ -2,18 +2,18 @@
 //! Tests of lanes with arbitrary streams, whose halos belong to no frame. The outputs of the serial
 //! array must be those of the pipelined array.
 
-use foveate_model::{CoreInput, PipelinedRcm, SerialRcm, Thresholds};
+use foveate_model::{CoreInput, PipelinedRcm, SerialRcm, ThresholdInputs};
 use proptest::prelude::*;
 
-use super::bench::{Bench, Job, Manner, by_port};
-use super::recipe::{SerialRecipe, serial_recipes};
-use super::waveform::Facts;
-use crate::frames::Random;
+use super::bench::{SerialBench, SerialStimulus, SerialTraffic, by_port};
+use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
+use super::expected_outputs::RegionResults;
+use crate::frames::SeededRandom;
 
 /// Returns streams by frame, region and position. Every frame keeps some pixels of the frame
 /// before.
-fn streams(recipe: &SerialRecipe, frames: usize, seed: u64) -> Vec<Vec<Vec<u16>>> {
-    let mut random = Random(seed);
+fn streams(recipe: &SerialParameters, frames: usize, seed: u64) -> Vec<Vec<Vec<u16>>> {
+    let mut random = SeededRandom(seed);
     let top = recipe.base.pixel_max() + 1;
     let places = (recipe.base.side + 2 * recipe.halo()).pow(2) as usize;
     let mut now = vec![vec![0u16; places]; (recipe.lanes() * recipe.fold) as usize];
@@ -31,13 +31,13 @@ fn streams(recipe: &SerialRecipe, frames: usize, seed: u64) -> Vec<Vec<Vec<u16>>
 }
 
 /// Returns the results of the pipelined array for every frame and region.
-fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>> {
+fn pipelined_facts(recipe: &SerialParameters, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<RegionResults>> {
     let design = recipe.base.design();
-    let thresholds = Thresholds::of(&design);
+    let thresholds = ThresholdInputs::from_camera(&design);
     let (regions, places) = (design.regions() as usize, streams[0][0].len());
     let mut facts = vec![Vec::new(); regions];
     let mut leaving = vec![Vec::new(); regions];
-    let mut rcm = PipelinedRcm::new(design.pipelined().unwrap());
+    let mut rcm = PipelinedRcm::new(design.as_pipelined().unwrap());
     // Black frames behind the last one push its results out.
     for clock in 0..(streams.len() + 3) * places {
         let at = |region: usize| {
@@ -50,7 +50,7 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
             if output.decision_valid {
                 let count = std::iter::once(output.temporal_count.into());
                 let scores = count.chain(output.scores).take(1 + recipe.base.features.len());
-                facts[region].push(Facts {
+                facts[region].push(RegionResults {
                     scores: scores.collect(),
                     srs: output.srs,
                     trs: output.trs,
@@ -67,7 +67,7 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
     for (facts, leaving) in facts.iter_mut().zip(leaving) {
         let mut leaving = leaving.into_iter();
         for facts in facts.iter_mut() {
-            let (payload, means) = lengths(recipe, facts);
+            let (payload, means) = sent_lengths(recipe, facts);
             facts.payload = leaving.by_ref().take(payload).collect();
             facts.means = leaving.by_ref().take(means).collect();
         }
@@ -76,9 +76,9 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
 }
 
 /// Returns the number of pixels and the number of means that leave of a region.
-fn lengths(recipe: &SerialRecipe, facts: &Facts) -> (usize, usize) {
-    let pixels = if facts.active() { recipe.base.n() } else { 0 };
-    let means = if facts.summary { recipe.means() } else { 0 };
+fn sent_lengths(recipe: &SerialParameters, facts: &RegionResults) -> (usize, usize) {
+    let pixels = if facts.is_active() { recipe.base.region_pixels() } else { 0 };
+    let means = if facts.summary { recipe.mean_count() } else { 0 };
     (pixels as usize, means as usize)
 }
 
@@ -86,20 +86,20 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
-    fn any_streams_are_judged_as_the_pipelined_array_judges_them(
-        mut recipe in serial_recipes(),
+    fn any_streams_are_decided_as_by_the_pipelined_array(
+        mut recipe in arbitrary_serial_parameters(),
         frames in 1usize..4,
         seed in any::<u64>(),
     ) {
         recipe.raster = false;
         let streams = streams(&recipe, frames, seed);
-        let job = |(frame, facts): (&Vec<Vec<u16>>, Vec<Facts>)| Job {
+        let job = |(frame, facts): (&Vec<Vec<u16>>, Vec<RegionResults>)| SerialStimulus {
             pixels: by_port(&recipe, frame),
-            thresholds: Thresholds::of(&recipe.design()),
+            thresholds: ThresholdInputs::from_camera(&recipe.design()),
             facts,
         };
-        let jobs: Vec<Job> = streams.iter().zip(pipelined(&recipe, &streams)).map(job).collect();
-        let rcm = SerialRcm::new(recipe.design().serial().unwrap());
-        prop_assert_eq!(Bench::new(&recipe, rcm, Manner::DENSE).run(&jobs), Ok(()));
+        let jobs: Vec<SerialStimulus> = streams.iter().zip(pipelined_facts(&recipe, &streams)).map(job).collect();
+        let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
+        prop_assert_eq!(SerialBench::new(&recipe, rcm, SerialTraffic::DENSE).run(&jobs), Ok(()));
     }
 }

@@ -2,7 +2,7 @@
 //! Tests of damaged streams by the rules of `docs/sync.md`: the frames that an array takes, and the
 //! beats that are errors.
 
-mod machine;
-mod oracle;
-mod states;
+mod array;
+mod sync_oracle;
+mod sync_states;
 mod streams;

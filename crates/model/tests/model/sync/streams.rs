@@ -3,11 +3,11 @@
 //! takes the frames that `docs/sync.md` defines, with their references, and errors must come after
 //! the edges that it names.
 
-use super::machine::{Decided, Machine, frame_of, shape};
-use super::oracle::{Cut, Edge, cut};
-use crate::frames::Random;
-use foveate_design::{Config, Design};
-use foveate_model::{FunctionalCamera, Thresholds};
+use super::array::{ArrayDecision, AnyArray, frame_from_beats, beat_shape};
+use super::sync_oracle::{CutStream, StreamEdge, cut_stream};
+use crate::frames::SeededRandom;
+use foveate_design::{DesignConfig, Design};
+use foveate_model::{FunctionalCamera, ThresholdInputs};
 
 const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\
                     region.size = 4\nspatial = [{ feature = 'edge', level = 12, min_score = 6 }]\n";
@@ -64,14 +64,14 @@ const DESIGNS: &[&[&str]] = &[
 ];
 
 fn design(more: &[&str]) -> Design {
-    Config::from_toml_with(BASE, more).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with(BASE, more).unwrap().validate().unwrap()
 }
 
 /// Returns the marks of beats for about `frames` frames, of which half are damaged.
-fn stream(random: &mut Random, beats: usize, frames: usize) -> Vec<bool> {
+fn damaged_stream(random: &mut SeededRandom, beats: usize, frames: usize) -> Vec<bool> {
     let mut marks = vec![false; random.below(4) as usize];
     for _ in 0..frames {
-        let any = |random: &mut Random| 1 + random.below(beats as i64 - 1) as usize;
+        let any = |random: &mut SeededRandom| 1 + random.below(beats as i64 - 1) as usize;
         let (length, sof) = match random.below(14) {
             0 => (beats - 1, true),
             1 => (any(random), true),
@@ -91,25 +91,25 @@ fn stream(random: &mut Random, beats: usize, frames: usize) -> Vec<bool> {
     marks
 }
 
-struct Played {
-    edges: Vec<Edge>,
+struct PlayedStream {
+    edges: Vec<StreamEdge>,
     errors: Vec<usize>,
-    decided: Vec<Decided>,
+    decided: Vec<ArrayDecision>,
     left: usize,
 }
 
 /// Offers the beats to the array, with gaps, until all outputs have come. To an array without
 /// `ready_o`, beats come in any case. While the array is not ready, `fill` is on the pixel port.
-fn play(design: &Design, marks: &[bool], random: &mut Random, fill: &[u16]) -> Played {
-    let (mut machine, thresholds) = (Machine::new(design), Thresholds::of(design));
-    let mut played = Played { edges: vec![], errors: vec![], decided: vec![], left: 0 };
+fn play(design: &Design, marks: &[bool], random: &mut SeededRandom, fill: &[u16]) -> PlayedStream {
+    let (mut machine, thresholds) = (AnyArray::new(design), ThresholdInputs::from_camera(design));
+    let mut played = PlayedStream { edges: vec![], errors: vec![], decided: vec![], left: 0 };
     let with_gaps = random.below(2) == 0;
     let max = i64::from(design.pixel_max()) + 1;
     let mut ready = machine.step((true, true, true), fill, &thresholds).ready;
     assert!(ready);
     let (mut next, mut silence, mut clock) = (0, 0, 0);
     // Pixels change little, so that some regions are held.
-    let mut picture: Vec<Vec<u16>> = vec![fill.to_vec(); shape(design).0];
+    let mut picture: Vec<Vec<u16>> = vec![fill.to_vec(); beat_shape(design).0];
     while silence < design.timing().clocks_per_frame() + 200 {
         let valid = next < marks.len() && !(with_gaps && random.below(4) == 0);
         let sof = if valid { marks[next] } else { random.below(2) == 0 };
@@ -126,18 +126,18 @@ fn play(design: &Design, marks: &[bool], random: &mut Random, fill: &[u16]) -> P
             fill.to_vec()
         };
         if ready {
-            played.edges.push(Edge { clock, valid, sof, pixels: pixels.clone() });
+            played.edges.push(StreamEdge { clock, valid, sof, pixels: pixels.clone() });
             next += usize::from(valid);
         }
         let seen = machine.step((false, valid, sof), &pixels, &thresholds);
         played.errors.extend(seen.sync_error.then_some(clock));
-        silence = if next < marks.len() || !seen.decided.is_empty() || seen.left > 0 {
+        silence = if next < marks.len() || !seen.decided.is_empty() || seen.sent_pixels > 0 {
             0
         } else {
             silence + 1
         };
         played.decided.extend(seen.decided);
-        played.left += seen.left;
+        played.left += seen.sent_pixels;
         ready = seen.ready;
         clock += 1;
     }
@@ -149,14 +149,14 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
     let (mut errors, mut completed, mut held) = (0, 0, 0);
     for more in DESIGNS {
         let design = design(more);
-        let (beats, width) = shape(&design);
+        let (beats, width) = beat_shape(&design);
         for seed in 0..12 {
-            let random = &mut Random(seed * 7 + 1);
-            let marks = stream(random, beats, 9);
+            let random = &mut SeededRandom(seed * 7 + 1);
+            let marks = damaged_stream(random, beats, 9);
             let fill = vec![random.below(i64::from(design.pixel_max()) + 1) as u16; width];
             let played = play(&design, &marks, random, &fill);
-            let has_ready = Machine::new(&design).has_ready();
-            let found: Cut = cut(&played.edges, beats, has_ready.then_some(&fill[..]));
+            let has_ready = AnyArray::new(&design).has_ready();
+            let found: CutStream = cut_stream(&played.edges, beats, has_ready.then_some(&fill[..]));
             assert_eq!(played.errors, found.errors, "{more:?} {seed}");
             (errors, completed) = (errors + found.errors.len(), completed + found.completed);
 
@@ -167,7 +167,7 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
             assert_eq!(played.decided.len(), (frames - late) * regions, "{more:?} {seed}");
             let mut left = 0;
             for (number, frame) in found.frames.iter().enumerate() {
-                let outcome = camera.step(&frame_of(&design, frame)).unwrap();
+                let outcome = camera.step(&frame_from_beats(&design, frame)).unwrap();
                 left += outcome.active.iter().filter(|active| **active).count();
                 for decided in played.decided.iter().skip(number * regions).take(regions) {
                     let at = decided.region as usize;
@@ -189,19 +189,19 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
 /// Without the marks a lost beat is never noticed, and all later decisions are those of other
 /// frames.
 #[test]
-fn without_it_a_lost_beat_leaves_the_array_out_of_step() {
+fn without_sync_a_lost_beat_leaves_the_array_out_of_step() {
     for more in DESIGNS {
         let with = design(more);
         let mut config = with.config();
         config.hardware.sync = None;
         let without = config.validate().unwrap();
-        let (beats, width) = shape(&with);
+        let (beats, width) = beat_shape(&with);
         let mut marks: Vec<bool> = (0..4 * beats).map(|at| at % beats == 0).collect();
         marks.remove(beats / 2);
         let fill = vec![0; width];
         let late = with.timing().departure().decision_frames as usize;
         let frames = |design: &Design| {
-            let played = play(design, &marks, &mut Random(3), &fill);
+            let played = play(design, &marks, &mut SeededRandom(3), &fill);
             (played.decided.len() / design.regions() as usize + late, played.errors.len())
         };
         // The first frame is completed, the second is dropped, and the others are whole.

@@ -3,17 +3,17 @@
 
 #[path = "../../../../footage/tests/footage/clips.rs"]
 pub(crate) mod clips;
-pub(crate) mod made;
+pub(crate) mod data_sets;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use foveate_design::{Config, Design};
+use foveate_design::{DesignConfig, Design};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_scenes::{Scene, SceneSize};
-use foveate_simulator::{RunOptions, Silent, Simulation, SimulatorError, Summary};
+use foveate_scenes::{Scene, SceneParameters};
+use foveate_simulator::{RunOptions, SilentHooks, Simulation, SimulatorError, RunSummary};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.
 pub(crate) fn run<P: AsRef<Path>>(
@@ -21,10 +21,10 @@ pub(crate) fn run<P: AsRef<Path>>(
     overrides: &[&str],
     output: &Path,
     options: &RunOptions,
-) -> Result<Summary, SimulatorError> {
-    let config = Config::from_toml_with("", overrides).unwrap();
+) -> Result<RunSummary, SimulatorError> {
+    let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let source = open(inputs, &config.camera, &InputOptions::default())?;
-    Simulation::new(&config, source)?.run(output, options, &mut Silent)
+    Simulation::new(&config, source)?.run(output, options, &mut SilentHooks)
 }
 
 /// The configuration of a ragged street with two features.
@@ -36,16 +36,16 @@ pub(crate) const STREET: [&str; 4] = [
 ];
 
 /// Runs five frames of the street.
-pub(crate) fn street(output: &Path, overrides: &[&str], options: &RunOptions) -> Summary {
-    let config = Config::from_toml_with("", overrides).unwrap();
+pub(crate) fn street(output: &Path, overrides: &[&str], options: &RunOptions) -> RunSummary {
+    let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
     let source = open(&["scene:street"], &config.camera, &limit).unwrap();
-    Simulation::new(&config, source).unwrap().run(output, options, &mut Silent).unwrap()
+    Simulation::new(&config, source).unwrap().run(output, options, &mut SilentHooks).unwrap()
 }
 
 /// Returns the five frames of the street.
 pub(crate) fn frames(design: &Design) -> impl Iterator<Item = Frame> + use<> {
-    Scene::Street.frames(SceneSize {
+    Scene::Street.frames(SceneParameters {
         width: design.width(),
         height: design.height(),
         bits: design.pixel_bits(),
@@ -55,7 +55,7 @@ pub(crate) fn frames(design: &Design) -> impl Iterator<Item = Frame> + use<> {
 }
 
 pub(crate) fn design(overrides: &[&str]) -> Design {
-    Config::from_toml_with("", overrides).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with("", overrides).unwrap().validate().unwrap()
 }
 
 /// Returns the outcomes of the model for the five frames.
@@ -86,13 +86,13 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
 }
 
 /// An NPY file, parsed by its header.
-pub(crate) struct Npy {
+pub(crate) struct NpyArray {
     pub(crate) descr: String,
     pub(crate) shape: Vec<usize>,
     pub(crate) data: Vec<u8>,
 }
 
-impl Npy {
+impl NpyArray {
     pub(crate) fn read(path: &Path) -> Self {
         Self::parse(&fs::read(path).unwrap())
     }

@@ -34,14 +34,14 @@ const CONTRASTS: [f64; 2] = [8.0, 32.0];
 /// Returns the classes of an object, as indices into [`CLASSES`]. An unknown speed or contrast has
 /// its own class.
 pub(super) fn classes_of(rect: &Rect, speed: Option<f64>, contrast: Option<f64>) -> [usize; 4] {
-    let size = 1 + steps(rect.area(), &AREAS);
-    let speed = 4 + speed.map_or(SPEEDS.len() + 1, |speed| steps(speed, &SPEEDS));
-    let contrast = 9 + contrast.map_or(CONTRASTS.len() + 1, |value| steps(value, &CONTRASTS));
+    let size = 1 + reached_limits(rect.area(), &AREAS);
+    let speed = 4 + speed.map_or(SPEEDS.len() + 1, |speed| reached_limits(speed, &SPEEDS));
+    let contrast = 9 + contrast.map_or(CONTRASTS.len() + 1, |value| reached_limits(value, &CONTRASTS));
     [0, size, speed, contrast]
 }
 
 /// Counts the limits that a value reaches.
-fn steps(value: f64, limits: &[f64]) -> usize {
+fn reached_limits(value: f64, limits: &[f64]) -> usize {
     limits.iter().filter(|limit| value >= **limit).count()
 }
 
@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn objects_are_in_one_class_of_every_group() {
         let names = |side: f64, speed, contrast| {
-            let rect = Rect::of_corners([0.0, 0.0, side, side]).unwrap();
+            let rect = Rect::from_corners([0.0, 0.0, side, side]).unwrap();
             classes_of(&rect, speed, contrast).map(|class| CLASSES[class])
         };
         let of = |size, speed, contrast| {

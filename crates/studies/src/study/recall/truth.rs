@@ -5,17 +5,17 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use foveate_footage::boxes::{BoxError, Boxes, Place, View};
-use foveate_footage::{Crop, Kind, Source, SourceFrame};
+use foveate_footage::boxes::{BoxError, BoxFile, FrameKey, BoxView};
+use foveate_footage::{CropRect, SourceKind, FrameSource, SourceFrame};
 use foveate_frame::Rect;
 
 use super::class::classes_of;
-use super::contrast::Sums;
+use super::contrast::SummedAreaTable;
 use crate::StudyError;
-use crate::watch::Guide;
+use crate::runner::FrameAnnotator;
 
 /// An object of the current frame.
-pub(super) struct Object {
+pub(super) struct FrameObject {
     /// The box in the frame that the camera sees, cut off at its border.
     pub(super) rect: Rect,
     pub(super) track: Option<u64>,
@@ -24,38 +24,38 @@ pub(super) struct Object {
 }
 
 /// The boxes of a clip, and the objects of the current frame.
-pub(super) struct Truth {
-    boxes: Arc<Boxes>,
-    crop: Option<Crop>,
+pub(super) struct GroundTruthObjects {
+    boxes: Arc<BoxFile>,
+    crop: Option<CropRect>,
     /// The number of frames; `found` counts those with an entry in the boxes.
     frames: u64,
-    found: u64,
+    labelled_frames: u64,
     /// The number of boxes that lie mostly outside of the frame, over all frames.
     outside: u64,
     /// The centres of the tracks in the frame before.
-    before: HashMap<u64, (f64, f64)>,
-    objects: Vec<Object>,
+    last_centres: HashMap<u64, (f64, f64)>,
+    objects: Vec<FrameObject>,
 }
 
-impl Truth {
-    pub(super) fn new(boxes: Arc<Boxes>, crop: Option<Crop>) -> Self {
+impl GroundTruthObjects {
+    pub(super) fn new(boxes: Arc<BoxFile>, crop: Option<CropRect>) -> Self {
         let (before, objects) = (HashMap::new(), Vec::new());
-        Self { boxes, crop, frames: 0, found: 0, outside: 0, before, objects }
+        Self { boxes, crop, frames: 0, labelled_frames: 0, outside: 0, last_centres: before, objects }
     }
 
-    pub(super) fn objects(&self) -> &[Object] {
+    pub(super) fn objects(&self) -> &[FrameObject] {
         &self.objects
     }
 
     /// Fails if no frame of the clip has an entry in the boxes.
     pub(super) fn check(&self, clip: &str) -> Result<(), BoxError> {
-        if self.found > 0 { Ok(()) } else { Err(self.boxes.none_fit(clip)) }
+        if self.labelled_frames > 0 { Ok(()) } else { Err(self.boxes.no_entry_error(clip)) }
     }
 
     /// Returns a note on the origin of the objects.
     pub(super) fn note(&self, clip: &str) -> String {
         let (path, format) = (self.boxes.path().display(), self.boxes.format().name());
-        let Self { outside, frames, found, .. } = self;
+        let Self { outside, frames, labelled_frames: found, .. } = self;
         let without = frames - found;
         format!(
             "{clip}: boxes {path} ({format}); {outside} lie mostly outside of the frame, left out; \
@@ -64,32 +64,32 @@ impl Truth {
     }
 }
 
-impl Guide for Truth {
-    fn look(&mut self, frame: &SourceFrame, source: &dyn Source) -> Result<(), StudyError> {
+impl FrameAnnotator for GroundTruthObjects {
+    fn annotate(&mut self, frame: &SourceFrame, source: &dyn FrameSource) -> Result<(), StudyError> {
         self.objects.clear();
         let origin = source.origin().expect("an input knows where its frames are from");
-        let labelled = self.boxes.at(&Place::of(frame, &origin))?;
+        let labelled = self.boxes.boxes_of_frame(&FrameKey::from_source_frame(frame, &origin))?;
         self.frames += 1;
-        self.found += u64::from(labelled.is_some());
+        self.labelled_frames += u64::from(labelled.is_some());
         let labelled = labelled.unwrap_or_default();
         // An object of a data set is in a single frame, so it has no track.
-        let has_tracks = source.kind() == Kind::Clip;
-        let view = View::of(frame, &origin, self.crop);
-        let sums = (!labelled.is_empty()).then(|| Sums::of(&frame.frame));
-        let before = std::mem::take(&mut self.before);
+        let has_tracks = source.kind() == SourceKind::Clip;
+        let view = BoxView::from_source_frame(frame, &origin, self.crop);
+        let sums = (!labelled.is_empty()).then(|| SummedAreaTable::from_frame(&frame.frame));
+        let before = std::mem::take(&mut self.last_centres);
         for one in labelled {
             let track = one.track.filter(|_| has_tracks);
-            let centre = view.place(&one.rect).centre();
+            let centre = view.transform(&one.rect).centre();
             let last = track.and_then(|track| before.get(&track));
             let speed = last.map(|last| (centre.0 - last.0).hypot(centre.1 - last.1));
-            self.before.extend(track.map(|track| (track, centre)));
-            let Some(rect) = view.see(&one.rect) else {
+            self.last_centres.extend(track.map(|track| (track, centre)));
+            let Some(rect) = view.transform_and_cut(&one.rect) else {
                 self.outside += 1;
                 continue;
             };
             let contrast = sums.as_ref().and_then(|sums| sums.contrast(&rect));
             let classes = classes_of(&rect, speed, contrast);
-            self.objects.push(Object { rect, track, classes });
+            self.objects.push(FrameObject { rect, track, classes });
         }
         Ok(())
     }

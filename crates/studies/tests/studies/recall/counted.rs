@@ -5,19 +5,19 @@ use std::fs;
 use std::path::PathBuf;
 use std::slice::from_ref;
 
-use super::{check_known, images, mot, recall, row};
-use crate::support::{Silent, cells};
-use foveate_design::Config;
+use super::{check_known, images, mot_rows, recall, row};
+use crate::support::{SilentHooks, cells};
+use foveate_design::DesignConfig;
 use foveate_engine::Engine;
 use foveate_footage::{InputOptions, open};
-use foveate_studies::{Request, Study, analyze};
+use foveate_studies::{StudyRequest, Study, analyze};
 
 #[test]
 fn objects_of_a_known_clip_are_counted() {
     let dir = tempfile::tempdir().unwrap();
     let (clip, out) = (dir.path().join("clip"), dir.path().join("out"));
     images(&clip, 1, 0);
-    fs::write(clip.join("gt.txt"), mot(1, 0)).unwrap();
+    fs::write(clip.join("gt.txt"), mot_rows(1, 0)).unwrap();
     let boxes = [PathBuf::from("gt.txt")];
     let report = recall(from_ref(&clip), &boxes, &InputOptions::default(), &out).unwrap();
     check_known(&report, "clip", &out);
@@ -60,9 +60,9 @@ fn several_clips_have_boxes_of_their_own_and_a_sum() {
     for clip in &clips {
         images(clip, 1, 0);
     }
-    fs::write(clips[0].join("gt.txt"), mot(1, 0)).unwrap();
+    fs::write(clips[0].join("gt.txt"), mot_rows(1, 0)).unwrap();
     // The second clip has one object, which is active in one of its three counted frames.
-    let second: String = mot(1, 0)
+    let second: String = mot_rows(1, 0)
         .lines()
         .filter(|row| row.contains(",2,17,"))
         .fold(String::new(), |all, row| all + row + "\n");
@@ -80,7 +80,7 @@ fn several_clips_have_boxes_of_their_own_and_a_sum() {
 
 /// Returns the rows or columns of regions that a span of pixels belongs to, by counting pixels.
 /// `side` is the side of a region, and `size` that of the frame.
-fn lines(from: u32, to: u32, side: u32, size: u32) -> Vec<u32> {
+fn covered_grid_lines(from: u32, to: u32, side: u32, size: u32) -> Vec<u32> {
     let count = |line: u32, wanted: &dyn Fn(u32) -> bool| {
         (line * side..((line + 1) * side).min(size)).filter(|&at| wanted(at)).count()
     };
@@ -100,7 +100,7 @@ fn a_naive_count_of_random_boxes_agrees() {
     let dir = tempfile::tempdir().unwrap();
     let (gt, out) = (dir.path().join("gt.txt"), dir.path().join("out"));
     let input = InputOptions { frames: Some(6), ..InputOptions::default() };
-    let config = Config::from_toml("frame.width = 93\nframe.height = 70").unwrap();
+    let config = DesignConfig::from_toml("frame.width = 93\nframe.height = 70").unwrap();
     let mut random = fastrand::Rng::with_seed(7);
     let boxes: Vec<[u32; 5]> = (0..300)
         .map(|_| {
@@ -113,7 +113,7 @@ fn a_naive_count_of_random_boxes_agrees() {
     });
     fs::write(&gt, rows.collect::<String>()).unwrap();
     let scene = [PathBuf::from("scene:shake")];
-    let request = Request {
+    let request = StudyRequest {
         study: Study::Recall,
         inputs: &scene,
         input: &input,
@@ -122,7 +122,7 @@ fn a_naive_count_of_random_boxes_agrees() {
         sensor_start_us: 0,
         boxes: &[gt],
     };
-    let report = analyze(&request, &out, true, &Silent).unwrap();
+    let report = analyze(&request, &out, true, &SilentHooks).unwrap();
 
     let design = config.validate().unwrap();
     let mut engine = Engine::new(&design);
@@ -130,10 +130,10 @@ fn a_naive_count_of_random_boxes_agrees() {
     let (mut objects, mut sums) = (0, [0; 4]);
     for number in 1..=6 {
         let frame = source.next_frame().unwrap().unwrap();
-        let active = engine.step_raster(&frame.frame).unwrap().active.clone();
+        let active = engine.step_byte_frame(&frame.frame).unwrap().active.clone();
         for [_, x, y, w, h] in boxes.iter().filter(|one| one[0] == number && number > 1) {
-            let columns = lines(*x, x + w, 8, 93);
-            let regions = lines(*y, y + h, 8, 70)
+            let columns = covered_grid_lines(*x, x + w, 8, 93);
+            let regions = covered_grid_lines(*y, y + h, 8, 70)
                 .into_iter()
                 .flat_map(|row| columns.iter().map(move |c| row * 12 + c));
             let votes: Vec<bool> = regions.map(|region| active[region as usize]).collect();

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::PathBuf;
 use std::slice::from_ref;
 
-use super::{check_known, frame, images, mot, recall, recall_of, row};
-use foveate_design::Config;
-use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, Selection};
+use super::{check_known, frame, images, mot_rows, recall, recall_of, row};
+use foveate_design::DesignConfig;
+use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, FrameSelection};
 
 #[test]
 fn boxes_are_cropped_and_scaled_with_the_frames() {
@@ -16,8 +16,8 @@ fn boxes_are_cropped_and_scaled_with_the_frames() {
     let gt = clip.join("gt.txt");
     images(&clip, 2, 24);
     // An object that lies outside of the crop by more than three quarters does not count.
-    fs::write(&gt, mot(2, 24) + "2,9,5,25,24,16,1,1,1\n").unwrap();
-    let crop = Some(Crop { size: (64, 32), at: (24, 24) });
+    fs::write(&gt, mot_rows(2, 24) + "2,9,5,25,24,16,1,1,1\n").unwrap();
+    let crop = Some(CropRect { size: (64, 32), origin: (24, 24) });
     let input = InputOptions { crop, resize: Some((32, 16)), ..InputOptions::default() };
     let report = recall(&[clip], &[gt], &input, &out).unwrap();
     check_known(&report, "clip", &out);
@@ -43,7 +43,7 @@ fn boxes_follow_the_frames_that_are_seen() {
     fs::write(&gt, rows.collect::<String>()).unwrap();
     let of = |start_us, rate: Option<u32>| {
         let rate = rate.map(|rate| FrameRate::new(rate, 1).unwrap());
-        let selection = Selection { start_us, rate, ..Selection::default() };
+        let selection = FrameSelection { start_us, rate, ..FrameSelection::default() };
         let input = InputOptions { selection, ..InputOptions::default() };
         let report = recall(from_ref(&clip), from_ref(&gt), &input, &out).unwrap();
         let speed = ["still", "slow"].into_iter().find(|speed| {
@@ -72,11 +72,11 @@ fn a_design_of_few_sizes_is_studied_in_those() {
     let (clip, gt, out) =
         (dir.path().join("clip"), [dir.path().join("gt.txt")], dir.path().join("out"));
     images(&clip, 1, 0);
-    fs::write(&gt[0], mot(1, 0)).unwrap();
+    fs::write(&gt[0], mot_rows(1, 0)).unwrap();
     // A region of 4x4 pixels has fewer than 20 pixels, and a frame has fewer than 8 regions of
     // 32x32.
     let built = ["temporal.min_count=20", "hardware.organization=\"serial\"", "hardware.fold=8"];
-    let config = Config::from_toml_with("", &built).unwrap();
+    let config = DesignConfig::from_toml_with("", &built).unwrap();
     let report = recall_of(&config, from_ref(&clip), &gt, &InputOptions::default(), &out).unwrap();
     let size =
         |row: &&Vec<String>| row[1] == "region.size" && row[3..6] == ["active", "all", "all"];
@@ -101,7 +101,7 @@ fn sets_have_boxes_by_name_and_count_what_is_relevant() {
     let coco = file("a.json", coco);
     file("yolo/000002.txt", "0 0.25 0.25 0.5 0.5\n");
     let yolo = file("yolo/000003.txt", "1 0.5 0.5 1 1\n").parent().unwrap().to_owned();
-    let input = InputOptions { images: ImagesAs::Set, ..InputOptions::default() };
+    let input = InputOptions { images: ImageRelation::Set, ..InputOptions::default() };
     let mut tables = Vec::new();
     for boxes in [csv.clone(), coco, yolo] {
         let report = recall(from_ref(&set), &[boxes], &input, &out).unwrap();

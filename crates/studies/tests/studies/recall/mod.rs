@@ -8,10 +8,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::Silent;
-use foveate_design::Config;
+use crate::support::SilentHooks;
+use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
-use foveate_studies::{Request, Study, StudyError, StudyReport, analyze};
+use foveate_studies::{StudyRequest, Study, StudyError, StudyReport, analyze};
 
 /// The tracks and boxes of the objects, in frames of 4x2 regions: regions 0 and 1, region 6, and
 /// region 3.
@@ -49,7 +49,7 @@ fn images(folder: &Path, zoom: usize, edge: usize) {
 }
 
 /// Returns the rows of all objects in all frames, in the format of MOT.
-fn mot(zoom: u32, edge: u32) -> String {
+fn mot_rows(zoom: u32, edge: u32) -> String {
     let mut text = String::new();
     for (frame, (track, [x, y, w, h])) in
         (1..=SHOWN.len()).flat_map(|frame| MOT.map(|object| (frame, object)))
@@ -61,9 +61,9 @@ fn mot(zoom: u32, edge: u32) -> String {
     text
 }
 
-fn config() -> Config {
+fn config() -> DesignConfig {
     let isolated = "region.neighborhood = \"isolated\"";
-    Config::from_toml_with("", &[isolated, "denoise.filter=\"none\""]).unwrap()
+    DesignConfig::from_toml_with("", &[isolated, "denoise.filter=\"none\""]).unwrap()
 }
 
 fn recall(
@@ -76,15 +76,15 @@ fn recall(
 }
 
 fn recall_of(
-    config: &Config,
+    config: &DesignConfig,
     inputs: &[PathBuf],
     boxes: &[PathBuf],
     input: &InputOptions,
     out: &Path,
 ) -> Result<StudyReport, StudyError> {
     let (study, sensor_events, sensor_start_us) = (Study::Recall, None, 0);
-    let request = Request { study, inputs, input, config, sensor_events, sensor_start_us, boxes };
-    analyze(&request, out, true, &Silent)
+    let request = StudyRequest { study, inputs, input, config, sensor_events, sensor_start_us, boxes };
+    analyze(&request, out, true, &SilentHooks)
 }
 
 /// Returns the cells of a row of the unchanged design.

@@ -3,34 +3,34 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::Config;
+use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
 use foveate_simulator::{BatchHooks, BatchProgress};
-use foveate_studies::{Request, Study, StudyError, StudyReport, analyze};
+use foveate_studies::{StudyRequest, Study, StudyError, StudyReport, analyze};
 
-pub(crate) struct Silent;
+pub(crate) struct SilentHooks;
 
-impl BatchHooks for Silent {
+impl BatchHooks for SilentHooks {
     fn progress(&self, _: BatchProgress) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         false
     }
 }
 
-pub(crate) fn config(text: &str) -> Config {
-    Config::from_toml_with("frame.width = 32\nframe.height = 16", &[text]).unwrap()
+pub(crate) fn config(text: &str) -> DesignConfig {
+    DesignConfig::from_toml_with("frame.width = 32\nframe.height = 16", &[text]).unwrap()
 }
 
 pub(crate) fn run(
     study: Study,
     inputs: &[&str],
-    config: &Config,
+    config: &DesignConfig,
     output: &Path,
 ) -> Result<StudyReport, StudyError> {
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(5), ..InputOptions::default() };
-    let request = Request {
+    let request = StudyRequest {
         study,
         inputs: &inputs,
         input: &input,
@@ -39,7 +39,7 @@ pub(crate) fn run(
         sensor_start_us: 0,
         boxes: &[],
     };
-    analyze(&request, output, true, &Silent)
+    analyze(&request, output, true, &SilentHooks)
 }
 
 pub(crate) fn cells<'a>(report: &'a StudyReport, column: &str) -> Vec<&'a str> {

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The positions of an output that are computed, and the inputs that they depend on.
+
+use crate::layer::{Layer, KernelWindow};
+use std::ops::Range;
+
+/// The positions of one image's output that are computed.
+#[derive(Clone, Debug)]
+pub(crate) struct ComputedPositions<'a> {
+    layer: &'a Layer,
+    /// Whether each position is computed, in row-major order.
+    is_computed: Vec<bool>,
+}
+
+impl<'a> ComputedPositions<'a> {
+    /// Selects all positions.
+    pub(crate) fn all(layer: &'a Layer) -> Self {
+        Self { layer, is_computed: vec![true; index(layer.outputs.positions())] }
+    }
+
+    /// Selects the positions of all tiles in which at least one position is needed. `tile` has rows
+    /// and columns; `is_needed` takes column and row.
+    pub(crate) fn in_tiles(
+        layer: &'a Layer,
+        tile: [u32; 2],
+        is_needed: impl Fn(usize, usize) -> bool,
+    ) -> Self {
+        let (height, width) = (index(layer.outputs.height), index(layer.outputs.width));
+        let [rows, columns] = tile.map(|side| index(side.into()));
+        let mut is_computed = vec![false; height * width];
+        for top in (0..height).step_by(rows) {
+            let rows = top..(top + rows).min(height);
+            for left in (0..width).step_by(columns) {
+                let columns = left..(left + columns).min(width);
+                if rows.clone().any(|y| columns.clone().any(|x| is_needed(x, y))) {
+                    for y in rows.clone() {
+                        is_computed[y * width..][columns.clone()].fill(true);
+                    }
+                }
+            }
+        }
+        Self { layer, is_computed }
+    }
+
+    /// Returns the number of computed positions in these rows.
+    pub(crate) fn position_count(&self, rows: Range<u64>) -> u64 {
+        rows.map(|row| self.count_in_row(row)).sum()
+    }
+
+    /// Returns the largest number of computed positions in one of these rows.
+    pub(crate) fn longest_row(&self, rows: Range<u64>) -> u64 {
+        rows.map(|row| self.count_in_row(row)).max().unwrap_or_default()
+    }
+
+    /// Returns the number of input positions that the computed outputs of these rows depend on,
+    /// each counted once.
+    pub(crate) fn input_count(&self, rows: Range<u64>) -> u64 {
+        let [down, across] = self.layer.windows;
+        let (height, width) = (self.layer.inputs.height, self.layer.inputs.width);
+        let mut is_seen = vec![Vec::new(); index(height)];
+        for row in rows {
+            let Some(seen) = self.input_columns(row, across, width) else { continue };
+            for input in down.taps(row, height) {
+                let place: &mut Vec<bool> = &mut is_seen[index(input)];
+                place.resize(seen.len(), false);
+                place.iter_mut().zip(&seen).for_each(|(place, &seen)| *place |= seen);
+            }
+        }
+        is_seen.iter().flatten().map(|&seen| u64::from(seen)).sum()
+    }
+
+    /// Returns which columns of the input the computed outputs of a row depend on; `None` if there
+    /// are no such outputs.
+    fn input_columns(&self, row: u64, across: KernelWindow, width: u64) -> Option<Vec<bool>> {
+        let outputs = self.row(row);
+        outputs.contains(&true).then(|| {
+            let mut seen = vec![false; index(width)];
+            for (column, _) in (0..).zip(outputs).filter(|&(_, &is)| is) {
+                across.taps(column, width).for_each(|input| seen[index(input)] = true);
+            }
+            seen
+        })
+    }
+
+    fn count_in_row(&self, row: u64) -> u64 {
+        self.row(row).iter().map(|&is| u64::from(is)).sum()
+    }
+
+    fn row(&self, row: u64) -> &[bool] {
+        let width = index(self.layer.outputs.width);
+        &self.is_computed[index(row) * width..][..width]
+    }
+}
+
+/// Converts a position to an index. Layers are checked to have fewer positions than a `usize` can
+/// count.
+fn index(value: u64) -> usize {
+    usize::try_from(value).expect("a layer has fewer positions than memory has bytes")
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The check that a design fits a board, behind a sensor or a pattern.
+
+use foveate_design::{InterfaceKind, Design, Hardware, Neighborhood, PipelinedDesign, RasterDesign};
+
+use crate::sensor::Sensor;
+
+/// The largest number of values of a region that the registers of an array can show: four at each
+/// address of their upper half.
+const MOST_VALUES: u32 = 2048;
+
+/// Fails with the reason if a design does not fit a board, behind this sensor or a pattern.
+pub(crate) fn check_fit(design: &Design, sensor: Option<&Sensor>) -> Result<(), String> {
+    match (design.interface_kind(), design.hardware(), sensor) {
+        (InterfaceKind::Axi, Hardware::Raster(own), sensor) => check_raster(design.with_hardware(own), sensor),
+        (InterfaceKind::Ports, Hardware::Pipelined(own), None) => check_array(design.with_hardware(own)),
+        (InterfaceKind::Ports, Hardware::Pipelined(_), Some(_)) => {
+            Err("an array takes a pixel of every region at a clock, and a sensor sends one; set hardware.organization='raster' \
+                 and hardware.interface='axi', or take a board with a pattern, vcu118"
+                .to_owned())
+        }
+        (InterfaceKind::Ports, Hardware::Serial(_), _) => {
+            Err("organization `serial` stands on no board; set hardware.organization='raster' and hardware.interface='axi', or \
+                 'pipelined' where a pattern is"
+                .to_owned())
+        }
+        (InterfaceKind::Ports, Hardware::Raster(_), _) => {
+            Err("it has no bus; set hardware.interface='axi'".to_owned())
+        }
+        (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_), _) => {
+            Err("only organization `raster` is on AXI".to_owned())
+        }
+    }
+}
+
+fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(), String> {
+    if raster.has_external_store() {
+        let remedy = "set hardware.store='block'";
+        return Err(format!("no board here has a memory for a frame store outside; {remedy}"));
+    }
+    if raster.pixel_bits() != 8 {
+        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", raster.pixel_bits()));
+    }
+    let lanes = raster.pixels_per_clock();
+    let Some(sensor) = sensor else { return Ok(()) };
+    if lanes != 1 {
+        return Err(format!("hardware.pixels_per_clock = {lanes}: a sensor sends one at a time"));
+    }
+    let (width, height) = (raster.width(), raster.height());
+    let (most, lines) = (sensor.width - sensor.left, sensor.height - sensor.top);
+    if width > most || height > lines {
+        return Err(format!(
+            "frames of {width} x {height}: the sensor sends {most} x {lines} at most"
+        ));
+    }
+    Ok(())
+}
+
+/// Fails with the reason if an array does not fit behind a pattern.
+fn check_array(array: PipelinedDesign<'_>) -> Result<(), String> {
+    let side = array.region_size();
+    if array.neighborhood() == Neighborhood::Shared {
+        return Err("an RPU sees the pixels of its own region alone here; set region.neighborhood='isolated'".to_owned());
+    }
+    if array.has_frame_sync() {
+        return Err("a pattern loses no pixel; set hardware.sync=false".to_owned());
+    }
+    if array.pixel_bits() != 8 {
+        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", array.pixel_bits()));
+    }
+    if array.region_pixels() > MOST_VALUES {
+        return Err(format!(
+            "region.size = {side}: registers show {MOST_VALUES} pixels; 45 is the largest"
+        ));
+    }
+    for (key, length) in [("width", array.width()), ("height", array.height())] {
+        if !length.is_multiple_of(side) {
+            let right = length.div_ceil(side) * side;
+            return Err(format!(
+                "frame.{key} = {length}: the pattern makes whole regions; {right} is a multiple of {side}"
+            ));
+        }
+    }
+    let (columns, most) = (array.columns(), array.region_pixels());
+    if columns > most {
+        return Err(format!(
+            "{columns} regions side by side: their sum is made in {most} clocks; frame.width = {} is the most with regions of {side} x {side}",
+            most * side
+        ));
+    }
+    Ok(())
+}

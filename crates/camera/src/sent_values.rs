@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The size of the output of a camera: two bits per region and frame, and values of P bits.
+//!
+//! | bits | the region | values that follow |
+//! | --- | --- | --- |
+//! | 00 | SRS = 0, no summary is sent | none |
+//! | 01 | SRS = 0, its summary is sent | q * q means |
+//! | 10 | SRS = 1, TRS = 0 | none |
+//! | 11 | active | its pixels, without padding |
+//!
+//! The two bits say what happens to every region, so no addresses are sent.
+
+use crate::{RegionAction, Camera, Periphery};
+
+/// Bits per region and frame that encode the decision and whether a summary is sent.
+pub const DECISION_BITS: u64 = 2;
+
+impl Camera {
+    /// Returns the number of values of P bits that a region sends: its pixels inside of the frame,
+    /// its means, or none.
+    #[must_use]
+    pub fn values_sent(&self, region: u32, action: RegionAction) -> u64 {
+        match action {
+            RegionAction::Forward => self.pixels_inside(region),
+            RegionAction::Summarize => self.periphery().map_or(0, |own| Periphery::mean_count(own).into()),
+            RegionAction::Hold | RegionAction::Blank => 0,
+        }
+    }
+
+    /// Returns the number of values of P bits that a frame sends, given the actions of its regions
+    /// in order.
+    #[must_use]
+    pub fn values_sent_per_frame(&self, actions: &[RegionAction]) -> u64 {
+        (0..).zip(actions).map(|(region, &action)| self.values_sent(region, action)).sum()
+    }
+
+    /// Returns the number of pixels of a region that are not padding.
+    #[must_use]
+    pub fn pixels_inside(&self, region: u32) -> u64 {
+        let side = self.region_size();
+        let inside = |position: u32, size: u32| u64::from(side.min(size - position * side));
+        inside(region % self.columns(), self.width())
+            * inside(region / self.columns(), self.height())
+    }
+
+    /// Returns the number of bits that `frames` frames send, with `values` values in all.
+    #[must_use]
+    pub fn bits_sent(&self, frames: u64, values: u64) -> u64 {
+        DECISION_BITS * u64::from(self.regions()) * frames + values * u64::from(self.pixel_bits())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{RegionAction, CameraConfig, IrrelevantRendering};
+
+    #[test]
+    fn pixels_are_counted_without_padding_and_means_with_it() {
+        let mut config = CameraConfig::default();
+        (config.frame.width, config.frame.height) = (Some(20), Some(9));
+        (config.frame.pixel_bits, config.render.irrelevant) = (10, IrrelevantRendering::Mean);
+        config.periphery.blocks = Some(2);
+        let camera = config.validate().unwrap();
+        let actions = [RegionAction::Forward, RegionAction::Hold, RegionAction::Summarize, RegionAction::Blank];
+        let values = |region| actions.map(|action| camera.values_sent(region, action));
+        assert_eq!(values(0), [64, 0, 4, 0]);
+        assert_eq!(values(2), [32, 0, 4, 0]);
+        assert_eq!(values(5), [4, 0, 4, 0]);
+        let sent = [RegionAction::Forward, RegionAction::Summarize, RegionAction::Hold, RegionAction::Forward];
+        assert_eq!(camera.values_sent_per_frame(&sent), 64 + 4 + 8);
+        assert_eq!(camera.bits_sent(3, 76), 3 * 6 * 2 + 760);
+    }
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Validation: checks every range and combination of a configuration, and makes a camera of it.
+
+use crate::depth::{self, DEFAULT_BITS};
+use crate::ranges::largest_level;
+use crate::{Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, TemporalParameters};
+use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, check_range};
+
+/// Default width and height of a frame in pixels.
+const DEFAULT_SIDE: u32 = 224;
+/// Largest number of regions of a frame: that of the largest frame with regions of 8x8 pixels. The
+/// limit keeps the state that a model stores per region within memory.
+const MAX_REGIONS: u32 = 1 << 22;
+
+impl CameraConfig {
+    /// Checks every range and combination, and returns the camera.
+    ///
+    /// # Errors
+    /// Returns an error that names the key, its value and the valid values.
+    pub fn validate(&self) -> Result<Camera, ConfigError> {
+        self.validate_up_to(MAX_SIDE)
+    }
+
+    /// Checks as [`CameraConfig::validate`] does, for frames with sides up to `max_side` pixels.
+    ///
+    /// # Errors
+    /// Returns the errors of [`CameraConfig::validate`].
+    pub fn validate_up_to(&self, max_side: u32) -> Result<Camera, ConfigError> {
+        let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
+        let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
+        check_range("frame.width", width, 1..=max_side, "")?;
+        check_range("frame.height", height, 1..=max_side, "")?;
+        check_range("frame.pixel_bits", self.frame.pixel_bits, PIXEL_BITS, "")?;
+        check_range("region.size", self.region.size, REGION_SIZES, "")?;
+        self.check_regions(width, height)?;
+        let n = self.region.size * self.region.size;
+        let pixel_max = (1 << self.frame.pixel_bits) - 1;
+        let level = self.temporal_level(pixel_max)?;
+        let region = format!(" for regions of {n} pixels");
+        check_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
+        self.check_features()?;
+        let mut config = self.clone();
+        config.temporal.level = Some(level);
+        let bits = self.frame.pixel_bits;
+        config.spatial = self.spatial.iter().map(|entry| entry.with_defaults(bits)).collect();
+        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
+        let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
+        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        let periphery = Periphery::resolve(self)?;
+        config.periphery.blocks = periphery.map(|periphery| periphery.blocks);
+        config.periphery.level = periphery.map(|periphery| periphery.level);
+        let temporal = TemporalParameters {
+            level,
+            min_count: self.temporal.min_count,
+            reference: self.temporal.reference,
+        };
+        Ok(Camera::new(config, (width, height), features, temporal, periphery))
+    }
+
+    /// Returns the camera for inputs of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// Returns the errors of [`CameraConfig::fit_frame`] and [`CameraConfig::validate`].
+    pub fn validate_for_frames(&self, width: u32, height: u32) -> Result<Camera, ConfigError> {
+        let mut config = self.clone();
+        config.fit_frame(width, height)?;
+        config.validate()
+    }
+
+    /// Sets the frame size to that of an input of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// Returns an error if the configuration names another size.
+    pub fn fit_frame(&mut self, width: u32, height: u32) -> Result<(), ConfigError> {
+        let frame = &mut self.frame;
+        for (key, own, given) in
+            [("width", &mut frame.width, width), ("height", &mut frame.height, height)]
+        {
+            if let Some(own) = *own
+                && own != given
+            {
+                return Err(ConfigError::Combination {
+                    key: format!("frame.{key}"),
+                    value: own.to_string(),
+                    with: format!("an input of {width}x{height} pixels"),
+                    remedy: "leave the key out to take the size from the input".to_owned(),
+                });
+            }
+            *own = Some(given);
+        }
+        Ok(())
+    }
+
+    /// Refuses a frame with too many regions.
+    fn check_regions(&self, width: u32, height: u32) -> Result<(), ConfigError> {
+        let size = self.region.size;
+        let regions = width.div_ceil(size) * height.div_ceil(size);
+        if regions <= MAX_REGIONS {
+            return Ok(());
+        }
+        Err(ConfigError::Combination {
+            key: "region.size".to_owned(),
+            value: size.to_string(),
+            with: format!("a frame of {width}x{height} pixels, which has {regions} regions"),
+            remedy: format!(
+                "at most {MAX_REGIONS} regions are allowed; use larger regions or a smaller frame"
+            ),
+        })
+    }
+
+    /// Returns the level of the temporal score. Some pixel must be able to exceed it, unless the
+    /// minimum count is 0.
+    fn temporal_level(&self, pixel_max: u32) -> Result<u32, ConfigError> {
+        let bits = self.frame.pixel_bits;
+        let level = self.temporal.level_or_default(bits);
+        let largest = largest_level(pixel_max, self.temporal.min_count == 0);
+        let scaled = depth::scale_level(level, DEFAULT_BITS, bits);
+        let hint = depth::depth_hint(&level, &scaled, scaled <= largest, bits);
+        let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");
+        check_range("temporal.level", level, 0..=largest, &why).map(|()| level)
+    }
+
+    fn check_features(&self) -> Result<(), ConfigError> {
+        if self.spatial.is_empty() {
+            return Err(ConfigError::Range {
+                key: "spatial".to_owned(),
+                value: "[]".to_owned(),
+                valid: format!("1..={} features", FeatureKind::COUNT),
+            });
+        }
+        for (index, entry) in self.spatial.iter().enumerate() {
+            if self.spatial.iter().take(index).any(|earlier| earlier.feature == entry.feature) {
+                return Err(ConfigError::Combination {
+                    key: format!("spatial[{index}].feature"),
+                    value: format!("\"{}\"", entry.feature),
+                    with: "another entry for the same feature".to_owned(),
+                    remedy: "list each feature once".to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The history of every region, from its decisions and its losses.
+
+use super::port_situations::PortSituationCounts;
+use foveate_design::{Design, IrrelevantRendering, ReferencePolicy};
+
+/// A decision as the ports show it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShownDecision {
+    pub(super) srs: bool,
+    pub(super) trs: bool,
+    pub(super) summary: bool,
+    /// The number of changed pixels, if the ports show it.
+    pub(super) count: Option<u64>,
+}
+
+/// The last decision of a region.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum LastDecision {
+    #[default]
+    Undecided,
+    Active,
+    Held,
+    Irrelevant,
+}
+
+/// The history of one region since the last reset.
+#[derive(Clone, Copy, Debug, Default)]
+struct RegionTrace {
+    last_decision: LastDecision,
+    has_reference: bool,
+    /// The index of the frame whose summary the screen shows.
+    summary_frame: Option<usize>,
+    /// True if the region was held while a summary was shown.
+    held_with_summary: bool,
+    /// True if the region was active after a summary.
+    active_after_summary: bool,
+    /// True if the region was active, and has been irrelevant since.
+    active_then_irrelevant: bool,
+    /// True if the region was lost, and has not been decided since.
+    is_lost: bool,
+    /// True if means of the right neighbor have left the core while this region was held.
+    beside_means: bool,
+}
+
+/// The histories of all regions since the last reset.
+#[derive(Clone, Debug)]
+pub(super) struct RegionTraces {
+    regions: Vec<RegionTrace>,
+    columns: usize,
+    pixels: u64,
+    blanks_irrelevant: bool,
+    is_last_sent: bool,
+}
+
+impl RegionTraces {
+    pub(super) fn of(design: &Design, regions: u32) -> Self {
+        Self {
+            regions: vec![RegionTrace::default(); regions as usize],
+            columns: design.columns() as usize,
+            pixels: design.region_pixels().into(),
+            blanks_irrelevant: match design.irrelevant() {
+                IrrelevantRendering::Zero | IrrelevantRendering::Mean => true,
+                IrrelevantRendering::Hold => false,
+            },
+            is_last_sent: match design.temporal().reference {
+                ReferencePolicy::LastSent => true,
+                ReferencePolicy::Previous => false,
+            },
+        }
+    }
+
+    /// Forgets everything. Returns the regions of which the screen shows a summary, each with the
+    /// frame of the summary.
+    pub(super) fn reset(&mut self) -> Vec<(usize, usize)> {
+        let shown = |(region, trace): (usize, &RegionTrace)| Some((region, trace.summary_frame?));
+        let all = self.regions.iter().enumerate().filter_map(shown).collect();
+        self.regions.fill(RegionTrace::default());
+        all
+    }
+
+    /// Records the decision of a region in a frame.
+    pub(super) fn decide(
+        &mut self,
+        region: usize,
+        frame: usize,
+        decided: ShownDecision,
+        facts: &mut PortSituationCounts,
+    ) {
+        let (pixels, blanks) = (self.pixels, self.blanks_irrelevant);
+        let Some(trace) = self.regions.get_mut(region) else { return };
+        let is_compared = decided.count.is_some_and(|count| count < pixels);
+        facts.minimum_above += u64::from(decided.count == Some(pixels) && !decided.trs);
+        let was_held = trace.last_decision == LastDecision::Held;
+        facts.lost_decided += u64::from(trace.is_lost);
+        facts.reference_kept += u64::from(was_held && trace.has_reference && is_compared);
+        facts.mean_beside_reference += u64::from(trace.beside_means && was_held && is_compared);
+        trace.beside_means = false;
+        match (decided.srs, decided.trs) {
+            (true, true) => trace.activate(facts),
+            (true, false) => {
+                facts.held += 1;
+                trace.last_decision = LastDecision::Held;
+                trace.held_with_summary |= trace.summary_frame.is_some();
+            }
+            (false, _) => {
+                facts.irrelevant += 1;
+                trace.active_then_irrelevant |= trace.last_decision == LastDecision::Active;
+                trace.last_decision = LastDecision::Irrelevant;
+                trace.has_reference &= !blanks;
+                trace.summarize(decided.summary, frame, facts);
+            }
+        }
+        trace.is_lost = false;
+    }
+
+    /// Records that a region of the last frame was lost.
+    pub(super) fn lose(&mut self, region: usize) {
+        if let Some(trace) = self.regions.get_mut(region) {
+            trace.is_lost = true;
+            trace.summary_frame = None;
+            trace.has_reference &= !self.is_last_sent;
+        }
+    }
+
+    /// Records that means of a region leave; the left neighbor counts if it is held with a
+    /// reference of an earlier frame.
+    pub(super) fn leave_means(&mut self, region: usize) {
+        if !region.is_multiple_of(self.columns)
+            && let Some(left) = self.regions.get_mut(region - 1)
+            && left.last_decision == LastDecision::Held
+            && left.has_reference
+        {
+            left.beside_means = true;
+        }
+    }
+}
+
+impl RegionTrace {
+    fn activate(&mut self, facts: &mut PortSituationCounts) {
+        facts.active += 1;
+        facts.reference_dropped += u64::from(self.active_then_irrelevant);
+        self.active_after_summary |= self.summary_frame.is_some();
+        self.last_decision = LastDecision::Active;
+        self.has_reference = true;
+        (self.active_then_irrelevant, self.held_with_summary, self.summary_frame) = (false, false, None);
+    }
+
+    fn summarize(&mut self, is_sent: bool, frame: usize, facts: &mut PortSituationCounts) {
+        facts.summary_held_irrelevant += u64::from(self.held_with_summary && self.summary_frame.is_some());
+        self.held_with_summary = false;
+        facts.summary_kept += u64::from(!is_sent && self.summary_frame.is_some());
+        if is_sent {
+            facts.summary_sent += 1;
+            facts.summary_renewed += u64::from(self.summary_frame.is_some());
+            facts.summary_active_summary += u64::from(self.active_after_summary);
+            facts.lost_summary_again += u64::from(self.is_lost);
+            (self.active_after_summary, self.summary_frame) = (false, Some(frame));
+        }
+    }
+}

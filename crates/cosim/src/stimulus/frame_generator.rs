@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whole frames of patterns, with one drawing state for every region.
+
+use super::frame_feed::FrameFeed;
+use super::stimulus_pattern::{PatternGenerator, StimulusPattern};
+use super::random::Random;
+use crate::error::CosimError;
+use foveate_frame::Frame;
+
+/// The drawing states of all squares of a frame.
+pub(super) struct FrameGenerator {
+    /// The drawing state of each square.
+    generators: Vec<PatternGenerator>,
+    /// The side of a square, in pixels.
+    side: u32,
+    /// The columns and rows of the frame, which cuts off the last squares.
+    size: (u32, u32),
+    /// The number of bits of a pixel.
+    bits: u32,
+}
+
+impl FrameGenerator {
+    pub(super) fn new(feed: &FrameFeed<'_>, random: &mut Random) -> Self {
+        let (design, side, size) = (feed.design(), feed.square_side(), feed.size());
+        let squares = size.0.div_ceil(side) * size.1.div_ceil(side);
+        let artists = (0..squares).map(|_| PatternGenerator::new(design, side, random.fork())).collect();
+        Self { generators: artists, side, size, bits: design.pixel_bits() }
+    }
+
+    /// Draws the next frame. With `mixed` every region starts at another pattern, and with
+    /// `configured` about half of the regions are drawn near a minimum of the design.
+    pub(super) fn draw(
+        &mut self,
+        motifs: &[StimulusPattern],
+        turn: usize,
+        mixed: bool,
+        configured: bool,
+        random: &mut Random,
+    ) {
+        for (region, artist) in self.generators.iter_mut().enumerate() {
+            let shift = if mixed { region } else { 0 };
+            let motif = motifs[(turn + shift) % motifs.len()];
+            // `MeanStep` already aims at a threshold.
+            if configured && motif != StimulusPattern::MeanStep && random.one_in(2) {
+                artist.draw_near_minimum(motif);
+            } else {
+                artist.draw(motif);
+            }
+        }
+    }
+
+    /// Returns the drawn frame.
+    pub(super) fn frame(&self) -> Result<Frame, CosimError> {
+        let (side, (width, height)) = (self.side, self.size);
+        let columns = width.div_ceil(side);
+        let pixel = |x: u32, y: u32| {
+            let artist = &self.generators[(y / side * columns + x / side) as usize];
+            artist.pixels[(y % side * side + x % side) as usize]
+        };
+        Frame::from_fn(width, height, self.bits, pixel)
+            .map_err(|error| CosimError::Model { reason: error.to_string() })
+    }
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds that meet the data: equal to a value, one below and one above.
+
+use super::pattern_scorer::{median_filtered, window_at};
+use super::random::Random;
+use foveate_design::{Design, FeatureKind, DenoiseFilter, SpatialFeature};
+use foveate_model::ThresholdInputs;
+use foveate_model::feature::decisive_level;
+use foveate_model::window::PixelWindow;
+
+/// The largest value of every threshold port.
+#[derive(Clone, Debug)]
+pub(crate) struct ThresholdRanges {
+    kinds: Vec<FeatureKind>,
+    level: [u32; FeatureKind::COUNT],
+    min_score: [u64; FeatureKind::COUNT],
+    /// The largest level that pixels can reach, for each feature with a level.
+    largest_reached_level: Vec<Option<u32>>,
+    temporal_level: u32,
+    temporal_min_count: u32,
+    /// The largest summary level; `None` if irrelevant regions send no means.
+    summary_level: Option<u32>,
+    denoise: bool,
+}
+
+impl ThresholdRanges {
+    pub(crate) fn of(design: &Design) -> Self {
+        let top = |bits: u32| u64::MAX >> (64 - bits.clamp(1, 64));
+        let top_u32 = |bits: u32| u32::try_from(top(bits)).expect("a level has at most 32 bits");
+        let (mut level, mut min_score) = ([0; FeatureKind::COUNT], [0; FeatureKind::COUNT]);
+        for (index, feature) in design.features().iter().enumerate() {
+            level[index] = feature.level().map_or(0, |_| top_u32(feature.level_bits()));
+            min_score[index] = top(feature.score_bits());
+        }
+        Self {
+            kinds: design.feature_kinds(),
+            level,
+            min_score,
+            largest_reached_level: design.features().iter().map(SpatialFeature::level_max).collect(),
+            temporal_level: design.pixel_max(),
+            temporal_min_count: top_u32(design.count_bits()),
+            summary_level: design.periphery().map(|_| design.pixel_max()),
+            denoise: design.filter() == DenoiseFilter::Median3x3,
+        }
+    }
+
+    /// Sets levels near the data of the square `now`, which follows the square `before` of the same
+    /// size.
+    pub(crate) fn aim_levels(
+        &self,
+        now: &[u16],
+        before: &[u16],
+        thresholds: &mut ThresholdInputs,
+        random: &mut Random,
+    ) {
+        let (now, before) = if self.denoise {
+            (median_filtered(now), median_filtered(before))
+        } else {
+            (now.to_vec(), before.to_vec())
+        };
+        let (at, changed) = (random_place(&now, random), random_place(&now, random));
+        self.aim_at_window(&window_at(&now, at), thresholds, random);
+        self.aim_temporal_level(now[changed].abs_diff(before[changed]), thresholds, random);
+    }
+
+    /// Sets the levels of features near the data of a square of raw pixels.
+    pub(crate) fn aim_feature_levels(
+        &self,
+        square: &[u16],
+        thresholds: &mut ThresholdInputs,
+        random: &mut Random,
+    ) {
+        let at = random_place(square, random);
+        let window = if self.denoise { window_at(&median_filtered(square), at) } else { window_at(square, at) };
+        self.aim_at_window(&window, thresholds, random);
+    }
+
+    fn aim_at_window(&self, window: &PixelWindow, thresholds: &mut ThresholdInputs, random: &mut Random) {
+        for (index, &kind) in self.kinds.iter().enumerate() {
+            if !kind.has_window() {
+                continue;
+            }
+            let value = decisive_level(kind, window).unwrap_or(0);
+            let max = self.level[index].into();
+            thresholds.level[index] = to_u32(value_near(value.into(), max, random));
+        }
+    }
+
+    /// Sets the temporal level near the change `difference` of a pixel.
+    pub(crate) fn aim_temporal_level(
+        &self,
+        difference: u16,
+        thresholds: &mut ThresholdInputs,
+        random: &mut Random,
+    ) {
+        thresholds.temporal_level =
+            to_u32(value_near(difference.into(), self.temporal_level.into(), random));
+    }
+
+    /// Sets levels one below the largest values that pixels can have; every fifth turn, to these
+    /// values.
+    pub(crate) fn aim_largest_levels(&self, turn: u32, thresholds: &mut ThresholdInputs) {
+        let less = u32::from(turn % 5 != 4);
+        for (level, steepest) in thresholds.level.iter_mut().zip(&self.largest_reached_level) {
+            if let Some(steepest) = steepest {
+                *level = steepest - less;
+            }
+        }
+        thresholds.temporal_level = self.temporal_level - less;
+        thresholds.summary_level = self.summary_level.map_or(0, |largest| largest - less);
+    }
+
+    /// Sets thresholds that are unrelated to the data.
+    pub(crate) fn randomize(&self, thresholds: &mut ThresholdInputs, random: &mut Random) {
+        for (level, &max) in thresholds.level.iter_mut().zip(&self.level) {
+            let reach = if random.one_in(2) { max } else { max / 16 };
+            *level = random.up_to_u32(reach);
+        }
+        thresholds.temporal_level = random.up_to_u32(self.temporal_level);
+        for (minimum, &max) in thresholds.min_score.iter_mut().zip(&self.min_score) {
+            *minimum = random.up_to(max);
+        }
+        thresholds.temporal_min_count = random.up_to_u32(self.temporal_min_count);
+        if let Some(max) = self.summary_level {
+            let reach = if random.one_in(2) { max } else { max / 16 };
+            thresholds.summary_level = random.up_to_u32(reach);
+        }
+    }
+
+    /// If irrelevant regions send their means, sets minima that no score meets about every second
+    /// time.
+    pub(crate) fn aim_at_summary(&self, thresholds: &mut ThresholdInputs, random: &mut Random) {
+        if self.summary_level.is_some() && random.one_in(2) {
+            thresholds.min_score = self.min_score;
+        }
+    }
+
+    /// Sets minima that no score meets or, every second turn, all scores meet, and a minimum of
+    /// changed pixels above the pixels of a region.
+    pub(crate) fn aim_at_held(&self, turn: u32, thresholds: &mut ThresholdInputs) {
+        thresholds.min_score =
+            if turn.is_multiple_of(2) { self.min_score } else { [0; FeatureKind::COUNT] };
+        thresholds.temporal_min_count = self.temporal_min_count;
+    }
+
+    /// Sets minima that all regions meet every third turn; otherwise a minimum of changed pixels
+    /// above the pixels of a region. With the levels, a pixel has changed if it is off by two, and
+    /// a mean if it is off by one.
+    pub(crate) fn aim_at_drift(&self, turn: u32, thresholds: &mut ThresholdInputs) {
+        if turn.is_multiple_of(3) {
+            thresholds.min_score = [0; FeatureKind::COUNT];
+            thresholds.temporal_min_count = 0;
+        } else {
+            thresholds.temporal_min_count = self.temporal_min_count;
+        }
+        thresholds.temporal_level = 1.min(self.temporal_level);
+        thresholds.summary_level = 0;
+    }
+
+    /// Sets the summary level for means whose widest difference is `difference`: equal to it, so
+    /// that the means are kept, or near it. Without a difference it is often the largest level, or
+    /// random: a summary is then sent for another reason.
+    pub(crate) fn aim_summary_level(
+        &self,
+        difference: Option<u32>,
+        thresholds: &mut ThresholdInputs,
+        random: &mut Random,
+    ) {
+        let Some(max) = self.summary_level else { return };
+        thresholds.summary_level = match (difference, random.up_to(9)) {
+            (Some(difference), 0..=3) => difference,
+            (Some(difference), 4..=7) => difference.saturating_sub(1),
+            (Some(difference), 8) => (difference + 1).min(max),
+            (None, 0..=4) => max,
+            _ => random.up_to_u32(max),
+        };
+    }
+
+    /// Sets the minima for scores that are decided at this clock.
+    pub(crate) fn aim_minima(
+        &self,
+        scores: &[u64; FeatureKind::COUNT],
+        temporal_count: u32,
+        thresholds: &mut ThresholdInputs,
+        random: &mut Random,
+    ) {
+        let minima = thresholds.min_score.iter_mut().zip(scores).zip(&self.min_score);
+        for ((minimum, &score), &max) in minima.take(self.kinds.len()) {
+            *minimum = value_near(score, max, random);
+        }
+        let max = self.temporal_min_count.into();
+        thresholds.temporal_min_count = to_u32(value_near(temporal_count.into(), max, random));
+    }
+}
+
+/// Returns the value, or one less or more; rarely something else.
+fn value_near(value: u64, max: u64, random: &mut Random) -> u64 {
+    let chosen = match random.up_to(9) {
+        0..=3 => value,
+        4..=6 => value + 1,
+        7..=8 => value.saturating_sub(1),
+        _ if random.one_in(2) => random.up_to(max),
+        _ => 0,
+    };
+    chosen.min(max)
+}
+
+fn random_place(square: &[u16], random: &mut Random) -> usize {
+    random.index(square.len() - 1)
+}
+
+fn to_u32(value: u64) -> u32 {
+    u32::try_from(value).expect("levels and counts have at most 32 bits")
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The decision: from sums to scores, votes, SRS, TRS and the action of every region of a band.
+
+use foveate_camera::RegionAction;
+use foveate_camera::{VoteCombination, FeatureKind, IrrelevantRendering, ReferencePolicy};
+
+use crate::kernel::mad;
+use crate::outcome::RegionResults;
+use crate::plan::CameraPlan;
+use crate::working_memory::RegionSums;
+use foveate_lanes::PixelLane;
+
+impl<T: PixelLane> CameraPlan<T> {
+    /// Decides every region of one band. Regions that are not affected keep their scores, and their
+    /// temporal count follows from the last frame.
+    #[inline(always)]
+    pub(crate) fn decide_band(
+        &self,
+        sums: &RegionSums,
+        affected: &[bool],
+        valid: &[bool],
+        results: &mut RegionResults<'_>,
+    ) {
+        self.update_temporal_counts(sums, affected, valid, results);
+        let n = u64::from(self.region_pixels());
+        for (feature, scores) in self.features.iter().zip(&mut results.scores) {
+            match feature.kind {
+                FeatureKind::Edge => update_affected(scores, affected, |at| sums.edge[at]),
+                FeatureKind::Corner => update_affected(scores, affected, |at| sums.corner[at]),
+                FeatureKind::Mad => {
+                    let bits = self.passes.mad.expect("the plan has what its features need");
+                    let score =
+                        |at| mad::mad_score(n, bits, sums.sum[at], sums.above[at], sums.count_above[at]);
+                    update_affected(scores, affected, score);
+                }
+                FeatureKind::Variance => {
+                    update_affected(scores, affected, |at| n * sums.square[at] - sums.sum[at] * sums.sum[at]);
+                }
+            }
+        }
+        self.update_srs(results);
+        let bits = results.srs.iter().zip(&mut *results.trs).zip(&*results.temporal_count);
+        for ((((&srs, trs), &count), active), action) in
+            bits.zip(&mut *results.active).zip(&mut *results.actions)
+        {
+            *trs = count >= self.min_count;
+            *active = srs & *trs;
+            *action = self.choose_action(srs, *trs);
+        }
+    }
+
+    /// Computes the temporal counts, from the last actions where no pixel has changed.
+    #[inline(always)]
+    fn update_temporal_counts(&self, sums: &RegionSums, affected: &[bool], valid: &[bool], results: &mut RegionResults<'_>) {
+        let n = self.region_pixels();
+        let regions = sums.changed.iter().zip(affected).zip(valid);
+        let last = results.temporal_count.iter_mut().zip(&*results.actions);
+        for (((&changed, &affected), &valid), (count, &action)) in regions.zip(last) {
+            let changed = u32::try_from(changed).expect("no more than the pixels of a region");
+            *count = match affected {
+                true => {
+                    if valid {
+                        changed
+                    } else {
+                        n
+                    }
+                }
+                false => self.count_of_identical((action, *count), n),
+            };
+        }
+    }
+
+    /// Computes SRS from the scores.
+    #[inline(always)]
+    fn update_srs(&self, results: &mut RegionResults<'_>) {
+        let srs = &mut *results.srs;
+        srs.fill(self.combine == VoteCombination::All);
+        for (feature, scores) in self.features.iter().zip(&results.scores) {
+            let votes = scores.iter().map(|&score| score >= feature.min_score);
+            match self.combine {
+                VoteCombination::Any => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote),
+                VoteCombination::All => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote),
+            }
+        }
+    }
+
+    /// Returns the temporal count of a region whose denoised pixels are those of the previous
+    /// frame. It follows from that frame's action: the reference is now equal to the pixels,
+    /// unchanged, or not valid.
+    #[inline(always)]
+    fn count_of_identical(&self, (action, count): (RegionAction, u32), n: u32) -> u32 {
+        match (self.reference, action) {
+            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => 0,
+            (ReferencePolicy::LastSent, RegionAction::Hold) => count,
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => n,
+        }
+    }
+
+    #[inline(always)]
+    fn choose_action(&self, srs: bool, trs: bool) -> RegionAction {
+        match (srs, trs) {
+            (true, true) => RegionAction::Forward,
+            (true, false) => RegionAction::Hold,
+            (false, _) => match self.irrelevant {
+                IrrelevantRendering::Zero => RegionAction::Blank,
+                // The periphery decides afterwards, from these actions, which summaries are sent.
+                IrrelevantRendering::Hold | IrrelevantRendering::Mean => RegionAction::Hold,
+            },
+        }
+    }
+}
+
+/// Writes new scores for affected regions. The other regions have the same pixels and the same
+/// scores as before.
+#[inline(always)]
+fn update_affected(scores: &mut [u64], affected: &[bool], new: impl Fn(usize) -> u64) {
+    for (at, (score, &affected)) in scores.iter_mut().zip(affected).enumerate() {
+        if affected {
+            *score = new(at);
+        }
+    }
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The public interface to the state before the last frame.
+
+use foveate_frame::FramePixels;
+use foveate_lanes::PixelLane;
+
+use crate::Engine;
+use crate::lane_engine::LaneEngine;
+use crate::engine::LaneCore;
+use crate::state_copy::RegionStateBefore;
+
+impl Engine {
+    /// Turns the copy of the state before every frame on or off, from the next frame on. It costs a
+    /// copy of two or three planes. [`Engine::before`] returns the state.
+    pub fn set_state_copying(&mut self, on: bool) {
+        match &mut self.lanes {
+            LaneCore::Bytes(core) => core.set_state_copying(on),
+            LaneCore::Words(core) => core.set_state_copying(on),
+        }
+    }
+
+    /// Returns the state of a region before the last frame that was taken alone, not in a batch.
+    /// Returns `None` if it was not copied.
+    ///
+    /// # Panics
+    /// Panics if the camera has no such region.
+    #[must_use]
+    pub fn region_state_before(&self, region: u32) -> Option<RegionStateBefore> {
+        fn of<T: PixelLane>(core: &LaneEngine<T>, region: u32) -> Option<RegionStateBefore> {
+            core.state_copy().map(|memory| memory.region_state(&core.plan, region))
+        }
+        match &self.lanes {
+            LaneCore::Bytes(core) => of(core, region),
+            LaneCore::Words(core) => of(core, region),
+        }
+    }
+
+    /// Returns the screen before the last frame, or `None` if it was not copied.
+    #[must_use]
+    pub fn rendered_before(&self) -> Option<FramePixels<'_>> {
+        match &self.lanes {
+            LaneCore::Bytes(core) => core.state_copy().map(|memory| FramePixels::Bytes(&memory.screen)),
+            LaneCore::Words(core) => core.state_copy().map(|memory| FramePixels::Words(&memory.screen)),
+        }
+    }
+}

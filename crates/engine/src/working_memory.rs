@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The working memory of a worker for one band: a few rows that stay in the first-level cache.
+
+use std::ops::Range;
+
+use crate::kernel::ExtendedRow;
+use crate::plan::CameraPlan;
+use foveate_lanes::AlignedBuffer;
+use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+
+/// A row with a spare block on each side, so that it can be read shifted by one lane.
+#[derive(Clone, Debug)]
+pub(crate) struct BlockRow<T: PixelLane>(AlignedBuffer<T>);
+
+impl<T: PixelLane> BlockRow<T> {
+    fn new(blocks: usize) -> Self {
+        Self(AlignedBuffer::new((blocks + 2) * BLOCK_LANES))
+    }
+
+    /// Returns some blocks, to be written.
+    #[inline(always)]
+    pub(crate) fn blocks_mut(&mut self, span: &Range<usize>) -> &mut [Block<T>] {
+        &mut self.0.blocks_mut()[1 + span.start..1 + span.end]
+    }
+
+    /// Returns the block that begins at any column, to be written.
+    #[inline(always)]
+    pub(crate) fn blocks_at(&mut self, start: usize) -> &mut [Block<T>] {
+        self.0[BLOCK_LANES + start..][..BLOCK_LANES].as_chunks_mut().0
+    }
+
+    /// Returns the values from column 0 on, to be written.
+    #[inline(always)]
+    pub(crate) fn values_mut(&mut self) -> &mut [T] {
+        &mut self.0[BLOCK_LANES..]
+    }
+
+    /// Returns some blocks.
+    #[inline(always)]
+    pub(crate) fn blocks(&self, span: &Range<usize>) -> &[Block<T>] {
+        &self.0.blocks()[1 + span.start..1 + span.end]
+    }
+
+    /// Returns some blocks with one more lane on each side.
+    #[inline(always)]
+    pub(crate) fn blocks_with_neighbors(&self, span: &Range<usize>) -> ExtendedRow<'_, T> {
+        &self.0[(1 + span.start) * BLOCK_LANES - 1..=(1 + span.end) * BLOCK_LANES]
+    }
+
+    /// Repeats the border pixels of a row of `width` pixels outwards.
+    #[inline(always)]
+    pub(crate) fn repeat_border(&mut self, width: usize, padded: usize) {
+        let values = &mut self.0[..];
+        values[BLOCK_LANES - 1] = values[BLOCK_LANES];
+        let last = values[BLOCK_LANES + width - 1];
+        values[BLOCK_LANES + padded] = last;
+        if padded > width {
+            values[BLOCK_LANES + width..BLOCK_LANES + padded].fill(last);
+        }
+    }
+}
+
+/// A denoised row.
+#[derive(Clone, Debug)]
+pub(crate) struct DenoisedRow<T: PixelLane> {
+    /// The row of the current frame and the run of blocks that are in `pixels`.
+    pub(crate) row_and_run: Option<(usize, Range<usize>)>,
+    pub(crate) pixels: BlockRow<T>,
+}
+
+/// The column sums of one band.
+#[derive(Clone, Debug)]
+pub(crate) struct ColumnSums<T: PixelLane> {
+    pub(crate) changed: AlignedBuffer<T>,
+    pub(crate) edge: AlignedBuffer<T>,
+    pub(crate) corner: AlignedBuffer<T>,
+    pub(crate) sum: AlignedBuffer<T::ColumnSum>,
+    pub(crate) square: AlignedBuffer<T::SquareSum>,
+    /// The whole part of the mean of each column's region.
+    pub(crate) mean: AlignedBuffer<T>,
+    pub(crate) above: AlignedBuffer<T::ColumnSum>,
+    pub(crate) count_above: AlignedBuffer<T>,
+}
+
+/// The sums of one band by region.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RegionSums {
+    pub(crate) changed: Vec<u64>,
+    pub(crate) edge: Vec<u64>,
+    pub(crate) corner: Vec<u64>,
+    pub(crate) sum: Vec<u64>,
+    pub(crate) square: Vec<u64>,
+    pub(crate) above: Vec<u64>,
+    pub(crate) count_above: Vec<u64>,
+}
+
+/// The working memory of one worker.
+#[derive(Clone, Debug)]
+pub(crate) struct WorkingMemory<T: PixelLane> {
+    /// The low, mid and high values of the columns, for each row of a batch.
+    pub(crate) sorted: Vec<[BlockRow<T>; 3]>,
+    /// Three rows of a window in a frame that is narrower than a block.
+    pub(crate) narrow_window: [Block<T>; 3],
+    /// The denoised rows of a batch and the rows around it.
+    pub(crate) denoised: Vec<DenoisedRow<T>>,
+    pub(crate) columns: ColumnSums<T>,
+    pub(crate) region_sums: RegionSums,
+    /// A raw row with its padding, for summaries of raw pixels.
+    pub(crate) raw: BlockRow<T>,
+    /// The means of the band's blocks, row by row of blocks.
+    pub(crate) means: Vec<T>,
+    /// One value per column of blocks: not 0 if a mean differs too much from the one that was sent
+    /// last.
+    pub(crate) exceeds_level: Vec<T>,
+    /// The runs of blocks of the band that have to be computed.
+    pub(crate) runs: Vec<Range<usize>>,
+    /// The regions of the band whose results may have changed.
+    pub(crate) affected: Vec<bool>,
+}
+
+impl<T: PixelLane> WorkingMemory<T> {
+    pub(crate) fn new(plan: &CameraPlan<T>) -> Self {
+        let (rows, row) = (plan.row_slots(1), || BlockRow::new(plan.blocks));
+        let denoised = || DenoisedRow { row_and_run: None, pixels: row() };
+        let regions = || vec![0; plan.columns];
+        let width = plan.stride();
+        Self {
+            sorted: (0..rows).map(|_| [row(), row(), row()]).collect(),
+            narrow_window: [[T::default(); BLOCK_LANES]; 3],
+            denoised: (0..rows).map(|_| denoised()).collect(),
+            columns: ColumnSums {
+                changed: AlignedBuffer::new(width),
+                edge: AlignedBuffer::new(width),
+                corner: AlignedBuffer::new(width),
+                sum: AlignedBuffer::new(width),
+                square: AlignedBuffer::new(width),
+                mean: AlignedBuffer::new(width),
+                above: AlignedBuffer::new(width),
+                count_above: AlignedBuffer::new(width),
+            },
+            region_sums: RegionSums {
+                changed: regions(),
+                edge: regions(),
+                corner: regions(),
+                sum: regions(),
+                square: regions(),
+                above: regions(),
+                count_above: regions(),
+            },
+            raw: row(),
+            means: vec![T::default(); plan.band_means()],
+            exceeds_level: vec![T::default(); plan.means_in_row()],
+            runs: Vec::with_capacity(plan.blocks),
+            affected: vec![true; plan.columns],
+        }
+    }
+}

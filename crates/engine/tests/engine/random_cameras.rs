@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random cameras, the inputs of the comparison of engine and model.
+
+use foveate_camera::{
+    Camera, CameraConfig, VoteCombination, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, SpatialConfig,
+};
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence};
+
+/// Returns cameras of every kind, with frames of one block of lanes, of several blocks, and ragged
+/// ones.
+pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
+    let side = prop_oneof![
+        4 => select(vec![2u32, 4, 8, 16, 32, 64]),
+        3 => select(vec![3u32, 5, 6, 7, 12, 20, 33, 63]),
+        1 => 2u32..=64,
+    ];
+    let bits = prop_oneof![5 => Just(8u32), 1 => 1u32..=7, 2 => 9u32..=16];
+    (side, bits).prop_flat_map(|(side, bits)| {
+        let width = prop_oneof![1..=3 * side, 60u32..=70, 120u32..=260, 190u32..=194];
+        let height = 1..=3 * side + 1;
+        let features = subsequence(FeatureKind::ALL.to_vec(), 1..=FeatureKind::COUNT)
+            .prop_shuffle()
+            .prop_flat_map(move |kinds| {
+                kinds.into_iter().map(|kind| feature(kind, side, bits)).collect::<Vec<_>>()
+            });
+        let max = (1u32 << bits) - 1;
+        let temporal = (small(max - 1).prop_map(Some), small(side * side));
+        let switches = proptest::array::uniform6(any::<bool>());
+        let blocks: Vec<u32> = [1, 2, 4].into_iter().filter(|q| side.is_multiple_of(*q)).collect();
+        let periphery = proptest::option::of((select(blocks), small(max - 1)));
+        (width, height, features, temporal, switches, periphery).prop_map(
+            move |(width, height, features, temporal, on, periphery)| {
+                let mut config = CameraConfig::default();
+                (config.frame.width, config.frame.height) = (Some(width), Some(height));
+                (config.frame.pixel_bits, config.region.size) = (bits, side);
+                config.spatial = features;
+                (config.temporal.level, config.temporal.min_count) = temporal;
+                if on[0] {
+                    config.region.neighborhood = Neighborhood::Shared;
+                }
+                if on[1] {
+                    config.denoise.filter = DenoiseFilter::None;
+                }
+                if on[2] {
+                    config.decision.combine = VoteCombination::All;
+                }
+                if on[3] {
+                    config.temporal.reference = ReferencePolicy::LastSent;
+                }
+                if on[4] {
+                    config.render.irrelevant = IrrelevantRendering::Hold;
+                }
+                if let Some((blocks, level)) = periphery {
+                    config.render.irrelevant = IrrelevantRendering::Mean;
+                    (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
+                }
+                if on[5] {
+                    config.render.payload = Payload::Raw;
+                }
+                config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
+            },
+        )
+    })
+}
+
+/// Returns mostly small numbers up to `max`, so that scores lie on both sides of thresholds.
+fn small(max: u32) -> impl Strategy<Value = u32> {
+    prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
+}
+
+fn feature(kind: FeatureKind, side: u32, bits: u32) -> BoxedStrategy<SpatialConfig> {
+    let (max, n) = ((1u32 << bits) - 1, side * side);
+    let (level_max, minimum) = match kind {
+        FeatureKind::Edge => (6 * max, small(n).boxed()),
+        FeatureKind::Corner => (max, small(n).boxed()),
+        FeatureKind::Mad => (0, small(max / 3).boxed()),
+        FeatureKind::Variance => (0, small(max * (max / 6)).boxed()),
+    };
+    let fraction_max = (0..).find(|bits| 1 << bits >= n).unwrap();
+    (small(level_max.saturating_sub(1)), minimum, 0u32..=fraction_max)
+        .prop_map(move |(level, minimum, fraction_bits)| SpatialConfig {
+            feature: kind,
+            level: (level_max > 0).then_some(level),
+            min_score: Some(Decimal::from_whole(minimum.into())),
+            mean_fraction_bits: (kind == FeatureKind::Mad).then_some(fraction_bits),
+        })
+        .boxed()
+}

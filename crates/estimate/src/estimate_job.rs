@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs an estimate: one run of Yosys for unit and array, one for a core on AXI, and one for the
+//! leaves in parallel.
+
+use std::sync::atomic::Ordering;
+use std::thread;
+
+use foveate_toolchain::{Cache, SynthesisResult, SynthesisJob, ToolError, Toolchain, sources_sha256};
+
+use crate::bus::BusArea;
+use crate::clock::ClockEstimate;
+use crate::error::EstimateError;
+use crate::leaf_areas::leaf_areas;
+use crate::logic_levels::{CellLibrary, longest_paths};
+use crate::netlist::{NETLIST, AreaNetlist};
+use crate::report::{AreaReport, MeasuredAreas, LongestPaths, RtlHashes, MeasuredTiming, UnitCount};
+
+/// A design to estimate.
+#[derive(Debug, Clone)]
+pub struct EstimateJob {
+    /// The synthesis of the array and its unit.
+    pub synthesis: SynthesisJob,
+    /// The synthesis of the core on AXI, with that array inside; `None` for an array with ports
+    /// only.
+    pub bus: Option<SynthesisJob>,
+    /// The name of the unit in reports: `RPU` or `lane`.
+    pub unit_name: String,
+    /// The number of units in the array.
+    pub units: u64,
+    /// The number of regions.
+    pub regions: u64,
+    /// The clocks from one frame to the next, for frames per second.
+    pub clocks_per_frame: u64,
+    /// The hash of the RTL of one RPU, as a co-simulation of it reports; see [`sources_sha256`].
+    pub rpu_sha256: String,
+    /// The module whose leaves are listed, if any.
+    pub leaves_of: Option<String>,
+}
+
+/// Synthesizes the design and reports its area and its longest paths.
+///
+/// # Errors
+/// Fails if Yosys is missing or rejects the design, if a cell is not known, if there is a
+/// combinational loop, or if the number of units in the array differs from that of the design.
+pub fn estimate(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &EstimateJob,
+) -> Result<AreaReport, EstimateError> {
+    let (synthesis, bus, leaves) = thread::scope(|scope| {
+        let leaves = scope.spawn(|| {
+            let run = |top: &String| job.top_synthesis().run_hierarchical(top, toolchain, cache);
+            job.leaves_of.as_ref().map(run).transpose()
+        });
+        let synthesis = job.synthesis.run(toolchain, cache);
+        let bus = job.bus.as_ref().map(|bus| bus.run(toolchain, cache)).transpose();
+        let leaves = leaves.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        Ok::<_, EstimateError>((synthesis?, bus?, leaves?))
+    })?;
+    // The cancel flag is checked between the steps, because reading a netlist of many regions takes
+    // seconds.
+    let go_on = || match toolchain.cancel_flag().load(Ordering::Relaxed) {
+        true => Err(EstimateError::Tool(ToolError::Interrupted)),
+        false => Ok(()),
+    };
+    go_on()?;
+    let netlist = AreaNetlist::parse(NETLIST, &synthesis.json)?;
+    go_on()?;
+    let units = job.units(&netlist)?;
+    let without: Vec<&str> = units.iter().map(String::as_str).collect();
+    let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.synthesis.array])?;
+    go_on()?;
+    let apart = leaves.map(|json| AreaNetlist::parse(NETLIST, &json)).transpose()?;
+    let on_top = bus.as_ref().unwrap_or(&synthesis);
+    let clock = ClockEstimate::of(NETLIST, &on_top.json, &job.top_synthesis().array, CellLibrary::Xilinx)?;
+    go_on()?;
+    let of_bus = |(job, made): (&SynthesisJob, &SynthesisResult)| BusArea::of(job, made, apart.as_ref());
+    let bus = job.bus.as_ref().zip(bus.as_ref()).map(of_bus).transpose()?;
+    go_on()?;
+    let [unit, array] = paths.try_into().expect("a path for each of the two modules");
+    Ok(AreaReport::new(
+        synthesis.tool,
+        RtlHashes { sha256: sources_sha256(&job.synthesis.sources), rpu_sha256: job.rpu_sha256.clone() },
+        job.regions,
+        UnitCount { name: job.unit_name.clone(), count: job.units },
+        MeasuredAreas {
+            unit: netlist.whole_area(without[0], &[])?,
+            glue: netlist.whole_area(&job.synthesis.array, &without)?,
+            array: netlist.whole_area(&job.synthesis.array, &[])?,
+            bus,
+        },
+        MeasuredTiming {
+            paths: LongestPaths { rpu: unit, rcm: array },
+            clock,
+            clocks_per_frame: job.clocks_per_frame,
+        },
+        match (&job.leaves_of, &apart) {
+            (Some(top), Some(apart)) => leaf_areas(top, apart)?,
+            _ => Vec::new(),
+        },
+    ))
+}
+
+impl EstimateJob {
+    /// Returns the synthesis of everything that is placed on a device: the core on AXI, else the
+    /// array.
+    #[must_use]
+    pub fn top_synthesis(&self) -> &SynthesisJob {
+        self.bus.as_ref().unwrap_or(&self.synthesis)
+    }
+
+    /// Returns the modules of the netlist that are units, the most frequent first: one for each set
+    /// of parameters.
+    fn units(&self, netlist: &AreaNetlist) -> Result<Vec<String>, EstimateError> {
+        let mut found = Vec::new();
+        for (name, count) in netlist.instances(&self.synthesis.array, &[])? {
+            if netlist.module(&name)?.source_name == self.synthesis.unit {
+                found.push((count, name));
+            }
+        }
+        found.sort_by(|a, b| b.cmp(a));
+        let total = found.iter().map(|(count, _)| count).sum::<u64>();
+        if total == 0 {
+            netlist.module(&self.synthesis.unit)?;
+        }
+        if total == self.units && total > 0 {
+            return Ok(found.into_iter().map(|(_, name)| name).collect());
+        }
+        Err(EstimateError::UnitCount {
+            array: self.synthesis.array.clone(),
+            unit: self.synthesis.unit.clone(),
+            expected: self.units,
+            found: total,
+        })
+    }
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The timing of a cell: the inputs that each output depends on, and the pins at which paths start
+//! and end.
+
+use super::cell_delays;
+use super::pin_connection::{PinConnection, pin_connections};
+use super::path::PathWeight;
+use super::raw_netlist::{PathBit, PathCell};
+use crate::cells::CellKind;
+
+/// The parts of paths at one cell, in nets of its module.
+#[derive(Default)]
+pub(super) struct CellTiming {
+    /// The input net and the output net of each arc, and the weight that it adds to a path.
+    pub(super) arcs: Vec<(u32, u32, PathWeight)>,
+    /// The outputs at which paths start, and their initial weights.
+    pub(super) starts: Vec<(u32, PathWeight)>,
+    /// The inputs at which paths end, and their pins.
+    pub(super) ends: Vec<(u32, String)>,
+}
+
+impl CellTiming {
+    /// Returns the timing of a cell of a kind. `chained` returns whether a net is the last carry of
+    /// another block.
+    pub(super) fn of(kind: CellKind, cell: &PathCell, chained: impl Fn(u32) -> bool) -> Self {
+        let mut timing = Self::default();
+        let outputs: Vec<_> = pin_connections(cell).filter(|joint| is_output(kind, joint.port)).collect();
+        for input in pin_connections(cell).filter(|joint| !is_output(kind, joint.port)) {
+            if is_clock(kind, input.port) {
+                continue;
+            }
+            for output in &outputs {
+                if let Some(weight) = arc_weight(kind, cell, &input, output, &chained) {
+                    let time = PathWeight::with_wires(cell_delays::arc_delay(kind, cell, &input, output));
+                    timing.arcs.push((input.net, output.net, weight.plus(time)));
+                }
+            }
+            if is_end(kind, cell, input.port) {
+                timing.ends.push((input.net, input.port.to_owned()));
+            }
+        }
+        if let Some(weight) = start_weight(kind, cell) {
+            let weight = weight.plus(cell_delays::start_weight(kind, cell));
+            timing.starts.extend(outputs.iter().map(|output| (output.net, weight)));
+        }
+        timing
+    }
+}
+
+/// Returns the last carry of a block, from which a chain continues.
+pub(super) fn carry_out(cell: &PathCell) -> Option<u32> {
+    matches!(CellKind::from_type(&cell.kind), Some(CellKind::Carry(_)))
+        .then(|| cell.connections.get("CO")?.last().and_then(PathBit::net))
+        .flatten()
+}
+
+fn is_output(kind: CellKind, port: &str) -> bool {
+    match kind {
+        CellKind::Lut(_) | CellKind::Inverter | CellKind::Free | CellKind::Carry(_) => {
+            matches!(port, "O" | "O5" | "O6" | "CO" | "P" | "G")
+        }
+        CellKind::ShiftRegister16 | CellKind::FlipFlop => port.starts_with('Q'),
+        CellKind::Memory(_) => {
+            port == "O" || port.starts_with('Q') || port.starts_with("DO") || port.ends_with("PO")
+        }
+        CellKind::Dsp => {
+            port == "P"
+                || port == "UNDERFLOW"
+                || port.ends_with("OUT")
+                || port.contains("DETECT")
+                || port == "OVERFLOW"
+        }
+        CellKind::BlockRam(_) | CellKind::UltraRam => {
+            ["DO", "CASDO", "SBITERR", "DBITERR", "RDACCESS", "ECCPARITY"]
+                .iter()
+                .any(|start| port.starts_with(start))
+        }
+    }
+}
+
+fn is_clock(kind: CellKind, port: &str) -> bool {
+    port.contains("CLK") || (kind == CellKind::FlipFlop && port == "C")
+}
+
+/// Returns the weight of the arc from this input to this output; `None` if the output does not
+/// depend on the input.
+fn arc_weight(
+    kind: CellKind,
+    cell: &PathCell,
+    input: &PinConnection<'_>,
+    output: &PinConnection<'_>,
+    chained: impl Fn(u32) -> bool,
+) -> Option<PathWeight> {
+    match kind {
+        CellKind::Lut(_) | CellKind::Inverter => Some(PathWeight::LEVEL),
+        CellKind::Free => Some(PathWeight::NONE),
+        CellKind::Carry(_) => {
+            // Bit i of the sum does not depend on bit i of the data, but bit i of the carry does.
+            let waits = match input.port {
+                "S" => input.index <= output.index,
+                "DI" if output.port == "O" => input.index < output.index,
+                "DI" => input.index <= output.index,
+                _ => true,
+            };
+            let inside = input.port == "CI" && chained(input.net);
+            waits.then_some(if inside { PathWeight::BLOCK } else { PathWeight::CHAIN })
+        }
+        CellKind::ShiftRegister16 | CellKind::Memory(_) => {
+            is_read_address(output.port, input.port).then_some(PathWeight::LEVEL)
+        }
+        CellKind::Dsp => {
+            let through = is_unregistered(cell, "M") && is_unregistered(cell, "P");
+            (through && is_data(cell, input.port)).then_some(PathWeight::LEVEL)
+        }
+        CellKind::FlipFlop | CellKind::BlockRam(_) | CellKind::UltraRam => None,
+    }
+}
+
+/// Returns whether an input addresses the read of a distributed memory's output: `ADDRB` for `DOB`,
+/// `DPRA` for `DPO`, and `A` for the others. The end of a shift register (`Q31`) is not addressed.
+fn is_read_address(output: &str, input: &str) -> bool {
+    let is_numbered = |name: &str, start: &str| {
+        name.strip_prefix(start).is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
+    };
+    match (output, output.strip_prefix("DO")) {
+        (_, Some(letter)) => input.strip_prefix("ADDR") == Some(letter),
+        ("DPO", _) => is_numbered(input, "DPRA"),
+        ("O" | "SPO" | "Q", _) => is_numbered(input, "A"),
+        _ => false,
+    }
+}
+
+/// Returns whether a path ends at an input. Data of a multiplier without input registers pass
+/// through, unless a register follows the multiplication.
+fn is_end(kind: CellKind, cell: &PathCell, port: &str) -> bool {
+    match kind {
+        CellKind::FlipFlop | CellKind::BlockRam(_) | CellKind::UltraRam => true,
+        CellKind::ShiftRegister16 => !port.starts_with('A'),
+        CellKind::Memory(_) => {
+            // The write address is also a read address; a shift register has no write address.
+            let is_shift_address = cell.kind.starts_with("SRL") && port.starts_with('A');
+            let only_read = port.starts_with("DPRA")
+                || port.strip_prefix("ADDR").is_some_and(|letter| !is_written(cell, letter));
+            !(only_read || is_shift_address)
+        }
+        CellKind::Dsp => {
+            let through = is_unregistered(cell, "M") && is_unregistered(cell, "P");
+            !(through && is_data(cell, port))
+        }
+        CellKind::Lut(_) | CellKind::Inverter | CellKind::Free | CellKind::Carry(_) => false,
+    }
+}
+
+/// Returns whether a memory is written at this address. Memories with several addresses are written
+/// at the last one.
+fn is_written(cell: &PathCell, letter: &str) -> bool {
+    let addresses = cell.connections.keys().filter_map(|port| port.strip_prefix("ADDR"));
+    addresses.max() == Some(letter)
+}
+
+/// Returns the initial weight of a path that starts at the outputs; `None` if no path starts there.
+fn start_weight(kind: CellKind, cell: &PathCell) -> Option<PathWeight> {
+    match kind {
+        CellKind::FlipFlop | CellKind::ShiftRegister16 | CellKind::BlockRam(_) | CellKind::UltraRam => {
+            Some(PathWeight::NONE)
+        }
+        // A written word leaves the memory through the multiplexer that reads it.
+        CellKind::Memory(_) if cell.kind.starts_with("SRL") => Some(PathWeight::NONE),
+        CellKind::Memory(_) => Some(PathWeight::LEVEL),
+        CellKind::Dsp => {
+            Some(if is_unregistered(cell, "P") { PathWeight::LEVEL } else { PathWeight::NONE })
+        }
+        CellKind::Lut(_) | CellKind::Inverter | CellKind::Free | CellKind::Carry(_) => None,
+    }
+}
+
+/// Returns whether a DSP block lacks the register of that name; it has the register unless the
+/// parameter is 0.
+fn is_unregistered(cell: &PathCell, register: &str) -> bool {
+    cell.number(&format!("{register}REG")) == Some(0)
+}
+
+/// Returns whether an input of a DSP block enters the multiplication or addition without a
+/// register.
+fn is_data(cell: &PathCell, port: &str) -> bool {
+    matches!(port, "A" | "B" | "C" | "D") && is_unregistered(cell, port)
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The clock frequency that a design reaches when nextpnr places and routes it on a supported
+//! device.
+//!
+//! Each device gets the synthesis of its family, and several seeds, because the result of one
+//! placement is random. Cores have more ports than a device has pins, and in use their ports
+//! connect to other logic, not to pins. So every port bit gets a flip-flop of its own, only the
+//! clock has a pin, and these flip-flops are not counted. See [`ports`].
+
+mod critical_path;
+mod device;
+mod hierarchy;
+mod job;
+mod netlist;
+mod shortage;
+mod port_registers;
+mod render;
+mod report;
+mod nextpnr_report;
+#[cfg(test)]
+mod tests;
+
+pub use critical_path::{CriticalPath, PathEnd};
+pub use device::{ROUTE_DEVICES, RouteDevice};
+pub use job::{RouteJob, place_and_route};
+pub use shortage::ResourceShortage;
+pub use render::{render_routes_markdown, render_routes_text};
+pub use report::{ClockStatistics, PlacementResult, ROUTE_FORMAT_VERSION, RouteReport, DeviceResult, ResourceUse};

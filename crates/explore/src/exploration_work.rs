@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The work of an exploration: the clips, and the cameras of the designs.
+
+use std::collections::BTreeMap;
+
+use foveate_camera::Camera;
+
+use crate::footage::ExplorationFootage;
+use crate::{ExploreError, ExploreHooks, DesignPoint, RefusedCombination, ExploreRequest};
+
+/// The clips, the points, and the cameras to measure.
+///
+/// For a single unit only its own combinations are tried, because a space may have many more.
+pub(crate) struct ExplorationWork<'a> {
+    pub(crate) footage: ExplorationFootage<'a>,
+    pub(crate) points: Vec<DesignPoint>,
+    pub(crate) refused: Vec<RefusedCombination>,
+    /// The different cameras of the designs.
+    pub(crate) cameras: Vec<Camera>,
+    /// The index into `looks` of the camera of each point.
+    pub(crate) camera_of_point: Vec<usize>,
+}
+
+impl<'a> ExplorationWork<'a> {
+    /// Opens the clips, and tries some combinations of the space or all of them.
+    ///
+    /// # Errors
+    /// Fails if an input cannot be read or no point is a valid design.
+    pub(crate) fn new(
+        request: &ExploreRequest<'a>,
+        some: Option<&[usize]>,
+        hooks: &'a dyn ExploreHooks,
+    ) -> Result<Self, ExploreError> {
+        let space = request.space;
+        let footage = ExplorationFootage::new(request.inputs, request.input, &space.ideal, hooks)?;
+        let (width, height) = footage.size;
+        let (points, refused) = space.points_of_combinations(some, width, height);
+        if points.is_empty() {
+            let first = refused.into_iter().next().expect("a space has a combination");
+            let RefusedCombination { settings, reason } = first;
+            return Err(ExploreError::NoPoints { settings, reason });
+        }
+        let (looks, look_of) = distinct_cameras(&points)?;
+        Ok(Self { footage, points, refused, cameras: looks, camera_of_point: look_of })
+    }
+
+    /// Returns, for each camera, the first point that has it.
+    pub(crate) fn first_point_of_cameras(&self) -> Vec<&DesignPoint> {
+        let mut found = Vec::with_capacity(self.cameras.len());
+        for (point, &look) in self.points.iter().zip(&self.camera_of_point) {
+            if look == found.len() {
+                found.push(point);
+            }
+        }
+        found
+    }
+}
+
+fn distinct_cameras(points: &[DesignPoint]) -> Result<(Vec<Camera>, Vec<usize>), ExploreError> {
+    let (mut looks, mut numbers, mut of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
+    for point in points {
+        let camera = &point.config.camera;
+        let next = numbers.len();
+        let number = *numbers.entry(camera.to_toml()).or_insert(next);
+        if number == next {
+            looks.push(camera.validate()?);
+        }
+        of_point.push(number);
+    }
+    Ok((looks, of_point))
+}

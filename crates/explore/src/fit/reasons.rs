@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The reasons why a design was chosen: the effect of one step to something simpler.
+
+use std::iter;
+
+use foveate_camera::{CameraConfig, DenoiseFilter, IrrelevantRendering, Neighborhood, ReferencePolicy};
+use foveate_design::{Design, Organization};
+use foveate_estimate::{FrameRate, ramb36};
+
+use super::FitRequest;
+use super::build::{SynthesizedDesigns, SynthesizedDesign};
+use super::constraints::ConstraintCheck;
+use super::search::{ExaminedCamera, CameraSearch};
+
+/// Describes a design in a few words.
+pub(super) fn design_text(design: &Design) -> String {
+    let features: Vec<&str> =
+        design.features().iter().map(|feature| feature.kind().name()).collect();
+    format!(
+        "{hardware}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}{}",
+        features.join(" and "),
+        design.pixel_bits(),
+        match design.filter() {
+            DenoiseFilter::None => "no denoising",
+            DenoiseFilter::Median3x3 => "median",
+        },
+        design.temporal().reference,
+        match (design.irrelevant(), design.periphery()) {
+            (IrrelevantRendering::Mean, Some(own)) => {
+                format!("; irrelevant regions send {0}x{0} means", own.blocks)
+            }
+            (IrrelevantRendering::Hold, _) => "; irrelevant regions stay".to_owned(),
+            (IrrelevantRendering::Zero | IrrelevantRendering::Mean, _) => String::new(),
+        },
+        hardware = design.config().hardware.description(),
+        size = design.region_size(),
+        neighborhood = design.neighborhood(),
+    )
+}
+
+/// Returns a line for each step to something simpler, and then the cost of the next cheapest
+/// design.
+pub(super) fn reason_lines(
+    search: &CameraSearch<'_>,
+    built: &SynthesizedDesigns,
+    chosen: &SynthesizedDesign,
+    request: &FitRequest<'_>,
+) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (step, config) in simpler_cameras(&chosen.look.config) {
+        // The search has examined only some of these steps; the others are left out.
+        if let Some(look) = search.get(&config) {
+            lines.push(format!("{step}: {}", limits_or_cost_text(look, built)));
+        }
+    }
+    lines.extend(other_features(search, built, chosen));
+    let next = built.designs().iter().skip(1).find(|other| other.meets_limits() && chosen.meets_limits());
+    let is_next = |design: &Design| next.is_some_and(|next| next.design == *design);
+    let others = other_organizations(built, chosen);
+    lines.extend(
+        others
+            .filter(|other| !is_next(&other.design))
+            .map(|other| format!("{}: {}", design_text(&other.design), cost_text(other))),
+    );
+    lines.extend(deeper_fold_line(chosen, request));
+    lines.extend(next.map(|next| {
+        let (own, its) = (area_text(chosen), area_text(next));
+        format!("next cheapest: {}: {its}, instead of {own}", design_text(&next.design))
+    }));
+    lines
+}
+
+/// Returns the limits of which each one alone keeps some design from meeting all limits.
+pub(super) fn binding_limits(built: &SynthesizedDesigns) -> Vec<&'static str> {
+    if built.chosen().meets_limits() {
+        return Vec::new();
+    }
+    let mut found: Vec<&'static str> = Vec::new();
+    for candidate in built.designs() {
+        let broken: Vec<&ConstraintCheck> = candidate.checks.iter().filter(|held| !held.holds).collect();
+        if let [one] = broken.as_slice()
+            && !found.contains(&one.name)
+        {
+            found.push(one.name);
+        }
+    }
+    found
+}
+
+/// Returns the cameras that are simpler than the chosen one in one setting, each with a name for
+/// the step.
+fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
+    let mut found = Vec::new();
+    let mut step = |what: String, change: &dyn Fn(&mut CameraConfig)| {
+        let mut config = chosen.clone();
+        change(&mut config);
+        if config != *chosen {
+            found.push((what, config));
+        }
+    };
+    let bits = chosen.frame.pixel_bits;
+    step(format!("{} bits per pixel", bits - 1), &|config| {
+        *config = config.scaled_to_depth(bits - 1);
+    });
+    step("without the median".to_owned(), &|config| config.denoise.filter = DenoiseFilter::None);
+    step("isolated windows".to_owned(), &|config| {
+        config.region.neighborhood = Neighborhood::Isolated;
+    });
+    step("compared with the previous frame".to_owned(), &|config| {
+        config.temporal.reference = ReferencePolicy::Previous;
+    });
+    found
+}
+
+/// Returns the limits that a camera misses, or its cost if it meets them.
+fn limits_or_cost_text(look: &ExaminedCamera, built: &SynthesizedDesigns) -> String {
+    let broken: Vec<String> = look.checks.iter().filter(|held| !held.holds).map(ConstraintCheck::text).collect();
+    if !broken.is_empty() {
+        return broken.join(", ");
+    }
+    let flips = look.figures.action_flips * 100.0;
+    let own = built.designs().iter().filter(|candidate| candidate.look.config == look.config);
+    match own.min_by(|one, other| one.cost().total_cmp(&other.cost())) {
+        Some(candidate) => format!("{flips:.2} % flips; {}", cost_text(candidate)),
+        None => format!(
+            "{flips:.2} % flips; not synthesized, because it is less promising or a simpler one meets the limits"
+        ),
+    }
+}
+
+/// Returns a line for the best camera of every other set of features and region size.
+fn other_features(search: &CameraSearch<'_>, built: &SynthesizedDesigns, chosen: &SynthesizedDesign) -> Vec<String> {
+    let of = |config: &CameraConfig| {
+        let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
+        (names.join(" and "), config.region.size)
+    };
+    let synthesized =
+        |look: &ExaminedCamera| built.designs().iter().any(|candidate| candidate.look.config == look.config);
+    let rank = |look: &ExaminedCamera| (look.excess(), !synthesized(look));
+    let own = of(&chosen.look.config);
+    let mut best: Vec<((String, u32), &ExaminedCamera)> = Vec::new();
+    for look in search.all().filter(|look| of(&look.config) != own) {
+        let key = of(&look.config);
+        match best.iter_mut().find(|(other, _)| *other == key) {
+            Some((_, found)) if rank(found) <= rank(look) => {}
+            Some((_, found)) => *found = look,
+            None => best.push((key, look)),
+        }
+    }
+    // Readers ask for cameras that differ in one setting only.
+    best.retain(|((features, size), _)| *features == own.0 || *size == own.1);
+    best.sort_by(|one, other| one.1.excess().total_cmp(&other.1.excess()));
+    let line = |((features, size), look): ((String, u32), &ExaminedCamera)| {
+        format!("{features} in {size}x{size} regions: at best {}", limits_or_cost_text(look, built))
+    };
+    best.into_iter().map(line).collect()
+}
+
+/// Returns the best synthesized design of every other organization.
+fn other_organizations<'a>(
+    built: &'a SynthesizedDesigns,
+    chosen: &SynthesizedDesign,
+) -> impl Iterator<Item = &'a SynthesizedDesign> {
+    let own = chosen.design.organization();
+    Organization::ALL.iter().filter(move |other| **other != own).filter_map(|other| {
+        built.designs().iter().find(|candidate| candidate.design.organization() == *other)
+    })
+}
+
+/// Returns a line about one fold more, if it is too slow.
+fn deeper_fold_line(chosen: &SynthesizedDesign, request: &FitRequest<'_>) -> Option<String> {
+    let fold = chosen.design.slots() + 1;
+    let deeper = chosen.design.with_fold(fold).ok()?;
+    let speed = chosen.speed?;
+    let at_low = FrameRate::at_given_clock(speed.low_clock_mhz, deeper.timing().clocks_per_frame());
+    let [held] = request.constraints.check_speed(Some(&at_low)).try_into().ok()?;
+    let whose = if speed.estimated { ", if its clock is the same" } else { "" };
+    (!held.holds).then(|| format!("fold {fold}: {}{whose}", held.text()))
+}
+
+/// Returns the cost of a design, and the limits that it misses.
+fn cost_text(candidate: &SynthesizedDesign) -> String {
+    let broken = candidate.checks.iter().filter(|held| !held.holds).map(ConstraintCheck::text);
+    iter::once(area_text(candidate)).chain(broken).collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the area of a design, and its share of the device, by which designs are chosen.
+fn area_text(candidate: &SynthesizedDesign) -> String {
+    let area = &candidate.silicon.array;
+    format!(
+        "{} LUTs and {} RAMB36, {:.3} % of the device",
+        area.lut_total_packed,
+        ramb36(area.bram18),
+        candidate.cost() * 100.0
+    )
+}
+
+/// Formats a number with at most two digits after the decimal point.
+fn hundredths(value: f64) -> String {
+    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+impl ConstraintCheck {
+    /// Returns the figure and its limit as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let side = if self.is_minimum { "at least" } else { "at most" };
+        let number = |value: f64| match self.name {
+            "max-flips" | "max-missed" | "min-recall" | "min-agreement" => {
+                format!("{:.2} %", value * 100.0)
+            }
+            "min-psnr" if value.is_infinite() => "identical".to_owned(),
+            "min-psnr" => format!("{value:.1} dB"),
+            "min-fps" | "max-bram" => hundredths(value),
+            _ => format!("{value:.0}"),
+        };
+        let what = match self.name {
+            "max-flips" => "flips",
+            "max-missed" => "missed",
+            "min-psnr" => "PSNR",
+            "max-stale-frames" => "stale frames",
+            "max-bytes" => "bytes per frame",
+            "min-recall" => "objects sent by half",
+            "min-agreement" => "agreement of the network",
+            "min-fps" => "frames/s",
+            "max-lut" => "LUTs of a unit",
+            "max-ff" => "flip-flops of a unit",
+            "max-array-lut" => "LUTs of the array",
+            _ => "RAMB36",
+        };
+        let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
+        let clock = clock.unwrap_or_default();
+        let what = if self.is_expected {
+            format!("{what} to expect of other frames")
+        } else {
+            what.to_owned()
+        };
+        format!("{what} {}{clock} ({side} {})", number(self.value), number(self.limit))
+    }
+}

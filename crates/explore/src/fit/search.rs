@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The search over cameras: over every setting except those of the hardware.
+
+use std::collections::BTreeMap;
+
+use foveate_camera::{
+    CameraConfig, ConfigError, Decimal, FeatureKind, DenoiseFilter, ScoreUnit, Neighborhood, ReferencePolicy,
+    SpatialConfig,
+};
+use foveate_design::is_taken;
+use foveate_fidelity::FidelityFigures;
+
+use super::constraints::{Constraints, ConstraintCheck, all_met, total_excess};
+use super::halves::ClipHalves;
+use crate::ExploreError;
+use crate::ExploreProgress;
+use crate::footage::ExplorationFootage;
+use crate::objects::ObjectCounts;
+use crate::row::sum_tallies;
+
+/// The sides of regions that are tried besides the task's.
+const SIDES: [u32; 3] = [4, 8, 16];
+/// The fewest bits per pixel that are tried.
+const FEWEST_BITS: u32 = 3;
+/// The number of pairs of a region size and features that are examined closely, even if they flip
+/// more than wanted.
+const MIN_EXAMINED_PAIRS: usize = 3;
+/// The factor of the wanted share of flips up to which further pairs are examined.
+const FLIP_FACTOR: f64 = 1.5;
+
+/// A camera and its figures on the first halves.
+#[derive(Clone, Debug)]
+pub(super) struct ExaminedCamera {
+    pub(super) config: CameraConfig,
+    pub(super) figures: FidelityFigures,
+    pub(super) checks: Vec<ConstraintCheck>,
+}
+
+/// The search and the cameras that it has examined.
+pub(super) struct CameraSearch<'a> {
+    constraints: &'a Constraints,
+    footage: &'a ExplorationFootage<'a>,
+    halves: &'a ClipHalves,
+    task: CameraConfig,
+    examined: BTreeMap<String, ExaminedCamera>,
+}
+
+impl ExaminedCamera {
+    pub(super) fn meets_limits(&self) -> bool {
+        all_met(&self.checks)
+    }
+
+    /// Returns the distance of the camera from its limits, over all constraints.
+    pub(super) fn excess(&self) -> f64 {
+        total_excess(&self.checks)
+    }
+}
+
+impl<'a> CameraSearch<'a> {
+    pub(super) fn new(
+        constraints: &'a Constraints,
+        footage: &'a ExplorationFootage<'a>,
+        halves: &'a ClipHalves,
+        task: &CameraConfig,
+    ) -> Result<Self, ExploreError> {
+        let (width, height) = footage.size;
+        let task = task.validate_for_frames(width, height)?.config().clone();
+        Ok(Self { constraints, footage, halves, task, examined: BTreeMap::new() })
+    }
+
+    /// Returns all cameras that were examined.
+    pub(super) fn all(&self) -> impl Iterator<Item = &ExaminedCamera> {
+        self.examined.values()
+    }
+
+    /// Returns whether there is a limit on the screen or the sent bytes of a camera.
+    pub(super) fn limits_figures(&self) -> bool {
+        self.constraints.limits_figures()
+    }
+
+    /// Replaces a camera that was examined.
+    pub(super) fn replace(&mut self, look: ExaminedCamera) {
+        self.examined.insert(look.config.to_toml(), look);
+    }
+
+    /// Returns a camera, if it was examined.
+    pub(super) fn get(&self, config: &CameraConfig) -> Option<&ExaminedCamera> {
+        self.examined.get(&config.to_toml())
+    }
+
+    pub(super) fn task(&self) -> &CameraConfig {
+        &self.task
+    }
+
+    /// Searches the region sizes and features with the thresholds that agree best, and then depths,
+    /// windows, filters and references.
+    pub(super) fn run(&mut self) -> Result<(), ExploreError> {
+        let mut bases = Vec::new();
+        for side in self.sides() {
+            for features in self.features() {
+                let tries = self.exact_cameras(side, &features);
+                let best = self.examine(&tries)?.into_iter().min_by(by_flips);
+                bases.extend(best);
+            }
+        }
+        bases.sort_by(by_flips);
+        let wanted = self.constraints.max_flips.unwrap_or(0.0) * FLIP_FACTOR;
+        let near = bases.iter().filter(|look| look.figures.action_flips <= wanted).count();
+        bases.truncate(near.max(MIN_EXAMINED_PAIRS));
+        for base in bases {
+            self.examine(&self.cheaper_cameras(&base.config))?;
+        }
+        Ok(())
+    }
+
+    fn sides(&self) -> Vec<u32> {
+        let own = self.task.region.size;
+        std::iter::once(own).chain(SIDES.into_iter().filter(|&side| side != own)).collect()
+    }
+
+    /// Returns the task's features, and each feature alone.
+    fn features(&self) -> Vec<Vec<SpatialConfig>> {
+        let own = &self.task.spatial;
+        let alone = FeatureKind::ALL.iter().map(|&kind| vec![SpatialConfig::new(kind)]);
+        let is_own =
+            |features: &Vec<SpatialConfig>| own.len() == 1 && own[0].feature == features[0].feature;
+        std::iter::once(own.clone()).chain(alone.filter(|features| !is_own(features))).collect()
+    }
+
+    /// Returns cameras that are as exact as hardware can be, with every threshold worth trying.
+    fn exact_cameras(&self, side: u32, features: &[SpatialConfig]) -> Vec<CameraConfig> {
+        let mut exact = self.task.clone();
+        exact.region.size = side;
+        exact.region.neighborhood = Neighborhood::Shared;
+        let counts = scaled_counts(self.task.temporal.min_count, self.task.region.size, side);
+        let own = features == self.task.spatial;
+        let choices: Vec<Vec<SpatialConfig>> = match features {
+            [one] if !own => trial_thresholds(one.feature, self.task.frame.pixel_bits),
+            _ => own_thresholds(features, self.task.region.size, side),
+        };
+        let mut found = Vec::new();
+        for count in counts {
+            for spatial in &choices {
+                let mut config = exact.clone();
+                config.temporal.min_count = count;
+                config.spatial.clone_from(spatial);
+                for entry in config.spatial.iter_mut().filter(|entry| entry.has_mean_fraction()) {
+                    entry.mean_fraction_bits = Some(exact_fraction_bits(side));
+                }
+                found.push(config);
+            }
+        }
+        found
+    }
+
+    /// Returns every cheaper version of a camera: with fewer bits, isolated windows, no filter, the
+    /// other reference, or a mean without fraction bits.
+    fn cheaper_cameras(&self, base: &CameraConfig) -> Vec<CameraConfig> {
+        let mut found = Vec::new();
+        let depth = base.frame.pixel_bits;
+        for bits in (FEWEST_BITS.min(depth)..=depth).rev() {
+            for &neighborhood in Neighborhood::ALL {
+                for &filter in DenoiseFilter::ALL {
+                    for &reference in ReferencePolicy::ALL {
+                        let mut config = base.clone();
+                        config.region.neighborhood = neighborhood;
+                        config.denoise.filter = filter;
+                        config.temporal.reference = reference;
+                        found.push(config.scaled_to_depth(bits));
+                    }
+                }
+            }
+        }
+        let coarse = found.clone().into_iter().filter_map(|mut config| {
+            let means = config.spatial.iter_mut().filter(|entry| entry.has_mean_fraction());
+            means.map(|entry| entry.mean_fraction_bits = Some(0)).count().gt(&0).then_some(config)
+        });
+        let coarse: Vec<CameraConfig> = coarse.collect();
+        found.into_iter().chain(coarse).collect()
+    }
+
+    /// Examines cameras on the first halves. It leaves out invalid cameras, and cameras that no
+    /// organization can build.
+    pub(super) fn examine(&mut self, configs: &[CameraConfig]) -> Result<Vec<ExaminedCamera>, ExploreError> {
+        let taken = configs.iter().filter(|config| is_taken(config));
+        let cameras: Vec<_> = taken.filter_map(|config| config.validate().ok()).collect();
+        let new: BTreeMap<String, _> = cameras
+            .iter()
+            .map(|camera| (camera.config().to_toml(), camera.clone()))
+            .filter(|(text, _)| !self.examined.contains_key(text))
+            .collect();
+        let cameras_new: Vec<_> = new.values().cloned().collect();
+        let figures =
+            self.footage.measure_first_halves(&cameras_new, &self.halves.frames, self.examined.len())?;
+        for ((text, camera), (figures, objects)) in new.iter().zip(figures) {
+            let recall = self.recall(objects, "first")?;
+            let held = self.constraints.check_figures(camera, &figures, recall);
+            let config = camera.config().clone();
+            let look = ExaminedCamera { config, figures, checks: held };
+            self.examined.insert(text.clone(), look);
+        }
+        let looks = cameras.iter().filter_map(|camera| self.get(camera.config()).cloned());
+        Ok(looks.collect())
+    }
+
+    /// Returns the figures of a camera on the second halves, which influenced no choice.
+    pub(super) fn measure_second_half(&self, look: &ExaminedCamera) -> Result<(FidelityFigures, Vec<ConstraintCheck>), ExploreError> {
+        let camera = look.config.validate()?;
+        let mut measured = Vec::new();
+        for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
+            let tell = || ExploreProgress::Measuring { done_pairs: 0, all: 1 };
+            let cameras = std::slice::from_ref(&camera);
+            let mut parts = self.footage.measure_parts(clip, cameras, &[0..half, half..all], &tell)?;
+            measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
+        }
+        let all: Vec<_> = measured.iter().collect();
+        let figures = sum_tallies(&all).map(|tally| tally.figures());
+        let figures = figures.ok_or(ConfigError::Syntax("no clip".to_owned()))?;
+        let mut objects = ObjectCounts::default();
+        measured.iter().for_each(|part| objects.merge(part.objects));
+        let recall = self.recall(objects, "second")?;
+        let held = self.constraints.check_figures(&camera, &figures, recall);
+        Ok((figures, held))
+    }
+
+    /// Returns the share of the objects of a half that is sent, if it is limited.
+    fn recall(&self, objects: ObjectCounts, half: &'static str) -> Result<Option<f64>, ExploreError> {
+        if self.constraints.min_recall.is_none() {
+            return Ok(None);
+        }
+        objects.recall().ok_or(ExploreError::NoObjects { half }).map(Some)
+    }
+}
+
+fn by_flips(one: &ExaminedCamera, other: &ExaminedCamera) -> std::cmp::Ordering {
+    one.figures.action_flips.total_cmp(&other.figures.action_flips)
+}
+
+/// Scales a number of pixels of a region to another region size: unchanged, in proportion to the
+/// area, and halfway between.
+fn scaled_counts(count: u32, from: u32, to: u32) -> Vec<u32> {
+    if count == 0 {
+        return vec![0];
+    }
+    let n = to * to;
+    let area = (u64::from(count) * u64::from(n)).div_ceil(u64::from(from * from));
+    let area = u32::try_from(area).unwrap_or(n);
+    let mut found = vec![count, area, u32::midpoint(count, area)];
+    found.iter_mut().for_each(|count| *count = (*count).clamp(1, n));
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Returns the task's features with their counts of hits scaled to another region size.
+fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<SpatialConfig>> {
+    let mut found: Vec<Vec<SpatialConfig>> = vec![Vec::new()];
+    for entry in features {
+        let hits =
+            entry.min_score.and_then(Decimal::as_whole).and_then(|hits| hits.try_into().ok());
+        let hits = hits.filter(|_| entry.feature.score_unit().is_count());
+        let choices: Vec<SpatialConfig> = match hits {
+            Some(hits) => scaled_counts(hits, from, to)
+                .into_iter()
+                .map(|hits| SpatialConfig {
+                    min_score: Some(Decimal::from_whole(hits.into())),
+                    ..entry.clone()
+                })
+                .collect(),
+            None => vec![entry.clone()],
+        };
+        found = found
+            .iter()
+            .flat_map(|before| {
+                choices
+                    .iter()
+                    .map(|choice| [before.as_slice(), std::slice::from_ref(choice)].concat())
+            })
+            .collect();
+    }
+    found
+}
+
+/// Returns the fraction bits with which the mean of a region is exact, or as exact as it can be:
+/// ceil(log2 n).
+fn exact_fraction_bits(side: u32) -> u32 {
+    (side * side).next_power_of_two().ilog2()
+}
+
+/// Returns the thresholds to try for a feature that the task does not have. They are given for 8
+/// bits and scaled to the depth.
+fn trial_thresholds(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> {
+    let scaled =
+        |spatial| CameraConfig { spatial, ..CameraConfig::default() }.scaled_to_depth(bits).spatial;
+    trial_thresholds_of_8_bits(feature).into_iter().map(scaled).collect()
+}
+
+fn trial_thresholds_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
+    const LEVELS: [u64; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
+    const HITS: [u64; 4] = [1, 2, 5, 10];
+    let entry = |level: Option<u32>, min_score: u64| {
+        vec![SpatialConfig {
+            level,
+            min_score: Some(Decimal::from_whole(min_score)),
+            ..SpatialConfig::new(feature)
+        }]
+    };
+    let measure = feature.score_unit();
+    let scores: Vec<u64> = match measure {
+        ScoreUnit::Pixels => HITS.into(),
+        ScoreUnit::Levels | ScoreUnit::SquaredLevels => {
+            LEVELS.map(|level| level.pow(measure.scaling_exponent())).into()
+        }
+    };
+    let levels: Vec<Option<u32>> = match feature.trial_levels() {
+        [] => vec![None],
+        levels => levels.iter().copied().map(Some).collect(),
+    };
+    let of = |level| scores.iter().map(move |&score| entry(level, score));
+    levels.into_iter().flat_map(of).collect()
+}

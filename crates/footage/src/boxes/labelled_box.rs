@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An object in a frame, as a box file describes it.
+
+use foveate_frame::Rect;
+
+/// A box, and the track of its object if the file has tracks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelledBox {
+    /// The position of the object, in pixels of the frame before it is cropped and scaled.
+    pub rect: Rect,
+    /// The number of the object, which is the same in all frames.
+    pub track: Option<u64>,
+}

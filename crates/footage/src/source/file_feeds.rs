@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Image files and scenes as feeds.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use foveate_scenes::{Scene, SceneFrames, SceneParameters};
+
+use super::feed::FrameFeed;
+use super::set_form::{SetLabels, SetFiles, SetForm};
+use super::{SourceKind, SourceFrame};
+use crate::{FootageError, FrameRate, picture};
+
+/// An image file, with the label that its folder gives it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct ImageFile {
+    pub(crate) path: PathBuf,
+    pub(crate) label: Option<String>,
+}
+
+impl ImageFile {
+    /// Makes an entry for a file without a label.
+    pub(crate) fn plain(path: PathBuf) -> Self {
+        Self { path, label: None }
+    }
+}
+
+/// A feed of image files in a given order.
+pub(crate) struct ImageFiles {
+    files: std::vec::IntoIter<ImageFile>,
+    total: u64,
+    next: u64,
+    bits: u32,
+    rate: FrameRate,
+    kind: SourceKind,
+    labels: SetLabels,
+}
+
+impl ImageFiles {
+    pub(crate) fn new(files: Vec<ImageFile>, bits: u32, rate: FrameRate, kind: SourceKind) -> Self {
+        let total = files.len() as u64;
+        let names: BTreeSet<&String> =
+            files.iter().filter_map(|file| file.label.as_ref()).collect();
+        let labels = if names.is_empty() {
+            SetLabels::None
+        } else {
+            SetLabels::Names(names.into_iter().cloned().collect())
+        };
+        Self { files: files.into_iter(), total, next: 0, bits, rate, kind, labels }
+    }
+}
+
+impl FrameFeed for ImageFiles {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        let Some(ImageFile { path, label }) = self.files.next() else {
+            return Ok(None);
+        };
+        let frame = (&picture::read(&path, self.bits)?).into();
+        let time_us = self.kind.time_us(self.rate, self.next);
+        self.next += 1;
+        Ok(Some(SourceFrame { name: path.display().to_string(), time_us, label, frame }))
+    }
+
+    fn total(&self) -> Option<u64> {
+        Some(self.total)
+    }
+
+    fn kind(&self) -> SourceKind {
+        self.kind
+    }
+
+    fn is_file_per_frame(&self) -> bool {
+        true
+    }
+
+    fn form(&self) -> SetForm {
+        SetForm { files: SetFiles::Images, labels: self.labels.clone() }
+    }
+}
+
+/// A feed of the frames of a scene.
+pub(crate) struct SceneFeed {
+    name: String,
+    total: u64,
+    frames: SceneFrames,
+    next: u64,
+    rate: FrameRate,
+}
+
+impl SceneFeed {
+    pub(crate) fn new(scene: Scene, size: SceneParameters, rate: FrameRate) -> Self {
+        let (name, total) = (format!("scene:{scene}"), size.frames.into());
+        Self { name, total, frames: scene.frames(size), next: 0, rate }
+    }
+}
+
+impl FrameFeed for SceneFeed {
+    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
+        let time_us = self.rate.time_us(self.next);
+        self.next += 1;
+        let name = self.name.clone();
+        let frame = self.frames.next();
+        Ok(frame.map(|frame| SourceFrame { name, time_us, label: None, frame: (&frame).into() }))
+    }
+
+    fn total(&self) -> Option<u64> {
+        Some(self.total)
+    }
+}

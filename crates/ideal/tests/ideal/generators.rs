@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random cameras and clips.
+
+use foveate_camera::{
+    Camera, CameraConfig, VoteCombination, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, SpatialConfig,
+};
+use foveate_frame::Frame;
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence};
+
+/// The changes that make each frame of a clip from the one before.
+pub(crate) type ChangeScript = Vec<FrameChange>;
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum FrameChange {
+    Noise,
+    Still,
+    Flat,
+    Binary,
+    Fade,
+    /// A square of new noise, with its corner at this pixel modulo the size of the frame.
+    Patch(u32, u32),
+}
+
+pub(crate) fn scripts() -> impl Strategy<Value = ChangeScript> {
+    let change = prop_oneof![
+        2 => Just(FrameChange::Noise),
+        2 => Just(FrameChange::Still),
+        1 => Just(FrameChange::Flat),
+        1 => Just(FrameChange::Binary),
+        2 => Just(FrameChange::Fade),
+        3 => (any::<u32>(), any::<u32>()).prop_map(|(x, y)| FrameChange::Patch(x, y)),
+    ];
+    proptest::collection::vec(change, 2..7)
+}
+
+/// Returns cameras with shared windows. With `rounded` they may have `mad` with any fraction bits,
+/// and odd sides. Without it, cameras with `mad` have a side that is a power of two and an exact
+/// mean.
+pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
+    let sides =
+        if rounded { vec![2, 3, 4, 5, 7, 8, 9] } else { vec![2, 3, 4, 6, 7, 8, 16, 32, 64] };
+    let bits = prop_oneof![4 => Just(8_u32), 2 => 1_u32..=7, 2 => 9_u32..=16];
+    (select(sides), bits).prop_flat_map(move |(side, bits): (u32, u32)| {
+        let exact = side.is_power_of_two();
+        let possible: Vec<FeatureKind> = FeatureKind::ALL
+            .iter()
+            .copied()
+            .filter(|&kind| rounded || exact || kind != FeatureKind::Mad)
+            .collect();
+        let count = possible.len();
+        let features =
+            subsequence(possible, 1..=count).prop_shuffle().prop_flat_map(move |kinds| {
+                kinds.into_iter().map(|kind| feature(kind, side, bits, rounded)).collect::<Vec<_>>()
+            });
+        let (max, n) = ((1_u32 << bits) - 1, side * side);
+        let size = (1..=3 * side + 2, 1..=2 * side + 3);
+        let on = proptest::array::uniform5(any::<bool>());
+        let blocks: Vec<u32> = [1, 2, 4].into_iter().filter(|q| side.is_multiple_of(*q)).collect();
+        let periphery = proptest::option::of((select(blocks), small(max - 1)));
+        (size, features, small(max - 1), small(n), on, periphery).prop_map(
+            move |(size, features, level, min_count, on, periphery)| {
+                let mut config = CameraConfig::default();
+                (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
+                (config.frame.pixel_bits, config.region.size) = (bits, side);
+                config.region.neighborhood = Neighborhood::Shared;
+                config.spatial = features;
+                (config.temporal.level, config.temporal.min_count) = (Some(level), min_count);
+                config.denoise.filter = if on[0] { DenoiseFilter::None } else { DenoiseFilter::Median3x3 };
+                config.decision.combine = if on[1] { VoteCombination::All } else { VoteCombination::Any };
+                config.temporal.reference =
+                    if on[2] { ReferencePolicy::LastSent } else { ReferencePolicy::Previous };
+                config.render.irrelevant = if on[3] { IrrelevantRendering::Hold } else { IrrelevantRendering::Zero };
+                if let Some((blocks, level)) = periphery {
+                    config.render.irrelevant = IrrelevantRendering::Mean;
+                    (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
+                }
+                config.render.payload = if on[4] { Payload::Raw } else { Payload::Denoised };
+                config.validate().unwrap()
+            },
+        )
+    })
+}
+
+fn small(max: u32) -> impl Strategy<Value = u32> {
+    prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
+}
+
+fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrategy<SpatialConfig> {
+    let (max, n) = ((1_u32 << bits) - 1, side * side);
+    let (level_max, unit, min_max) = match kind {
+        FeatureKind::Edge => (6 * max, 1, n),
+        FeatureKind::Corner => (max, 1, n),
+        FeatureKind::Mad => (0, 100, max / 3),
+        FeatureKind::Variance => (0, 100, max * (max / 6)),
+    };
+    let log2 = (0_u32..).find(|bits| 1 << bits >= n).unwrap();
+    let fraction = if rounded { 0..=log2 } else { log2..=log2 };
+    // Minima in grey levels have two digits after the decimal point.
+    let decimal = move |whole: u32, part: u32| {
+        let value = f64::from(whole) + f64::from(part % unit) / 100.0;
+        Decimal::from_f64((value * 100.0).round() / 100.0)
+    };
+    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32, fraction)
+        .prop_map(move |(level, whole, part, fraction)| SpatialConfig {
+            feature: kind,
+            level: (level_max > 0).then_some(level),
+            min_score: decimal(whole, if whole < min_max { part } else { 0 }),
+            mean_fraction_bits: (kind == FeatureKind::Mad).then_some(fraction),
+        })
+        .boxed()
+}
+
+/// Makes the clip of a script; its first frame is noise.
+pub(crate) fn script_frames(camera: &Camera, seed: u64, script: &[FrameChange]) -> Vec<Frame> {
+    let mut state = seed | 1;
+    let max = u16::try_from(camera.pixel_max()).unwrap();
+    let mut below = move |max: u16| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        u16::try_from((state >> 20) % (u64::from(max) + 1)).unwrap()
+    };
+    let (width, height) = (camera.width(), camera.height());
+    let mut pixels: Vec<u16> = (0..width * height).map(|_| below(max)).collect();
+    let frame =
+        |pixels: &[u16]| Frame::new(width, height, camera.pixel_bits(), pixels.to_vec()).unwrap();
+    let mut frames = vec![frame(&pixels)];
+    for &change in script {
+        match change {
+            FrameChange::Still => {}
+            FrameChange::Noise => pixels.fill_with(|| below(max)),
+            FrameChange::Flat => pixels.fill(below(max)),
+            FrameChange::Binary => {
+                let values = [below(max), below(max)];
+                pixels.fill_with(|| values[usize::from(below(1))]);
+            }
+            FrameChange::Fade => pixels.iter_mut().for_each(|p| *p = p.saturating_add(1).min(max)),
+            FrameChange::Patch(x, y) => {
+                for y in y % height..height.min(y % height + 5) {
+                    for x in x % width..width.min(x % width + 5) {
+                        pixels[(y * width + x) as usize] = below(max);
+                    }
+                }
+            }
+        }
+        frames.push(frame(&pixels));
+    }
+    frames
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The interface of the cycle-level models of all organizations: the inputs at a clock edge, and
+//! the questions that test drivers ask.
+
+use foveate_design::PortRole;
+
+use crate::ThresholdInputs;
+
+/// The inputs of a core at one clock edge. A field whose port the core does not have is ignored.
+#[derive(Clone, Copy, Debug)]
+pub struct CoreInput<'a> {
+    /// Value of `rst_i`.
+    pub reset: bool,
+    /// Value of `valid_i`.
+    pub valid: bool,
+    /// Value of `sof_i`.
+    pub sof: bool,
+    /// Value of `pixel_i`: one pixel per lane, or the pixels of a word, the left one first.
+    pub pixels: &'a [u16],
+    /// Value of `border_i` of a lone RPU: {bottom, top, right, left}, left in bit 0.
+    pub border: u8,
+    /// Value of `reference_valid_i`.
+    pub reference_valid: bool,
+    /// Value of `reference_pixel_i`: the pixels of a word, the left one first.
+    pub reference_pixels: &'a [u16],
+    /// Value of `forward_ready_i`.
+    pub forward_ready: bool,
+    /// Values of the threshold inputs.
+    pub thresholds: &'a ThresholdInputs,
+}
+
+impl<'a> CoreInput<'a> {
+    /// Makes an input without a valid pixel, whatever the pixel port shows. The sink is ready.
+    #[must_use]
+    pub fn idle(pixels: &'a [u16], thresholds: &'a ThresholdInputs) -> Self {
+        Self {
+            reset: false,
+            valid: false,
+            sof: false,
+            pixels,
+            border: 0,
+            reference_valid: false,
+            reference_pixels: &[],
+            forward_ready: true,
+            thresholds,
+        }
+    }
+
+    /// Makes an input with valid pixels. The sink is ready.
+    #[must_use]
+    pub fn valid(pixels: &'a [u16], thresholds: &'a ThresholdInputs) -> Self {
+        Self { valid: true, ..Self::idle(pixels, thresholds) }
+    }
+}
+
+/// The cycle-level model of a core.
+pub trait CycleModel {
+    /// Applies one rising clock edge.
+    ///
+    /// # Panics
+    /// Panics if there are not as many pixels as `pixel_i` has, or as `reference_pixel_i` has in a
+    /// core with that port.
+    fn clock(&mut self, input: &CoreInput<'_>);
+
+    /// Appends the values of the output of a role after the last edge: one value per lane, or one
+    /// per pixel of a word, the lowest first. Appends nothing if the core has no such output.
+    fn append_output(&self, role: PortRole, values: &mut Vec<u64>);
+
+    /// Returns true if the core would take a valid input at the next edge.
+    fn is_ready(&self) -> bool;
+
+    /// Returns a lower bound of the clocks without valid inputs until the core would take one.
+    fn clocks_until_ready(&self) -> u64 {
+        u64::from(!self.is_ready())
+    }
+
+    /// Returns a lower bound of the clocks without valid inputs for which the outputs stay as they
+    /// are.
+    fn quiet_clocks(&self) -> u64 {
+        0
+    }
+
+    /// Applies [`CycleModel::quiet_clocks`] edges at once, without a reset and without valid
+    /// inputs. There may be none.
+    fn skip_quiet_clocks(&mut self) {}
+
+    /// Returns true if outputs of pixels that were taken are still to come without another frame.
+    fn is_pending(&self) -> bool {
+        false
+    }
+
+    /// Returns true if thresholds must stay constant although no frame is under way, because
+    /// regions are still to be decided with them.
+    fn requires_stable_thresholds(&self) -> bool {
+        false
+    }
+
+    /// Returns true if a region is lost in the middle at the next edge, unless that edge has a
+    /// reset.
+    fn will_abort(&self) -> bool {
+        false
+    }
+
+    /// Returns the reference of a region for the next frame: scored pixels in row-major order.
+    /// Returns `None` if there is no valid reference, or if the model does not know it in advance.
+    fn reference(&self, region: u32) -> Option<&[u16]>;
+
+    /// Returns the means, block by block, that those of the next frame of a region will be compared
+    /// with. Returns `None` if the screen shows no summary of the region, or if the model does not
+    /// know it in advance.
+    fn summary(&self, region: u32) -> Option<&[u16]>;
+
+    /// Returns true if the one-bit output of a role is 1.
+    fn is_high(&self, role: PortRole) -> bool {
+        let mut values = Vec::new();
+        self.append_output(role, &mut values);
+        values.first() == Some(&1)
+    }
+
+    /// Returns a copy of the model in the same state.
+    fn duplicate(&self) -> Box<dyn CycleModel>;
+}

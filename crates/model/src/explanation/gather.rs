@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The construction of an explanation from the outcome of a frame. The hits of single pixels come
+//! from the arithmetic of the model.
+
+use foveate_camera::{RegionAction, Camera, IrrelevantRendering, Periphery, SpatialFeature};
+use foveate_design::Design;
+use foveate_frame::Frame;
+
+use super::{TemporalExplanation, RegionExplanation, FrameIdentification, RegionPosition, SquareRows, SpatialExplanation, SummaryExplanation};
+use crate::feature::{region_hits, mad};
+use crate::{FunctionalOutcome, RegionMemory, region_pixels};
+
+/// Version of the format. It changes when a key is removed or changes its meaning.
+const FORMAT_VERSION: u32 = 1;
+
+impl RegionExplanation {
+    /// Explains the decision for one region of a frame, from the state of the region before the
+    /// frame and the outcome of the frame.
+    ///
+    /// # Panics
+    /// Panics if the camera has no such region, or if the outcome is that of another camera.
+    #[must_use]
+    pub fn from_outcome(
+        design: &Design,
+        moment: FrameIdentification<'_>,
+        region: u32,
+        before: RegionMemory,
+        outcome: &FunctionalOutcome,
+    ) -> Self {
+        let (camera, at) = (design.camera(), region as usize);
+        let scores = camera.features().iter().zip(&outcome.scores);
+        Self {
+            format_version: FORMAT_VERSION,
+            design_fingerprint: design.fingerprint(),
+            frame: moment.number,
+            name: moment.name.to_owned(),
+            t_us: moment.t_us,
+            region: RegionPosition::of(camera, region),
+            pixel_bits: camera.pixel_bits(),
+            raw: rows(camera, &pixels(camera, &outcome.padded, region)),
+            denoised: rows(camera, &pixels(camera, &outcome.denoised, region)),
+            filter: camera.filter(),
+            spatial: scores
+                .map(|(feature, scores)| SpatialExplanation::of(camera, feature, outcome, region, scores[at]))
+                .collect(),
+            combine: camera.combine().name(),
+            srs: outcome.srs[at],
+            temporal: TemporalExplanation::of(camera, before.reference, outcome, region),
+            trs: outcome.trs[at],
+            summary: camera
+                .periphery()
+                .map(|periphery| SummaryExplanation::of(periphery, &outcome.means[at], before.summary)),
+            action: outcome.actions[at].name(),
+            rule: rule(camera, outcome.srs[at], outcome.trs[at], outcome.actions[at]),
+        }
+    }
+}
+
+impl RegionPosition {
+    fn of(camera: &Camera, region: u32) -> Self {
+        let (size, columns) = (camera.region_size(), camera.columns());
+        let (x, y) = (region % columns, region / columns);
+        Self {
+            x,
+            y,
+            x0: x * size,
+            y0: y * size,
+            size,
+            columns,
+            rows: camera.rows(),
+            padding_right: ((x + 1) * size).saturating_sub(camera.width()),
+            padding_below: ((y + 1) * size).saturating_sub(camera.height()),
+        }
+    }
+}
+
+impl SpatialExplanation {
+    fn of(
+        camera: &Camera,
+        feature: &SpatialFeature,
+        outcome: &FunctionalOutcome,
+        region: u32,
+        score: u64,
+    ) -> Self {
+        let n = u64::from(camera.region_pixels());
+        let denoised = &outcome.denoised;
+        let hits = region_hits(camera, feature, denoised, region);
+        let mean = feature.mean().map(|mean| {
+            let sum = pixels(camera, denoised, region).into_iter().map(u64::from).sum();
+            mad::mean(sum, n, mean.fraction_bits)
+        });
+        Self {
+            feature: feature.kind(),
+            level: feature.level(),
+            hits: region_hits.map(|hits| rows(camera, &region_hits)),
+            mean,
+            score,
+            min_score: feature.min_score(),
+            unit: feature.unit(),
+            vote: score >= feature.min_score(),
+        }
+    }
+}
+
+impl SummaryExplanation {
+    fn of(periphery: &Periphery, means: &[u16], shown: Option<Vec<u16>>) -> Self {
+        let rows = |means: &[u16]| -> SquareRows<u16> {
+            means.chunks(periphery.blocks as usize).map(<[u16]>::to_vec).collect()
+        };
+        Self { means: rows(means), shown: shown.map(|shown| rows(&shown)), level: periphery.level }
+    }
+}
+
+impl TemporalExplanation {
+    fn of(
+        camera: &Camera,
+        reference: Option<Vec<u16>>,
+        outcome: &FunctionalOutcome,
+        region: u32,
+    ) -> Self {
+        let temporal = camera.temporal();
+        let now = pixels(camera, &outcome.denoised, region);
+        let hits = match &reference {
+            Some(then) => {
+                let pairs = now.iter().zip(then);
+                pairs.map(|(now, then)| u32::from(now.abs_diff(*then)) > temporal.level).collect()
+            }
+            None => vec![true; now.len()],
+        };
+        Self {
+            against: temporal.reference.name(),
+            reference: reference.map(|pixels| rows(camera, &pixels)),
+            level: temporal.level,
+            hits: rows(camera, &region_hits),
+            count: outcome.temporal_count[region as usize],
+            min_count: temporal.min_count,
+        }
+    }
+}
+
+fn pixels(camera: &Camera, padded: &Frame, region: u32) -> Vec<u16> {
+    let mut pixels = Vec::new();
+    region_pixels(camera, padded, region, &mut pixels);
+    pixels
+}
+
+fn rows<T: Copy>(camera: &Camera, items: &[T]) -> SquareRows<T> {
+    items.chunks(camera.region_size() as usize).map(<[T]>::to_vec).collect()
+}
+
+/// Returns the row of the decision table as a sentence.
+fn rule(camera: &Camera, srs: bool, trs: bool, action: RegionAction) -> String {
+    let payload = camera.payload().name();
+    match (trs, srs) {
+        (true, true) => format!("TRS 1, SRS 1: active, its {payload} pixels are sent and shown"),
+        (false, true) => "TRS 0, SRS 1: inactive, the previous rendered pixels stay".to_owned(),
+        (_, false) => {
+            let then = match camera.irrelevant() {
+                IrrelevantRendering::Zero => "the region is rendered black (irrelevant = \"zero\")",
+                IrrelevantRendering::Hold => "the previous rendered pixels stay (irrelevant = \"hold\")",
+                IrrelevantRendering::Mean if action == RegionAction::Summarize => {
+                    "its means are sent and shown (irrelevant = \"mean\")"
+                }
+                IrrelevantRendering::Mean => {
+                    "its means are near those on the screen (irrelevant = \"mean\")"
+                }
+            };
+            format!("TRS any, SRS 0: inactive, {then}")
+        }
+    }
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The text of an explanation for users, at most 80 columns wide.
+//!
+//! Regions up to 16x16 pixels are shown as numbers, hexadecimal above 8 bits, with a mark at every
+//! hit. Larger regions are shown with one character per pixel, so that no row is cut off: ten
+//! shades for pixels, `X` for a hit.
+
+use std::fmt::{self, Display, Formatter, Write as _};
+
+use super::{TemporalExplanation, RegionExplanation, SquareRows, SpatialExplanation, SummaryExplanation};
+
+/// Width of a terminal in columns.
+const WIDTH: usize = 80;
+/// Largest side of a region that is shown as numbers.
+const MAX_NUMBER_SIDE: usize = 16;
+/// Shades from black to white.
+const SHADES: &[u8; 10] = b" .:-=+*#%@";
+
+impl Display for RegionExplanation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let grid = GridFormat::of(self);
+        let place = &self.region;
+        writeln!(
+            f,
+            "frame {} ({}) at {} us\nregion {},{} of {} x {}, pixels x {} to {}, y {} to {}",
+            self.frame,
+            shortened_name(&self.name),
+            self.t_us,
+            place.x,
+            place.y,
+            place.columns,
+            place.rows,
+            place.x0,
+            place.x0 + place.size - 1,
+            place.y0,
+            place.y0 + place.size - 1,
+        )?;
+        if place.padding_right + place.padding_below > 0 {
+            let (right, below) = (place.padding_right, place.padding_below);
+            writeln!(f, "padding: the last {right} columns and the last {below} rows")?;
+        }
+        writeln!(f, "{}", grid.note())?;
+        grid.show(f, "raw", &self.raw, None)?;
+        let denoised = format!("scored ({})", self.filter);
+        grid.show(f, &denoised, &self.denoised, None)?;
+        for spatial in &self.spatial {
+            spatial.show_hits(f, &grid, &self.denoised)?;
+        }
+        self.temporal.show_hits(f, &grid)?;
+        writeln!(f)?;
+        for spatial in &self.spatial {
+            writeln!(f, "{}", spatial.line())?;
+        }
+        writeln!(f, "{:<9} SRS {} ({} of the votes)", "", u8::from(self.srs), self.combine)?;
+        let TemporalExplanation { count, min_count, .. } = self.temporal;
+        let sign = comparison_sign(self.trs);
+        let trs = u8::from(self.trs);
+        writeln!(f, "{:<9} {count} changed {sign} {min_count}: TRS {trs}", "temporal")?;
+        if let Some(summary) = &self.summary {
+            writeln!(f, "{:<9} {}", "means", summary.line())?;
+        }
+        let then = self.rule.replacen(": ", "\n          ", 1);
+        writeln!(f, "{:<9} {then}", "decision")
+    }
+}
+
+impl SpatialExplanation {
+    fn show_hits(&self, f: &mut Formatter<'_>, grid: &GridFormat, denoised: &SquareRows<u16>) -> fmt::Result {
+        match (&self.hits, self.level) {
+            (Some(hits), Some(level)) => {
+                let title = format!("{}: hits ({}), level {level}", self.feature, grid.mark());
+                grid.show(f, &title, denoised, Some(hits))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn line(&self) -> String {
+        let sign = comparison_sign(self.vote);
+        let vote = if self.vote { "votes" } else { "does not vote" };
+        let mut line =
+            format!("{:<9} {} {sign} {}: {vote}", self.feature.name(), self.score, self.min_score);
+        if self.unit > 1 {
+            // Writing to a string cannot fail.
+            let _ = write!(line, "; {} per pixel", quotient_text(self.score, self.unit));
+        }
+        line
+    }
+}
+
+impl TemporalExplanation {
+    fn show_hits(&self, f: &mut Formatter<'_>, grid: &GridFormat) -> fmt::Result {
+        match &self.reference {
+            Some(reference) => {
+                let mark = grid.mark();
+                let title =
+                    format!("reference ({}): changed ({mark}), level {}", self.against, self.level);
+                grid.show(f, &title, reference, Some(&self.hits))
+            }
+            None => {
+                writeln!(f, "\nreference ({}): none is valid, every pixel counts", self.against)
+            }
+        }
+    }
+}
+
+impl SummaryExplanation {
+    /// Returns the means of this frame and those that the screen shows, row by row of blocks.
+    fn line(&self) -> String {
+        let list = |rows: &SquareRows<u16>| {
+            let row = |row: &Vec<u16>| row.iter().map(u16::to_string).collect::<Vec<_>>().join(" ");
+            rows.iter().map(row).collect::<Vec<_>>().join(", ")
+        };
+        let shown = match &self.shown {
+            Some(shown) => format!("the screen shows {}", list(shown)),
+            None => "the screen shows no summary".to_owned(),
+        };
+        format!("{}; {shown}; level {}", list(&self.means), self.level).replacen(
+            "; ",
+            "\n          ",
+            1,
+        )
+    }
+}
+
+/// The format in which squares of pixels are shown.
+struct GridFormat {
+    side: usize,
+    max: u16,
+    /// Number of digits of a pixel.
+    digits: usize,
+    hexadecimal: bool,
+}
+
+impl GridFormat {
+    fn of(explanation: &RegionExplanation) -> Self {
+        let max = u16::MAX >> (16 - explanation.pixel_bits);
+        let hexadecimal = explanation.pixel_bits > 8;
+        let digits = if hexadecimal { format!("{max:x}") } else { max.to_string() };
+        Self { side: explanation.raw.len(), max, digits: digits.len(), hexadecimal }
+    }
+
+    fn note(&self) -> &'static str {
+        match (self.side > MAX_NUMBER_SIDE, self.hexadecimal) {
+            (true, _) => {
+                "one character per pixel: ten shades from black to white (the numbers are in\n\
+                 --json), or X for a hit"
+            }
+            (false, true) => "pixels are hexadecimal",
+            (false, false) => "pixels are decimal",
+        }
+    }
+
+    fn mark(&self) -> char {
+        if self.side > MAX_NUMBER_SIDE { 'X' } else { '*' }
+    }
+
+    /// Writes a square of pixels with a title. Hits are marked.
+    fn show(
+        &self,
+        f: &mut Formatter<'_>,
+        title: &str,
+        pixels: &SquareRows<u16>,
+        hits: Option<&SquareRows<bool>>,
+    ) -> fmt::Result {
+        writeln!(f, "\n{title}")?;
+        for (y, row) in pixels.iter().enumerate() {
+            let mut line = String::new();
+            for (x, &pixel) in row.iter().enumerate() {
+                let hit = hits.map(|hits| hits[y][x]);
+                self.cell(&mut line, pixel, hit)?;
+            }
+            debug_assert!(line.len() <= WIDTH, "a row of the region fits");
+            writeln!(f, "{}", line.trim_end())?;
+        }
+        Ok(())
+    }
+
+    fn cell(&self, line: &mut String, pixel: u16, hit: Option<bool>) -> fmt::Result {
+        let width = self.digits;
+        match (self.side > MAX_NUMBER_SIDE, hit) {
+            (true, Some(hit)) => line.push(if hit { self.mark() } else { '.' }),
+            (true, None) => {
+                let shade = usize::from(pixel) * (SHADES.len() - 1) / usize::from(self.max.max(1));
+                line.push(char::from(SHADES[shade]));
+            }
+            (false, hit) => {
+                if self.hexadecimal {
+                    write!(line, "{pixel:>width$x}")?;
+                } else {
+                    write!(line, "{pixel:>width$}")?;
+                }
+                line.push(if hit == Some(true) { self.mark() } else { ' ' });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn comparison_sign(reached: bool) -> &'static str {
+    if reached { ">=" } else { "<" }
+}
+
+/// Returns `value / unit` with three digits after the point, rounded down.
+fn quotient_text(value: u64, unit: u64) -> String {
+    let thousandths = u128::from(value) * 1000 / u128::from(unit);
+    format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+}
+
+/// Returns the end of a name that is too long.
+fn shortened_name(name: &str) -> String {
+    const MOST: usize = 40;
+    let letters = name.chars().count();
+    if letters <= MOST {
+        return name.to_owned();
+    }
+    format!("...{}", name.chars().skip(letters - MOST + 3).collect::<String>())
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The parameters of the blocks of an RPU, which are taken from the design once.
+
+use foveate_design::{
+    VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, PipelinedDesign,
+    PipelinedTiming, ReferencePolicy, SpatialFeature,
+};
+
+use crate::ThresholdInputs;
+use crate::conversions::index;
+
+/// Largest number of features of a design.
+pub(super) const MAX_FEATURES: usize = FeatureKind::COUNT;
+
+/// The parameters of the design that the blocks of one RPU need.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RpuParameters {
+    /// Side of a region N in pixels.
+    pub(super) side: usize,
+    /// Number of pixels of a region, n.
+    pub(super) pixels: usize,
+    pub(super) neighborhood: Neighborhood,
+    /// Side of the square of pixels that is streamed.
+    pub(super) stream_side: usize,
+    pub(super) filter: DenoiseFilter,
+    pub(super) has_feature_window: bool,
+    pub(super) needs_border: bool,
+    /// Number of registers between the median window and the next stage, m.
+    pub(super) median_registers: usize,
+    /// Number of registers between the last window and the tail, d.
+    pub(super) tail_delay: usize,
+    /// The features in the order of the design.
+    pub(super) features: [Option<FeatureKind>; MAX_FEATURES],
+    /// Fraction bits of the mean of `mad`, else 0.
+    pub(super) fraction_bits: u32,
+    /// True if the decision waits for one more frame.
+    pub(super) second_pass: bool,
+    pub(super) combine: VoteCombination,
+    pub(super) reference: ReferencePolicy,
+    pub(super) irrelevant: IrrelevantRendering,
+    pub(super) payload: Payload,
+    /// Parameters of the summaries, if irrelevant regions send them.
+    pub(super) periphery: Option<Periphery>,
+    /// The thresholds, if they are constants of the core.
+    constants: Option<ThresholdInputs>,
+}
+
+impl RpuParameters {
+    pub(super) fn from_design(design: PipelinedDesign<'_>) -> Self {
+        let mut features = [None; MAX_FEATURES];
+        for (place, feature) in features.iter_mut().zip(design.features()) {
+            *place = Some(feature.kind());
+        }
+        let timing = PipelinedTiming::from_design(design);
+        let deviations = |feature: &SpatialFeature| match feature.kind() {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Variance => None,
+            FeatureKind::Mad => feature.mean().map(|mean| mean.fraction_bits),
+        };
+        let fraction_bits = design.features().iter().find_map(deviations);
+        Self {
+            side: index(design.region_size()),
+            pixels: index(design.region_pixels()),
+            neighborhood: design.neighborhood(),
+            stream_side: index(design.stream_side()),
+            filter: design.filter(),
+            has_feature_window: design.has_feature_window(),
+            needs_border: design.needs_border(),
+            median_registers: index(timing.median_registers),
+            tail_delay: index(timing.tail_delay),
+            features,
+            fraction_bits: fraction_bits.unwrap_or(0),
+            second_pass: design.has_second_pass(),
+            combine: design.combine(),
+            reference: design.temporal().reference,
+            irrelevant: design.irrelevant(),
+            payload: design.payload(),
+            periphery: design.periphery().copied(),
+            constants: ThresholdInputs::constants(&design),
+        }
+    }
+
+    /// Returns the thresholds that the core uses: its constants if it has them, else the inputs.
+    pub(super) fn effective_thresholds<'a>(&'a self, applied: &'a ThresholdInputs) -> &'a ThresholdInputs {
+        self.constants.as_ref().unwrap_or(applied)
+    }
+}

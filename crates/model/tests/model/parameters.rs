@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A random design as plain numbers. The oracle reads these numbers, never the `Design`.
+
+use std::fmt::Write;
+
+use foveate_design::{DesignConfig, Design, FeatureKind};
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence};
+
+#[derive(Clone, Debug)]
+pub(crate) struct DesignParameters {
+    pub(crate) width: i64,
+    pub(crate) height: i64,
+    pub(crate) bits: u32,
+    pub(crate) side: i64,
+    pub(crate) shared: bool,
+    pub(crate) median: bool,
+    pub(crate) features: Vec<FeatureParameters>,
+    pub(crate) all_must_vote: bool,
+    pub(crate) temporal_level: i64,
+    pub(crate) temporal_min: i64,
+    pub(crate) last_sent: bool,
+    pub(crate) blank_irrelevant: bool,
+    /// `render.irrelevant = "mean"` with this periphery. It overrides `blank_irrelevant`.
+    pub(crate) periphery: Option<PeripheryParameters>,
+    pub(crate) raw_payload: bool,
+    pub(crate) constant: bool,
+    /// `hardware.pipelining = "deep"`.
+    pub(crate) deep: bool,
+}
+
+/// The table `[periphery]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PeripheryParameters {
+    pub(crate) blocks: i64,
+    pub(crate) level: i64,
+}
+
+impl PeripheryParameters {
+    /// Returns a periphery for regions of this side and pixels up to `max`, or `None`. Successive
+    /// numbers go through all peripheries.
+    pub(crate) fn from_number(number: usize, side: i64, max: i64) -> Option<Self> {
+        let blocks = [None, Some(1), Some(2), Some(4)][number % 4]?;
+        let level = [0, max / 8, max - 1][number / 4 % 3];
+        (side % blocks == 0).then_some(Self { blocks, level })
+    }
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct FeatureParameters {
+    pub(crate) name: &'static str,
+    pub(crate) level: i64,
+    /// Minimum score in thousandths of hits, grey levels or squared grey levels.
+    pub(crate) min_milli: i64,
+    pub(crate) fraction_bits: u32,
+}
+
+impl DesignParameters {
+    pub(crate) fn pixel_max(&self) -> i64 {
+        (1 << self.bits) - 1
+    }
+
+    pub(crate) fn region_pixels(&self) -> i64 {
+        self.side * self.side
+    }
+
+    /// Returns true if the screen no longer shows the sent pixels of a region once it is
+    /// irrelevant.
+    pub(crate) fn drops_irrelevant_pixels(&self) -> bool {
+        self.blank_irrelevant || self.periphery.is_some()
+    }
+
+    pub(crate) fn has_feature(&self, name: &str) -> bool {
+        self.features.iter().any(|feature| feature.name == name)
+    }
+
+    pub(crate) fn columns(&self) -> i64 {
+        (self.width + self.side - 1) / self.side
+    }
+
+    pub(crate) fn rows(&self) -> i64 {
+        (self.height + self.side - 1) / self.side
+    }
+
+    pub(crate) fn design(&self) -> Design {
+        let toml = self.toml();
+        let config = DesignConfig::from_toml(&toml).unwrap_or_else(|e| panic!("{e}\n{toml}"));
+        config.validate().unwrap_or_else(|e| panic!("{e}\n{toml}"))
+    }
+
+    fn toml(&self) -> String {
+        let pick = |first: bool, a: &'static str, b: &'static str| if first { a } else { b };
+        let mut text = format!(
+            "[frame]\nwidth = {}\nheight = {}\npixel_bits = {}\n\
+             [region]\nsize = {}\nneighborhood = \"{}\"\n[denoise]\nfilter = \"{}\"\n\
+             [decision]\ncombine = \"{}\"\n\
+             [temporal]\nlevel = {}\nmin_count = {}\nreference = \"{}\"\n\
+             [render]\nirrelevant = \"{}\"\npayload = \"{}\"\n[hardware]\nthresholds = \"{}\"\n",
+            self.width,
+            self.height,
+            self.bits,
+            self.side,
+            pick(self.shared, "shared", "isolated"),
+            pick(self.median, "median3x3", "none"),
+            pick(self.all_must_vote, "all", "any"),
+            self.temporal_level,
+            self.temporal_min,
+            pick(self.last_sent, "last-sent", "previous"),
+            if self.periphery.is_some() {
+                "mean"
+            } else {
+                pick(self.blank_irrelevant, "zero", "hold")
+            },
+            pick(self.raw_payload, "raw", "denoised"),
+            pick(self.constant, "constant", "runtime"),
+        );
+        if self.deep {
+            text.push_str("pipelining = \"deep\"\n");
+        }
+        if let Some(PeripheryParameters { blocks, level }) = self.periphery {
+            write!(text, "[periphery]\nblocks = {blocks}\nlevel = {level}\n").unwrap();
+        }
+        for feature in &self.features {
+            let (whole, rest) = (feature.min_milli / 1000, feature.min_milli % 1000);
+            let counts = matches!(feature.name, "edge" | "corner");
+            let fraction = if counts { String::new() } else { format!(".{rest:03}") };
+            write!(text, "[[spatial]]\nfeature = \"{}\"\n", feature.name).unwrap();
+            writeln!(text, "min_score = {whole}{fraction}").unwrap();
+            if counts {
+                writeln!(text, "level = {}", feature.level).unwrap();
+            }
+            if feature.name == "mad" {
+                writeln!(text, "mean_fraction_bits = {}", feature.fraction_bits).unwrap();
+            }
+        }
+        text
+    }
+}
+
+/// Generates every kind of pipelined design, with frames of about three regions.
+pub(crate) fn arbitrary_parameters() -> impl Strategy<Value = DesignParameters> {
+    let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
+    (arbitrary_parameters_with_sides(sides), any::<bool>()).prop_map(|(recipe, deep)| DesignParameters { deep, ..recipe })
+}
+
+/// Generates every kind of design with plain pipelining, for regions of these sides.
+pub(crate) fn arbitrary_parameters_with_sides(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = DesignParameters> {
+    let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
+    (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
+        let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
+        small_numbers(recipe.pixel_max() - 1).prop_map(move |level| DesignParameters {
+            periphery: blocks.map(|blocks| PeripheryParameters { blocks, level }),
+            ..recipe.clone()
+        })
+    })
+}
+
+fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = DesignParameters> {
+    let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
+    (sides, bits).prop_flat_map(|(side, bits)| {
+        let size = 1..=2 * side + 1;
+        let names: Vec<_> = FeatureKind::ALL.iter().map(|kind| kind.name()).collect();
+        let features =
+            subsequence(names, 1..=FeatureKind::COUNT).prop_shuffle().prop_flat_map(move |names| {
+                names.into_iter().map(|name| arbitrary_feature(name, side, bits)).collect::<Vec<_>>()
+            });
+        let switches = proptest::array::uniform8(any::<bool>());
+        let max = (1i64 << bits) - 1;
+        let temporal = (small_numbers(max - 1), small_numbers(side * side));
+        ((size.clone(), size), features, switches, temporal).prop_map(
+            move |((width, height), features, on, (temporal_level, temporal_min))| DesignParameters {
+                width,
+                height,
+                bits,
+                side,
+                shared: on[0],
+                median: on[1],
+                features,
+                all_must_vote: on[2],
+                temporal_level,
+                temporal_min,
+                last_sent: on[3],
+                blank_irrelevant: on[4],
+                raw_payload: on[5],
+                constant: on[6] && on[7],
+                periphery: None,
+                deep: false,
+            },
+        )
+    })
+}
+
+/// Generates mostly small numbers up to `max`, so that thresholds are both reached and missed.
+fn small_numbers(max: i64) -> impl Strategy<Value = i64> {
+    prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
+}
+
+fn arbitrary_feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<FeatureParameters> {
+    let (max, n) = ((1i64 << bits) - 1, side * side);
+    // The minimum score is a share of the pixel range or of its square, in thousandths, that some
+    // region is sure to reach.
+    let (level_max, minimum) = match name {
+        "edge" => (6 * max - 1, small_numbers(n).prop_map(|hits| 1000 * hits).boxed()),
+        "corner" => (max - 1, small_numbers(n).prop_map(|hits| 1000 * hits).boxed()),
+        "mad" => (0, small_numbers(400).prop_map(move |permille| permille * max).boxed()),
+        "variance" => (0, small_numbers(200).prop_map(move |permille| permille * max * max).boxed()),
+        _ => panic!("`{name}` needs thresholds that some regions reach"),
+    };
+    let fraction_max = (0..).find(|bits| 1i64 << bits >= n).unwrap();
+    (small_numbers(level_max), minimum, 0u32..=fraction_max)
+        .prop_map(move |(level, min_milli, fraction_bits)| FeatureParameters {
+            name,
+            level,
+            min_milli,
+            fraction_bits,
+        })
+        .boxed()
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The expected outputs after every edge: a list of edges with outputs, written frame by frame,
+//! with no other state.
+
+use std::collections::BTreeMap;
+
+use foveate_model::SerialOutput;
+
+use super::serial_parameters::{ExpectedPhase, SerialParameters};
+use crate::oracle::OracleOutcome;
+
+/// The expected results of one region and frame: the temporal count and the scores, the decision,
+/// the pixels that leave if the region is active, and the means that leave if its summary is sent.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct RegionResults {
+    pub(crate) scores: Vec<u64>,
+    pub(crate) srs: bool,
+    pub(crate) trs: bool,
+    pub(crate) summary: bool,
+    pub(crate) payload: Vec<u16>,
+    pub(crate) means: Vec<u16>,
+}
+
+impl RegionResults {
+    pub(crate) fn is_active(&self) -> bool {
+        self.srs && self.trs
+    }
+
+    /// Returns the pixels that leave.
+    fn sent_pixels(&self) -> &[u16] {
+        if self.is_active() { &self.payload } else { &[] }
+    }
+
+    /// Returns the means that leave.
+    fn sent_means(&self) -> &[u16] {
+        if self.summary { &self.means } else { &[] }
+    }
+}
+
+/// Returns the results of the oracle for every region.
+pub(crate) fn region_results(seen: &OracleOutcome) -> Vec<RegionResults> {
+    let pixels = |values: &[i64]| values.iter().map(|&value| value as u16).collect();
+    let facts = |region: &crate::oracle::OracleRegion| RegionResults {
+        scores: std::iter::once(&region.temporal_count)
+            .chain(&region.scores)
+            .map(|&score| score as u64)
+            .collect(),
+        srs: region.srs,
+        trs: region.trs,
+        summary: region.action == "summarize",
+        payload: pixels(&region.payload),
+        means: pixels(&region.means),
+    };
+    seen.regions.iter().map(facts).collect()
+}
+
+/// The values at the ports that have a meaning, except `ready_o`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct MeaningfulOutputs {
+    /// Number, region and value of the score.
+    pub(crate) score: Option<(u32, u32, u64)>,
+    /// SRS, TRS, active and summary.
+    pub(crate) decision: Option<[bool; 4]>,
+    /// Port and value of each pixel.
+    pub(crate) pixels: Vec<(usize, u16)>,
+    /// Position, slot and region of the pixels, if there are any.
+    pub(crate) place: Option<(u32, u32, u32)>,
+}
+
+impl MeaningfulOutputs {
+    pub(crate) fn from_output(output: &SerialOutput) -> Self {
+        let decision = [output.srs, output.trs, output.active, output.summary];
+        assert!(output.decision_valid || decision == [false; 4]);
+        let ports = output.forward_valid.iter().zip(&output.forward_pixel).enumerate();
+        let pixels: Vec<(usize, u16)> = ports
+            .filter(|(_, (valid, _))| **valid)
+            .map(|(port, (_, &pixel))| (port, pixel))
+            .collect();
+        let place = (output.forward_position, output.forward_slot, output.forward_region);
+        Self {
+            score: output.score_valid.then_some((output.score_index, output.region, output.score)),
+            decision: output.decision_valid.then_some(decision),
+            place: (!pixels.is_empty()).then_some(place),
+            pixels,
+        }
+    }
+}
+
+/// Returns the outputs of the steps of a frame, by number of the step. Steps without outputs are
+/// left out.
+pub(crate) fn step_outputs(recipe: &SerialParameters, facts: &[RegionResults]) -> Vec<(i64, MeaningfulOutputs)> {
+    let mut shown = Vec::new();
+    let mut start = 0;
+    for slot in 0..recipe.fold {
+        let mut rotation = 0;
+        for phase in recipe.phases() {
+            match phase {
+                ExpectedPhase::WithoutOutput(_) => {}
+                ExpectedPhase::Rotation => {
+                    shown.extend(rotation_outputs(recipe, facts, slot, rotation, start));
+                    rotation += 1;
+                }
+                ExpectedPhase::Unload | ExpectedPhase::UnloadMeans => {
+                    shown.extend(unload_outputs(recipe, facts, slot, phase, start));
+                }
+            }
+            start += recipe.steps(phase);
+        }
+    }
+    shown
+}
+
+/// Returns the lane and the region of every region of a slot.
+fn served_regions(recipe: &SerialParameters, slot: i64) -> Vec<(i64, i64)> {
+    let all = (0..recipe.lanes()).map(|lane| (lane, lane * recipe.fold + slot));
+    all.filter(|&(_, region)| region < recipe.regions()).collect()
+}
+
+fn rotation_outputs(
+    recipe: &SerialParameters,
+    facts: &[RegionResults],
+    slot: i64,
+    number: usize,
+    start: i64,
+) -> Vec<(i64, MeaningfulOutputs)> {
+    let last = number == recipe.base.features.len();
+    let score = |(lane, region): (i64, i64)| {
+        let facts = &facts[region as usize];
+        let decision = [facts.srs, facts.trs, facts.is_active(), facts.summary];
+        let score = Some((number as u32, region as u32, facts.scores[number]));
+        (
+            start + recipe.settling_steps() + lane,
+            MeaningfulOutputs { score, decision: last.then_some(decision), ..MeaningfulOutputs::default() },
+        )
+    };
+    served_regions(recipe, slot).into_iter().map(score).collect()
+}
+
+fn unload_outputs(
+    recipe: &SerialParameters,
+    facts: &[RegionResults],
+    slot: i64,
+    phase: ExpectedPhase,
+    start: i64,
+) -> Vec<(i64, MeaningfulOutputs)> {
+    let round = recipe.round_steps(phase);
+    let mut shown = Vec::new();
+    for number in 0..recipe.steps(phase) / round {
+        let position = forward_position(recipe, phase, number) as u32;
+        let mut together = Vec::new();
+        for (lane, region) in served_regions(recipe, slot) {
+            let facts = &facts[region as usize];
+            let leaving = if phase == ExpectedPhase::Unload { facts.sent_pixels() } else { facts.sent_means() };
+            let Some(&pixel) = leaving.get(number as usize) else { continue };
+            if recipe.raster {
+                let (pixels, place) = (vec![(0, pixel)], Some((position, 0, region as u32)));
+                let step = start + number * round + 1 + lane;
+                shown.push((step, MeaningfulOutputs { pixels, place, ..MeaningfulOutputs::default() }));
+            } else {
+                together.push((lane as usize, pixel));
+            }
+        }
+        if !together.is_empty() {
+            let (pixels, place) = (together, Some((position, slot as u32, 0)));
+            let step = start + (number + 1) * round - 1;
+            shown.push((step, MeaningfulOutputs { pixels, place, ..MeaningfulOutputs::default() }));
+        }
+    }
+    shown
+}
+
+/// Returns the position of pixel or mean `number`. That of a mean is the position of the last pixel
+/// of its block.
+fn forward_position(recipe: &SerialParameters, phase: ExpectedPhase, number: i64) -> i64 {
+    let Some(periphery) = recipe.base.periphery.filter(|_| phase == ExpectedPhase::UnloadMeans) else {
+        return number;
+    };
+    let side = recipe.base.side / periphery.blocks;
+    let block = |at: i64| {
+        let (x, y) = (at % recipe.base.side, at / recipe.base.side);
+        y / side * periphery.blocks + x / side
+    };
+    (0..recipe.base.region_pixels()).rfind(|&at| block(at) == number).unwrap()
+}
+
+/// The expected outputs by edge.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ExpectedTimeline {
+    shown: BTreeMap<i64, MeaningfulOutputs>,
+    /// The first edge after which `ready_o` is 1 again.
+    pub(crate) ready_from: i64,
+}
+
+impl ExpectedTimeline {
+    pub(crate) fn is_ready(&self, edge: i64) -> bool {
+        edge >= self.ready_from
+    }
+
+    pub(crate) fn outputs_after(&self, edge: i64) -> MeaningfulOutputs {
+        self.shown.get(&edge).cloned().unwrap_or_default()
+    }
+
+    /// Records a reset at this edge.
+    pub(crate) fn reset(&mut self, edge: i64) {
+        self.shown.split_off(&edge);
+        self.ready_from = edge;
+    }
+
+    /// Records a pixel of a frame that is taken at this edge. With the last pixel come the expected
+    /// results of the frame.
+    pub(crate) fn take(
+        &mut self,
+        recipe: &SerialParameters,
+        edge: i64,
+        pixel: i64,
+        facts: Option<&[RegionResults]>,
+    ) {
+        let taken = edge + recipe.clocks_of_pixel(pixel) - 1;
+        self.ready_from = taken;
+        if let Some(facts) = facts {
+            self.ready_from = taken + 1 + recipe.steps_per_frame();
+            let first = taken + 1 + recipe.read_latency();
+            let due = step_outputs(recipe, facts).into_iter().map(|(step, shown)| (first + step, shown));
+            self.shown.extend(due);
+        }
+    }
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The innermost loop: a block of output channels at a panel of positions.
+
+use super::chunks::CHUNK_POSITIONS;
+use super::gathered_inputs::GatheredInputs;
+
+/// Adds the products of one weight per channel and one input per position, input by input.
+///
+/// The inputs of each [`CHUNK`] begin at its offset in `places`. `IS_ROW` says that the chunks
+/// follow each other, and so do their offsets.
+///
+/// `FUSED` says that a multiplication and an addition are rounded once; every processor with AVX2
+/// has an instruction for this. The number of channels matters only for speed: loops over 4, 6 or
+/// 12 channels become vector instructions, loops over 8 or 16 do not.
+#[inline(always)]
+pub(super) fn multiply<
+    const CHANNELS: usize,
+    const LANES: usize,
+    const IS_ROW: bool,
+    const FUSED: bool,
+>(
+    weights: &[[f32; CHANNELS]],
+    gathered: &GatheredInputs,
+    places: &[usize],
+    sums: &mut [[f32; LANES]; CHANNELS],
+) {
+    let mut own = *sums;
+    let GatheredInputs { tap_offsets: taps, window_rows: rows, .. } = gathered;
+    for (weights, &tap) in weights.iter().zip(taps) {
+        let mut inputs = [0.0; LANES];
+        if IS_ROW {
+            inputs.copy_from_slice(&rows[places[0] + tap..][..LANES]);
+        } else {
+            for (inputs, place) in inputs.chunks_mut(CHUNK_POSITIONS).zip(places) {
+                inputs.copy_from_slice(&rows[place + tap..][..CHUNK_POSITIONS]);
+            }
+        }
+        for channel in 0..CHANNELS {
+            for lane in 0..LANES {
+                let sum = &mut own[channel][lane];
+                *sum = if FUSED {
+                    weights[channel].mul_add(inputs[lane], *sum)
+                } else {
+                    weights[channel] * inputs[lane] + *sum
+                };
+            }
+        }
+    }
+    *sums = own;
+}

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Selection of elements along each axis, in any order: slices, single indices, and padding.
+
+use super::{OperatorJob, Operator, moved_encoding, only_input, wrong_element_message};
+use crate::element::{Encoding, with_element_type};
+use crate::tensor_form::TensorForm;
+use crate::mask::Mask;
+use crate::tensor::Tensor;
+use crate::values::TensorNumber;
+
+/// The elements that are taken from an axis.
+#[derive(Clone, Debug)]
+pub(crate) enum AxisSelection {
+    All,
+    /// The input index of each output index, or [`PADDING`].
+    Indices(Vec<u32>),
+}
+
+/// The index of padding. No axis is so long.
+const PADDING: u32 = u32::MAX;
+
+impl AxisSelection {
+    /// Returns the selection of these input indices, where `None` stands for padding.
+    pub(crate) fn from_indices(places: impl Iterator<Item = Option<usize>>) -> Self {
+        let place = |at: Option<usize>| at.and_then(|at| u32::try_from(at).ok());
+        Self::Indices(places.map(|at| place(at).unwrap_or(PADDING)).collect())
+    }
+
+    fn count(&self, length: usize) -> usize {
+        match self {
+            Self::All => length,
+            Self::Indices(places) => places.len(),
+        }
+    }
+
+    /// Returns the range of inputs that each output sees, as the first and the last input.
+    fn ranges(&self, length: usize) -> Vec<(usize, usize)> {
+        match self {
+            Self::All => (0..length).map(|at| (at, at)).collect(),
+            // The range from 1 to 0 is empty.
+            Self::Indices(places) => {
+                places.iter().map(|&at| input_element(at).map_or((1, 0), |at| (at, at))).collect()
+            }
+        }
+    }
+}
+
+/// Returns the index of an element, or `None` for padding.
+#[inline(always)]
+fn input_element(place: u32) -> Option<usize> {
+    (place != PADDING).then_some(place as usize)
+}
+
+/// A selection of elements along each axis.
+#[derive(Clone, Debug)]
+pub(crate) struct AxisGather {
+    /// The selected elements of each axis of the input.
+    pub(crate) axes: Vec<AxisSelection>,
+    /// An axis of which a single element is taken, and which the output does not have.
+    pub(crate) dropped_axis: Option<usize>,
+    /// The padding: a tensor of one value.
+    pub(crate) padding: Option<Tensor>,
+}
+
+impl AxisGather {
+    /// Returns a selection along one of `axes` axes, which takes all elements of the others.
+    pub(crate) fn along_axis(axis: usize, picked: AxisSelection, axes: usize) -> Self {
+        let mut all = vec![AxisSelection::All; axes];
+        all[axis] = picked;
+        Self { axes: all, dropped_axis: None, padding: None }
+    }
+
+    /// The lengths of all axes, including the one that the output does not have.
+    fn lengths(&self, input: &TensorForm) -> Vec<usize> {
+        self.axes.iter().zip(input.shape()).map(|(picked, &length)| picked.count(length)).collect()
+    }
+}
+
+impl Operator for AxisGather {
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        let input = only_input(inputs)?;
+        let fits = |(picked, &length): (&AxisSelection, &usize)| match picked {
+            AxisSelection::All => true,
+            AxisSelection::Indices(places) => places.iter().filter_map(|&at| input_element(at)).all(|at| at < length),
+        };
+        if self.axes.len() != input.shape().len() || !self.axes.iter().zip(input.shape()).all(fits)
+        {
+            return Err(format!("it takes elements that {} does not have", input.describe()));
+        }
+        let mut shape = self.lengths(input);
+        let axes = input.position_axes();
+        let Some(dropped) = self.dropped_axis else { return Ok(TensorForm::with_positions(shape, axes)) };
+        shape.remove(dropped);
+        let start = axes.start - usize::from(dropped < axes.start);
+        let count = axes.len() - usize::from(axes.contains(&dropped));
+        Ok(TensorForm::with_positions(shape, if count == 0 { 0..0 } else { start..start + count }))
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        let own = self.padding.as_ref().map(|padding| padding.form().encoding().element);
+        match (inputs.first(), own) {
+            (Some(input), Some(own)) if input.element != own => Err(wrong_element_message(own, input.element)),
+            _ => moved_encoding(inputs),
+        }
+    }
+
+    fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
+        let (form, mask) = inputs[0];
+        let ranges = |axis: usize| self.axes[axis].ranges(form.shape()[axis]);
+        let axes = form.position_axes();
+        let seen = match axes.len() {
+            2 => mask.outputs_of_ranges(&ranges(axes.start), &ranges(axes.start + 1)),
+            1 => mask.outputs_of_ranges(&[(0, 0)], &ranges(axes.start)),
+            _ => return mask.clone(),
+        };
+        // If one column of each row is taken and its axis is dropped, the rows become a row of
+        // positions.
+        if (seen.height(), seen.width()) == (output.height(), output.width()) {
+            return seen;
+        }
+        let is_row = seen.width() == 1;
+        Mask::from_fn(output.height(), output.width(), |x, y| {
+            if is_row { seen.contains(0, x) } else { seen.contains(x, y) }
+        })
+    }
+
+    fn compute(&self, job: OperatorJob<'_>) {
+        with_element_type!(job.form.encoding().element, T => self.gather::<T>(job));
+    }
+}
+
+impl AxisGather {
+    fn gather<T: TensorNumber>(&self, job: OperatorJob<'_>) {
+        let input = job.inputs[0];
+        let (values, steps) = (input.values::<T>(), input.form().strides());
+        let lengths = self.lengths(input.form());
+        let padding = self.padding.as_ref().map_or(T::default(), |value| value.values::<T>()[0]);
+        // Behind the last axis with a selection, neighbors in the input are neighbors in the
+        // output.
+        let line = self.axes.iter().rposition(|picked| matches!(picked, AxisSelection::Indices(_)));
+        let Some(line) = line else {
+            return job.fill::<T>(|run, to| to.copy_from_slice(&values[run]));
+        };
+        let (length, solid) = (lengths[line], steps[line]);
+        let AxisSelection::Indices(places) = &self.axes[line] else { unreachable!("it was found") };
+        // Returns the start of a line of the input, or `None` if an axis in front is in the
+        // padding.
+        let base = |line_number: usize| -> Option<usize> {
+            let (mut rest, mut at) = (line_number, 0);
+            for axis in (0..line).rev() {
+                let own = rest % lengths[axis];
+                rest /= lengths[axis];
+                let from = match &self.axes[axis] {
+                    AxisSelection::All => own,
+                    AxisSelection::Indices(places) => input_element(places[own])?,
+                };
+                at += from * steps[axis];
+            }
+            Some(at)
+        };
+        let whole = length * solid;
+        job.fill::<T>(|run, to| {
+            let (mut start, mut to) = (run.start, to);
+            while !to.is_empty() {
+                let inside = start % whole;
+                let (own, rest) = to.split_at_mut(to.len().min(whole - inside));
+                start += own.len();
+                to = rest;
+                match base((start - 1) / whole) {
+                    None => own.fill(padding),
+                    Some(at) => gather_line(&values[at..], places, solid, inside, own, padding),
+                }
+            }
+        });
+    }
+}
+
+/// Fills a part of a line of the output, from its value `first` on.
+fn gather_line<T: TensorNumber>(
+    values: &[T],
+    places: &[u32],
+    solid: usize,
+    first: usize,
+    to: &mut [T],
+    padding: T,
+) {
+    if solid == 1 {
+        for (to, place) in to.iter_mut().zip(&places[first..]) {
+            *to = input_element(*place).map_or(padding, |at| values[at]);
+        }
+        return;
+    }
+    let (mut at, mut to) = (first, to);
+    while !to.is_empty() {
+        let inside = at % solid;
+        let (own, rest) = to.split_at_mut(to.len().min(solid - inside));
+        match input_element(places[at / solid]) {
+            None => own.fill(padding),
+            Some(place) => own.copy_from_slice(&values[place * solid + inside..][..own.len()]),
+        }
+        at += own.len();
+        to = rest;
+    }
+}

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Constants whose values are selected from another constant. Exporters use such nodes, for
+//! example, to compute the widths of padding from a list.
+
+use super::constant::Constant;
+use super::constant_values::ConstantValues;
+use super::model_folder::ModelFolder;
+use super::node::{NodeReader, index_from_start, length_to_i64};
+use crate::tensor_form::{MAX_AXES, checked_element_count};
+
+/// Returns a constant of this shape that repeats one value.
+pub(super) fn fill_constant(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant, String> {
+    let shape: Option<Vec<usize>> =
+        shape.as_integers()?.iter().map(|&length| usize::try_from(length).ok()).collect();
+    let shape = shape.filter(|shape| shape.len() <= MAX_AXES);
+    let shape = shape.ok_or("its shape has too many axes, or a negative length")?;
+    let value = node.tensor("value")?.unwrap_or_else(|| Constant::floats(vec![1], vec![0.0]));
+    if value.values.value_count() != 1 {
+        return Err(format!("its value has {} values, not 1", value.values.value_count()));
+    }
+    let count = node.folder.check_room(&shape, &value.values)?;
+    let values = match &value.values {
+        ConstantValues::Floats(values) => ConstantValues::Floats(vec![values[0]; count]),
+        ConstantValues::Integers(values) => ConstantValues::Integers(vec![values[0]; count]),
+    };
+    Ok(Constant { shape, values, data_type: value.data_type })
+}
+
+/// Returns the values in another shape, in which one length may be -1 and a length of 0 is that of
+/// the input.
+pub(super) fn reshape_constant(
+    node: &NodeReader<'_>,
+    from: &Constant,
+    shape: &Constant,
+) -> Result<Constant, String> {
+    let wanted = shape.as_integers()?;
+    if node.int("allowzero", 0) != 0 && wanted.contains(&0) {
+        return Err(format!(
+            "its shape {wanted:?} holds a 0 and allowzero is 1, so that its output is empty"
+        ));
+    }
+    let wrong = || format!("its input {:?} cannot become {wanted:?}", from.shape);
+    if wanted.len() > MAX_AXES {
+        return Err(wrong());
+    }
+    let length = |(axis, &length): (usize, &i64)| match length {
+        -1 => Some(1),
+        0 => from.shape.get(axis).copied(),
+        length => usize::try_from(length).ok(),
+    };
+    let shape: Option<Vec<usize>> = wanted.iter().enumerate().map(length).collect();
+    let mut shape = shape.ok_or_else(wrong)?;
+    if let Some(open) = wanted.iter().position(|&length| length == -1) {
+        let known = checked_element_count(&shape);
+        shape[open] =
+            from.values.value_count().checked_div(known.ok_or_else(wrong)?).ok_or_else(wrong)?;
+    }
+    if checked_element_count(&shape) != Some(from.values.value_count()) {
+        return Err(wrong());
+    }
+    Ok(Constant { shape, ..from.clone() })
+}
+
+/// Permutes the axes. Without `perm` their order is reversed.
+pub(super) fn transpose_constant(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
+    let axes = from.shape.len();
+    let order: Vec<usize> = match node.ints("perm") {
+        None => (0..axes).rev().collect(),
+        Some(perm) => perm.iter().filter_map(|&axis| usize::try_from(axis).ok()).collect(),
+    };
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    if sorted != (0..axes).collect::<Vec<_>>() {
+        return Err(format!("its perm does not name each of {axes} axes once"));
+    }
+    let shape = order.iter().map(|&axis| from.shape[axis]).collect();
+    select_values(node.folder, from, shape, |place| {
+        (0..axes).map(|axis| place[axis_position(&order, axis)] * stride(&from.shape, axis)).sum()
+    })
+}
+
+/// Takes slices along some axes, with steps that may be negative.
+pub(super) fn slice_constant(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
+    let starts = node.ints_or_input("starts", 1)?.ok_or("it has no starts")?;
+    let ends = node.ints_or_input("ends", 2)?.ok_or("it has no ends")?;
+    let axes = node.ints_or_input("axes", 3)?.unwrap_or_else(|| (0..length_to_i64(starts.len())).collect());
+    let steps = node.ints_or_input("steps", 4)?.unwrap_or_else(|| vec![1; starts.len()]);
+    if [ends.len(), axes.len(), steps.len()].iter().any(|&length| length != starts.len()) {
+        return Err("its starts, ends, axes and steps are not as many".to_owned());
+    }
+    let (mut shape, mut first) = (from.shape.clone(), vec![0; from.shape.len()]);
+    let mut step = vec![1; from.shape.len()];
+    for (at, &axis) in axes.iter().enumerate() {
+        let axis = usize::try_from(index_from_start(axis, shape.len()))
+            .ok()
+            .filter(|&axis| axis < from.shape.len())
+            .ok_or_else(|| format!("its axis {axis} is outside of {:?}", from.shape))?;
+        let (start, count) = slice_bounds(starts[at], ends[at], steps[at], from.shape[axis])?;
+        shape[axis] = count;
+        (first[axis], step[axis]) = (start, steps[at]);
+    }
+    select_values(node.folder, from, shape, |place| {
+        let along = |axis: usize| {
+            let at = first[axis] + length_to_i64(place[axis]) * step[axis];
+            usize::try_from(at).expect("inside") * stride(&from.shape, axis)
+        };
+        (0..place.len()).map(along).sum()
+    })
+}
+
+/// Returns the first element of a slice of an axis and the number of its elements, as ONNX defines
+/// them.
+pub(super) fn slice_bounds(
+    start: i64,
+    end: i64,
+    step: i64,
+    length: usize,
+) -> Result<(i64, usize), String> {
+    let (start, end, all) = (index_from_start(start, length), index_from_start(end, length), length_to_i64(length));
+    // With a negative step, an end of -1 is in front of the first element.
+    let (low, high) = if step < 0 { (-1, all - 1) } else { (0, all) };
+    let (start, end) = (start.clamp(low.max(0), high.max(0)), end.clamp(low, high));
+    let way = if step < 0 { start - end } else { end - start };
+    let way = usize::try_from(way.max(0)).expect("not negative");
+    match usize::try_from(step.unsigned_abs()) {
+        Ok(0) => Err("its step is 0".to_owned()),
+        Ok(step) => Ok((start, way.div_ceil(step))),
+        Err(_) => Err(format!("its step is {step}")),
+    }
+}
+
+/// Broadcasts a constant to a shape: repeats it along axes of one element, and along new axes in
+/// front.
+pub(super) fn broadcast_constant(
+    folder: &ModelFolder,
+    of: &Constant,
+    shape: &[usize],
+) -> Result<Constant, String> {
+    if of.shape == shape {
+        return Ok(of.clone());
+    }
+    let new = shape.len().checked_sub(of.shape.len());
+    let fits = |new: &usize| {
+        of.shape.iter().zip(&shape[*new..]).all(|(&own, &wanted)| own == wanted || own == 1)
+    };
+    let new = new.filter(fits).ok_or_else(|| format!("{:?} cannot become {shape:?}", of.shape))?;
+    select_values(folder, of, shape.to_vec(), |place| {
+        let along = |axis: usize| match of.shape[axis] {
+            1 => 0,
+            _ => place[axis + new] * stride(&of.shape, axis),
+        };
+        (0..of.shape.len()).map(along).sum()
+    })
+}
+
+/// Returns the elements of an axis at these indices.
+pub(super) fn gather_constant(
+    node: &NodeReader<'_>,
+    from: &Constant,
+    indices: &Constant,
+) -> Result<Constant, String> {
+    let axis = index_from_start(node.int("axis", 0), from.shape.len());
+    let axis = usize::try_from(axis).ok().filter(|&axis| axis < from.shape.len());
+    let axis = axis.ok_or("its axis is outside")?;
+    let length = from.shape[axis];
+    let index = |&index: &i64| {
+        let at = usize::try_from(index_from_start(index, length)).ok().filter(|&at| at < length);
+        at.ok_or_else(|| format!("its index {index} is outside of {length} elements"))
+    };
+    let places: Vec<usize> = indices.as_integers()?.iter().map(index).collect::<Result<_, _>>()?;
+    let (front, behind) = (&from.shape[..axis], &from.shape[axis + 1..]);
+    if front.len() + indices.shape.len() + behind.len() > MAX_AXES {
+        return Err(format!("its output has more than {MAX_AXES} axes"));
+    }
+    let shape = [front, indices.shape.as_slice(), behind].concat();
+    // The values are selected as if all indices were one axis.
+    let (count, inner) = (places.len(), behind.iter().product::<usize>());
+    let made = select_values(node.folder, from, vec![front.iter().product(), count, inner], |place| {
+        (place[0] * length + places[place[1]]) * inner + place[2]
+    })?;
+    Ok(Constant { shape, ..made })
+}
+
+/// Concatenates constants along an axis.
+pub(super) fn concat_constants(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Constant, String> {
+    let first = parts[0];
+    let axis = usize::try_from(index_from_start(node.int("axis", 0), first.shape.len()))
+        .ok()
+        .filter(|&axis| axis < first.shape.len())
+        .ok_or("its axis is outside")?;
+    let fits = |part: &&Constant| {
+        let own = part.shape.iter().zip(&first.shape).enumerate();
+        part.shape.len() == first.shape.len()
+            && own.into_iter().all(|(at, (a, b))| at == axis || a == b)
+    };
+    if !parts.iter().all(fits) {
+        return Err("its inputs do not fit together".to_owned());
+    }
+    let mut shape = first.shape.clone();
+    let length = parts.iter().try_fold(0usize, |sum, part| sum.checked_add(part.shape[axis]));
+    shape[axis] = length.ok_or("its output is too long")?;
+    node.folder.check_room(&shape, &first.values)?;
+    let outer: usize = shape[..axis].iter().product();
+    fn lines<T: Copy>(parts: &[&[T]], outer: usize) -> Vec<T> {
+        let line = |line| {
+            parts.iter().flat_map(move |part: &&[T]| {
+                let own = part.len() / outer;
+                part[line * own..(line + 1) * own].iter().copied()
+            })
+        };
+        (0..outer).flat_map(line).collect()
+    }
+    let values = match &first.values {
+        ConstantValues::Integers(_) => {
+            let parts =
+                parts.iter().map(|part| part.as_integers()).collect::<Result<Vec<_>, _>>()?;
+            ConstantValues::Integers(lines(&parts, outer))
+        }
+        ConstantValues::Floats(_) => {
+            let parts = parts.iter().map(|part| part.as_floats()).collect::<Result<Vec<_>, _>>()?;
+            ConstantValues::Floats(lines(&parts, outer))
+        }
+    };
+    Ok(Constant { shape, values, data_type: first.data_type })
+}
+
+/// Returns the position of an axis in a permutation.
+fn axis_position(order: &[usize], axis: usize) -> usize {
+    order.iter().position(|&own| own == axis).expect("every axis is named")
+}
+
+/// Returns the stride of an axis, in values.
+fn stride(shape: &[usize], axis: usize) -> usize {
+    shape[axis + 1..].iter().product()
+}
+
+/// Returns a constant whose value at each index is selected from another constant: `from` returns
+/// the number of that value.
+fn select_values(
+    folder: &ModelFolder,
+    of: &Constant,
+    shape: Vec<usize>,
+    from: impl Fn(&[usize]) -> usize,
+) -> Result<Constant, String> {
+    let count = folder.check_room(&shape, &of.values)?;
+    let mut place = vec![0; shape.len()];
+    let numbers = (0..count).map(|_| {
+        let number = from(&place);
+        advance_index(&mut place, &shape);
+        number
+    });
+    let values = match &of.values {
+        ConstantValues::Floats(values) => {
+            ConstantValues::Floats(numbers.map(|at| values[at]).collect())
+        }
+        ConstantValues::Integers(values) => {
+            ConstantValues::Integers(numbers.map(|at| values[at]).collect())
+        }
+    };
+    Ok(Constant { shape, values, data_type: of.data_type })
+}
+
+/// Advances to the next index of a shape, in row-major order. The first index follows the last.
+fn advance_index(place: &mut [usize], shape: &[usize]) {
+    for (at, &length) in place.iter_mut().zip(shape).rev() {
+        *at += 1;
+        if *at < length {
+            return;
+        }
+        *at = 0;
+    }
+}

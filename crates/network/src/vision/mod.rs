@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Feeds frames to networks, reads detections from their outputs, and measures how far the outputs
+//! for different frames agree.
+//!
+//! A [`Witness`] is a network with its [`Viewing`]: the [`Framing`] brings frames to the size of
+//! the input, a [`Mapping`] converts pixels to values, and a [`Detector`] reads detections in a
+//! format of [`Head`]. This module reads no files but that of the network, and knows no camera.
+
+mod agreement;
+mod detection;
+mod detector;
+mod distance;
+mod error;
+mod frame_findings;
+mod framing;
+mod detection_format;
+mod pixel_mapping;
+mod frame_input;
+mod network_defaults;
+mod vision_network;
+
+pub use agreement::{ClassAgreement, DetectionAgreement, DetectionCounts, DetectionPairs, SAME_OBJECT_OVERLAP, AgreementSums};
+pub use detection::{Detection, match_detections};
+pub use detector::{Detector, parse_detector};
+pub use distance::{OutputDistance, index_of_largest, psnr};
+pub use error::VisionError;
+pub use frame_findings::FrameFindings;
+pub use framing::{Framing, parse_framing};
+pub use detection_format::{DetectionFormat, OutputTensor};
+pub use pixel_mapping::{PixelMapping, parse_mean, parse_scale};
+pub use frame_input::{FrameFormat, FrameInput};
+pub use network_defaults::{NetworkDefaults, guess_defaults};
+pub use vision_network::{OutputAgreement, VisionRun, FrameOutcome, VisionOptions, VisionNetwork};

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The lengths of the packets of a design, and the ranges of their fields.
+
+use foveate_design::{Camera, Design, IrrelevantRendering, Payload};
+
+use crate::word_fields::{checked_field, index, checked_u16, checked_u8};
+use crate::{FrameInfo, PacketError};
+
+/// The version of the format, in every FRAME.
+pub const VERSION: u16 = 1;
+/// The second word of a FRAME, as bytes.
+pub const MAGIC: [u8; 8] = *b"FOVEATE\n";
+/// The first byte of every packet.
+pub(crate) const MARK: u8 = 0xFA;
+/// The number of bytes of a word.
+pub(crate) const WORD_BYTES: usize = 8;
+/// The number of words of a FRAME.
+pub(crate) const FRAME_WORDS: usize = 7;
+/// The number of words of an END.
+pub(crate) const END_WORDS: usize = 3;
+/// The number of words of a REGISTER.
+pub(crate) const REGISTER_WORDS: usize = 3;
+/// The number of words around the payload of a packet: its head and its tail.
+pub(crate) const HEAD_AND_TAIL_WORDS: usize = 2;
+
+/// The properties of a design that determine its packets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PacketLayout {
+    info: FrameInfo,
+    /// The largest score of each feature.
+    score_max: Vec<u64>,
+}
+
+impl PacketLayout {
+    /// Makes the layout of a design's packets, with or without scores. Times count
+    /// `ticks_per_second`.
+    ///
+    /// # Errors
+    /// Fails if a size of the design or the length of one of its packets does not fit into its
+    /// field, or if `ticks_per_second` is 0. The packets of every design that a configuration can
+    /// describe fit.
+    pub fn new(
+        design: &Design,
+        has_scores: bool,
+        ticks_per_second: u32,
+    ) -> Result<Self, PacketError> {
+        let layout = Self::without_checks(design, has_scores, ticks_per_second)?;
+        checked_field("ticks per second", ticks_per_second.into(), 1..=u32::MAX.into())?;
+        let scores = if has_scores { layout.scores_bytes() } else { 0 };
+        for bytes in [layout.row_bytes(), layout.region_bytes(false), scores] {
+            checked_u16("length in words", (bytes / WORD_BYTES) as u64)?;
+        }
+        Ok(layout)
+    }
+
+    /// Makes the layout without a check of lengths and of the unit of time.
+    fn without_checks(design: &Design, has_scores: bool, ticks_per_second: u32) -> Result<Self, PacketError> {
+        let camera: &Camera = design;
+        let info = FrameInfo {
+            version: VERSION,
+            fingerprint: fingerprint_number(design),
+            ticks_per_second,
+            width: checked_u16("width", camera.width().into())?,
+            height: checked_u16("height", camera.height().into())?,
+            columns: checked_u16("number of columns", camera.columns().into())?,
+            rows: checked_u16("number of rows", camera.rows().into())?,
+            side: checked_u8("side of a region", camera.region_size())?,
+            pixel_bits: checked_u8("bits of a pixel", camera.pixel_bits())?,
+            blocks: checked_u8("number of blocks", camera.periphery().map_or(0, |own| own.blocks))?,
+            irrelevant: match camera.irrelevant() {
+                IrrelevantRendering::Zero => 0,
+                IrrelevantRendering::Hold => 1,
+                IrrelevantRendering::Mean => 2,
+            },
+            raw: match camera.payload() {
+                Payload::Raw => true,
+                Payload::Denoised => false,
+            },
+            has_scores,
+            first: false,
+            time: 0,
+        };
+        let score_max = camera.features().iter().map(|feature| feature.score_max());
+        Ok(Self { info, score_max: score_max.collect() })
+    }
+
+    /// Returns the content of every FRAME of the design, in which `time` is 0 and `first` is false.
+    #[must_use]
+    pub fn info(&self) -> &FrameInfo {
+        &self.info
+    }
+
+    /// Returns the number of columns of regions.
+    #[must_use]
+    pub fn columns(&self) -> u32 {
+        self.info.columns.into()
+    }
+
+    /// Returns the number of rows of regions.
+    #[must_use]
+    pub fn rows(&self) -> u32 {
+        self.info.rows.into()
+    }
+
+    /// Returns the number of regions of a frame.
+    pub(crate) fn regions(&self) -> usize {
+        index(self.columns()) * index(self.rows())
+    }
+
+    /// Returns whether irrelevant regions send summaries.
+    #[must_use]
+    pub fn has_periphery(&self) -> bool {
+        self.info.blocks > 0
+    }
+
+    /// Returns the number of bytes of a pixel or mean.
+    pub(crate) fn value_bytes(&self) -> usize {
+        if self.info.pixel_bits <= 8 { 1 } else { 2 }
+    }
+
+    /// Returns the largest pixel value.
+    pub(crate) fn pixel_max(&self) -> u16 {
+        u16::MAX >> 16u8.saturating_sub(self.info.pixel_bits)
+    }
+
+    /// Returns the number of bits that a ROW has for each region.
+    pub(crate) fn decision_bits(&self) -> usize {
+        if self.has_periphery() { 4 } else { 2 }
+    }
+
+    /// Returns the number of pixels of a region, or of means of a summary.
+    #[must_use]
+    pub fn value_count(&self, summary: bool) -> usize {
+        let side = usize::from(if summary { self.info.blocks } else { self.info.side });
+        side * side
+    }
+
+    /// Returns the number of bytes of a ROW.
+    #[must_use]
+    pub fn row_bytes(&self) -> usize {
+        packet_bytes(index(self.columns()) * self.decision_bits(), 8 * WORD_BYTES)
+    }
+
+    /// Returns the number of bytes of a SCORES.
+    #[must_use]
+    pub fn scores_bytes(&self) -> usize {
+        packet_bytes(index(self.columns()) * self.record_bytes(), WORD_BYTES)
+    }
+
+    /// Returns the number of bytes of a REGION with pixels or with means.
+    #[must_use]
+    pub fn region_bytes(&self, summary: bool) -> usize {
+        packet_bytes(self.value_count(summary) * self.value_bytes(), WORD_BYTES)
+    }
+
+    /// Returns the number of bytes of a FRAME.
+    #[must_use]
+    pub fn frame_bytes(&self) -> usize {
+        FRAME_WORDS * WORD_BYTES
+    }
+
+    /// Returns the number of bytes of an END.
+    #[must_use]
+    pub fn end_bytes(&self) -> usize {
+        END_WORDS * WORD_BYTES
+    }
+
+    /// Returns the largest value and the number of bytes of each score of a region, changed pixels
+    /// first.
+    pub(crate) fn score_fields(&self) -> impl Iterator<Item = (u64, usize)> + '_ {
+        let pixels = u64::try_from(self.value_count(false)).unwrap_or(u64::MAX);
+        let lane = |max: u64| match max {
+            0..=0xFFFF => 2,
+            0x1_0000..=0xFFFF_FFFF => 4,
+            _ => 8,
+        };
+        let all = std::iter::once(pixels).chain(self.score_max.iter().copied());
+        all.map(move |max| (max, lane(max)))
+    }
+
+    /// Returns the number of bytes of the scores of a region. Each score is aligned to its own
+    /// size, and the record ends at a word.
+    pub(crate) fn record_bytes(&self) -> usize {
+        let end = self.score_fields().fold(0usize, |at, (_, bytes)| at.next_multiple_of(bytes) + bytes);
+        end.next_multiple_of(WORD_BYTES)
+    }
+}
+
+/// Returns the number of bytes of a packet that carries `amount` units, of which `in_word` fill a
+/// word.
+fn packet_bytes(amount: usize, in_word: usize) -> usize {
+    (amount.div_ceil(in_word) + HEAD_AND_TAIL_WORDS) * WORD_BYTES
+}
+
+/// Returns the fingerprint of a design as a number, whose hexadecimal digits it is.
+fn fingerprint_number(design: &Design) -> u64 {
+    let digits = design.fingerprint();
+    u64::from_str_radix(&digits, 16).unwrap_or_else(|_| unreachable!("16 digits, not {digits}"))
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A data set of PNG files below `images`, in one folder per label, and `images.csv`, which names
+//! the file for every row of the arrays.
+
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
+use std::path::{Component, Path, PathBuf};
+
+use foveate_camera::Camera;
+
+use super::super::cannot_write;
+use super::super::png_writers::PngWriters;
+use super::super::csv::CsvFile;
+use super::super::raw_image::RawImage;
+use super::super::sink::{FrameSink, SinkFrame};
+use crate::SimulatorError;
+
+/// The name of the folder of images.
+pub(super) const FOLDER: &str = "images";
+
+/// The naming of the new files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileNaming {
+    /// The files have the names of the input files.
+    OfInputFile,
+    /// The files have the number of the image as name.
+    Numbers,
+}
+
+/// The folder tree and its table while they are written.
+pub(super) struct ImageTreeSink {
+    folder: PathBuf,
+    naming: FileNaming,
+    table: CsvFile,
+    writers: PngWriters,
+}
+
+impl ImageTreeSink {
+    pub(super) fn create(folder: &Path, names: FileNaming) -> Result<Self, SimulatorError> {
+        let images = folder.join(FOLDER);
+        fs::create_dir(&images).map_err(cannot_write(&images))?;
+        let table = CsvFile::create(&folder.join("images.csv"), "image,file,label")?;
+        Ok(Self { folder: folder.to_owned(), naming: names, table, writers: PngWriters::new()? })
+    }
+
+    /// Creates a new file for an image. Returns its path below the folder of the run.
+    fn create_image_file(&self, step: &SinkFrame<'_>) -> Result<PathBuf, SimulatorError> {
+        let mut below = PathBuf::from(FOLDER);
+        if let Some(label) = &step.source.label {
+            below.push(folder_name_of_label(label));
+        }
+        let folder = self.folder.join(&below);
+        fs::create_dir_all(&folder).map_err(cannot_write(&folder))?;
+        let number = format!("{:06}", step.number);
+        let stem = match self.naming {
+            FileNaming::OfInputFile => Path::new(&step.source.name).file_stem().and_then(OsStr::to_str),
+            FileNaming::Numbers => None,
+        };
+        let first = below.join(format!("{}.png", stem.unwrap_or(&number)));
+        match (create_new_file(&self.folder.join(&first)), stem) {
+            // The name is used already: the inputs are `a.png` and `a.jpg`, or files of one name
+            // from several folders.
+            (Err(error), Some(stem)) if error.kind() == ErrorKind::AlreadyExists => {
+                let other = below.join(format!("{stem}-{number}.png"));
+                let path = self.folder.join(&other);
+                create_new_file(&path).map_err(cannot_write(&path))?;
+                Ok(other)
+            }
+            (file, _) => {
+                file.map_err(cannot_write(&self.folder.join(&first)))?;
+                Ok(first)
+            }
+        }
+    }
+}
+
+impl FrameSink for ImageTreeSink {
+    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let below = self.create_image_file(step)?;
+        let picture = RawImage::of_screen(step, self.writers.take_spare_buffer());
+        self.writers.push(self.folder.join(&below), picture);
+        let label = step.source.label.as_deref().unwrap_or_default();
+        self.table.quoted_line([&step.number.to_string(), &below.display().to_string(), label]);
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.writers.check_written(all)?;
+        self.table.write_out(all)
+    }
+
+    fn max_bytes_owed(&self, camera: &Camera) -> u64 {
+        PngWriters::max_bytes_in_work(camera.width(), camera.height(), 2)
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
+        self.table.write_out(true)?;
+        self.writers.finish()
+    }
+}
+
+fn create_new_file(path: &Path) -> io::Result<File> {
+    File::create_new(path)
+}
+
+/// Returns a label if it is the name of a single folder, otherwise `other`.
+fn folder_name_of_label(label: &str) -> &str {
+    let mut parts = Path::new(label).components();
+    match (parts.next(), parts.next()) {
+        (Some(Component::Normal(_)), None) => label,
+        _ => "other",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_is_one_folder() {
+        assert_eq!(["7", "a b", "..", "/", "a/b", ""].map(folder_name_of_label), {
+            ["7", "a b", "other", "other", "other", "other"]
+        });
+    }
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A series of pictures of one kind, as numbered PNG files or as a video.
+
+use std::path::{Path, PathBuf};
+
+use foveate_camera::Camera;
+use foveate_toolchain::Interrupt;
+
+use super::PictureFormat;
+use super::canvas::PictureCanvas;
+use super::png_writers::PngWriters;
+use super::raw_image::RawImage;
+use super::png_series::PngSeries;
+use super::sink::{FrameSink, SinkFrame};
+use super::video_file::VideoFile;
+use crate::SimulatorError;
+
+/// Draws a picture of a frame and its outcome.
+pub(super) trait PicturePainter: Send {
+    fn paint(&mut self, step: &SinkFrame<'_>) -> PictureCanvas;
+}
+
+/// The files of a series.
+enum SeriesFiles {
+    Folder(PngSeries),
+    Video(VideoFile),
+}
+
+/// The pictures of one kind and their files.
+pub(super) struct PictureSeriesSink {
+    /// The painter of the pictures. Without one, the screen is written.
+    painter: Option<Box<dyn PicturePainter>>,
+    series: SeriesFiles,
+}
+
+impl PictureSeriesSink {
+    /// Makes the series of the rendered frames.
+    pub(super) fn rendered(
+        folder: &Path,
+        medium: PictureFormat,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SimulatorError> {
+        Ok(Self { painter: None, series: SeriesFiles::create(folder, "rendered", medium, interrupt)? })
+    }
+
+    pub(super) fn with_painter(
+        folder: &Path,
+        name: &str,
+        (medium, interrupt): (PictureFormat, &Interrupt),
+        painter: impl PicturePainter + 'static,
+    ) -> Result<Self, SimulatorError> {
+        let series = SeriesFiles::create(folder, name, medium, interrupt)?;
+        Ok(Self { painter: Some(Box::new(painter)), series })
+    }
+}
+
+impl FrameSink for PictureSeriesSink {
+    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let picture = match &mut self.painter {
+            Some(painter) => painter.paint(step).into(),
+            None => RawImage::of_screen(step, self.series.take_spare_buffer()),
+        };
+        match &mut self.series {
+            SeriesFiles::Folder(series) => series.push(picture),
+            SeriesFiles::Video(video) => video.push(picture, step.source.time_us)?,
+        }
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        match &mut self.series {
+            SeriesFiles::Folder(series) => series.writers.check_written(all),
+            SeriesFiles::Video(video) => video.check_encoder(),
+        }
+    }
+
+    fn max_bytes_owed(&self, camera: &Camera) -> u64 {
+        // A painted picture has a footer below the frame, and is larger if the frame is small.
+        let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
+        match &self.series {
+            SeriesFiles::Folder(_) => PngWriters::max_bytes_in_work(camera.width(), camera.height() + lines, samples),
+            SeriesFiles::Video(_) => 0,
+        }
+    }
+
+    fn expendable_path(&self) -> Option<PathBuf> {
+        match &self.series {
+            SeriesFiles::Folder(series) => Some(series.folder().to_owned()),
+            SeriesFiles::Video(video) => Some(video.path().to_owned()),
+        }
+    }
+
+    fn is_written_by_other_program(&self) -> bool {
+        matches!(self.series, SeriesFiles::Video(_))
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
+        match self.series {
+            SeriesFiles::Folder(series) => series.writers.finish(),
+            SeriesFiles::Video(video) => video.finish(),
+        }
+    }
+}
+
+impl SeriesFiles {
+    fn create(
+        folder: &Path,
+        name: &str,
+        medium: PictureFormat,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SimulatorError> {
+        let video = |extension: &str| {
+            let path = folder.join(format!("{name}.{extension}"));
+            VideoFile::create(&path, interrupt).map(Self::Video)
+        };
+        match medium {
+            PictureFormat::Png => PngSeries::create(folder.join(name)).map(Self::Folder),
+            PictureFormat::Mkv => video("mkv"),
+            PictureFormat::Mp4 => video("mp4"),
+        }
+    }
+
+    /// Returns the buffer of an earlier picture, or an empty one.
+    fn take_spare_buffer(&mut self) -> Vec<u8> {
+        match self {
+            Self::Folder(series) => series.writers.take_spare_buffer(),
+            Self::Video(_) => Vec::new(),
+        }
+    }
+}

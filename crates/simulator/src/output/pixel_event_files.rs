@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The events of a pixel camera as files: NPZ with the fields that tonic uses, and CSV.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use foveate_camera::Camera;
+
+use super::csv::CsvFile;
+use super::npz::NpzArchive;
+use super::sink::SinkFrame;
+use super::{PixelCamera, PixelEventOptions, cannot_write};
+use crate::SimulatorError;
+use foveate_staging::GrowingFile;
+
+/// The type of an event in NumPy's notation, with the field names and types of tonic. It has 13
+/// bytes.
+const EVENT_TYPE: &str = "[('x', '<i2'), ('y', '<i2'), ('t', '<i8'), ('p', '|b1')]";
+
+/// The camera and its open files.
+pub(super) struct PixelEventFiles {
+    camera: PixelCamera,
+    npz: Option<EventArchive>,
+    csv: Option<CsvFile>,
+    events: u64,
+    /// The events of one frame as bytes.
+    bytes: Vec<u8>,
+}
+
+/// The archive, and a second file with the number of events before each frame, which is moved into
+/// the archive at the end.
+struct EventArchive {
+    npz: NpzArchive,
+    starts_path: PathBuf,
+    starts: GrowingFile,
+    frames: u64,
+}
+
+impl PixelEventFiles {
+    pub(super) fn create(
+        folder: &Path,
+        camera: &Camera,
+        options: PixelEventOptions,
+    ) -> Result<Self, SimulatorError> {
+        let csv = options.csv.then(|| CsvFile::create(&folder.join("pixel_events.csv"), "x,y,t,p"));
+        Ok(Self {
+            camera: PixelCamera::new(camera, options)?,
+            npz: options.npz.then(|| EventArchive::create(folder)).transpose()?,
+            csv: csv.transpose()?,
+            events: 0,
+            bytes: Vec::new(),
+        })
+    }
+
+    pub(super) fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let Self { camera, npz, csv, events, bytes } = self;
+        let time = step.source.time_us;
+        let before = *events;
+        bytes.clear();
+        camera.step(&step.source.frame.to_frame()?, |event| {
+            *events += 1;
+            let polarity = u8::from(event.brighter);
+            if npz.is_some() {
+                // Coordinates stay below 2^14.
+                bytes.extend(event.x.to_le_bytes().into_iter().take(2));
+                bytes.extend(event.y.to_le_bytes().into_iter().take(2));
+                bytes.extend(time.to_le_bytes());
+                bytes.push(polarity);
+            }
+            if let Some(csv) = csv {
+                csv.line([event.x.into(), event.y.into(), time, polarity.into()]);
+            }
+        });
+        if let Some(npz) = npz {
+            npz.push(before, bytes);
+        }
+        Ok(())
+    }
+
+    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
+        self.npz.as_mut().map_or(Ok(()), |npz| {
+            npz.starts.write_pending(all)?;
+            npz.npz.write_out(all)
+        })
+    }
+
+    /// Completes the files. Returns the number of events in them.
+    pub(super) fn finish(mut self) -> Result<u64, SimulatorError> {
+        self.write_out(true)?;
+        if let Some(npz) = self.npz {
+            npz.finish(self.events)?;
+        }
+        Ok(self.events)
+    }
+}
+
+impl EventArchive {
+    fn create(folder: &Path) -> Result<Self, SimulatorError> {
+        let path = folder.join("pixel_events.npz");
+        let starts_path = folder.join(".frame_start.partial");
+        let npz = NpzArchive::new(GrowingFile::create(&path)?, "events", EVENT_TYPE);
+        let starts = GrowingFile::create(&starts_path)?;
+        Ok(Self { npz, starts_path, starts, frames: 0 })
+    }
+
+    fn push(&mut self, before: u64, events: &[u8]) {
+        self.frames += 1;
+        self.starts.append(&before.to_le_bytes());
+        self.npz.write(events);
+    }
+
+    fn finish(mut self, events: u64) -> Result<(), SimulatorError> {
+        let failed = cannot_write(&self.starts_path);
+        self.starts.append(&events.to_le_bytes());
+        self.starts.write_pending(true)?;
+        drop(self.starts);
+        self.npz.next_array(events, "frame_start", "'<i8'")?;
+        let mut starts = File::open(&self.starts_path).map_err(&failed)?;
+        let mut chunk = [0; 1 << 13];
+        loop {
+            match starts.read(&mut chunk).map_err(&failed)? {
+                0 => break,
+                length => self.npz.write(&chunk[..length]),
+            }
+            self.npz.write_out(false)?;
+        }
+        self.npz.finish(self.frames + 1)?;
+        fs::remove_file(&self.starts_path).map_err(&failed)
+    }
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A pool of threads that write PNG files in parallel, since compressing a picture takes longer
+//! than all other work for a frame. A picture that found no space on the disk is kept until the
+//! end.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{Builder, JoinHandle};
+
+use super::raw_image::RawImage;
+use super::{cannot_write, png};
+use crate::SimulatorError;
+use foveate_staging::is_full;
+
+/// The largest number of threads. More threads do not help, because other work is then the limit.
+const MAX_THREADS: usize = 8;
+
+/// A picture and the path of its file.
+struct PngJob {
+    path: PathBuf,
+    picture: RawImage,
+}
+
+/// The threads and their queues.
+pub(super) struct PngWriters {
+    /// The queue of pictures, or `None` once no more pictures come.
+    jobs: Option<SyncSender<PngJob>>,
+    done: Receiver<(PngJob, io::Result<()>)>,
+    threads: Vec<JoinHandle<()>>,
+    /// The pictures that found no space on the disk.
+    unwritten: Vec<PngJob>,
+    /// The memory for the next picture.
+    spare_buffer: Vec<u8>,
+}
+
+impl PngWriters {
+    pub(super) fn new() -> Result<Self, SimulatorError> {
+        let size = Self::size();
+        let (jobs, queue) = sync_channel(size);
+        let (sender, done) = channel();
+        let queue = Arc::new(Mutex::new(queue));
+        let mut crew = Self {
+            jobs: Some(jobs),
+            done,
+            threads: Vec::new(),
+            unwritten: Vec::new(),
+            spare_buffer: Vec::new(),
+        };
+        for _ in 0..size {
+            let (queue, sender) = (Arc::clone(&queue), sender.clone());
+            let thread = Builder::new().name("pictures".to_owned());
+            let thread = thread.spawn(move || write_pictures(&queue, &sender));
+            let refused = |error: io::Error| SimulatorError::Thread { reason: error.to_string() };
+            crew.threads.push(thread.map_err(refused)?);
+        }
+        Ok(crew)
+    }
+
+    fn size() -> usize {
+        rayon::current_num_threads().min(MAX_THREADS)
+    }
+
+    /// Returns the largest number of pictures that may be in work at once.
+    fn max_pictures_in_work() -> usize {
+        2 * Self::size() + 1
+    }
+
+    /// Returns the largest number of bytes that the pictures in work need. A pixel has `samples`
+    /// bytes.
+    pub(super) fn max_bytes_in_work(width: u32, height: u32, samples: u64) -> u64 {
+        // A PNG is larger than its pixels by at most a byte per row, some bytes per block, and the
+        // fixed chunks.
+        let picture = (u64::from(width) * samples + 1) * u64::from(height);
+        (picture + picture / 1000 + 4096) * Self::max_pictures_in_work() as u64
+    }
+
+    /// Returns a buffer for a picture, with the size of the last one.
+    pub(super) fn take_spare_buffer(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.spare_buffer)
+    }
+
+    /// Queues a picture. Waits while the queue is full.
+    pub(super) fn push(&mut self, path: PathBuf, picture: RawImage) {
+        let job = PngJob { path, picture };
+        let refused = match &self.jobs {
+            Some(jobs) => jobs.send(job).err().map(|refused| refused.0),
+            None => Some(job),
+        };
+        self.unwritten.extend(refused);
+    }
+
+    /// Checks that all finished pictures were written. With `all`, waits for all pictures first.
+    pub(super) fn check_written(&mut self, all: bool) -> Result<(), SimulatorError> {
+        if all {
+            self.join_threads();
+        }
+        for (job, result) in self.done.try_iter() {
+            match result {
+                Ok(()) => self.spare_buffer = job.picture.bytes,
+                Err(error) if is_full(&error) => {
+                    self.unwritten.push(job);
+                    return Err(cannot_write(&self.unwritten[self.unwritten.len() - 1].path)(
+                        error,
+                    ));
+                }
+                Err(error) => return Err(cannot_write(&job.path)(error)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Waits for all pictures, and writes those again that found no space.
+    pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
+        while let Err(error) = self.check_written(true) {
+            if !error.is_full() {
+                return Err(error);
+            }
+        }
+        let mut bytes = Vec::new();
+        for PngJob { path, picture } in std::mem::take(&mut self.unwritten) {
+            png::write(&path, &picture, &mut bytes).map_err(cannot_write(&path))?;
+        }
+        Ok(())
+    }
+
+    fn join_threads(&mut self) {
+        drop(self.jobs.take());
+        for thread in self.threads.drain(..) {
+            // The panic of a thread was reported already, and its picture is missing in `done`.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for PngWriters {
+    /// Ends the threads, so that none writes into a folder that is about to be removed.
+    fn drop(&mut self) {
+        self.join_threads();
+    }
+}
+
+fn write_pictures(queue: &Mutex<Receiver<PngJob>>, done: &Sender<(PngJob, io::Result<()>)>) {
+    let mut bytes = Vec::new();
+    loop {
+        let job = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
+        let Ok(job) = job else { return };
+        let result = png::write(&job.path, &job.picture, &mut bytes);
+        if done.send((job, result)).is_err() {
+            return;
+        }
+    }
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Overlays, heat maps and videos show the results of the model.
+#![allow(clippy::cast_possible_truncation, reason = "a test fails by panicking")]
+
+use crate::support;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::support::{STREET, frames, names, outcomes, street};
+use foveate_frame::convert_depth;
+use foveate_simulator::{PictureFormat, RunOptions};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Tool, Toolchain};
+use image::RgbImage;
+
+const NOTHING: fn() -> RunOptions = || RunOptions { rendered: None, ..RunOptions::default() };
+/// The factor by which 45 x 38 pixels are enlarged to a width of at least 448. `DOT` is the size of
+/// a dot in the footer.
+const SCALE: u32 = 10;
+const DOT: u32 = 2;
+
+fn pictures(folder: &Path, name: &str) -> Vec<RgbImage> {
+    let picture = |t| image::open(folder.join(format!("{name}/{t:06}.png"))).unwrap().into_rgb8();
+    assert_eq!(names(&folder.join(name)).len(), 5);
+    (0..5).map(picture).collect()
+}
+
+#[test]
+fn the_overlay_shows_each_state_in_its_colour() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    street(&output, &STREET, &RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() });
+    assert!(!output.join("rendered").exists());
+    for (picture, outcome) in pictures(&output, "overlay").iter().zip(outcomes(&STREET)) {
+        assert_eq!(picture.dimensions(), (45 * SCALE, 38 * SCALE + (5 + 4 + 32) * DOT));
+        for region in 0..30 {
+            // This pixel is not on a line of the grid.
+            let at = ((region % 6 * 8 + 3) * SCALE, (region / 6 * 8 + 3) * SCALE);
+            let [r, g, b] = picture.get_pixel(at.0, at.1).0;
+            let index = region as usize;
+            match (outcome.srs[index], outcome.trs[index]) {
+                (true, true) => assert!(g > r && g > b),
+                (true, false) => assert!(r > g && g > b),
+                (false, true) => assert!(b > g && g > r),
+                (false, false) => assert!(r == g && g == b),
+            }
+            let corner = (region % 6 * 8 * SCALE, region / 6 * 8 * SCALE);
+            let outlined = picture.get_pixel(corner.0, corner.1).0 == [70, 230, 180];
+            assert_eq!(outlined, outcome.active[index], "outline of region {region}");
+        }
+    }
+}
+
+/// The bar of every frame has the height of the share of active regions.
+#[test]
+fn the_strip_shows_the_share_of_active_regions() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    street(&output, &STREET, &RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() });
+    let pictures = pictures(&output, "overlay");
+    let last = &pictures[4];
+    for (t, outcome) in (0..).zip(outcomes(&STREET)) {
+        let active = outcome.active.iter().filter(|&&bit| bit).count() as u32;
+        let column = t * 2 * DOT;
+        let lit = (0..32 * DOT)
+            .filter(|y| last.get_pixel(column, last.height() - 1 - y).0 == [70, 230, 180])
+            .count() as u32;
+        assert_eq!(lit, active * 32 * DOT / 30, "frame {t}");
+    }
+}
+
+/// Brightness grows with the score, and equal scores have equal colours.
+#[test]
+fn heat_maps_are_ordered_like_the_scores() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    street(&output, &STREET, &RunOptions { heatmap: Some(PictureFormat::Png), ..NOTHING() });
+    let outcomes = outcomes(&STREET);
+    let counts = |t: usize| outcomes[t].temporal_count.iter().map(|&count| count.into()).collect();
+    type ScoresOfFrame<'a> = Box<dyn Fn(usize) -> Vec<u64> + 'a>;
+    let maps: [(&str, ScoresOfFrame<'_>); 3] = [
+        ("heatmap_edge", Box::new(|t| outcomes[t].scores[0].clone())),
+        ("heatmap_mad", Box::new(|t| outcomes[t].scores[1].clone())),
+        ("heatmap_temporal", Box::new(counts)),
+    ];
+    for (name, scores) in maps {
+        let mut seen: Vec<(u64, u32)> = Vec::new();
+        for (t, picture) in pictures(&output, name).iter().enumerate() {
+            for (region, score) in (0..).zip(scores(t)) {
+                let at = ((region % 6 * 8 + 3) * SCALE, (region / 6 * 8 + 3) * SCALE);
+                let [r, g, b] = picture.get_pixel(at.0, at.1).0.map(u32::from);
+                seen.push((score, 299 * r + 587 * g + 114 * b));
+            }
+        }
+        seen.sort_unstable();
+        assert!(seen.windows(2).all(|pair| pair[0].1 <= pair[1].1), "{name}");
+        assert!(seen[0].1 < seen[seen.len() - 1].1, "{name}");
+    }
+}
+
+#[test]
+fn tiny_and_narrow_frames_have_pictures_too() {
+    let folder = tempfile::tempdir().unwrap();
+    for (width, height) in [(1, 1), (2, 300), (300, 2), (5, 2000)] {
+        let (w, h) = (format!("frame.width={width}"), format!("frame.height={height}"));
+        let overrides = [
+            w.as_str(),
+            h.as_str(),
+            "region.size=2",
+            "temporal.min_count=1",
+            "spatial.0.min_score=1",
+        ];
+        let output = folder.path().join(format!("{width}x{height}"));
+        let both = RunOptions {
+            overlay: Some(PictureFormat::Png),
+            heatmap: Some(PictureFormat::Png),
+            ..RunOptions::default()
+        };
+        street(&output, &overrides, &both);
+        assert_eq!(
+            pictures(&output, "heatmap_edge")[0].width(),
+            pictures(&output, "overlay")[0].width()
+        );
+    }
+}
+
+/// Returns the decoded bytes of a video.
+fn decoded(path: &Path, format: &str) -> Vec<u8> {
+    let ffmpeg = Toolchain::system().find(Tool::Ffmpeg).unwrap().path;
+    let mut command = Command::new(ffmpeg);
+    command.args(["-v", "error", "-i"]).arg(path);
+    let output = command.args(["-f", "rawvideo", "-pix_fmt", format, "pipe:1"]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+#[test]
+fn lossless_video_gives_every_pixel_back() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for (bits, depth, format) in [(8, 8, "gray"), (3, 8, "gray"), (12, 16, "gray16le")] {
+        let bits_override = format!("frame.pixel_bits={bits}");
+        let overrides =
+            [&STREET[..3], &["spatial.0.level=1", "temporal.level=1", &bits_override]].concat();
+        let output = folder.path().join(bits.to_string());
+        let options = RunOptions { rendered: Some(PictureFormat::Mkv), ..RunOptions::default() };
+        street(&output, &overrides, &options);
+        let mut expected = Vec::new();
+        for outcome in outcomes(&overrides) {
+            for &value in outcome.rendered.pixels() {
+                let [low, high] = convert_depth(value, bits, depth).to_le_bytes();
+                expected.push(low);
+                if depth == 16 {
+                    expected.push(high);
+                }
+            }
+        }
+        assert!(decoded(&output.join("rendered.mkv"), format) == expected, "{bits} bits");
+        assert!(!output.join("rendered").exists());
+    }
+}
+
+#[test]
+fn overlays_as_video_are_the_pictures() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let [video, png, mp4] = ["video", "png", "mp4"].map(|name| folder.path().join(name));
+    street(&video, &STREET, &RunOptions { overlay: Some(PictureFormat::Mkv), ..NOTHING() });
+    street(&png, &STREET, &RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() });
+    let pictures = pictures(&png, "overlay");
+    let (width, height) = pictures[0].dimensions();
+    let expected: Vec<u8> = pictures.into_iter().flat_map(RgbImage::into_raw).collect();
+    assert!(decoded(&video.join("overlay.mkv"), "rgb24") == expected);
+    // In MP4, odd sides grow by one line.
+    street(&mp4, &STREET, &RunOptions { overlay: Some(PictureFormat::Mp4), ..NOTHING() });
+    let even = |side: u32| (side.next_multiple_of(2)) as usize;
+    let bytes = decoded(&mp4.join("overlay.mp4"), "gray").len();
+    assert_eq!(bytes, 5 * even(width) * even(height));
+}
+
+#[test]
+fn a_video_of_one_frame_has_one() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let image = support::grey(&folder.path().join("a.png"), 9, 9, |x, y| (20 * x * y) as u8);
+    let output = folder.path().join("out");
+    let options = RunOptions { rendered: Some(PictureFormat::Mkv), ..RunOptions::default() };
+    support::run(&[&image], &["spatial.0.min_score=0"], &output, &options).unwrap();
+    assert_eq!(decoded(&output.join("rendered.mkv"), "gray").len(), 81);
+    assert!(fs::metadata(output.join("rendered.mkv")).unwrap().len() > 0);
+    assert_eq!(frames(&support::design(&STREET)).count(), 5);
+}

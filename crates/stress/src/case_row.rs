@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The rows of the table of cases.
+
+use serde::Serialize;
+
+/// The result of one case on one design, or on a matrix of designs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CaseRow {
+    /// The name of the case.
+    pub case: &'static str,
+    /// The designs of the case.
+    pub designs: String,
+    /// The expected result.
+    pub expected: String,
+    /// The observed result.
+    pub observed: String,
+    /// The worst error, in the unit of the expected result.
+    pub worst: String,
+    /// The observed result is as expected.
+    pub is_as_expected: bool,
+}
+
+impl CaseRow {
+    /// Makes the row of a case in which two numbers must be equal.
+    pub(crate) fn for_equal_numbers(
+        case: &'static str,
+        designs: impl Into<String>,
+        want: u64,
+        got: u64,
+    ) -> Self {
+        Self {
+            case,
+            designs: designs.into(),
+            expected: want.to_string(),
+            observed: got.to_string(),
+            worst: want.abs_diff(got).to_string(),
+            is_as_expected: want == got,
+        }
+    }
+
+    /// Makes the row of a case in which no error may occur. `wrong` of `tried` trials failed, and
+    /// `worst` is the largest error.
+    pub(crate) fn for_no_errors(
+        case: &'static str,
+        designs: impl Into<String>,
+        what: &str,
+        (wrong, tried): (u64, u64),
+        worst: impl Into<u64>,
+    ) -> Self {
+        Self {
+            case,
+            designs: designs.into(),
+            expected: format!("0 {what}"),
+            observed: format!("{wrong} of {tried}"),
+            worst: worst.into().to_string(),
+            // A case without trials proves nothing.
+            is_as_expected: wrong == 0 && tried > 0,
+        }
+    }
+}

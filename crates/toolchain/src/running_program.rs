@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A program whose output is read, or whose input is written, while it runs. The data pass through
+//! a pipe at the speed of the slower side, and the messages of the program are collected line by
+//! line.
+//!
+//! The program cannot block forever: a thread always empties its standard error, and the pipe fills
+//! up only while its reader is slower. The program does not outlive its [`Stream`] or [`Feeder`].
+//! Ctrl-C in the terminal does not reach it, so this process decides how it ends. Every wait for it
+//! ends on an [`Interrupt`].
+
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::time::Duration;
+
+use crate::error::ToolError;
+use crate::process_family::ProcessFamily;
+use crate::interrupt::{GracePeriod, Interrupt, InterruptibleReader, POLL_STEP};
+use crate::invocation::Invocation;
+
+/// The number of bytes of a line that are kept. The rest of the line is dropped, so that it cannot
+/// appear as a line of its own.
+const LINE_BYTES: u64 = 1 << 14;
+/// The time for which a fed program may accept no input after an interrupt.
+const INPUT_GRACE: Duration = Duration::from_secs(1);
+/// The time in which a fed program may complete its output after an interrupt. Encoders hold back
+/// some dozen frames.
+const ENDING_GRACE: Duration = Duration::from_secs(10);
+
+/// A running program and its messages.
+#[derive(Debug)]
+struct RunningProgram {
+    family: ProcessFamily,
+    lines: Receiver<String>,
+    interrupt: Interrupt,
+}
+
+/// A running program whose standard output is read.
+#[derive(Debug)]
+pub struct ProgramReader {
+    running: RunningProgram,
+    stdout: InterruptibleReader<ChildStdout>,
+}
+
+/// A running program whose standard input is written.
+#[derive(Debug)]
+pub struct ProgramWriter {
+    running: RunningProgram,
+    /// The pipe; `None` once the input has ended.
+    stdin: Option<ChildStdin>,
+}
+
+impl ProgramReader {
+    /// Starts a program with an empty standard input; a time limit does not apply.
+    ///
+    /// # Errors
+    /// Fails if the program cannot be started.
+    pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+        let mut running = RunningProgram::start(invocation, interrupt, Stdio::null(), Stdio::piped())?;
+        let stdout = running.family.leader.stdout.take().ok_or_else(|| missing_pipe_error(invocation))?;
+        enlarge_pipe(&stdout);
+        Ok(Self { running, stdout: InterruptibleReader::new(stdout, interrupt) })
+    }
+
+    /// Waits for the next line of the standard error and returns it. Returns `None` if no more
+    /// lines follow.
+    ///
+    /// # Errors
+    /// Fails with [`ToolError::Interrupted`] on an interrupt.
+    pub fn next_line(&self) -> Result<Option<String>, ToolError> {
+        self.running.next_line()
+    }
+
+    /// Waits for the end of the program, after its output has been read. Returns whether the exit
+    /// code is zero, and the exit code or signal as words.
+    ///
+    /// # Errors
+    /// Fails with [`ToolError::Interrupted`] on an interrupt, even if the program ends before the
+    /// interrupt is set, and fails if the system does not report the end.
+    pub fn finish(&mut self) -> Result<(bool, String), ToolError> {
+        let status = self.running.wait(Duration::ZERO)?;
+        if !status.success() && self.running.interrupt.is_set_soon() {
+            return Err(ToolError::Interrupted);
+        }
+        Ok((status.success(), status.to_string()))
+    }
+
+    /// Ends the program, whatever it was about to write.
+    pub fn stop(&mut self) {
+        self.running.family.end();
+    }
+}
+
+impl Read for ProgramReader {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.stdout.read(bytes)
+    }
+}
+
+impl ProgramWriter {
+    /// Starts a program whose standard output is discarded; a time limit does not apply.
+    ///
+    /// # Errors
+    /// Fails if the program cannot be started.
+    pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+        let mut running = RunningProgram::start(invocation, interrupt, Stdio::piped(), Stdio::null())?;
+        let stdin = running.family.leader.stdin.take().ok_or_else(|| missing_pipe_error(invocation))?;
+        enlarge_pipe(&stdin);
+        set_nonblocking(&stdin).map_err(ToolError::io("run", &invocation.program))?;
+        Ok(Self { running, stdin: Some(stdin) })
+    }
+
+    /// Ends the input and waits for the end of the program. Returns whether the exit code is zero,
+    /// and the last line of the standard error that is not blank, if any. After an interrupt, the
+    /// program has ten seconds left.
+    ///
+    /// # Errors
+    /// Fails if the program does not end in time, or if the system does not report the end.
+    pub fn finish(&mut self) -> Result<(bool, Option<String>), ToolError> {
+        drop(self.stdin.take());
+        let success = self.running.wait(ENDING_GRACE)?.success();
+        let said = self.running.lines.iter().filter(|line| !line.trim().is_empty());
+        Ok((success, said.last()))
+    }
+}
+
+impl ProgramWriter {
+    /// Handles a write that failed: ends the program if an interrupt is set, waits for its end
+    /// otherwise, and returns the last line of its messages.
+    ///
+    /// # Errors
+    /// Fails like [`Feeder::finish`].
+    pub fn finish_after_failed_write(&mut self) -> Result<Option<String>, ToolError> {
+        drop(self.stdin.take());
+        if self.running.interrupt.is_set() {
+            self.running.family.end();
+        }
+        Ok(self.finish()?.1)
+    }
+}
+
+impl Write for ProgramWriter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let stdin = self.stdin.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        loop {
+            match stdin.write(bytes) {
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
+                    wait_for_room(stdin, &self.running.interrupt)?;
+                }
+                written => return written,
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl RunningProgram {
+    fn start(
+        invocation: &Invocation,
+        interrupt: &Interrupt,
+        stdin: Stdio,
+        stdout: Stdio,
+    ) -> Result<Self, ToolError> {
+        let mut command = Command::new(&invocation.program);
+        command
+            .args(&invocation.args)
+            .env("LC_ALL", "C")
+            .envs(invocation.env.iter().map(|(name, value)| (name, value)))
+            .stdin(stdin)
+            .stdout(stdout)
+            .stderr(Stdio::piped());
+        if let Some(dir) = &invocation.dir {
+            command.current_dir(dir);
+        }
+        let started = ProcessFamily::start(&mut command);
+        let family = started.map_err(ToolError::io("run", &invocation.program))?;
+        let (sender, lines) = mpsc::channel();
+        let mut running = Self { family, lines, interrupt: interrupt.clone() };
+        let stderr = running.family.leader.stderr.take().ok_or_else(|| missing_pipe_error(invocation))?;
+        let collector = std::thread::Builder::new().name("stderr of a tool".to_owned());
+        let collector = collector.spawn(move || collect_lines(stderr, &sender));
+        collector.map_err(ToolError::io("run", &invocation.program))?;
+        Ok(running)
+    }
+
+    fn next_line(&self) -> Result<Option<String>, ToolError> {
+        loop {
+            if self.interrupt.is_set() {
+                return Err(ToolError::Interrupted);
+            }
+            match self.lines.recv_timeout(POLL_STEP) {
+                Ok(line) => return Ok(Some(line)),
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
+    }
+
+    /// Waits for the end of the program; ends it once an interrupt is older than `grace`.
+    fn wait(&mut self, grace: Duration) -> Result<ExitStatus, ToolError> {
+        let failed =
+            |source| ToolError::Io { action: "wait for", path: "the end of a tool".into(), source };
+        let mut patience = GracePeriod::new(&self.interrupt, grace);
+        let mut pause = Duration::from_micros(200);
+        loop {
+            if let Some(status) = self.family.try_wait().map_err(failed)? {
+                return Ok(status);
+            }
+            if patience.is_over() {
+                self.family.end();
+                return Err(ToolError::Interrupted);
+            }
+            std::thread::sleep(pause);
+            pause = (pause * 2).min(Duration::from_millis(10));
+        }
+    }
+}
+
+fn missing_pipe_error(invocation: &Invocation) -> ToolError {
+    ToolError::io("run", &invocation.program)(io::Error::other("its pipes are missing"))
+}
+
+/// Makes a pipe large enough for about a frame of video, so that its two sides wake each other less
+/// often.
+#[cfg(target_os = "linux")]
+fn enlarge_pipe(pipe: &impl std::os::fd::AsFd) {
+    /// The size that the system allows every user by default.
+    const BYTES: usize = 1 << 20;
+    // If the system refuses, the pipe works with its previous size.
+    let _ = rustix::pipe::fcntl_setpipe_size(pipe, BYTES);
+}
+
+/// Does nothing: the size of a pipe is changed only on Linux.
+#[cfg(not(target_os = "linux"))]
+fn widen<T>(_: &T) {}
+
+/// Makes writes return at once if the pipe is full. The other side has its own file description and
+/// is unaffected.
+#[cfg(unix)]
+fn set_nonblocking(pipe: &ChildStdin) -> io::Result<()> {
+    Ok(rustix::io::ioctl_fionbio(pipe, true)?)
+}
+
+#[cfg(unix)]
+fn wait_for_room(pipe: &ChildStdin, interrupt: &Interrupt) -> io::Result<()> {
+    let writable = rustix::event::PollFlags::OUT;
+    crate::interrupt::wait_until_ready(writable, pipe, interrupt, INPUT_GRACE)
+}
+
+/// Does nothing: on other systems a write waits until it is done.
+#[cfg(not(unix))]
+fn never_wait(_: &ChildStdin) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn wait_for_room(_: &ChildStdin, _: &Interrupt) -> io::Result<()> {
+    Err(crate::interrupt::interrupted_error())
+}
+
+fn collect_lines(stderr: ChildStderr, lines: &Sender<String>) {
+    let mut reader = BufReader::new(stderr);
+    let (mut line, mut is_continued) = (Vec::new(), false);
+    while matches!(reader.by_ref().take(LINE_BYTES).read_until(b'\n', &mut line), Ok(1..)) {
+        let ends = line.ends_with(b"\n");
+        if !is_continued {
+            // A send fails when the receiver is gone; the pipe is still emptied.
+            let _ = lines.send(String::from_utf8_lossy(&line).trim_end().to_owned());
+        }
+        is_continued = !ends;
+        line.clear();
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn shell(script: &str) -> Invocation {
+        Invocation::new("sh").args(["-c", script])
+    }
+
+    #[test]
+    fn output_and_lines_are_apart_and_neither_blocks_the_other() {
+        let script = "head -c 1000000 /dev/zero | tr '\\0' x >&2; echo >&2; \
+                      head -c 3000000 /dev/zero; echo last >&2; exit 3";
+        let mut stream = ProgramReader::start(&shell(script), &Interrupt::default()).unwrap();
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes).unwrap();
+        assert_eq!(bytes.len(), 3_000_000);
+        let lines: Vec<String> = std::iter::from_fn(|| stream.next_line().unwrap()).collect();
+        assert_eq!(lines.last().map(String::as_str), Some("last"));
+        assert_eq!(lines.iter().map(String::len).collect::<Vec<_>>(), [1 << 14, 4]);
+        assert_eq!(stream.finish().unwrap(), (false, "exit status: 3".to_owned()));
+    }
+
+    #[test]
+    fn a_stream_that_is_dropped_ends_its_program() {
+        let stream =
+            ProgramReader::start(&shell("echo $$ >&2; exec sleep 60"), &Interrupt::default()).unwrap();
+        let pid = stream.next_line().unwrap().unwrap();
+        drop(stream);
+        let alive = Command::new("kill").args(["-0", &pid]).stderr(Stdio::null()).status();
+        assert!(!alive.unwrap().success());
+    }
+
+    #[test]
+    fn a_program_that_is_fed_ends_with_its_input_and_its_last_words_are_kept() {
+        let dir = tempfile::tempdir().unwrap();
+        let copy = dir.path().join("copy");
+        let script = format!("cat > '{}'; echo first >&2; echo last >&2; exit 3", copy.display());
+        let mut feeder = ProgramWriter::start(&shell(&script), &Interrupt::default()).unwrap();
+        feeder.write_all(&[7; 3_000_000]).unwrap();
+        assert_eq!(feeder.finish().unwrap(), (false, Some("last".to_owned())));
+        assert_eq!(std::fs::metadata(copy).unwrap().len(), 3_000_000);
+        assert!(feeder.write_all(b"more").is_err());
+        let mut early = ProgramWriter::start(&shell("exit 0"), &Interrupt::default()).unwrap();
+        let refused = (0..100).any(|_| early.write_all(&[7; 1 << 20]).is_err());
+        assert!(refused, "nobody reads");
+        assert_eq!(early.finish().unwrap(), (true, None));
+    }
+
+    #[test]
+    fn a_program_that_is_not_there_is_named() {
+        let error = ProgramReader::start(&Invocation::new("/nonexistent/tool"), &Interrupt::default())
+            .unwrap_err();
+        assert!(error.to_string().starts_with("cannot run `/nonexistent/tool`"), "{error}");
+    }
+
+    /// An interrupt gives up a program that does nothing: at once while it is read, after the grace
+    /// period while it is fed.
+    #[test]
+    fn an_interrupt_ends_every_wait() {
+        let interrupt = Interrupt::default();
+        let set = || interrupt.flag().store(true, std::sync::atomic::Ordering::Relaxed);
+        let (line, bytes, end) = ["sleep 60", "sleep 60", "exec >&- 2>&-; sleep 60"]
+            .map(|script| ProgramReader::start(&shell(script), &interrupt).unwrap())
+            .into();
+        let mut feeder = ProgramWriter::start(&shell("sleep 60"), &interrupt).unwrap();
+        let start = std::time::Instant::now();
+        std::thread::scope(|scope| {
+            let waits = [
+                scope.spawn(move || line.next_line().unwrap_err().is_interrupted()),
+                scope.spawn(move || {
+                    let mut bytes = bytes;
+                    bytes.read(&mut [0]).is_err()
+                }),
+                scope.spawn(move || {
+                    let mut end = end;
+                    end.finish().unwrap_err().is_interrupted()
+                }),
+                scope.spawn(move || feeder.write_all(&[7; 3_000_000]).is_err()),
+            ];
+            std::thread::sleep(Duration::from_millis(300));
+            assert!(waits.iter().all(|wait| !wait.is_finished()), "all of them wait");
+            set();
+            assert!(waits.into_iter().all(|wait| wait.join().unwrap()));
+        });
+        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    }
+}

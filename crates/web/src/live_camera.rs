@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One camera of a page: it takes frames and holds the results of the last one.
+
+use foveate_design::{RegionAction, Design};
+use foveate_engine::{RegionStateBefore, Engine, EventTable, EventFrame};
+use foveate_frame::{Frame, FramePixels, append_luma_of_rgba};
+use foveate_model::explanation::{self, RegionExplanation};
+use foveate_model::{FunctionalCamera, RegionMemory};
+use serde::Serialize;
+
+use crate::WebError;
+use crate::limits::MAX_RECORDING;
+use crate::pixels::{DepthConversion, CameraPixels};
+use crate::recording::{RecordingState, Recording};
+
+/// A camera that is shown frames.
+#[derive(Debug)]
+pub struct LiveCamera {
+    design: Design,
+    engine: Engine,
+    depth: DepthConversion,
+    /// The number of frames so far.
+    frames: u64,
+    /// The time of the last frame in microseconds.
+    last_time_us: u64,
+    recording: Option<Recording>,
+    grey: Vec<u8>,
+    pixels: CameraPixels,
+    input: Vec<u8>,
+    screen: Vec<u8>,
+    regions: Vec<u8>,
+}
+
+/// The number of regions with each action.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct ActionCounts {
+    /// Regions whose pixels are sent.
+    pub forward: u32,
+    /// Regions whose screen stays.
+    pub hold: u32,
+    /// Regions whose screen becomes black.
+    pub blank: u32,
+    /// Regions whose means are sent.
+    pub summarize: u32,
+}
+
+/// What a camera sends of one frame, and the decisions behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct FrameSummary {
+    /// The number of the frame, from 0 on since the camera was configured or reset.
+    pub number: u64,
+    /// The number of active regions.
+    pub active: u32,
+    /// The regions by action.
+    pub actions: ActionCounts,
+    /// The number of bits that are sent, as `foveate simulate` counts them.
+    pub bits: u64,
+    /// The number of regions that were not computed, because nothing had changed in them.
+    pub skipped: usize,
+    /// The number of regions with SRS.
+    pub srs: u32,
+    /// The number of regions with TRS.
+    pub trs: u32,
+    /// The state of the recording, if there is one.
+    pub recording: Option<RecordingState>,
+}
+
+impl LiveCamera {
+    pub(crate) fn new(design: Design) -> Self {
+        let depth = DepthConversion::new(design.pixel_bits());
+        let mut camera = Self {
+            engine: Engine::new(&design),
+            frames: 0,
+            last_time_us: 0,
+            recording: None,
+            grey: Vec::new(),
+            pixels: depth.empty_pixels(),
+            input: Vec::new(),
+            screen: Vec::new(),
+            regions: Vec::new(),
+            depth,
+            design,
+        };
+        camera.engine.set_state_copying(true);
+        camera.clear_frame();
+        camera
+    }
+
+    /// Returns the camera, and the hardware that would compute it.
+    #[must_use]
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// Returns the engine of the camera.
+    #[must_use]
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// Forgets all frames. A recording begins again.
+    pub fn reset(&mut self) {
+        self.engine.reset();
+        self.frames = 0;
+        if let Some(recording) = &mut self.recording {
+            *recording = recording.emptied();
+        }
+        self.clear_frame();
+    }
+
+    /// Makes the screen and the input black and removes all decisions, as before the first frame.
+    fn clear_frame(&mut self) {
+        let pixels = self.design.width() as usize * self.design.height() as usize;
+        for plane in [&mut self.input, &mut self.screen] {
+            plane.clear();
+            plane.resize(pixels, 0);
+        }
+        self.regions.clear();
+        self.regions.resize(self.design.regions() as usize, 0);
+    }
+
+    /// Takes a frame of 8-bit grey, a byte per pixel. `time_us` is the time since the first frame
+    /// in microseconds; without it, there are 30 frames per second.
+    ///
+    /// # Errors
+    /// Fails if the frame does not have the camera's size. Nothing has changed then.
+    pub fn step_grey(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<FrameSummary, WebError> {
+        self.check_length(frame, 1)?;
+        self.grey.clear();
+        self.grey.extend_from_slice(frame);
+        self.step(time_us)
+    }
+
+    /// Takes a frame in colour, four bytes per pixel, as a canvas has it.
+    ///
+    /// # Errors
+    /// Fails if the frame does not have the camera's size. Nothing has changed then.
+    pub fn step_rgba(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<FrameSummary, WebError> {
+        self.check_length(frame, 4)?;
+        self.grey.clear();
+        append_luma_of_rgba(frame, &mut self.grey);
+        self.step(time_us)
+    }
+
+    fn check_length(&self, frame: &[u8], each: usize) -> Result<(), WebError> {
+        let (width, height) = (self.design.width(), self.design.height());
+        let needed = width as usize * height as usize * each;
+        if frame.len() == needed {
+            return Ok(());
+        }
+        Err(WebError::FrameLength { given: frame.len(), needed, each, width, height })
+    }
+
+    /// Shows the engine the frame in `grey`.
+    fn step(&mut self, time_us: Option<u64>) -> Result<FrameSummary, WebError> {
+        let stride = self.design.width() as usize;
+        self.depth.to_camera(&self.grey, &mut self.pixels);
+        match &self.pixels {
+            CameraPixels::Bytes(pixels) => self.engine.step_u8(pixels, stride)?,
+            CameraPixels::Words(pixels) => self.engine.step_u16(pixels, stride)?,
+        };
+        self.depth.to_grey(self.pixels.plane(), &mut self.input);
+        self.depth.to_grey(self.engine.rendered(), &mut self.screen);
+        self.regions.clear();
+        self.regions.extend(self.engine.outcome().region_bytes());
+        let (camera, number, outcome) = (&*self.design, self.frames, self.engine.outcome());
+        self.last_time_us = time_us.unwrap_or((number * 1_000_000 + 15) / 30);
+        if let Some(recording) = &mut self.recording {
+            let moment = EventFrame { camera, number, time_us: self.last_time_us, outcome };
+            recording.push(&moment, MAX_RECORDING);
+        }
+        self.frames += 1;
+        Ok(self.frame_summary())
+    }
+
+    /// Begins to record the results of every frame, for all regions or only for those that send
+    /// something. With `on` false it ends the recording and forgets it.
+    pub fn set_recording(&mut self, on: bool, only_active: bool) {
+        let table = || EventTable::new(&self.design, only_active);
+        self.recording = on.then(|| Recording::new(table()));
+    }
+
+    /// Returns the recording as `events.csv`.
+    ///
+    /// # Errors
+    /// Fails if nothing is recorded.
+    pub fn recorded_events(&self) -> Result<&[u8], WebError> {
+        self.recording.as_ref().map(Recording::csv).ok_or(WebError::NotRecording)
+    }
+
+    /// Explains why the region in column `x` and row `y` of the last frame, called `name`, was sent
+    /// or not.
+    ///
+    /// # Errors
+    /// Fails if there was no frame yet, or if there is no such region.
+    pub fn explain(&self, (x, y): (u32, u32), name: &str) -> Result<RegionExplanation, WebError> {
+        let design = &self.design;
+        let (columns, rows) = (design.columns(), design.rows());
+        if x >= columns || y >= rows {
+            return Err(WebError::NoSuchRegion { x, y, columns, rows });
+        }
+        let shown = self.engine.rendered_before().ok_or(WebError::NoFrameYet)?;
+        let frame = |pixels| {
+            Frame::new(design.width(), design.height(), design.pixel_bits(), pixels)
+                .expect("what an engine holds are frames of its camera")
+        };
+        let remembered = |region| {
+            let RegionStateBefore { reference, summary } = self.engine.region_state_before(region).unwrap_or_default();
+            RegionMemory { reference, summary }
+        };
+        let region = y * columns + x;
+        let mut model = FunctionalCamera::resume(design, &frame(shown.to_words()), remembered)?;
+        let before = model.region_memory(region);
+        let outcome = model.step(&frame(self.pixels.plane().to_words()))?;
+        let moment = explanation::FrameIdentification { number: self.frames - 1, name, t_us: self.last_time_us };
+        Ok(RegionExplanation::from_outcome(design, moment, region, before, outcome))
+    }
+
+    fn frame_summary(&self) -> FrameSummary {
+        let (design, outcome) = (&self.design, self.engine.outcome());
+        let mut actions = ActionCounts::default();
+        for action in &outcome.actions {
+            *match action {
+                RegionAction::Forward => &mut actions.forward,
+                RegionAction::Hold => &mut actions.hold,
+                RegionAction::Blank => &mut actions.blank,
+                RegionAction::Summarize => &mut actions.summarize,
+            } += 1;
+        }
+        let count = |bits: &[bool]| bits.iter().map(|&bit| u32::from(bit)).sum();
+        FrameSummary {
+            number: self.frames - 1,
+            active: count(&outcome.active),
+            actions,
+            bits: design.bits_sent(1, design.values_sent_per_frame(&outcome.actions)),
+            skipped: outcome.skipped,
+            srs: count(&outcome.srs),
+            trs: count(&outcome.trs),
+            recording: self.recording.as_ref().map(Recording::recording_state),
+        }
+    }
+
+    /// Returns the last frame as the camera has seen it, in pixels of P bits; empty before the
+    /// first frame.
+    #[must_use]
+    pub fn pixels(&self) -> FramePixels<'_> {
+        self.pixels.plane()
+    }
+
+    /// Returns the last frame as the camera has seen it, as 8-bit grey.
+    #[must_use]
+    pub fn input(&self) -> &[u8] {
+        &self.input
+    }
+
+    /// Returns the receiver's screen after the last frame, as 8-bit grey.
+    #[must_use]
+    pub fn screen(&self) -> &[u8] {
+        &self.screen
+    }
+
+    /// Returns a byte per region, as [`foveate_engine::FrameOutcome::region_bytes`] packs them.
+    #[must_use]
+    pub fn regions(&self) -> &[u8] {
+        &self.regions
+    }
+
+    /// Returns the scores of a feature, region by region.
+    ///
+    /// # Errors
+    /// Fails if the camera has no such feature.
+    pub fn scores(&self, feature: u32) -> Result<&[u64], WebError> {
+        let scores = &self.engine.outcome().scores;
+        let none = WebError::NoSuchFeature { index: feature, count: scores.len() };
+        scores.get(feature as usize).map(Vec::as_slice).ok_or(none)
+    }
+}
