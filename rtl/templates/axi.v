@@ -72,10 +72,10 @@ module rcm_axi #(
     output wire        s_axi_rvalid,          // the value is on rdata
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RREADY" *)
     input  wire        s_axi_rready,          // the value is taken
-{%- for port in outside %}
+{%- for port in array_ports_outside %}
     {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
-{%- if !outside.is_empty() %}
+{%- if !array_ports_outside.is_empty() %}
     output wire        forget_o,              // the memory outside must forget what was stored, at this edge
 {%- endif %}
     (* X_INTERFACE_INFO = "xilinx.com:signal:interrupt:1.0 interrupt_o INTERRUPT" *)
@@ -102,7 +102,7 @@ module rcm_axi #(
     reg restarting_q;
     wire forget = restarting_q && !busy && idle_video && idle_packets;
     always @(posedge aclk) restarting_q <= !rst && !forget && (restarting_q || restart);
-{%- if !outside.is_empty() %}
+{%- if !array_ports_outside.is_empty() %}
     assign forget_o = forget;
 {%- endif %}
 

@@ -61,7 +61,7 @@ module {= module =} (
 
     // Writes to registers.
     always @(posedge clk_i) begin
-{%- for taken in taken %}
+{%- for taken in taken_thresholds %}
         if (begin_i) {= taken.0 =}_q <= {= taken.1 =};
 {%- endfor %}
 {%- for command in commands %}

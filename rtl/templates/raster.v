@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// {= what =}
+// {= title =}
 //   scores   {= summary =}
 //   words    {= lanes =} pixels, {= pipelining =} pipelining
 //   frame    {= clocks =}

@@ -345,7 +345,7 @@ module rpu (
 
     // Decision.
 {%- for score in scores %}
-    {%- if score.held %}
+    {%- if score.is_held %}
     score_hold #(.WIDTH({= score.width =})) u_{= score.name =}_hold (
         .clk_i(clk_i), .rst_i(rst_i), .load_i(done), .score_i({= score.name =}), .score_o({= score.name =}_o)
     );

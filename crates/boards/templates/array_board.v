@@ -51,7 +51,7 @@ module board (
 {%- for threshold in thresholds %}
     wire {= threshold.range =}written_{= threshold.name =};
     reg {= threshold.range =}{= threshold.name =}_q;
-    always @(posedge clk) if ({= threshold.turn =}_turn || rst) {= threshold.name =}_q <= written_{= threshold.name =};
+    always @(posedge clk) if ({= threshold.turn_signal =}_turn || rst) {= threshold.name =}_q <= written_{= threshold.name =};
 {%- endfor %}
 
     // The array.

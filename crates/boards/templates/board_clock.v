@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// Makes the clock of the core, {= core_mhz =} MHz, from {= mhz =} MHz{= how =}.
+// Makes the clock of the core, {= core_mhz =} MHz, from {= mhz =} MHz{= description =}.
 `default_nettype none
 
 module board_clock (

@@ -64,7 +64,7 @@ seed=1
 while [ "$seed" -le "$seeds" ]; do
     # shellcheck disable=SC2046,SC2086 # words of their own
     run "build/seed$seed.log" "$nextpnr" {= arguments =} --timing-allow-fail --json build/board.json \
-        --seed "$seed" --report "build/seed$seed.json" {= writes =}
+        --seed "$seed" --report "build/seed$seed.json" {= write_arguments =}
     # The last line of each clock is used, because the lines before are not of the routed design. The core and the sensor have
     # separate clocks.
     tac "build/seed$seed.log" | sed -n "s/.*Max frequency for clock *'\([^']*\)': *\([0-9.]*\) MHz.*/\1 \2/p" | awk '!seen[$1]++' >"build/seed$seed.clocks"
@@ -83,7 +83,7 @@ fast=${best:+yes}
 [ -n "$best" ] || best=$(tail -n 1 build/sorted)
 median=$(sed -n "$(((seeds + 1) / 2))p" build/sorted)
 seed=${best##* }
-run build/pack.log "$pack" {= packs =}
+run build/pack.log "$pack" {= pack_arguments =}
 cp "build/seed$seed.json" build/report.json
 echo "$best" >build/packed
 echo "clock of the core: ${best%% *} MHz (seed $seed, packed), median ${median%% *}, worst ${worst%% *} of $seeds seeds; {= core_mhz =} needed"

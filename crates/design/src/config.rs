@@ -26,7 +26,7 @@ impl DesignConfig {
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml`].
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
-        Self::from_toml_with(toml_text, &[] as &[&str])
+        Self::from_toml_with(text, &[] as &[&str])
     }
 
     /// Reads a configuration and applies `overrides`, by the rules of
@@ -35,7 +35,7 @@ impl DesignConfig {
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml_with`].
     pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, ConfigError> {
-        toml_text::read(toml_text, overrides)
+        toml_text::read(text, overrides)
     }
 
     /// Returns the text of the configuration as a TOML file.

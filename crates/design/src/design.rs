@@ -33,7 +33,7 @@ impl Design {
         has_frame_sync: bool,
         thresholds: ThresholdSource,
     ) -> Self {
-        Self { camera, hardware, has_frame_sync: syncs: has_frame_sync, threshold_source: thresholds }
+        Self { camera, hardware, has_frame_sync, threshold_source: thresholds }
     }
 
     /// Returns the camera: what is computed.

@@ -11,7 +11,7 @@ use crate::{banner, latency_text};
 use askama::Template;
 use foveate_design::{
     VoteCombination, FeatureKind, DenoiseFilter, MeanDivision, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming,
-    Pipelining, PortRole, SpatialFeature, VarianceWidths, bits_for, index_bits,
+    Pipelining, PortRole, SpatialFeature, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -247,7 +247,7 @@ fn mad_parameters(feature: &SpatialFeature, mean: &MeanDivision) -> MadParameter
     }
 }
 
-fn variance_widths(feature: &SpatialFeature, widths: &VarianceWidths) -> VarianceWidths {
+fn variance_widths(feature: &SpatialFeature, widths: &foveate_camera::VarianceWidths) -> VarianceWidths {
     VarianceWidths {
         square_bits: widths.square_bits,
         square_sum_bits: widths.square_sum_bits,

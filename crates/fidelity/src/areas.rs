@@ -49,7 +49,7 @@ pub(crate) struct DecisionAreas {
     /// The area that is active in both.
     pub(crate) both: u64,
     /// The area of regions whose summary the candidate sends.
-    #[serde(default, skip_serializing_if = "is_none")]
+    #[serde(default, skip_serializing_if = "is_zero_area")]
     pub(crate) summarized: u64,
 }
 

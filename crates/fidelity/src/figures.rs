@@ -37,7 +37,7 @@ pub struct FidelityFigures {
     pub ideal_active: f64,
     /// The share of the area of regions whose summary the candidate sends; omitted if it sends
     /// none.
-    #[serde(default, skip_serializing_if = "is_none")]
+    #[serde(default, skip_serializing_if = "is_zero_share")]
     pub summarized: f64,
     /// The PSNR of the candidate's screen against the ideal's in dB: `10 log10(peak^2 / mse)` with
     /// the mean squared error of all frames, and the peak 2^P - 1 of the ideal; `None` if the

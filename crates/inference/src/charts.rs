@@ -6,7 +6,7 @@ use crate::LayerSummary;
 use crate::table_columns::NamedTrial;
 use crate::frame::FrameFigures;
 use crate::summary::{InferenceSummary, TuningSummary};
-use foveate_pictures::chart::{Chart, ChartSeries, LineLook, ChartData};
+use foveate_pictures::chart::{Chart, LineLook, ChartData};
 
 /// A chart, and the id of every point of its lines.
 pub(crate) struct ChartWithIds {
@@ -165,7 +165,7 @@ fn chart(file: &str, title: &str, x: &str, y: &str, series: Vec<ChartSeries>) ->
         .into_iter()
         .map(|ChartSeries { name, look, points }| {
             let (ids, points) = points.into_iter().unzip();
-            (ChartSeries { name, points, look }, ids)
+            (foveate_pictures::chart::ChartSeries { name, points, look }, ids)
         })
         .unzip();
     let chart = Chart {

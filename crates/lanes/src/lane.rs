@@ -66,42 +66,42 @@ pub trait PixelLane:
 
 macro_rules! lane {
     ($pixel:ty, signed $signed:ty, sum $sum:ty, square $square:ty) => {
-        impl Lane for $pixel {
+        impl PixelLane for $pixel {
             type Signed = $signed;
-            type Sum = $sum;
-            type Square = $square;
+            type ColumnSum = $sum;
+            type SquareSum = $square;
 
             const ONE: Self = 1;
             const MAX: Self = Self::MAX;
 
             #[inline(always)]
-            fn minus(self, other: Self) -> Self {
+            fn saturating_minus(self, other: Self) -> Self {
                 self.saturating_sub(other)
             }
 
             #[inline(always)]
-            fn plus(self, other: Self) -> Self {
+            fn saturating_plus(self, other: Self) -> Self {
                 self.saturating_add(other)
             }
 
             #[inline(always)]
-            fn distance(self, other: Self) -> Self {
+            fn absolute_difference(self, other: Self) -> Self {
                 self.abs_diff(other)
             }
 
             #[inline(always)]
-            fn square(self) -> Self::Square {
-                Self::Square::from(self) * Self::Square::from(self)
+            fn square(self) -> Self::SquareSum {
+                Self::SquareSum::from(self) * Self::SquareSum::from(self)
             }
 
             #[inline(always)]
-            fn hit(hit: bool) -> Self {
+            fn from_hit(hit: bool) -> Self {
                 Self::from(hit)
             }
 
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation, reason = "there are no higher bits")]
-            fn low(value: u32) -> Self {
+            fn from_low_bits(value: u32) -> Self {
                 value as Self
             }
         }

@@ -131,7 +131,7 @@ pub enum LinkError {
     },
     /// An encoder does not support the frames.
     #[error(
-        "the encoder `{encoder}` does not take `{clip}` of {width}x{height} pixels: {said}; give frames of another size with --resize, or leave `{codec}` out of --codecs"
+        "the encoder `{encoder}` does not take `{clip}` of {width}x{height} pixels: {message}; give frames of another size with --resize, or leave `{codec}` out of --codecs"
     )]
     EncoderRefused {
         /// The name of the encoder.
@@ -148,7 +148,7 @@ pub enum LinkError {
         message: String,
     },
     /// An encoder or decoder lost frames.
-    #[error("{codec} at {quantizer} gave {found} of {expected} frames of `{clip}`; {said}")]
+    #[error("{codec} at {quantizer} gave {found} of {expected} frames of `{clip}`; {message}")]
     LostFrames {
         /// The name of the codec.
         codec: &'static str,

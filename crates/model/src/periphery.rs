@@ -72,8 +72,8 @@ impl ShownSummary {
         level: u32,
     ) -> RegionAction {
         let action = self.action(irrelevant, srs, trs, means, level);
-        self.record_action(region_action, means);
-        region_action
+        self.record_action(action, means);
+        action
     }
 
     /// Returns true if an irrelevant region with these means must send them: the screen shows no
@@ -97,7 +97,7 @@ impl ShownSummary {
 
     /// Records the means that the screen shows after an action.
     fn record_action(&mut self, action: RegionAction, means: &[u16]) {
-        match region_action {
+        match action {
             RegionAction::Forward => self.shown = None,
             RegionAction::Summarize => self.shown = Some(means.to_vec()),
             RegionAction::Hold | RegionAction::Blank => {}

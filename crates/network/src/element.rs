@@ -5,19 +5,19 @@
 macro_rules! with_element_type {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
-            $crate::element::Element::F32 => {
+            $crate::element::ElementType::F32 => {
                 type $number = f32;
                 $body
             }
-            $crate::element::Element::U8 => {
+            $crate::element::ElementType::U8 => {
                 type $number = u8;
                 $body
             }
-            $crate::element::Element::I8 => {
+            $crate::element::ElementType::I8 => {
                 type $number = i8;
                 $body
             }
-            $crate::element::Element::I32 => {
+            $crate::element::ElementType::I32 => {
                 type $number = i32;
                 $body
             }
@@ -29,15 +29,15 @@ macro_rules! with_element_type {
 macro_rules! with_byte_type {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
-            $crate::element::Element::U8 => {
+            $crate::element::ElementType::U8 => {
                 type $number = u8;
                 $body
             }
-            $crate::element::Element::I8 => {
+            $crate::element::ElementType::I8 => {
                 type $number = i8;
                 $body
             }
-            $crate::element::Element::F32 | $crate::element::Element::I32 => {
+            $crate::element::ElementType::F32 | $crate::element::ElementType::I32 => {
                 unreachable!("a network's encodings are checked when it is read")
             }
         }

@@ -65,16 +65,16 @@ pub(crate) trait ByteNumber: TensorNumber + Into<i32> + Into<f32> {
 /// Implements access to the stored values of a type.
 macro_rules! stored_access {
     ($variant:ident) => {
-        fn of(values: &Values) -> &[Self] {
+        fn slice_of(values: &TensorValues) -> &[Self] {
             match values {
-                Values::$variant(values) => values,
+                TensorValues::$variant(values) => values,
                 _ => unreachable!("a network's encodings are checked when it is read"),
             }
         }
 
-        fn of_mut(values: &mut Values) -> &mut [Self] {
+        fn slice_of_mut(values: &mut TensorValues) -> &mut [Self] {
             match values {
-                Values::$variant(values) => values,
+                TensorValues::$variant(values) => values,
                 _ => unreachable!("a network's encodings are checked when it is read"),
             }
         }
@@ -124,9 +124,9 @@ impl TensorNumber for i32 {
 
 macro_rules! byte_number {
     ($number:ident, $variant:ident) => {
-        impl Number for $number {
+        impl TensorNumber for $number {
             const LOWEST: Self = Self::MIN;
-            stored!($variant);
+            stored_access!($variant);
 
             #[inline(always)]
             fn distance(self, other: Self) -> f32 {
@@ -134,24 +134,24 @@ macro_rules! byte_number {
             }
 
             #[inline(always)]
-            fn float(self) -> f32 {
+            fn to_f32(self) -> f32 {
                 self.into()
             }
         }
 
-        impl Byte for $number {
+        impl ByteNumber for $number {
             #[allow(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
                 reason = "it has been clamped"
             )]
             #[inline(always)]
-            fn saturated(value: i32) -> Self {
+            fn from_saturated(value: i32) -> Self {
                 value.clamp(Self::MIN.into(), Self::MAX.into()) as Self
             }
 
             #[inline(always)]
-            fn index(self) -> usize {
+            fn table_index(self) -> usize {
                 usize::from(self.abs_diff(Self::MIN))
             }
         }

@@ -39,7 +39,7 @@ pub fn append_row(
     row: u32,
     decisions: &[RegionDecision],
 ) -> Result<(), PacketError> {
-    let head = PacketFields::of_row(ROW_TYPE, layout, append_row)?;
+    let head = PacketFields::of_row(ROW_TYPE, layout, row)?;
     check_count("ROW", "decisions", decisions.len(), layout.info().columns.into())?;
     let bits = layout.decision_bits();
     append_packet(out, head, layout.row_bytes() / WORD_BYTES, number, |out| {
@@ -65,12 +65,12 @@ pub fn append_scores<S: IntoIterator<Item = u64>>(
     row: u32,
     regions: impl Iterator<Item = S>,
 ) -> Result<(), PacketError> {
-    let head = PacketFields::of_row(SCORES_TYPE, layout, append_row)?;
+    let head = PacketFields::of_row(SCORES_TYPE, layout, row)?;
     let info = layout.info();
     let columns = if info.has_scores { info.columns.into() } else { 0 };
     let (mut regions, mut records, mut found) = (regions, Vec::new(), 0);
     for region in regions.by_ref().take(columns) {
-        append_record(&mut records, layout, append_region)?;
+        append_record(&mut records, layout, region)?;
         found += 1;
     }
     check_count("SCORES", "records", found + regions.count(), columns)?;
@@ -85,14 +85,14 @@ fn append_record(
     region: impl IntoIterator<Item = u64>,
 ) -> Result<(), PacketError> {
     let (start, right) = (records.len(), layout.score_fields().count());
-    let (mut region, mut found) = (append_region.into_iter(), 0);
-    for ((most, bytes), value) in layout.score_fields().zip(append_region.by_ref().take(right)) {
+    let (mut region, mut found) = (region.into_iter(), 0);
+    for ((most, bytes), value) in layout.score_fields().zip(region.by_ref().take(right)) {
         let value = checked_field("score", value, 0..=most)?;
         records.resize(start + (records.len() - start).next_multiple_of(bytes), 0);
         records.extend(value.to_le_bytes().iter().take(bytes));
         found += 1;
     }
-    check_count("SCORES", "numbers of a region", found + append_region.count(), right)?;
+    check_count("SCORES", "numbers of a region", found + region.count(), right)?;
     records.resize(start + layout.record_bytes(), 0);
     Ok(())
 }
@@ -109,7 +109,7 @@ pub fn append_region(
     (row, column): (u32, u32),
     (flags, values): (RegionFlags, &[u16]),
 ) -> Result<(), PacketError> {
-    let row = checked_index("row", append_row, layout.rows())?;
+    let row = checked_index("row", row, layout.rows())?;
     let column = checked_index("column", column, layout.columns())?;
     let raw = u64::from(layout.info().raw);
     checked_field("raw flag", flags.raw.into(), raw..=raw)?;
@@ -119,7 +119,7 @@ pub fn append_region(
     if let Some(&value) = values.iter().find(|&&value| value > most) {
         checked_field("value", value.into(), 0..=most.into())?;
     }
-    let head = PacketFields { kind: REGION_TYPE, flags: flags.bits(), append_row, column };
+    let head = PacketFields { kind: REGION_TYPE, flags: flags.bits(), row, column };
     let words = layout.region_bytes(flags.summary) / WORD_BYTES;
     append_packet(out, head, words, number, |out| match layout.value_bytes() {
         1 => out.extend(values.iter().map(|value| value.to_le_bytes()[0])),
@@ -133,11 +133,11 @@ pub fn append_region(
 /// # Errors
 /// Fails if the number of dropped rows does not fit into its field.
 pub fn append_end(out: &mut Vec<u8>, number: u32, end: EndPacket) -> Result<(), PacketError> {
-    let dropped = append_end.regions_dropped > 0 || append_end.rows_dropped > 0;
-    let row = checked_u16("dropped rows", append_end.rows_dropped.into())?;
-    let head = PacketFields { kind: END_TYPE, flags: dropped.into(), append_row, column: 0 };
+    let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
+    let row = checked_u16("dropped rows", end.rows_dropped.into())?;
+    let head = PacketFields { kind: END_TYPE, flags: dropped.into(), row, column: 0 };
     append_packet(out, head, END_WORDS, number, |out| {
-        let counts = u64::from(append_end.regions_sent) | u64::from(append_end.regions_dropped) << 32;
+        let counts = u64::from(end.regions_sent) | u64::from(end.regions_dropped) << 32;
         out.extend(counts.to_le_bytes());
     });
     Ok(())
@@ -145,9 +145,9 @@ pub fn append_end(out: &mut Vec<u8>, number: u32, end: EndPacket) -> Result<(), 
 
 /// Appends a REGISTER, which belongs to no frame.
 pub fn append_register(out: &mut Vec<u8>, register: RegisterPacket) {
-    let flags = append_register.is_write.into();
-    let head = PacketFields { kind: REGISTER_TYPE, flags, row: append_register.address, column: 0 };
-    append_packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(append_register.value).to_le_bytes()));
+    let flags = register.is_write.into();
+    let head = PacketFields { kind: REGISTER_TYPE, flags, row: register.address, column: 0 };
+    append_packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
 }
 
 /// The fields of a packet's first word, except for its length.
@@ -162,8 +162,8 @@ struct PacketFields {
 impl PacketFields {
     /// Makes the fields of a packet about a row of regions.
     fn of_row(kind: u8, layout: &PacketLayout, row: u32) -> Result<Self, PacketError> {
-        let row = checked_index("row", append_row, layout.rows())?;
-        Ok(Self { kind, flags: 0, append_row, column: layout.info().columns })
+        let row = checked_index("row", row, layout.rows())?;
+        Ok(Self { kind, flags: 0, row, column: layout.info().columns })
     }
 }
 

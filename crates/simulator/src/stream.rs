@@ -9,7 +9,7 @@ use foveate_design::{DesignConfig, Design};
 use foveate_engine::{FrameOutcome, Receiver};
 use foveate_frame::{FramePixels, ByteFrame};
 use foveate_packets::{
-    FrameAssembler, RegionContent, StreamItem, FrameClock, FrameInfo, PacketLayout, StreamLoss, Packet, PacketError,
+    FrameAssembler, RegionContent, FrameClock, FrameInfo, PacketLayout, StreamLoss, Packet, PacketError,
     ReceivedFrame, RegisterPacket, PacketSplitter,
 };
 
@@ -110,7 +110,7 @@ impl PacketStream {
                 return Ok(Some(found));
             }
             match self.splitter.next(self.decoder.as_ref().map(|run| run.assembler.layout())) {
-                StreamItem::Pending => match self.decoder.as_mut().filter(|_| self.is_complete) {
+                foveate_packets::StreamItem::Pending => match self.decoder.as_mut().filter(|_| self.is_complete) {
                     Some(run) => match run.assembler.end_frame() {
                         Some(last) => run.add_frames([Some(last)], &mut self.items)?,
                         None => return Ok(None),
@@ -119,14 +119,14 @@ impl PacketStream {
                 },
                 // The lengths of another camera's packets are not known, so skipped bytes are not a
                 // loss.
-                StreamItem::Skipped { .. } if self.is_refused => {}
-                StreamItem::Skipped { offset, bytes } => {
+                foveate_packets::StreamItem::Skipped { .. } if self.is_refused => {}
+                foveate_packets::StreamItem::Skipped { offset, bytes } => {
                     return Ok(Some(StreamItem::Loss(StreamLoss::Bytes { offset, bytes })));
                 }
-                StreamItem::Packet { packet: Packet::Register(register), .. } => {
+                foveate_packets::StreamItem::Packet { packet: Packet::Register(register), .. } => {
                     return Ok(Some(StreamItem::Register(register)));
                 }
-                StreamItem::Packet { frame, packet } => {
+                foveate_packets::StreamItem::Packet { frame, packet } => {
                     let is_frame = matches!(packet, Packet::Frame(_));
                     if self.is_refused && !is_frame {
                         continue;

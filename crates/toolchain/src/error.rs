@@ -58,7 +58,7 @@ pub enum ToolError {
 
     /// The tool ran, but did not report its version.
     #[error(
-        "`{}` does not report a version of {tool}; it prints: {said}. Set {} to a working {tool}",
+        "`{}` does not report a version of {tool}; it prints: {output}. Set {} to a working {tool}",
         path.display(),
         tool.variable()
     )]

@@ -101,12 +101,12 @@ pub fn escape_hidden(text: &str) -> Cow<'_, str> {
     let mut shown = String::new();
     for letter in text.chars() {
         if is_hidden(letter) {
-            message_excerpt.extend(letter.escape_default());
+            shown.extend(letter.escape_default());
         } else {
-            message_excerpt.push(letter);
+            shown.push(letter);
         }
     }
-    message_excerpt.into()
+    shown.into()
 }
 
 #[cfg(test)]

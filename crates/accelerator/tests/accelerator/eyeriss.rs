@@ -11,13 +11,13 @@ use foveate_accelerator::Layer;
 #[test]
 fn the_page_shows_the_table() {
     let page = include_str!("../../../../docs/accelerators.md");
-    let table = table::totals().unwrap();
+    let table = table::totals_table().unwrap();
     assert!(page.contains(&table), "docs/accelerators.md should hold this table:\n{table}");
 }
 
 #[test]
 fn every_figure_is_right_in_magnitude() {
-    let table = table::totals().unwrap();
+    let table = table::totals_table().unwrap();
     for row in table.lines().skip(2) {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
         for ratio in [cells[5], cells[7]] {
@@ -45,5 +45,5 @@ fn the_networks_have_the_published_sizes() {
         near(sum(Layer::macs) / network.images, macs);
         near(sum(Layer::weights), weights);
     }
-    assert_eq!(table::layers().unwrap().lines().count(), 2 + 5 + 13);
+    assert_eq!(table::layers_table().unwrap().lines().count(), 2 + 5 + 13);
 }

@@ -7,7 +7,7 @@ mod table;
 #[test]
 fn the_data_are_the_table() {
     let data = include_str!("../../../../docs/data/accelerators-masked.csv");
-    let table = table::shares().unwrap();
+    let table = table::shares_table().unwrap();
     let cells = |row: &str| row.trim_matches(['|', ' ']).replace(" | ", ",");
     let heading =
         |row: &str| cells(row).to_lowercase().replace(", %", "_percent").replace(' ', "_");

@@ -187,7 +187,7 @@ fn timed_bytes(commands: &[(u32, Vec<u8>)]) -> Vec<(u32, u8)> {
 
 fn address(project: &BoardProject, name: &str) -> u16 {
     let registers = axi_registers(project.design.as_raster().unwrap());
-    let found = axi_registers.iter().find(|register| register.name == name);
+    let found = registers.iter().find(|register| register.name == name);
     u16::try_from(found.unwrap_or_else(|| panic!("no register {name}")).address).unwrap()
 }
 

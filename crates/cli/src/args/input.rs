@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foveate_footage::{
-    CropRect, FrameRate, ImageRelation, InputOptions, MAX_SIDE, FrameSelection, advice, parse_time,
+    CropRect, FrameRate, ImageRelation, InputOptions, MAX_SIDE, FrameSelection, input_warnings, parse_time,
 };
 
 use super::at_least_one;

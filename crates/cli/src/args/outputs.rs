@@ -3,7 +3,7 @@
 
 use clap::{Args, ValueEnum};
 use foveate_design::Decimal;
-use foveate_simulator::{EventTableOptions, PictureFormat, PacketContent, PixelEventOptions, RunOptions};
+use foveate_simulator::{EventTableOptions, PixelEventOptions, RunOptions};
 
 /// The options for what `simulate` and `decode` write in addition to arrays, frames.csv and
 /// summary.json.
@@ -112,8 +112,8 @@ impl OutputArgs {
                 is_logarithmic: self.log,
             },
             packets: self.packets.map(|content| match content {
-                PacketContent::Plain => PacketContent::Plain,
-                PacketContent::Scores => PacketContent::WithScores,
+                PacketContent::Plain => foveate_simulator::PacketContent::Plain,
+                PacketContent::Scores => foveate_simulator::PacketContent::WithScores,
             }),
             ..self.view.options()
         }
@@ -124,16 +124,16 @@ impl ReceiverOutputArgs {
     /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         let medium = |pictures| match pictures {
-            PictureFormat::Png => PictureFormat::Png,
-            PictureFormat::Mkv => PictureFormat::Mkv,
-            PictureFormat::Mp4 => PictureFormat::Mp4,
+            PictureFormat::Png => foveate_simulator::PictureFormat::Png,
+            PictureFormat::Mkv => foveate_simulator::PictureFormat::Mkv,
+            PictureFormat::Mp4 => foveate_simulator::PictureFormat::Mp4,
         };
         let rendered = match self.rendered {
             _ if self.no_rendered => None,
             RenderedFormat::None => None,
-            RenderedFormat::Png => Some(PictureFormat::Png),
-            RenderedFormat::Mkv => Some(PictureFormat::Mkv),
-            RenderedFormat::Mp4 => Some(PictureFormat::Mp4),
+            RenderedFormat::Png => Some(foveate_simulator::PictureFormat::Png),
+            RenderedFormat::Mkv => Some(foveate_simulator::PictureFormat::Mkv),
+            RenderedFormat::Mp4 => Some(foveate_simulator::PictureFormat::Mp4),
         };
         RunOptions {
             rendered,

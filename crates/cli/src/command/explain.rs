@@ -2,7 +2,7 @@
 //! `foveate explain`: why a region was sent or dropped.
 
 use foveate_footage::{ImageRelation, open};
-use foveate_simulator::explain;
+use foveate_simulator::explain_region;
 
 use crate::args::{ExplainArgs, warn_about_inputs};
 use crate::error::CliError;

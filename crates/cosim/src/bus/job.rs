@@ -144,7 +144,7 @@ impl BusJob {
         let missed = StaleThreshold::all_of(&all);
         let others: Vec<_> = others.iter().filter_map(Design::as_raster).map(axi_registers).collect();
         let registers = axi_registers(design);
-        let scenes = self.scenes(design, &axi_registers, &others);
+        let scenes = self.scenes(design, &registers, &others);
         let vectors = start.elapsed();
         if scenes.is_empty() {
             return Err(CosimError::NothingToSimulate);
@@ -157,7 +157,7 @@ impl BusJob {
         let build = start.elapsed();
 
         let start = Instant::now();
-        let checker = BusChecker::new(design, &cameras, &axi_registers, &missed);
+        let checker = BusChecker::new(design, &cameras, &registers, &missed);
         let BusOutcome { clocks, agreement: agreed, facts, mismatch, replay } =
             self.play_all(&built, &scenes, &checker, toolchain)?;
         // A caller that asks for frames alone does not ask for situations.
@@ -204,10 +204,10 @@ impl BusJob {
         let mut scenes = Vec::new();
         for round in 0..u64::from(self.rounds) {
             let seed = self.seed.wrapping_add(round << 32);
-            scenes.extend(SceneBuilder::new(design, axi_registers, others, seed).scenes());
+            scenes.extend(SceneBuilder::new(design, registers, others, seed).scenes());
         }
         if !self.frames.is_empty() {
-            let mut stage = SceneBuilder::new(design, axi_registers, others, self.seed);
+            let mut stage = SceneBuilder::new(design, registers, others, self.seed);
             scenes.push((FRAMES_SCENE, stage.caller_frames(&self.frames)));
         }
         scenes

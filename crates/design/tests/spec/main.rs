@@ -5,7 +5,7 @@
 mod configuration;
 mod depth;
 mod fuzz;
-#[path = "../../../boards/tests/boards/hostile.rs"]
+#[path = "../../../boards/tests/boards/hostile_texts.rs"]
 #[allow(dead_code, reason = "files of boards need more of it")]
 mod hostile;
 mod interface;

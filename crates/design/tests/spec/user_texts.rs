@@ -6,7 +6,7 @@ use foveate_camera::toml_text::TomlConfig;
 use foveate_design::{DesignConfig, ConfigError, Preset};
 use toml::{Table, Value};
 
-use crate::hostile::{Schema, key, texts};
+use crate::hostile::{TextPlaces, key_name, texts};
 
 /// The test puts hostile texts into every key and into every value of several presets.
 #[test]
@@ -37,10 +37,10 @@ fn no_text_of_a_configuration_is_taken() {
                 .parse()
                 .unwrap();
             let complaint = |table: &Table| problem(DesignConfig::from_toml(&table.to_string()));
-            let schema = Schema { base, complaint: &complaint };
+            let schema = TextPlaces { base, complaint: &complaint };
             for place in schema.places() {
-                let table = schema.with(&place, Value::String(text.clone()));
-                refused(complaint(&table), key(&place));
+                let table = schema.with_value(&place, Value::String(text.clone()));
+                refused(complaint(&table), key_name(&place));
             }
         }
     }

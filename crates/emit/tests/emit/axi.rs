@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::common::{design, every_design, every_design_on_a_bus, has_tclsh, covering_pairs};
 use foveate_design::Hardware;
-use foveate_emit::{AXI_TOP, FieldKind, Prefix, SourceFile, array_table, core, axi_modules, axi_registers};
+use foveate_emit::{AXI_TOP, FieldKind, Prefix, SourceFile, array_table, core_files, axi_modules, axi_registers};
 use foveate_toolchain::testing::{sampling_step, require_tools};
 use foveate_toolchain::{Source, Tool, Toolchain, verilator};
 use rayon::prelude::*;

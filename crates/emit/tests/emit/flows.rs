@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{design, every_design_on_a_bus, has_tclsh, covering_pairs};
-use foveate_emit::{Prefix, SourceFile, core};
+use foveate_emit::{Prefix, SourceFile, core_files};
 
 /// Returns a core of each organization and the selected cores on AXI, each with the module that
 /// goes into a chip and its clock.

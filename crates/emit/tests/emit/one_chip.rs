@@ -9,7 +9,7 @@ use std::process::Command;
 
 use crate::common::design;
 use foveate_design::{Design, PortDirection, PortRole};
-use foveate_emit::{Prefix, SourceFile, Top, core};
+use foveate_emit::{Prefix, SourceFile, Top, core_files};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 

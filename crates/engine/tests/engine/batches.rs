@@ -133,7 +133,7 @@ proptest! {
         camera in cameras(),
         (seed, script) in scripts(),
         calls in calls(),
-        skip in any::<bool>(),
+        skips_identical_regions in any::<bool>(),
         level in proptest::sample::select(InstructionSet::available()),
         gap in 0usize..4,
     ) {

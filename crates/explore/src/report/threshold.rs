@@ -49,7 +49,7 @@ fn plot(settings: &PointSettings, rows: &[&DesignRow], titles: &[String], axis: 
     }
     points().next()?;
     let active = |row: &DesignRow| 100.0 * row.figures.active;
-    let threshold = settings.ideal_value(axis).and_then(|text| coordinate_text.parse::<f64>().ok());
+    let threshold = settings.ideal_value(axis).and_then(|text| text.parse::<f64>().ok());
     let xs = points().map(|(x, _, _)| *x).chain(threshold);
     let ys = points().map(|(_, row, _)| active(row)).chain(ideals.iter().copied());
     let field = PlotAxes { x: PlotAxis::with_free_start(xs), y: PlotAxis::starting_at_zero(ys) };
@@ -107,7 +107,7 @@ fn threshold_lines<'a>(settings: &PointSettings, rows: &[&'a DesignRow], axis: u
     for (index, row) in rows.iter().enumerate() {
         let Ok(x) = settings.value(row, axis).parse::<f64>() else { continue };
         let others = row.settings.iter().enumerate().filter(|(other, _)| *other != axis);
-        let others: Vec<&str> = others.map(|(_, text)| coordinate_text.as_str()).collect();
+        let others: Vec<&str> = others.map(|(_, text)| text.as_str()).collect();
         let new = || {
             let set = || axes_set(row).filter(|other| *other != axis);
             let as_ideal = |other: &usize| {

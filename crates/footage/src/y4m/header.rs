@@ -43,7 +43,7 @@ impl Y4mHeader {
                 "W" => width = Some(parse_side(value)?),
                 "H" => height = Some(parse_side(value)?),
                 "C" => colour = value,
-                "F" => rate = self::parse_rate(value),
+                "F" => rate = parse_rate(value),
                 _ => {}
             }
         }

@@ -92,7 +92,7 @@ impl SpatialExplanation {
         Self {
             feature: feature.kind(),
             level: feature.level(),
-            hits: region_hits.map(|hits| rows(camera, &region_hits)),
+            hits: hits.map(|hits| rows(camera, &hits)),
             mean,
             score,
             min_score: feature.min_score(),
@@ -131,7 +131,7 @@ impl TemporalExplanation {
             against: temporal.reference.name(),
             reference: reference.map(|pixels| rows(camera, &pixels)),
             level: temporal.level,
-            hits: rows(camera, &region_hits),
+            hits: rows(camera, &hits),
             count: outcome.temporal_count[region as usize],
             min_count: temporal.min_count,
         }

@@ -51,7 +51,7 @@ fn runs_of_chunks(chunks: &[PositionChunk], width: usize) -> impl Iterator<Item 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::chunks;
+    use crate::kernel::chunks::chunks_of_mask;
     use crate::mask::Mask;
 
     #[test]

@@ -85,7 +85,7 @@ fn split_by_channels<'a, T>(
 mod tests {
     use super::*;
     use crate::tensor_form::TensorForm;
-    use crate::kernel::{BlockSizes, chunks};
+    use crate::kernel::{BlockSizes, chunks::chunks_of_mask};
     use crate::mask::Mask;
     use foveate_lanes::InstructionSet;
 

@@ -46,11 +46,11 @@ pub(crate) trait SumOutput: TensorNumber {
 
 macro_rules! byte_of_sum {
     ($number:ident) => {
-        impl Outcome for $number {
+        impl SumOutput for $number {
             #[allow(clippy::cast_precision_loss, reason = "requantization is in floating point")]
             #[inline(always)]
-            fn of_sum(sum: i32, factor: f32, zero: i32) -> Self {
-                rounded(sum as f32 * factor, zero)
+            fn from_sum(sum: i32, factor: f32, zero: i32) -> Self {
+                quantize_steps(sum as f32 * factor, zero)
             }
         }
     };

@@ -8,7 +8,7 @@ use super::constant_selection::broadcast_constant;
 use crate::onnx::data_type;
 use crate::operator::{Activation, broadcast_shape};
 
-type FoldResult<T> = std::result::Result<T, String>;
+type FoldResult<T> = Result<T, String>;
 
 /// Applies a function of one value to a constant, or returns `None` if the operator is not known.
 pub(super) fn unary_operation(kind: &str, from: &Constant) -> FoldResult<Option<Constant>> {

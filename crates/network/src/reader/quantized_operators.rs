@@ -19,7 +19,7 @@ use crate::operator::{
 use crate::tensor::Tensor;
 use foveate_lanes::InstructionSet;
 
-type QuantizedResult<T> = std::result::Result<T, String>;
+type QuantizedResult<T> = Result<T, String>;
 
 pub(super) fn quantize(node: &NodeReader<'_>) -> QuantizedResult<Vec<NodeOutput>> {
     let (scales, to) = node.quantization()?;

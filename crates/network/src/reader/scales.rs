@@ -9,7 +9,7 @@ use crate::onnx::data_type;
 use crate::operator::{ByteWeightRows, QuantizationScales};
 use std::borrow::Cow;
 
-type ScaleResult<T> = std::result::Result<T, String>;
+type ScaleResult<T> = Result<T, String>;
 
 impl NodeReader<'_> {
     /// Returns the scales at an input, which must be positive. There must be one or `count`;

@@ -25,7 +25,7 @@ impl Default for OutputDistance {
     fn default() -> Self {
         let [largest, difference, right, found, product] = [0.0; 5];
         let (lowest, highest) = (f64::INFINITY, f64::NEG_INFINITY);
-        Self { index_of_largest, squared_difference: difference, right_squares: right, found_squares: found, products: product, lowest, highest, values: 0 }
+        Self { largest, squared_difference: difference, right_squares: right, found_squares: found, products: product, lowest, highest, values: 0 }
     }
 }
 

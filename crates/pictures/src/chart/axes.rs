@@ -42,7 +42,7 @@ pub(crate) fn draw_linear_axes<'a, DB: DrawingBackend>(
     chart: &Chart,
     lines: &[ChartSeries],
     area: &'a DrawingArea<DB, Shift>,
-) -> std::result::Result<AxesContext<'a, DB, RangedCoordf64>, DrawingAreaErrorKind<DB::ErrorType>> {
+) -> Result<AxesContext<'a, DB, RangedCoordf64>, DrawingAreaErrorKind<DB::ErrorType>> {
     let points = || lines.iter().flat_map(|line| line.points.iter().copied());
     let last = points().map(|point| point.0).fold(0.0, f64::max);
     let last = if last > 0.0 { last } else { 1.0 };

@@ -26,7 +26,7 @@ pub(crate) struct ChartCanvas<'a> {
     pub(crate) font: FontRef<'static>,
 }
 
-type CanvasResult = std::result::Result<(), DrawingErrorKind<Infallible>>;
+type CanvasResult = Result<(), DrawingErrorKind<Infallible>>;
 
 impl DrawingBackend for ChartCanvas<'_> {
     type ErrorType = Infallible;

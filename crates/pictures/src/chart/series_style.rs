@@ -12,7 +12,7 @@ pub(crate) const SECONDARY: RGBColor = rgb(LIGHT.secondary);
 pub(crate) const GRID: RGBColor = rgb(LIGHT.grid);
 
 pub(crate) type DrawResult<DB> =
-    std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+    Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 /// The style that distinguishes a line from the others.
 #[derive(Clone, Copy)]

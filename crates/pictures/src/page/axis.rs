@@ -133,7 +133,7 @@ impl PlotAxis {
         let slack = (self.high - self.low) * 1e-6;
         let values = values.into_iter().filter(|value| *value <= self.high + slack);
         let tick = |value: f64| Some(AxisTick { position: self.position(value)?, label: tick_label(value) });
-        values.filter_map(tick_label).collect()
+        values.filter_map(tick).collect()
     }
 }
 
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     fn labels(axis: PlotAxis) -> Vec<String> {
-        axis.ticks().into_iter().map(|tick| tick_label.label).collect()
+        axis.ticks().into_iter().map(|tick| tick.label).collect()
     }
 
     #[test]

@@ -6,7 +6,7 @@ use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
-use foveate_simulator::{RegionExplanation, SimulatorError, explain};
+use foveate_simulator::{RegionExplanation, SimulatorError, explain_region};
 
 const FOUR: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90}]"#;
 

@@ -6,7 +6,7 @@ use std::fs;
 use crate::support::{NpyArray, STREET, design, outcomes, street};
 use foveate_design::RegionAction;
 use foveate_footage::{InputOptions, open};
-use foveate_simulator::{EventTableOptions, RunOptions, explain};
+use foveate_simulator::{EventTableOptions, RunOptions, explain_region};
 
 /// Returns the configuration of the ragged street with edges alone, so that many regions are
 /// irrelevant.

@@ -69,7 +69,7 @@ fn registers_are_read_and_thresholds_written() {
     for (address, value) in
         [(0x100, 1 << 32), (0x104, 70_000), (0x34, 0), (0x20, 8), (0x1000, 1), (0x200, 1), (0, 1)]
     {
-        let refused = packet_writer(view.link(), address, value);
+        let refused = write(view.link(), address, value);
         assert_eq!(refused.status, 409, "{address:#x}: {}", String::from_utf8_lossy(&refused.body));
     }
     let written: Vec<RegisterPacket> = commands.try_iter().filter(|asked| asked.is_write).collect();

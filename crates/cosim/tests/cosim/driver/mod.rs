@@ -201,8 +201,8 @@ fn check_screen(design: &Design, changed: &Design, fault: DriverFault) -> Result
             .output()
             .unwrap();
         simulation.wait().unwrap();
-        let said = String::from_utf8_lossy(&axi_software.stderr);
-        if !axi_software.status.success() {
+        let said = String::from_utf8_lossy(&software.stderr);
+        if !software.status.success() {
             return Err(format!("{width}: {said}"));
         }
         let shown = fs::read(&screen).unwrap();

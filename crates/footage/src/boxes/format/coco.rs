@@ -19,9 +19,9 @@ use foveate_frame::Rect;
 
 #[derive(Deserialize)]
 struct CocoDocument {
-    #[serde(deserialize_with = "limited")]
+    #[serde(deserialize_with = "deserialize_limited")]
     images: Vec<CocoImage>,
-    #[serde(deserialize_with = "limited")]
+    #[serde(deserialize_with = "deserialize_limited")]
     annotations: Vec<CocoAnnotation>,
 }
 
