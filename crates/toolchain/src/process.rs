@@ -79,7 +79,7 @@ fn was_signalled_to_stop(status: ExitStatus) -> bool {
 }
 
 #[cfg(not(unix))]
-fn asked_to_stop(_: ExitStatus) -> bool {
+fn was_signalled_to_stop(_: ExitStatus) -> bool {
     false
 }
 

@@ -84,7 +84,7 @@ impl ProcessFamily {
     #[cfg(not(unix))]
     fn kill(&mut self) {
         // An error can only mean that the process has already ended.
-        let _ = self.head.kill();
+        let _ = self.leader.kill();
     }
 }
 
@@ -111,7 +111,7 @@ fn kill(head: u32) {
 }
 
 #[cfg(not(unix))]
-fn set_apart(_: &mut Command) {}
+fn set_process_group(_: &mut Command) {}
 
 /// Does nothing, because other systems cannot end a process by its number alone.
 #[cfg(not(unix))]

@@ -235,7 +235,7 @@ fn enlarge_pipe(pipe: &impl std::os::fd::AsFd) {
 
 /// Does nothing: the size of a pipe is changed only on Linux.
 #[cfg(not(target_os = "linux"))]
-fn widen<T>(_: &T) {}
+fn enlarge_pipe<T>(_: &T) {}
 
 /// Makes writes return at once if the pipe is full. The other side has its own file description and
 /// is unaffected.
@@ -252,7 +252,7 @@ fn wait_for_room(pipe: &ChildStdin, interrupt: &Interrupt) -> io::Result<()> {
 
 /// Does nothing: on other systems a write waits until it is done.
 #[cfg(not(unix))]
-fn never_wait(_: &ChildStdin) -> io::Result<()> {
+fn set_nonblocking(_: &ChildStdin) -> io::Result<()> {
     Ok(())
 }
 

@@ -97,6 +97,6 @@ fn is_same_folder(a: &fs::Metadata, b: &fs::Metadata) -> bool {
 
 /// Returns true, because other systems do not lock folders.
 #[cfg(not(unix))]
-fn same(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+fn is_same_folder(_: &fs::Metadata, _: &fs::Metadata) -> bool {
     true
 }
