@@ -41,6 +41,7 @@ pub struct BenchmarkReport {
     pub frames: u64,
     /// The number of frames that the levels with clocks take: the same frames, with the last one
     /// repeated until all outputs have left.
+    #[serde(rename = "streamed")]
     pub streamed_frames: u64,
     /// The number of clocks for these frames.
     pub clocks: u64,
@@ -82,6 +83,7 @@ pub struct LevelMeasurement {
     /// The build was found in the cache, so its seconds mean nothing.
     pub is_cached: bool,
     /// The level with which this level was compared.
+    #[serde(rename = "same_as")]
     pub compared_with: Option<BenchmarkLevel>,
     /// The number of values that were compared.
     pub compared: u64,
@@ -96,7 +98,7 @@ pub struct LevelMeasurement {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub files_clocks_per_second: Option<f64>,
     /// The share of the time for unpacking the inputs, 0 to 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "unpacking", skip_serializing_if = "Option::is_none")]
     pub unpacking_share: Option<f64>,
 }
 

@@ -152,6 +152,7 @@ pub struct BoardLeds {
     /// The I/O standard, if the tool needs it.
     pub standard: Option<String>,
     /// The level that lights an LED.
+    #[serde(rename = "lit")]
     pub lit_level: LogicLevel,
 }
 

@@ -25,6 +25,7 @@ pub struct DesignArea {
     /// around the core.
     pub array: Area,
     /// The number of logic levels of the longest path.
+    #[serde(rename = "levels")]
     pub logic_levels: u32,
 }
 

@@ -25,6 +25,7 @@ use crate::{ExploreError, ExploreHooks, ExploreRequest};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorkUnit {
     /// The name of the unit: a hash of everything that its results depend on.
+    #[serde(rename = "unit")]
     pub name: String,
     /// The name of the clip.
     pub clip: String,

@@ -11,12 +11,14 @@ use std::ops::AddAssign;
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Macs {
     /// The MACs of a whole computation.
+    #[serde(rename = "dense")]
     pub whole_frame: f64,
     /// The MACs of the positions whose windows hold a change.
     pub needed: f64,
     /// The MACs of the positions that were computed, in whole blocks.
     pub scheduled: f64,
     /// The MACs of the positions that a whole computation computes, in the same blocks.
+    #[serde(rename = "whole")]
     pub whole_blocks: f64,
 }
 

@@ -73,6 +73,7 @@ pub struct SenderReport {
     /// The result of the search for a codec's quantizer. `equal` is the coarsest quantizer that is
     /// good enough; `finest` did not reach the quality of the region camera; `coarsest` is still
     /// better.
+    #[serde(rename = "found")]
     pub search_result: Option<&'static str>,
     /// The quality of the receiver's frames; `None` for a sender without frames.
     pub quality: Option<Quality>,
@@ -86,6 +87,7 @@ pub struct CurvePoint {
     /// The name of the sender.
     pub sender: &'static str,
     /// The setting that differs from point to point: a key of the design, or the quantizer.
+    #[serde(rename = "knob")]
     pub setting: &'static str,
     /// The value of the setting.
     pub value: u64,

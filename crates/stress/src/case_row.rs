@@ -17,6 +17,7 @@ pub struct CaseRow {
     /// The worst error, in the unit of the expected result.
     pub worst: String,
     /// The observed result is as expected.
+    #[serde(rename = "holds")]
     pub is_as_expected: bool,
 }
 

@@ -48,6 +48,7 @@ pub struct ConstraintCheck {
     /// The limit: the largest or the least value of the figure.
     pub limit: f64,
     /// Whether the limit is a minimum.
+    #[serde(rename = "at_least")]
     pub is_minimum: bool,
     /// Whether the limit is met.
     pub holds: bool,
