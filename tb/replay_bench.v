@@ -3,10 +3,10 @@
 // is a mismatch. An output that means something only with a valid bit is compared at the clocks at which the vectors expect
 // that bit.
 //
-{%- for line in about %}
+{%- for line in comment_lines %}
 // {= line =}
 {%- endfor %}
-{%- if !about.is_empty() %}
+{%- if !comment_lines.is_empty() %}
 //
 {%- endif %}
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of

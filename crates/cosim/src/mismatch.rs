@@ -31,10 +31,12 @@ pub struct Mismatch {
     pub score: Option<String>,
     /// The activity of the hardware: the pixel that enters, or the slot, phase and step of its
     /// work.
+    #[serde(rename = "at")]
     pub activity: String,
     /// The value of the model, in hexadecimal.
     pub expected: String,
     /// The value of the simulator, in hexadecimal; unknown digits are `x`.
+    #[serde(rename = "got")]
     pub actual: String,
     /// The ports that differ before the sequence ends, each at its first clock. Ports that differ
     /// at the same clock are in the order of the module. The first one is that of the fields above.
@@ -49,9 +51,11 @@ pub struct PortMismatch {
     pub clock: u64,
     pub region: Option<u32>,
     pub score: Option<String>,
+    #[serde(rename = "at")]
     pub activity: String,
     pub expected: String,
-    pub got: String,
+    #[serde(rename = "got")]
+    pub actual: String,
 }
 
 impl Mismatch {
@@ -72,13 +76,13 @@ impl Mismatch {
             differences.iter().zip(&moments).map(named).collect::<Result<_, _>>()?;
         let Some(first) = ports.first().cloned() else { return Ok(None) };
         let span = recording.span(first.clock);
-        let PortMismatch { port, clock, region, score, activity: at, expected, got } = first;
+        let PortMismatch { port, clock, region, score, activity, expected, actual } = first;
         let sequence = span.map_or_else(String::new, |span| span.sequence.clone());
         let frame = span.map_or(0, |span| span.frame);
         let clock_in_frame = clock - span.map_or(0, |span| span.first_clock);
         #[rustfmt::skip]
         let mismatch = Self {
-            sequence, frame, clock, clock_in_frame, region, port, score, activity: at, expected, actual: got, ports,
+            sequence, frame, clock, clock_in_frame, region, port, score, activity, expected, actual, ports,
         };
         Ok(Some(mismatch))
     }
@@ -102,12 +106,12 @@ fn port_mismatch(
         Some(PortRole::ScoreValid | PortRole::ScoreIndex | PortRole::Region | PortRole::AnyScore)
     );
     let score = moment.score().filter(|_| is_score).map(str::to_owned);
-    Ok(PortMismatch { port, clock, region, score, activity: moment.to_string(), expected, got })
+    Ok(PortMismatch { port, clock, region, score, activity: moment.to_string(), expected, actual: got })
 }
 
 impl fmt::Display for PortMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { port, clock, region, score, activity: at, expected, got } = self;
+        let Self { port, clock, region, score, activity, expected, actual } = self;
         write!(f, "clock {clock}: {port}")?;
         if let Some(score) = score {
             write!(f, " ({score})")?;
@@ -115,7 +119,7 @@ impl fmt::Display for PortMismatch {
         if let Some(region) = region {
             write!(f, ", region {region},")?;
         }
-        write!(f, " is 'h{got}, expected 'h{expected}; {at}")
+        write!(f, " is 'h{actual}, expected 'h{expected}; {activity}")
     }
 }
 

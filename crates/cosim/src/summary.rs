@@ -35,6 +35,7 @@ pub struct CosimSummary {
     #[serde(default)]
     pub situations: Occurrences,
     /// True if all of the Verilog had to be simulated. It is false if the user chose a level.
+    #[serde(rename = "whole")]
     pub must_be_whole: bool,
 }
 

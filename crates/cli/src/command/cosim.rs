@@ -19,7 +19,7 @@ use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, notice, output};
 use end_to_end::{EndToEndReport, EndToEndFolder};
-use plan::{CosimPlan, CosimJob};
+use plan::{CosimPlan, PlannedCosim};
 
 /// All results that the command prints.
 #[derive(Serialize)]
@@ -127,12 +127,12 @@ fn run_all(
 }
 
 /// Returns the levels at which arrays are simulated, and true if the core on AXI is simulated.
-fn simulated_levels(works: &[CosimJob]) -> (Vec<CosimLevel>, bool) {
+fn simulated_levels(works: &[PlannedCosim]) -> (Vec<CosimLevel>, bool) {
     let levels = works.iter().filter_map(|work| match work {
-        CosimJob::Array(job) => Some(job.stimulus.level),
-        CosimJob::Axi(_) => None,
+        PlannedCosim::Array(job) => Some(job.stimulus.level),
+        PlannedCosim::Axi(_) => None,
     });
-    (levels.collect(), works.iter().any(|work| matches!(work, CosimJob::Axi(_))))
+    (levels.collect(), works.iter().any(|work| matches!(work, PlannedCosim::Axi(_))))
 }
 
 /// Returns `result`. An error is also written as JUnit XML, because a tool that failed leaves no
@@ -177,14 +177,14 @@ fn left_out_parts(
 
 fn run_one(
     args: &CosimArgs,
-    work: &mut CosimJob,
+    work: &mut PlannedCosim,
     toolchain: &Toolchain,
     cache: &Cache,
 ) -> Result<CosimReport, CosimError> {
     let shown = Shown::new(args.quiet);
     let progress = &mut |step| show_progress(&shown, step);
     let report = match work {
-        CosimJob::Array(job) => {
+        PlannedCosim::Array(job) => {
             if args.netlist {
                 shown.report_work("synthesizing with Yosys");
                 job.netlist = Some(job.synthesize(toolchain, cache)?);
@@ -192,7 +192,7 @@ fn run_one(
             }
             job.run(toolchain, cache, progress)
         }
-        CosimJob::Axi(job) => job.run(toolchain, cache, progress),
+        PlannedCosim::Axi(job) => job.run(toolchain, cache, progress),
     };
     shown.finish();
     report

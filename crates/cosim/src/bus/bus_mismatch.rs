@@ -60,7 +60,7 @@ impl BusMismatch {
             score: None,
             activity: at.clone(),
             expected: expected.clone(),
-            got: got.clone(),
+            actual: got.clone(),
         };
         Mismatch {
             sequence: scene.to_owned(),

@@ -216,7 +216,7 @@ fn raster_results(design: &Design, recording: &Recording) -> FrameResults {
 
 /// Simulates the RTL of the pipelined and serial organizations on the frames, and compares both
 /// results with the functional model.
-fn compare_organizations(config: &DesignConfig, frames: &[Frame], what: &str) -> std::result::Result<(), String> {
+fn compare_organizations(config: &DesignConfig, frames: &[Frame], what: &str) -> Result<(), String> {
     let design = |organization, feed, fold| {
         let mut config = config.clone();
         config.hardware.organization = organization;

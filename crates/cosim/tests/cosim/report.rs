@@ -48,7 +48,7 @@ fn mismatch() -> Mismatch {
             score: Some("edge".to_owned()),
             activity: "frame 1, slot 0, phase \"rotate edge\", step 3 of 4".to_owned(),
             expected: "0f".to_owned(),
-            got: "1f".to_owned(),
+            actual: "1f".to_owned(),
         }],
     }
 }

@@ -19,12 +19,12 @@ const VERILOG_LIMIT: u64 = 1 << 26;
 const ENOUGH_CLOCKS: u64 = 40_000_000;
 
 /// A co-simulation: of an array clock by clock, or of a core on AXI packet by packet.
-pub(super) enum CosimJob {
+pub(super) enum PlannedCosim {
     Array(Box<CosimJob>),
     Axi(Box<BusJob>),
 }
 
-impl CosimJob {
+impl PlannedCosim {
     pub(super) fn name(&self) -> String {
         match self {
             Self::Array(job) => job.name(),
@@ -40,14 +40,14 @@ pub(super) struct CosimPlan {
     pub(super) rtl: Option<Vec<SourceFile>>,
     pub(super) prefix: Prefix,
     /// The co-simulations, the smallest first; there is at least one.
-    pub(super) jobs: Vec<CosimJob>,
+    pub(super) jobs: Vec<PlannedCosim>,
 }
 
 impl CosimPlan {
     /// Makes the core on AXI write its packets into `file`.
     pub(super) fn keep_packets(&mut self, file: &Path) {
         for work in &mut self.jobs {
-            if let CosimJob::Axi(job) = work {
+            if let PlannedCosim::Axi(job) = work {
                 job.packets = Some(file.to_owned());
             }
         }
@@ -78,17 +78,17 @@ pub(super) fn plan(args: &CosimArgs) -> Result<CosimPlan, CliError> {
         job.trace = args.trace;
         job.sources = rtl.clone().unwrap_or(job.sources);
         job.prefix = prefix.clone();
-        Ok(CosimJob::Array(Box::new(job)))
+        Ok(PlannedCosim::Array(Box::new(job)))
     };
     let levels = array_levels(args, &design, rtl.as_deref(), &prefix)?;
-    let mut works: Vec<CosimJob> = levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
+    let mut works: Vec<PlannedCosim> = levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
     if let Some(mut job) = axi_job(args, &design)? {
         job.seed = args.seed;
         job.rounds = args.rounds.unwrap_or(1);
         job.frames = frames;
         job.sources = rtl.clone().unwrap_or(job.sources);
         job.prefix = prefix.clone();
-        works.push(CosimJob::Axi(Box::new(job)));
+        works.push(PlannedCosim::Axi(Box::new(job)));
     }
     Ok(CosimPlan { design, rtl, prefix, jobs: works })
 }
