@@ -4,7 +4,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use foveate_design::DesignConfig;
-use foveate_engine::{Engine, MAX_THREADS, EngineOptions};
+use foveate_engine::{Engine, EngineOptions, MAX_THREADS};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};

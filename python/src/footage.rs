@@ -6,8 +6,10 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{ClipPlan, InputOptions, SourceKind, FrameSource, open, plan, skipped_in_words};
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_footage::{
+    ClipPlan, FrameSource, InputOptions, SourceKind, open, plan, skipped_in_words,
+};
+use foveate_frame::{ByteFrame, FramePixels};
 use foveate_simulator::SimulatorError;
 use numpy::ndarray::Axis;
 use numpy::{
@@ -167,8 +169,12 @@ impl State {
         let (width, height, bits) =
             (current.frame.width(), current.frame.height(), current.frame.bits());
         let screen = match self.engine.rendered() {
-            FramePixels::Bytes(pixels) => ByteFrame::from_bytes(width, height, bits, pixels.to_vec())?,
-            FramePixels::Words(pixels) => ByteFrame::from_words(width, height, bits, pixels.to_vec())?,
+            FramePixels::Bytes(pixels) => {
+                ByteFrame::from_bytes(width, height, bits, pixels.to_vec())?
+            }
+            FramePixels::Words(pixels) => {
+                ByteFrame::from_words(width, height, bits, pixels.to_vec())?
+            }
         };
         Ok(Some(Step { taken, frame: current.frame, screen }))
     }

@@ -9,8 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foveate_footage::{RunHooks, RunProgress, source_from_memory};
 use foveate_frame::ByteFrame;
 use foveate_inference::{
-    Computation, Inference, InferenceError, PixelMapping, NOISE_LEVELS, InferenceOptions, RecordOptions, VisionOptions,
-    parse_detector, parse_framing, parse_goal, parse_mode, parse_noise, read_accelerator,
+    Computation, Inference, InferenceError, InferenceOptions, NOISE_LEVELS, PixelMapping,
+    RecordOptions, VisionOptions, parse_detector, parse_framing, parse_goal, parse_mode,
+    parse_noise, read_accelerator,
 };
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
@@ -39,7 +40,9 @@ impl RunHooks for Flag {
 
 /// Returns the choices of a run by their names on the command line. They are removed from `options`, which keeps the options
 /// of inputs.
-fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(InferenceOptions, VisionOptions, Vec<PathBuf>)> {
+fn chosen(
+    options: &Bound<'_, PyDict>,
+) -> PyResult<(InferenceOptions, VisionOptions, Vec<PathBuf>)> {
     let text = |name: &str| -> PyResult<Option<String>> {
         let value = take(options, name)?;
         Ok(value.map(|value| value.str()).transpose()?.map(|text| text.to_string()))

@@ -30,7 +30,11 @@ pub(crate) struct Screen(Py<PyUntypedArray>);
 
 impl Screen {
     /// Returns the pixels of a frame of a design.
-    pub(crate) fn of(py: Python<'_>, design: &foveate_design::Design, pixels: FramePixels<'_>) -> Self {
+    pub(crate) fn of(
+        py: Python<'_>,
+        design: &foveate_design::Design,
+        pixels: FramePixels<'_>,
+    ) -> Self {
         let size = [design.height() as usize, design.width() as usize];
         Self(match pixels {
             FramePixels::Bytes(pixels) => untyped(py, pixels, size),

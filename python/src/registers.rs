@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The registers of a core on AXI, as the table of `foveate._registers`.
 
-use foveate_emit::{RegisterField, Register, register_table};
+use foveate_emit::{Register, RegisterField, register_table};
 use pyo3::prelude::*;
 
 use crate::design::Design;

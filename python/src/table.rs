@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use foveate_engine::{EventColumnType, EventTable, EventValue, EventFrame};
+use foveate_engine::{EventColumnType, EventFrame, EventTable, EventValue};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -78,7 +78,8 @@ pub(crate) fn event_columns<'py>(
         let taken = outcome.get().taken();
         let (design, rows, values) = table.get_or_insert_with(|| {
             let rows = EventTable::new(&taken.design, only_active);
-            let values = rows.columns().iter().map(|column| Values::of(column.value_type)).collect();
+            let values =
+                rows.columns().iter().map(|column| Values::of(column.value_type)).collect();
             (Arc::clone(&taken.design), rows, values)
         });
         if **design != *taken.design {

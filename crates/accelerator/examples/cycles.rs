@@ -6,7 +6,7 @@
 //! with `DP` marks a depthwise layer). It prints a line `name,cycles` for each layer, with cycles
 //! counted as in SCALE-Sim. The buffers hold everything, so no layer is cut.
 
-use foveate_accelerator::{Accelerator, Dataflow, Layer, TensorShape, SystolicArray, KernelWindow};
+use foveate_accelerator::{Accelerator, Dataflow, KernelWindow, Layer, SystolicArray, TensorShape};
 
 type CyclesError = Box<dyn std::error::Error>;
 

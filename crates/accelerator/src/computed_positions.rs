@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The positions of an output that are computed, and the inputs that they depend on.
 
-use crate::layer::{Layer, KernelWindow};
+use crate::layer::{KernelWindow, Layer};
 use std::ops::Range;
 
 /// The positions of one image's output that are computed.

@@ -53,9 +53,11 @@ mod preset;
 mod row_stationary;
 mod systolic_array;
 
-pub use accelerator::{Accelerator, Dataflow, AccessEnergies, MappingObjective, RowStationaryArray, SystolicArray};
-pub use cost::{LayerCost, EnergyCost, MemoryAccesses};
+pub use accelerator::{
+    Accelerator, AccessEnergies, Dataflow, MappingObjective, RowStationaryArray, SystolicArray,
+};
+pub use cost::{EnergyCost, LayerCost, MemoryAccesses};
 pub use error::AcceleratorError;
-pub use layer::{Layer, TensorShape, KernelWindow};
+pub use layer::{KernelWindow, Layer, TensorShape};
 pub use plan::LayerPlan;
-pub use preset::{PRESETS, AcceleratorPreset};
+pub use preset::{AcceleratorPreset, PRESETS};

@@ -5,7 +5,7 @@
 use crate::accelerator::{Accelerator, Dataflow, RowStationaryArray, SystolicArray};
 use crate::computed_positions::ComputedPositions;
 use crate::cost::{LayerCost, LayerCounts, MemoryAccesses};
-use crate::layer::{Layer, ChannelGroups};
+use crate::layer::{ChannelGroups, Layer};
 use crate::row_stationary::{self, PassMapping};
 use crate::{AcceleratorError, systolic_array};
 
@@ -102,7 +102,10 @@ fn transfer_counts(layer: &Layer, computed: &ComputedPositions<'_>) -> LayerCoun
         outputs: layer.images * layer.outputs.channels * computed.position_count(rows),
         ..MemoryAccesses::default()
     };
-    let buffer =
-        MemoryAccesses { inputs: 2 * dram.inputs, outputs: 2 * dram.outputs, ..MemoryAccesses::default() };
+    let buffer = MemoryAccesses {
+        inputs: 2 * dram.inputs,
+        outputs: 2 * dram.outputs,
+        ..MemoryAccesses::default()
+    };
     LayerCounts { dram, buffer, ..LayerCounts::default() }
 }

@@ -31,7 +31,7 @@ pub(crate) use mapping::{PassMapping, best_mapping};
 use crate::accelerator::RowStationaryArray;
 use crate::computed_positions::ComputedPositions;
 use crate::cost::{LayerCounts, MemoryAccesses};
-use crate::layer::{Layer, ChannelGroups};
+use crate::layer::{ChannelGroups, Layer};
 use std::ops::Range;
 
 /// The computed part of a strip in one image.
@@ -72,7 +72,13 @@ pub(crate) fn count_layer(
     mapping: &PassMapping,
     computed: &ComputedPositions<'_>,
 ) -> LayerCounts {
-    count_strips(array, layer, products, mapping, &ComputedStrip::all(layer, mapping.strip, computed))
+    count_strips(
+        array,
+        layer,
+        products,
+        mapping,
+        &ComputedStrip::all(layer, mapping.strip, computed),
+    )
 }
 
 fn count_strips(
@@ -145,7 +151,12 @@ pub(crate) struct MappingCuts {
 }
 
 /// Returns the cycles of all passes of a strip.
-fn strip_cycles(layer: &Layer, products: &ChannelGroups, strip: &ComputedStrip, cuts: &MappingCuts) -> u64 {
+fn strip_cycles(
+    layer: &Layer,
+    products: &ChannelGroups,
+    strip: &ComputedStrip,
+    cuts: &MappingCuts,
+) -> u64 {
     let busy = strip.longest * cuts.cycles_per_position;
     let inputs = (strip.inputs * cuts.inputs).div_ceil(cuts.inputs_per_cycle);
     let sums = (strip.positions * cuts.sums).div_ceil(cuts.sums_per_cycle);
@@ -155,7 +166,12 @@ fn strip_cycles(layer: &Layer, products: &ChannelGroups, strip: &ComputedStrip, 
 
 /// Returns the accesses to the DRAM: inputs are read once for each `kept` filters, weights once for
 /// each strip, and outputs are written once.
-fn dram_accesses(layer: &Layer, products: &ChannelGroups, strips: &[ComputedStrip], cuts: &MappingCuts) -> MemoryAccesses {
+fn dram_accesses(
+    layer: &Layer,
+    products: &ChannelGroups,
+    strips: &[ComputedStrip],
+    cuts: &MappingCuts,
+) -> MemoryAccesses {
     let inputs: u64 = strips.iter().map(|strip| strip.inputs).sum();
     let positions: u64 = strips.iter().map(|strip| strip.positions).sum();
     MemoryAccesses {

@@ -23,7 +23,7 @@
 use crate::accelerator::{Accelerator, SystolicArray};
 use crate::computed_positions::ComputedPositions;
 use crate::cost::{LayerCounts, MemoryAccesses};
-use crate::layer::{Layer, ChannelGroups};
+use crate::layer::{ChannelGroups, Layer};
 
 /// A layer as a product of matrices, once for each group.
 struct MatrixProduct {
@@ -76,7 +76,11 @@ pub(crate) fn weight_stationary(
         array_cycles: folds * (cuts.positions * (2 * rows + columns - 2) + product.positions),
         macs: product.macs,
         register: MemoryAccesses { weights: weights + product.macs, ..MemoryAccesses::default() },
-        array: MemoryAccesses { inputs: product.macs, sums: product.macs, ..MemoryAccesses::default() },
+        array: MemoryAccesses {
+            inputs: product.macs,
+            sums: product.macs,
+            ..MemoryAccesses::default()
+        },
         buffer: MemoryAccesses {
             inputs: dram.inputs + product.streamed_inputs(&cuts),
             weights: dram.weights + weights,
@@ -108,7 +112,11 @@ pub(crate) fn output_stationary(
         array_cycles: folds * (product.inner + rows + columns - 2),
         macs: product.macs,
         register: MemoryAccesses { sums: 2 * product.macs, ..MemoryAccesses::default() },
-        array: MemoryAccesses { inputs: product.macs, weights: product.macs, ..MemoryAccesses::default() },
+        array: MemoryAccesses {
+            inputs: product.macs,
+            weights: product.macs,
+            ..MemoryAccesses::default()
+        },
         buffer: MemoryAccesses {
             inputs: dram.inputs + product.streamed_inputs(&cuts),
             weights: dram.weights + product.weights() * cuts.positions,
@@ -148,7 +156,12 @@ impl MatrixProduct {
     }
 
     /// Returns the accesses to the DRAM in the better of the two orders.
-    fn dram_accesses(&self, accelerator: &Accelerator, array: &SystolicArray, cuts: &ProductCuts) -> MemoryAccesses {
+    fn dram_accesses(
+        &self,
+        accelerator: &Accelerator,
+        array: &SystolicArray,
+        cuts: &ProductCuts,
+    ) -> MemoryAccesses {
         let weights_fit =
             |channels| accelerator.value_bytes(self.inner * channels) <= array.weight_bytes;
         let inputs_fit = accelerator.value_bytes(self.input_values) <= array.input_bytes;

@@ -9,7 +9,7 @@ use foveate_frame::Frame;
 use foveate_toolchain::{Tool, Toolchain};
 
 use crate::error::BenchmarkError;
-use crate::report::{BenchmarkReport, FORMAT_VERSION, BenchmarkLevel, LevelRow};
+use crate::report::{BenchmarkLevel, BenchmarkReport, FORMAT_VERSION, LevelRow};
 use crate::timer::PassTimer;
 use crate::tools::ExternalTools;
 use crate::vectors::UnpackedInputs;
@@ -65,7 +65,11 @@ impl Benchmark {
             progress("netlist: Yosys and Icarus");
             let needed = [Tool::Yosys, Tool::Iverilog, Tool::Vvp];
             rows.push(match missing_tool(tools.toolchain, &needed)? {
-                Some(why) => LevelRow::not_run(BenchmarkLevel::Netlist, &netlist_level::level_name(design), why),
+                Some(why) => LevelRow::not_run(
+                    BenchmarkLevel::Netlist,
+                    &netlist_level::level_name(design),
+                    why,
+                ),
                 None => netlist_level::run_netlist(design, frames, self.seed, tools)?,
             });
         }
@@ -78,8 +82,13 @@ impl Benchmark {
     /// every clock.
     fn record_vectors(&self, timer: PassTimer<'_>) -> Result<Recording, BenchmarkError> {
         let frames = self.frames.clone();
-        let stimulus =
-            Stimulus { level: Simulated::Full, seed: self.seed, rounds: 0, frames, sufficient_clocks: None };
+        let stimulus = Stimulus {
+            level: Simulated::Full,
+            seed: self.seed,
+            rounds: 0,
+            frames,
+            sufficient_clocks: None,
+        };
         Ok(stimulus.record_until(&self.design, timer.cancel, &mut |_, _| {})?)
     }
 

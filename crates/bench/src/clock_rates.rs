@@ -9,7 +9,11 @@ use crate::vectors::UnpackedInputs;
 
 /// Returns the rates of a level with clocks.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
-pub(crate) fn clock_rates(design: &Design, vectors: &UnpackedInputs, time: PassTimes) -> LevelMeasurement {
+pub(crate) fn clock_rates(
+    design: &Design,
+    vectors: &UnpackedInputs,
+    time: PassTimes,
+) -> LevelMeasurement {
     let passes_per_second = time.passes as f64 / time.seconds;
     let frames_per_second = vectors.streamed_frames as f64 * passes_per_second;
     let pixels = f64::from(design.width()) * f64::from(design.height());

@@ -8,11 +8,11 @@ use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
 use foveate_model::rcm_model;
 
-use crate::error::BenchmarkError;
-use crate::peak_memory::ResidentSizeBefore;
-use crate::outcome_comparison;
 use crate::clock_rates::clock_rates;
-use crate::report::{BenchmarkLevel, LevelRow, LevelMeasurement};
+use crate::error::BenchmarkError;
+use crate::outcome_comparison;
+use crate::peak_memory::ResidentSizeBefore;
+use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use crate::timer::PassTimer;
 use crate::vectors::{UnpackedInputs, compare_recording};
 
@@ -25,7 +25,8 @@ pub(crate) fn run_cycle_level(
     vectors: &UnpackedInputs,
     timer: PassTimer<'_>,
 ) -> Result<LevelRow, BenchmarkError> {
-    let decided = outcome_comparison::outcome_agreement(design, recording, frames, vectors.streamed_frames)?;
+    let decided =
+        outcome_comparison::outcome_agreement(design, recording, frames, vectors.streamed_frames)?;
     let again = replay_agreement(design, recording, vectors)?;
     let before = ResidentSizeBefore::measure();
     let mut core = rcm_model(design);

@@ -6,14 +6,14 @@ use std::hint::black_box;
 
 use foveate_cosim::OutputAgreement;
 use foveate_design::Design;
-use foveate_engine::{Engine, InstructionSet as Instructions, EngineOptions};
+use foveate_engine::{Engine, EngineOptions, InstructionSet as Instructions};
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
 use crate::error::BenchmarkError;
 use crate::peak_memory::ResidentSizeBefore;
-use crate::report::{BenchmarkLevel, LevelRow, LevelMeasurement};
-use crate::timer::{PassTimes, PassTimer};
+use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use crate::timer::{PassTimer, PassTimes};
 
 /// Times [`FunctionalCamera`], the reference of all comparisons.
 pub(crate) fn run_model(
@@ -29,7 +29,8 @@ pub(crate) fn run_model(
         }
         Ok(())
     })?;
-    let measured = LevelMeasurement { peak_bytes: before.peak_bytes(), ..frame_rates(design, frames, time) };
+    let measured =
+        LevelMeasurement { peak_bytes: before.peak_bytes(), ..frame_rates(design, frames, time) };
     Ok(LevelRow::measured(BenchmarkLevel::FunctionalClear, "FunctionalCamera", measured))
 }
 
@@ -42,7 +43,8 @@ pub(crate) fn run_engine(
 ) -> Result<LevelRow, BenchmarkError> {
     let agreement = engine_agreement(design, frames, frames)?;
     let before = ResidentSizeBefore::measure();
-    let options = EngineOptions { threads: 1, skips_identical_regions: false, level: Instructions::detect() };
+    let options =
+        EngineOptions { threads: 1, skips_identical_regions: false, level: Instructions::detect() };
     let mut engine = Engine::with_options(design, options)?;
     let time = timer.time_passes(|| {
         for frame in frames {
@@ -50,7 +52,8 @@ pub(crate) fn run_engine(
         }
         Ok(())
     })?;
-    let measured = LevelMeasurement { peak_bytes: before.peak_bytes(), ..frame_rates(design, frames, time) };
+    let measured =
+        LevelMeasurement { peak_bytes: before.peak_bytes(), ..frame_rates(design, frames, time) };
     Ok(LevelRow::measured(
         BenchmarkLevel::FunctionalFast,
         "Engine",
@@ -60,7 +63,11 @@ pub(crate) fn run_engine(
 
 /// Compares every result of every region and every pixel of the screen. The engine takes `fast`,
 /// and the model takes `clear`.
-fn engine_agreement(design: &Design, clear: &[Frame], fast: &[Frame]) -> Result<OutputAgreement, BenchmarkError> {
+fn engine_agreement(
+    design: &Design,
+    clear: &[Frame],
+    fast: &[Frame],
+) -> Result<OutputAgreement, BenchmarkError> {
     let (mut camera, mut engine) = (FunctionalCamera::new(design), Engine::new(design));
     let mut agreement = OutputAgreement::default();
     for (clear, fast) in clear.iter().zip(fast) {

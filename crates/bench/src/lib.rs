@@ -18,16 +18,16 @@
 //! reading of outputs.
 
 mod benchmark;
+mod clock_rates;
 mod cycle_level;
 mod error;
-#[cfg(test)]
-mod negative_control;
 mod frames;
 mod functional_levels;
-mod peak_memory;
+#[cfg(test)]
+mod negative_control;
 mod netlist_level;
 mod outcome_comparison;
-mod clock_rates;
+mod peak_memory;
 mod report;
 mod rtl_level;
 mod timer;
@@ -37,5 +37,5 @@ mod vectors;
 pub use benchmark::Benchmark;
 pub use error::BenchmarkError;
 pub use frames::random_frames;
-pub use report::{BenchmarkReport, FORMAT_VERSION, BenchmarkLevel, LevelRow, LevelMeasurement};
+pub use report::{BenchmarkLevel, BenchmarkReport, FORMAT_VERSION, LevelMeasurement, LevelRow};
 pub use tools::ExternalTools;

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use foveate_cosim::{CosimLevel as Simulated, Recording, Stimulus};
-use foveate_design::{DesignConfig, Design, Preset};
+use foveate_design::{Design, DesignConfig, Preset};
 use foveate_frame::Frame;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
@@ -64,7 +64,13 @@ impl ControlCase {
     }
 
     fn cycle_level_differences(&self, frames: &[Frame], timer: PassTimer<'_>) -> u64 {
-        let row = cycle_level::run_cycle_level(&self.design, frames, &self.recording, &self.vectors, timer);
+        let row = cycle_level::run_cycle_level(
+            &self.design,
+            frames,
+            &self.recording,
+            &self.vectors,
+            timer,
+        );
         differing(&row.unwrap())
     }
 
@@ -72,7 +78,8 @@ impl ControlCase {
         let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
         let tools = ExternalTools { toolchain: &toolchain, cache: &cache };
         require_tools(&[Tool::Verilator, Tool::Cxx]).then(|| {
-            let row = rtl_level::run_rtl(&self.design, &self.recording, &self.vectors, tools, timer);
+            let row =
+                rtl_level::run_rtl(&self.design, &self.recording, &self.vectors, tools, timer);
             differing(&row.unwrap())
         })
     }

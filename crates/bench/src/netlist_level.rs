@@ -5,13 +5,13 @@
 use foveate_staging::ScratchFolder;
 use std::time::Instant;
 
-use foveate_cosim::{OutputAgreement, CosimJob, CosimLevel as Simulated, Simulator, Stimulus};
+use foveate_cosim::{CosimJob, CosimLevel as Simulated, OutputAgreement, Simulator, Stimulus};
 use foveate_design::{ArrayStructure, Design};
 use foveate_frame::Frame;
 
 use crate::error::BenchmarkError;
-use crate::report::{BenchmarkLevel, LevelRow, LevelMeasurement};
-use crate::tools::{RUN_TIME_LIMIT, ExternalTools};
+use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use crate::tools::{ExternalTools, RUN_TIME_LIMIT};
 
 /// Returns the name of the level in reports.
 pub(crate) fn level_name(design: &Design) -> String {
@@ -38,7 +38,8 @@ pub(crate) fn run_netlist(
         path: std::env::temp_dir().display().to_string(),
         source,
     })?;
-    let stimulus = Stimulus { level: Simulated::Rpu, seed, rounds: 0, frames, sufficient_clocks: None };
+    let stimulus =
+        Stimulus { level: Simulated::Rpu, seed, rounds: 0, frames, sufficient_clocks: None };
     let mut job = CosimJob::new(&part, stimulus, &folder.path().join("replay"))?;
     job.limit = RUN_TIME_LIMIT;
     let start = Instant::now();
@@ -59,7 +60,11 @@ pub(crate) fn run_netlist(
     };
     let differing = u64::from(!report.passed());
     let agreement = OutputAgreement { compared: report.comparisons, differing };
-    Ok(LevelRow::measured(BenchmarkLevel::Netlist, &level_name(design), measured.with_agreement(BenchmarkLevel::Cycle, agreement)))
+    Ok(LevelRow::measured(
+        BenchmarkLevel::Netlist,
+        &level_name(design),
+        measured.with_agreement(BenchmarkLevel::Cycle, agreement),
+    ))
 }
 
 /// Returns the design for a frame of the regions of one unit, or for a smaller frame if the unit is

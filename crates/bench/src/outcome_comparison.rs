@@ -8,7 +8,7 @@ use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 
 use crate::error::BenchmarkError;
-use crate::vectors::{for_each_clock, field_of_role};
+use crate::vectors::{field_of_role, for_each_clock};
 
 /// Compares a recording of `streamed` frames. The recording repeats the last of `frames` until all
 /// outputs have left.
@@ -67,7 +67,9 @@ impl<'a> OutcomeComparison<'a> {
             return;
         }
         match self.region_naming {
-            BeatRegion::Number(role) => self.compare_scores(record, self.port_number(record, role), 0),
+            BeatRegion::Number(role) => {
+                self.compare_scores(record, self.port_number(record, role), 0)
+            }
             BeatRegion::Lane => {
                 for lane in 0..self.design.regions() {
                     self.compare_scores(record, lane as usize, lane);

@@ -3,15 +3,17 @@
 
 use std::path::Path;
 
-use foveate_cosim::{CosimJob, CosimLevel as Simulated, Recording, SimulationRun, Simulator, Stimulus};
+use foveate_cosim::{
+    CosimJob, CosimLevel as Simulated, Recording, SimulationRun, Simulator, Stimulus,
+};
 use foveate_design::Design;
 use foveate_toolchain::verilator::OptimizationLevel;
 
-use crate::error::BenchmarkError;
 use crate::clock_rates::clock_rates;
-use crate::report::{BenchmarkLevel, LevelRow, LevelMeasurement};
-use crate::timer::{PassTimes, PassTimer};
-use crate::tools::{RUN_TIME_LIMIT, ExternalTools};
+use crate::error::BenchmarkError;
+use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use crate::timer::{PassTimer, PassTimes};
+use crate::tools::{ExternalTools, RUN_TIME_LIMIT};
 use crate::vectors::UnpackedInputs;
 
 /// Builds the simulation, compares every port at every clock, and then times it.
@@ -45,7 +47,11 @@ pub(crate) fn run_rtl(
         ..clock_rates(design, vectors, time)
     };
     let name = short_version(&timed.version);
-    Ok(LevelRow::measured(BenchmarkLevel::Rtl, &name, measured.with_agreement(BenchmarkLevel::Cycle, timed.agreement)))
+    Ok(LevelRow::measured(
+        BenchmarkLevel::Rtl,
+        &name,
+        measured.with_agreement(BenchmarkLevel::Cycle, timed.agreement),
+    ))
 }
 
 /// Shortens a banner to the name and the version, such as `Verilator 5.006`.

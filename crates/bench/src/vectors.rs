@@ -118,7 +118,14 @@ impl ClockControls {
     }
 
     fn core_input<'a>(&'a self, pixels: &'a [u16], reference_pixels: &'a [u16]) -> CoreInput<'a> {
-        let &Self { reset, valid, is_start_of_frame: sof, reference_valid, forward_ready, ref thresholds } = self;
+        let &Self {
+            reset,
+            valid,
+            is_start_of_frame: sof,
+            reference_valid,
+            forward_ready,
+            ref thresholds,
+        } = self;
         let idle = CoreInput::idle(pixels, thresholds);
         CoreInput { reset, valid, sof, reference_valid, reference_pixels, forward_ready, ..idle }
     }
@@ -136,7 +143,8 @@ pub(crate) fn for_each_clock(
 ) -> Result<(), BenchmarkError> {
     let paths = [recording.inputs_path(), recording.expected_path()];
     let (mut inputs, mut outputs) = (open(&paths[0])?, open(&paths[1])?);
-    let (mut input, mut output) = (recording.inputs().zero_record(), recording.outputs().zero_record());
+    let (mut input, mut output) =
+        (recording.inputs().zero_record(), recording.outputs().zero_record());
     for _ in 0..recording.clocks() {
         inputs.read_exact(&mut input).map_err(unreadable(&paths[0]))?;
         outputs.read_exact(&mut output).map_err(unreadable(&paths[1]))?;

@@ -6,8 +6,8 @@ use std::borrow::Cow;
 
 use askama::Template;
 use foveate_design::{
-    RegionAction, Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, bits_for,
-    index_bits,
+    Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, RegionAction,
+    bits_for, index_bits,
 };
 use foveate_emit::array_scores;
 use foveate_engine::Engine;
@@ -105,7 +105,11 @@ pub(crate) fn array_top(project: &BoardProject, array: PipelinedDesign<'_>) -> S
     let mut thresholds = Vec::new();
     for port in array.rcm_interface().controls {
         let name = port.name.trim_end_matches("_i").to_owned();
-        thresholds.push(ThresholdPort { name, range: range_text(port.width), turn_signal: turn_output(port.role) });
+        thresholds.push(ThresholdPort {
+            name,
+            range: range_text(port.width),
+            turn_signal: turn_output(port.role),
+        });
     }
     let minimum_at = timing.decision_latency + 1 + timing.decision_frames * timing.cycles_per_frame;
     let mut head: Vec<String> = Vec::new();
@@ -190,7 +194,8 @@ fn signed_bytes(
 ) -> Vec<u8> {
     let (outcome, at) = (engine.outcome(), region as usize);
     let action = outcome.actions[at];
-    let bits = [outcome.srs[at], outcome.trs[at], action == RegionAction::Summarize, outcome.active[at]];
+    let bits =
+        [outcome.srs[at], outcome.trs[at], action == RegionAction::Summarize, outcome.active[at]];
     let decision: u8 = (0_u32..).zip(bits).map(|(bit, value)| u8::from(value) << bit).sum();
     let mut bytes = region.to_le_bytes().to_vec();
     bytes.push(decision);

@@ -212,7 +212,10 @@ impl Board {
             Some((name, text)) => Self::from_toml(name, text),
             None => {
                 let known: Vec<_> = BOARDS.iter().map(|board| board.0).collect();
-                Err(BoardError::UnknownBoard { name: message_excerpt(name), known: known.join(", ") })
+                Err(BoardError::UnknownBoard {
+                    name: message_excerpt(name),
+                    known: known.join(", "),
+                })
             }
         }
     }

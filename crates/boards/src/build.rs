@@ -15,7 +15,9 @@ use crate::{BoardError, BoardProject};
 /// The kind of folder that is written. Only folders of this kind are replaced.
 pub const PROJECT_FOLDER: FolderKind = FolderKind {
     description: "a project of a board (its board.f and sim/board_clock.v)",
-    matches: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
+    matches: |folder| {
+        folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file()
+    },
 };
 
 /// The script's file about the seed that it packs, written after all seeds are done.
@@ -98,8 +100,10 @@ pub fn build(
     if !project.is_open() {
         return Err(BoardError::NoOpenTool { name: project.board.name.clone() });
     }
-    let run =
-        Invocation::new("sh").args(["build.sh", &seeds.to_string()]).dir(folder).timeout(SCRIPT_TIME);
+    let run = Invocation::new("sh")
+        .args(["build.sh", &seeds.to_string()])
+        .dir(folder)
+        .timeout(SCRIPT_TIME);
     let is_new = !folder.join(BUILD_FOLDER).exists();
     let ran = toolchain.run_checked(&run);
     if is_new {

@@ -81,8 +81,14 @@ mod tests {
             ClockSource::Ice40 { pad: true, reference: 0, feedback: 63, output: 5, filter: 1 };
         assert_eq!(ice40_pll(12, 24, true), Some(expected));
         assert_eq!(ice40_pll(12, 25, true), None);
-        assert_eq!(ecp5_pll(25, 75), Some(ClockSource::Ecp5 { reference: 1, feedback: 3, output: 8 }));
-        assert_eq!(ecp5_pll(25, 60), Some(ClockSource::Ecp5 { reference: 5, feedback: 12, output: 10 }));
+        assert_eq!(
+            ecp5_pll(25, 75),
+            Some(ClockSource::Ecp5 { reference: 1, feedback: 3, output: 8 })
+        );
+        assert_eq!(
+            ecp5_pll(25, 60),
+            Some(ClockSource::Ecp5 { reference: 5, feedback: 12, output: 10 })
+        );
         assert_eq!(ecp5_pll(25, 900), None);
         for mhz in [1, 12, 16, 25, 48] {
             for core in 10..200 {

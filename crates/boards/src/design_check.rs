@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The check that a design fits a board, behind a sensor or a pattern.
 
-use foveate_design::{InterfaceKind, Design, Hardware, Neighborhood, PipelinedDesign, RasterDesign};
+use foveate_design::{
+    Design, Hardware, InterfaceKind, Neighborhood, PipelinedDesign, RasterDesign,
+};
 
 use crate::sensor::Sensor;
 

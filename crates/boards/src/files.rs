@@ -23,7 +23,9 @@ impl BoardProject {
         files.push(source_file("sim/board_clock.v", top::clock_module(self, true)));
         files.push(source_file("design.toml", toml));
         files.push(source_file("board.toml", self.board.text.clone()));
-        files.extend(self.sensor.iter().map(|(sensor, _)| source_file("sensor.toml", sensor.text.clone())));
+        files.extend(
+            self.sensor.iter().map(|(sensor, _)| source_file("sensor.toml", sensor.text.clone())),
+        );
         files.push(constraints::pin_file(self));
         files.extend(script::script_files(self, &sources));
         files.push(source_file("README.md", readme::readme(self)));

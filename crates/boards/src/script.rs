@@ -10,7 +10,7 @@ use foveate_toolchain::escaping::{comment_text, shell_word, tcl_word};
 use crate::board::{Board, DeviceFamily};
 use crate::constraints;
 use crate::project::BoardProject;
-use crate::text::{source_file, rendered};
+use crate::text::{rendered, source_file};
 
 /// The tools of a family with open tools.
 pub(crate) struct OpenTools {
@@ -121,7 +121,9 @@ struct LoadScriptTemplate<'a> {
 /// Returns the scripts of a project whose Verilog is in the files `sources`.
 pub(crate) fn script_files(project: &BoardProject, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
-    let Some(tools) = open_tools(board.device.family) else { return vivado_scripts(project, sources) };
+    let Some(tools) = open_tools(board.device.family) else {
+        return vivado_scripts(project, sources);
+    };
     let bitstream = shell_word(&bitstream);
     let (writes, packs) = packing_arguments(board, &bitstream);
     let synthesis = SynthesisTemplate {

@@ -150,7 +150,10 @@ impl Sensor {
             Some((name, text)) => Self::from_toml(name, text),
             None => {
                 let known: Vec<_> = SENSORS.iter().map(|sensor| sensor.0).collect();
-                Err(BoardError::UnknownSensor { name: message_excerpt(name), known: known.join(", ") })
+                Err(BoardError::UnknownSensor {
+                    name: message_excerpt(name),
+                    known: known.join(", "),
+                })
             }
         }
     }

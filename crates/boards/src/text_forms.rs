@@ -64,7 +64,8 @@ fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
         Value::String(text) => {
             let form =
                 FORMS.iter().find(|(known, _)| *known == key).map_or(TextForm::Word, |form| form.1);
-            form.check_text(text).map_err(|right| format!("{path} = \"{}\": {right}", message_excerpt(text)))
+            form.check_text(text)
+                .map_err(|right| format!("{path} = \"{}\": {right}", message_excerpt(text)))
         }
         Value::Array(values) => values
             .iter()

@@ -16,7 +16,7 @@ use crate::clock::ClockSource;
 use crate::pattern::{COMPARED_FRAMES, packet_layout, packet_sums};
 use crate::project::BoardProject;
 use crate::sensor::{LogicLevel, Sensor};
-use crate::text::{source_file, rendered};
+use crate::text::{rendered, source_file};
 
 /// The rate of I2C in bits per second.
 const I2C_HZ: u32 = 100_000;
@@ -128,12 +128,17 @@ pub(crate) fn modules(project: &BoardProject) -> Vec<SourceFile> {
     let (core, leaves, own) = match (design.hardware(), &project.sensor) {
         (Hardware::Pipelined(hardware), _) => {
             let array = design.with_hardware(hardware);
-            let own = [("expected_sums", expected_sums(project)), ("board", array::array_top(project, array))];
+            let own = [
+                ("expected_sums", expected_sums(project)),
+                ("board", array::array_top(project, array)),
+            ];
             (array_core(array), [ARRAY_LEAVES, &[]], own)
         }
         (Hardware::Raster(_) | Hardware::Serial(_), Some((sensor, pins))) => {
-            let own =
-                [("sensor_steps", setup_steps(project, sensor)), ("board", sensor_top(project, sensor, pins))];
+            let own = [
+                ("sensor_steps", setup_steps(project, sensor)),
+                ("board", sensor_top(project, sensor, pins)),
+            ];
             (axi_modules(design).unwrap_or_default(), [SENSOR_LEAVES, OUTPUT_LEAVES], own)
         }
         (Hardware::Raster(hardware), None) => {
@@ -181,7 +186,11 @@ fn sensor_top(project: &BoardProject, sensor: &Sensor, pins: &SensorPins) -> Str
     })
 }
 
-fn capture_parameters(project: &BoardProject, sensor: &Sensor, pins: &SensorPins) -> CaptureParameters {
+fn capture_parameters(
+    project: &BoardProject,
+    sensor: &Sensor,
+    pins: &SensorPins,
+) -> CaptureParameters {
     let (design, clocks) = (&project.design, project.board.clock.core_mhz * 1_000_000);
     let steps = sensor.setup_words().len();
     CaptureParameters {
@@ -246,7 +255,9 @@ fn pattern_top(project: &BoardProject, design: RasterDesign<'_>) -> String {
 fn expected_sums(project: &BoardProject) -> String {
     let design = &project.design;
     let sums = match design.hardware() {
-        Hardware::Pipelined(own) => array::signature_sums(design.with_hardware(own), COMPARED_FRAMES),
+        Hardware::Pipelined(own) => {
+            array::signature_sums(design.with_hardware(own), COMPARED_FRAMES)
+        }
         Hardware::Serial(_) | Hardware::Raster(_) => packet_sums(design, COMPARED_FRAMES),
     };
     rendered(&ExpectedSumsTemplate {
@@ -260,7 +271,9 @@ fn expected_sums(project: &BoardProject) -> String {
 pub(crate) fn clock_module(project: &BoardProject, simulated: bool) -> String {
     let (pair, one) = (project.has_pair(), project.clock_port());
     let (how, body) = match project.clock {
-        _ if simulated => (", in a simulation: the clock that comes is taken for it", direct_clock(one)),
+        _ if simulated => {
+            (", in a simulation: the clock that comes is taken for it", direct_clock(one))
+        }
         ClockSource::Direct if pair => (", by the buffers of a Xilinx device", pair_of_wires()),
         ClockSource::Direct => ("", direct_clock(one)),
         ClockSource::Ice40 { pad, reference, feedback, output, filter } => {

@@ -101,7 +101,11 @@ mod tests {
                             "{overrides:?} {key} {largest}"
                         );
                         assert!(!is_taken(&beyond), "{overrides:?} {key} {beyond}");
-                        assert_eq!(is_taken(&0.5), !whole && largest != Decimal::from_whole(0), "{key}");
+                        assert_eq!(
+                            is_taken(&0.5),
+                            !whole && largest != Decimal::from_whole(0),
+                            "{key}"
+                        );
                     }
                     KeyBound::OneOf(values) => {
                         for value in 0..=9 {

@@ -2,8 +2,8 @@
 //! The validated camera: one immutable value from which all other numbers are derived.
 
 use crate::{
-    CameraConfig, VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery,
-    ReferencePolicy, SpatialFeature,
+    CameraConfig, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    Periphery, ReferencePolicy, SpatialFeature, VoteCombination,
 };
 
 /// A region-based event camera: a configuration that has been checked, with every number that

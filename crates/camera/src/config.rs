@@ -6,7 +6,10 @@
 //! sees them, so that the message can name the nearest known key.
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::{VoteCombination, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy};
+use crate::{
+    Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, VoteCombination,
+};
 use serde::{Deserialize, Serialize};
 
 /// The tables of a configuration that say what is computed. [`CameraConfig::validate`] checks them.
@@ -56,9 +59,12 @@ impl CameraConfig {
         let from = self.frame.pixel_bits;
         let mut config = self.clone();
         config.frame.pixel_bits = bits;
-        config.temporal.level = self.temporal.level.map(|value| depth::scale_level(value, from, bits));
-        config.periphery.level = self.periphery.level.map(|value| depth::scale_level(value, from, bits));
-        config.spatial = self.spatial.iter().map(|entry| entry.scaled_to_depth(from, bits)).collect();
+        config.temporal.level =
+            self.temporal.level.map(|value| depth::scale_level(value, from, bits));
+        config.periphery.level =
+            self.periphery.level.map(|value| depth::scale_level(value, from, bits));
+        config.spatial =
+            self.spatial.iter().map(|entry| entry.scaled_to_depth(from, bits)).collect();
         config
     }
 }

@@ -54,7 +54,12 @@ fn times_power_of_two(value: Decimal, from: u32, to: u32, power: u32) -> Decimal
 /// Returns the end of a message about a threshold that is out of range at fewer than 8 bits: the
 /// value that a threshold of 8 bits has at `bits` bits. The text is empty where that value would
 /// not be valid either.
-pub(crate) fn depth_hint(value: &dyn Display, scaled: &dyn Display, fits: bool, bits: u32) -> String {
+pub(crate) fn depth_hint(
+    value: &dyn Display,
+    scaled: &dyn Display,
+    fits: bool,
+    bits: u32,
+) -> String {
     if bits >= DEFAULT_BITS || !fits {
         return String::new();
     }

@@ -3,7 +3,7 @@
 
 use crate::ranges::MAX_SIDE;
 use crate::width::index_bits;
-use crate::{Camera, FeatureKind, DenoiseFilter, Neighborhood, Payload, SpatialFeature, bits_for};
+use crate::{Camera, DenoiseFilter, FeatureKind, Neighborhood, Payload, SpatialFeature, bits_for};
 
 impl Camera {
     /// Returns the largest pixel value, 2^P - 1.
@@ -75,7 +75,8 @@ impl Camera {
         match self.neighborhood() {
             Neighborhood::Isolated => 0,
             Neighborhood::Shared => {
-                u32::from(self.filter() != DenoiseFilter::None) + u32::from(self.has_feature_window())
+                u32::from(self.filter() != DenoiseFilter::None)
+                    + u32::from(self.has_feature_window())
             }
         }
     }

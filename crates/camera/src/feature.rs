@@ -233,14 +233,21 @@ impl SpatialEntry<'_> {
         };
         threshold(minimum).ok_or_else(|| {
             let max = threshold_in_config_units(score_max, unit);
-            let scaled = depth::scale_min_score(self.config.feature, minimum, DEFAULT_BITS, self.bits);
+            let scaled =
+                depth::scale_min_score(self.config.feature, minimum, DEFAULT_BITS, self.bits);
             let fits = !counts && threshold(scaled).is_some();
             let hint = depth::depth_hint(&minimum, &scaled, fits, self.bits);
             self.out_of_range_error("min_score", &minimum, &format!("0..={max}"), &hint)
         })
     }
 
-    fn out_of_range_error(&self, key: &str, value: &dyn Display, valid: &str, hint: &str) -> ConfigError {
+    fn out_of_range_error(
+        &self,
+        key: &str,
+        value: &dyn Display,
+        valid: &str,
+        hint: &str,
+    ) -> ConfigError {
         let feature = self.config.feature;
         ConfigError::Range {
             key: self.key(key),

@@ -4,7 +4,8 @@
 
 use crate::choice::quoted_list;
 use crate::{
-    VoteCombination, ConfigError, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy,
+    ConfigError, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, VoteCombination,
 };
 use crate::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
 use Takes::{Names, Text, Whole};
@@ -80,7 +81,11 @@ pub(crate) fn takes(mut known: impl Iterator<Item = &'static ConfigKey>, path: &
 pub(crate) fn refuse_unknown(known: &[&ConfigKey], table: &Table) -> Result<(), ConfigError> {
     for (section, value) in table {
         if !section_names(known).any(|one| one == section) {
-            return Err(unknown_key_error(section, section, section_names(known).map(str::to_owned)));
+            return Err(unknown_key_error(
+                section,
+                section,
+                section_names(known).map(str::to_owned),
+            ));
         }
         match value {
             Value::Table(keys) => refuse_unknown_in(known, section, section, keys)?,
@@ -120,7 +125,11 @@ fn section_names(known: &[&ConfigKey]) -> impl Iterator<Item = &'static str> {
 
 /// Returns the error for the key `shown`. The suggestion is the candidate that is most similar to
 /// `plain`, the key without indices.
-fn unknown_key_error(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> ConfigError {
+fn unknown_key_error(
+    shown: &str,
+    plain: &str,
+    candidates: impl Iterator<Item = String>,
+) -> ConfigError {
     /// A candidate below this similarity would only confuse.
     const SIMILAR: f64 = 0.6;
     let nearest = candidates

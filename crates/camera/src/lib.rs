@@ -17,8 +17,8 @@ mod depth;
 mod derived_numbers;
 mod error;
 mod feature;
-mod keys;
 mod feature_kind;
+mod keys;
 mod periphery;
 mod ranges;
 mod reciprocal;
@@ -31,7 +31,10 @@ mod width;
 pub use action::RegionAction;
 pub use bounds::KeyBound;
 pub use camera::{Camera, TemporalParameters};
-pub use choice::{VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy};
+pub use choice::{
+    DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy,
+    VoteCombination,
+};
 pub use config::{
     CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, PeripheryConfig, RegionConfig,
     RenderConfig, SpatialConfig, TemporalConfig,
@@ -39,8 +42,8 @@ pub use config::{
 pub use decimal::Decimal;
 pub use error::ConfigError;
 pub use feature::{MeanDivision, SpatialFeature, VarianceWidths};
-pub use keys::{CAMERA_KEYS, ConfigKey, Takes};
 pub use feature_kind::ScoreUnit;
+pub use keys::{CAMERA_KEYS, ConfigKey, Takes};
 pub use periphery::Periphery;
 pub use ranges::{
     MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,

@@ -10,7 +10,7 @@
 //!
 //! The two bits say what happens to every region, so no addresses are sent.
 
-use crate::{RegionAction, Camera, Periphery};
+use crate::{Camera, Periphery, RegionAction};
 
 /// Bits per region and frame that encode the decision and whether a summary is sent.
 pub const DECISION_BITS: u64 = 2;
@@ -22,7 +22,9 @@ impl Camera {
     pub fn values_sent(&self, region: u32, action: RegionAction) -> u64 {
         match action {
             RegionAction::Forward => self.pixels_inside(region),
-            RegionAction::Summarize => self.periphery().map_or(0, |own| Periphery::mean_count(own).into()),
+            RegionAction::Summarize => {
+                self.periphery().map_or(0, |own| Periphery::mean_count(own).into())
+            }
             RegionAction::Hold | RegionAction::Blank => 0,
         }
     }
@@ -52,7 +54,7 @@ impl Camera {
 
 #[cfg(test)]
 mod tests {
-    use crate::{RegionAction, CameraConfig, IrrelevantRendering};
+    use crate::{CameraConfig, IrrelevantRendering, RegionAction};
 
     #[test]
     fn pixels_are_counted_without_padding_and_means_with_it() {
@@ -61,12 +63,22 @@ mod tests {
         (config.frame.pixel_bits, config.render.irrelevant) = (10, IrrelevantRendering::Mean);
         config.periphery.blocks = Some(2);
         let camera = config.validate().unwrap();
-        let actions = [RegionAction::Forward, RegionAction::Hold, RegionAction::Summarize, RegionAction::Blank];
+        let actions = [
+            RegionAction::Forward,
+            RegionAction::Hold,
+            RegionAction::Summarize,
+            RegionAction::Blank,
+        ];
         let values = |region| actions.map(|action| camera.values_sent(region, action));
         assert_eq!(values(0), [64, 0, 4, 0]);
         assert_eq!(values(2), [32, 0, 4, 0]);
         assert_eq!(values(5), [4, 0, 4, 0]);
-        let sent = [RegionAction::Forward, RegionAction::Summarize, RegionAction::Hold, RegionAction::Forward];
+        let sent = [
+            RegionAction::Forward,
+            RegionAction::Summarize,
+            RegionAction::Hold,
+            RegionAction::Forward,
+        ];
         assert_eq!(camera.values_sent_per_frame(&sent), 64 + 4 + 8);
         assert_eq!(camera.bits_sent(3, 76), 3 * 6 * 2 + 760);
     }

@@ -122,7 +122,11 @@ impl TomlConfig for CameraConfig {
 }
 
 /// Describes the error in the value of a key. The wording of serde is replaced.
-fn describe_problem(value: Option<&Value>, message: &str, takes: impl FnOnce() -> String) -> String {
+fn describe_problem(
+    value: Option<&Value>,
+    message: &str,
+    takes: impl FnOnce() -> String,
+) -> String {
     match value {
         _ if message.starts_with("missing field") => message.replace("missing field", "it lacks"),
         Some(value) => format!("{} is not valid; it takes {}", truncated_text(value), takes()),

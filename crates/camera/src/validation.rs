@@ -3,7 +3,9 @@
 
 use crate::depth::{self, DEFAULT_BITS};
 use crate::ranges::largest_level;
-use crate::{Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, TemporalParameters};
+use crate::{
+    Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, TemporalParameters,
+};
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, check_range};
 
 /// Default width and height of a frame in pixels.

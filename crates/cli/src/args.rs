@@ -17,20 +17,20 @@ mod infer;
 mod input;
 mod link;
 mod live;
+mod network_framing;
 mod outputs;
 #[cfg(test)]
 mod page;
 mod stress;
 mod threads;
 mod view;
-mod network_framing;
 
 use std::path::PathBuf;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_design::{DesignConfig, ConfigError, Design, Preset};
+use foveate_design::{ConfigError, Design, DesignConfig, Preset};
 use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
 
 use self::input::InputArgs;
@@ -109,7 +109,8 @@ impl DesignArgs {
     /// from the defaults.
     pub(crate) fn config(&self) -> Result<DesignConfig, CliError> {
         let text = self.text()?;
-        DesignConfig::from_toml_with(&text, &self.overrides).map_err(|error| self.config_error(&text, error))
+        DesignConfig::from_toml_with(&text, &self.overrides)
+            .map_err(|error| self.config_error(&text, error))
     }
 
     /// Returns the validated design.

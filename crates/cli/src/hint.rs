@@ -12,7 +12,10 @@ pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
     let named = matches!(error.get(ContextKind::InvalidArg), Some(ContextValue::String(name)) if name == "--fps");
     if error.kind() == ErrorKind::UnknownArgument && named {
         error.remove(ContextKind::SuggestedArg);
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(FPS_HINT)]));
+        error.insert(
+            ContextKind::Suggested,
+            ContextValue::StyledStrs(vec![StyledStr::from(FPS_HINT)]),
+        );
     }
     error
 }

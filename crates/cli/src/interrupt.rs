@@ -45,7 +45,8 @@ struct SignalHistory {
 }
 
 static STOP_REQUEST: LazyLock<Interrupt> = LazyLock::new(Interrupt::default);
-static SIGNAL_HISTORY: Mutex<SignalHistory> = Mutex::new(SignalHistory { first: None, has_results: false });
+static SIGNAL_HISTORY: Mutex<SignalHistory> =
+    Mutex::new(SignalHistory { first: None, has_results: false });
 
 fn signal_history() -> MutexGuard<'static, SignalHistory> {
     SIGNAL_HISTORY.lock().unwrap_or_else(PoisonError::into_inner)
@@ -107,7 +108,11 @@ fn handle_signal(signal: i32) {
             }
         }
         Some((first, when)) => {
-            let same = if (first, signal) == (SIGINT, SIGINT) { REPEATED_KEY_TIME } else { REPEATED_SIGNAL_TIME };
+            let same = if (first, signal) == (SIGINT, SIGINT) {
+                REPEATED_KEY_TIME
+            } else {
+                REPEATED_SIGNAL_TIME
+            };
             if when.elapsed() >= same {
                 exit_at_once(signal);
             }

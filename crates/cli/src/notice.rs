@@ -30,7 +30,8 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 /// terminal, whatever the origin of its text.
 pub(crate) fn print_notice(text: &(impl Display + ?Sized)) {
     // A notice to a terminal that was closed is lost, and that changes no exit code.
-    let _ = writeln!(io::stderr(), "foveate: {}", printable(&text_without_secrets(&text.to_string())));
+    let _ =
+        writeln!(io::stderr(), "foveate: {}", printable(&text_without_secrets(&text.to_string())));
 }
 
 /// Prints a warning on standard error. The command goes on.

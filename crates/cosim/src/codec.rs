@@ -22,7 +22,12 @@ impl RecordCodec {
     }
 
     /// Writes the inputs at an edge into a record.
-    pub fn encode_inputs(&mut self, layout: &RecordLayout, input: &CoreInput<'_>, record: &mut [u8]) {
+    pub fn encode_inputs(
+        &mut self,
+        layout: &RecordLayout,
+        input: &CoreInput<'_>,
+        record: &mut [u8],
+    ) {
         for field in layout.fields() {
             self.values.clear();
             self.push_input_values(field.port.role, input);
@@ -31,7 +36,12 @@ impl RecordCodec {
     }
 
     /// Writes the outputs after an edge into a record.
-    pub fn encode_outputs(&mut self, layout: &RecordLayout, model: &dyn CycleModel, record: &mut [u8]) {
+    pub fn encode_outputs(
+        &mut self,
+        layout: &RecordLayout,
+        model: &dyn CycleModel,
+        record: &mut [u8],
+    ) {
         for field in layout.fields() {
             self.values.clear();
             model.append_output(field.port.role, &mut self.values);
@@ -88,6 +98,10 @@ mod tests {
     fn a_port_that_the_model_does_not_answer_is_noticed() {
         let layout = RecordLayout::outputs(&design("serial").rcm_ports());
         let core = rcm_model(&design("pipelined"));
-        RecordCodec::new(&design("serial")).encode_outputs(&layout, &*core, &mut layout.zero_record());
+        RecordCodec::new(&design("serial")).encode_outputs(
+            &layout,
+            &*core,
+            &mut layout.zero_record(),
+        );
     }
 }

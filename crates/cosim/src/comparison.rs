@@ -89,7 +89,9 @@ fn add_differences(
     wanted: &[u8],
     got: &[u8],
 ) {
-    for field in layout.fields().iter().filter(|field| field.bytes_in(wanted) != field.bytes_in(got)) {
+    for field in
+        layout.fields().iter().filter(|field| field.bytes_in(wanted) != field.bytes_in(got))
+    {
         let is_known = found.iter().any(|difference| difference.port == field.port.name);
         let mut lanes = layout.compared_lanes(field, wanted);
         let differs = |&lane: &u32| field.get(wanted, lane) != field.get(got, lane);
@@ -150,7 +152,8 @@ mod tests {
 
     /// Returns a recording of `clocks` clocks whose output is the clock number, in two lanes.
     fn counting(clocks: u8) -> Recording {
-        let ports = [port("a_i", PortDirection::Input, 1, 1), port("b_o", PortDirection::Output, 4, 2)];
+        let ports =
+            [port("a_i", PortDirection::Input, 1, 1), port("b_o", PortDirection::Output, 4, 2)];
         let mut recorder = Recorder::new(&ports).unwrap();
         (0..clocks).for_each(|clock| recorder.push(&[0], &[clock]).unwrap());
         recorder.finish().unwrap()

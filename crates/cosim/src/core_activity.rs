@@ -9,8 +9,8 @@ use crate::field::RecordField;
 use crate::layout::RecordLayout;
 use crate::recording::Recording;
 use foveate_design::{
-    Design, PixelFeed, Hardware, SerialPhase, PipelinedDesign, PortRole, RasterTiming, SerialDesign,
-    SerialTiming,
+    Design, Hardware, PipelinedDesign, PixelFeed, PortRole, RasterTiming, SerialDesign,
+    SerialPhase, SerialTiming,
 };
 use foveate_model::FrameSync;
 use std::fmt;
@@ -81,7 +81,9 @@ impl<'a> FrameInput<'a> {
                 let array = design.with_hardware(own);
                 Self::Lanes(array, SerialTiming::from_design(array))
             }
-            Hardware::Raster(own) => Self::Words(RasterTiming::from_design(design.with_hardware(own))),
+            Hardware::Raster(own) => {
+                Self::Words(RasterTiming::from_design(design.with_hardware(own)))
+            }
         }
     }
 
@@ -170,24 +172,39 @@ impl<'a> ActivityTracker<'a> {
         let intake = FrameInput::for_design(design);
         let pixels = design.timing().pixels_per_frame();
         let lag = match &intake {
-            FrameInput::Lanes(..) => intake.pause_after(pixels - 1, intake.pixel_position(pixels - 1)),
+            FrameInput::Lanes(..) => {
+                intake.pause_after(pixels - 1, intake.pixel_position(pixels - 1))
+            }
             FrameInput::Regions(_) | FrameInput::Words(_) => 0,
         };
         let (taken, frames, since, is_ready, busy) = (0, 0, None, true, 0);
-        Self { intake, units_per_frame: pixels, last_pixel_clocks: lag, taken, frames, clocks_since_frame: since, is_ready, sync, clocks_until_next: busy }
+        Self {
+            intake,
+            units_per_frame: pixels,
+            last_pixel_clocks: lag,
+            taken,
+            frames,
+            clocks_since_frame: since,
+            is_ready,
+            sync,
+            clocks_until_next: busy,
+        }
     }
 
     /// Advances by one clock, with its inputs and with the readiness of the array after it.
     fn step(&mut self, reset: bool, (valid, sof): (bool, bool), ready_after: bool) -> CoreActivity {
         let was_ready = std::mem::replace(&mut self.is_ready, ready_after);
         if reset {
-            (self.taken, self.frames, self.clocks_since_frame, self.clocks_until_next) = (0, 0, None, 0);
+            (self.taken, self.frames, self.clocks_since_frame, self.clocks_until_next) =
+                (0, 0, None, 0);
             if let Some(sync) = &mut self.sync {
                 sync.reset();
             }
             return CoreActivity::Reset;
         }
-        if let (Some(timing), Some(since)) = (self.intake.lane_timing(), &mut self.clocks_since_frame) {
+        if let (Some(timing), Some(since)) =
+            (self.intake.lane_timing(), &mut self.clocks_since_frame)
+        {
             *since += 1;
             let first = self.last_pixel_clocks + timing.edges_to_step(0);
             let step = since.saturating_sub(first);
@@ -253,9 +270,12 @@ pub(crate) fn core_activities(
     };
     let start = recording.sequence(first).start;
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let (reset, valid) = (field_of_role(inputs, PortRole::Reset), field_of_role(inputs, PortRole::Valid));
-    let (ready, sof) = (field_of_role(outputs, PortRole::Ready), field_of_role(inputs, PortRole::StartOfFrame));
-    let says = |field: Option<&RecordField>, record: &[u8]| field.is_some_and(|f| f.get(record, 0) == 1);
+    let (reset, valid) =
+        (field_of_role(inputs, PortRole::Reset), field_of_role(inputs, PortRole::Valid));
+    let (ready, sof) =
+        (field_of_role(outputs, PortRole::Ready), field_of_role(inputs, PortRole::StartOfFrame));
+    let says =
+        |field: Option<&RecordField>, record: &[u8]| field.is_some_and(|f| f.get(record, 0) == 1);
     let mut follower = ActivityTracker::new(design, sof.map(|_| FrameSync::new(design)));
     let (mut moments, mut wanted) = (Vec::new(), clocks.iter().peekable());
     recording.for_each_clock(start..last + 1, |clock, input, expected| {
@@ -283,7 +303,11 @@ mod tests {
 
     /// Calls `see` for every clock of a recording with its moment and expected outputs, sequence
     /// after sequence. Returns the number of clocks.
-    fn for_each_activity(toml: &str, level: CosimLevel, mut see: impl FnMut(&RecordLayout, CoreActivity, &[u8])) -> u64 {
+    fn for_each_activity(
+        toml: &str,
+        level: CosimLevel,
+        mut see: impl FnMut(&RecordLayout, CoreActivity, &[u8]),
+    ) -> u64 {
         let design = DesignConfig::from_toml(toml).unwrap().validate().unwrap();
         let stimulus = Stimulus { level, rounds: 1, ..Stimulus::default() };
         let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
@@ -316,21 +340,28 @@ mod tests {
                     &format!("size = 4\nneighborhood = \"{neighborhood}\"\n"),
                 );
                 let (mut scores, mut pixels) = (0, 0);
-                for_each_activity(&format!("{toml}{more}"), CosimLevel::Full, |layout, moment, expected| {
-                    let says = |role| field_of_role(layout, role).unwrap().get(expected, 0);
-                    if says(PortRole::ScoreValid) == 1 {
-                        let names = ["temporal count", "edge", "mad"];
-                        let index = usize::try_from(says(PortRole::ScoreIndex)).unwrap();
-                        assert_eq!(moment.score(), Some(names[index]), "{moment}");
-                        scores += 1;
-                    }
-                    let valid = field_of_role(layout, PortRole::ForwardValid).unwrap();
-                    if valid.bytes_in(expected).iter().any(|&byte| byte != 0) {
-                        let unload = matches!(moment, CoreActivity::Work { phase: SerialPhase::UnloadPixels, .. });
-                        assert!(unload, "{moment}");
-                        pixels += 1;
-                    }
-                });
+                for_each_activity(
+                    &format!("{toml}{more}"),
+                    CosimLevel::Full,
+                    |layout, moment, expected| {
+                        let says = |role| field_of_role(layout, role).unwrap().get(expected, 0);
+                        if says(PortRole::ScoreValid) == 1 {
+                            let names = ["temporal count", "edge", "mad"];
+                            let index = usize::try_from(says(PortRole::ScoreIndex)).unwrap();
+                            assert_eq!(moment.score(), Some(names[index]), "{moment}");
+                            scores += 1;
+                        }
+                        let valid = field_of_role(layout, PortRole::ForwardValid).unwrap();
+                        if valid.bytes_in(expected).iter().any(|&byte| byte != 0) {
+                            let unload = matches!(
+                                moment,
+                                CoreActivity::Work { phase: SerialPhase::UnloadPixels, .. }
+                            );
+                            assert!(unload, "{moment}");
+                            pixels += 1;
+                        }
+                    },
+                );
                 assert!(scores > 100 && pixels > 100, "{scores} {pixels}");
             }
         }
@@ -378,7 +409,8 @@ mod tests {
     }
 
     fn words_are_counted(toml: &str) {
-        let last = CoreActivity::Pixel { unit: "word", frame: 0, number: 111, of: 112, x: 30, y: 6 };
+        let last =
+            CoreActivity::Pixel { unit: "word", frame: 0, number: 111, of: 112, x: 30, y: 6 };
         assert_eq!(last.to_string(), "word 111 of 112 (x 30, y 6) of frame 0 enters");
         let (mut frames, mut decisions) = (0, 0);
         for_each_activity(toml, CosimLevel::Full, |layout, moment, expected| {
@@ -393,7 +425,10 @@ mod tests {
             }
             let says = |role| field_of_role(layout, role).unwrap().get(expected, 0);
             if says(PortRole::DecisionValid) == 1 && says(PortRole::Region) == 15 {
-                assert!(matches!(moment, CoreActivity::Waiting { taken: 0, of: 112, .. }), "{moment}");
+                assert!(
+                    matches!(moment, CoreActivity::Waiting { taken: 0, of: 112, .. }),
+                    "{moment}"
+                );
                 decisions += 1;
             }
         });

@@ -6,7 +6,7 @@ use crate::field::RecordField;
 use crate::gate::ComparisonGate;
 use crate::layout::RecordLayout;
 use askama::Template;
-use foveate_design::{PortDirection, Port, PortRole};
+use foveate_design::{Port, PortDirection, PortRole};
 use foveate_emit::Parameter;
 
 /// Returns the C++ main that clocks module `top` with packed records; [`Layout`] describes their
@@ -143,15 +143,18 @@ fn gate_condition(field: &RecordField, fields: &[RecordField]) -> String {
         ComparisonGate::SameLane(valid) if field.port.lanes == 1 => {
             format!("{}_expected && ", fields[valid].port.name)
         }
-        ComparisonGate::SameLane(valid) => format!("{}_expected[lane] && ", fields[valid].port.name),
+        ComparisonGate::SameLane(valid) => {
+            format!("{}_expected[lane] && ", fields[valid].port.name)
+        }
         ComparisonGate::AnyLane(valid) => format!("|{}_expected && ", fields[valid].port.name),
     }
 }
 
 /// Returns the name of the clock. A hand-made module without a clock role has `clk_i`.
 fn clock_name(ports: &[Port]) -> &str {
-    let is_clock =
-        |port: &&Port| port.direction == PortDirection::Input && matches!(port.role, PortRole::Clock);
+    let is_clock = |port: &&Port| {
+        port.direction == PortDirection::Input && matches!(port.role, PortRole::Clock)
+    };
     ports.iter().find(is_clock).map_or("clk_i", |port| port.name.as_str())
 }
 

@@ -36,7 +36,10 @@ struct VerilogModule {
 
 /// Returns true if a file declares the module.
 pub(crate) fn declares(sources: &[SourceFile], module: &str) -> bool {
-    sources.iter().flat_map(|file| declared_modules(&file.contents)).any(|found| found.name == module)
+    sources
+        .iter()
+        .flat_map(|file| declared_modules(&file.contents))
+        .any(|found| found.name == module)
 }
 
 /// Returns the prefixes of the cores among the files: those of the modules `rpu` and `rcm` with a

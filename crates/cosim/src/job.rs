@@ -175,7 +175,8 @@ impl CosimJob {
         let mut report = self.report(&design, recording, &outcome)?;
         if let Some(mismatch) = &report.mismatch {
             let about = ReplaySubject { mismatch, fingerprint: &report.design };
-            let folder = replay::write_replay(&self.output, &run, &dut, recording, &outcome, &about)?;
+            let folder =
+                replay::write_replay(&self.output, &run, &dut, recording, &outcome, &about)?;
             report.replay = Some(folder);
         } else if let Some(waves) = &outcome.waves {
             report.waves = Some(replay::write_waves(&self.output, waves)?);

@@ -8,7 +8,7 @@
 
 use crate::field::RecordField;
 use crate::gate::ComparisonGate;
-use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
+use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
 
 /// The layout of a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +38,8 @@ impl RecordLayout {
         let ports: Vec<_> = ports.collect();
         let place = |port: &&Port| {
             let bytes = port.bits().div_ceil(8) as usize;
-            let field = RecordField { port: (*port).clone(), offset, bytes, gate: gate_of(port, &ports) };
+            let field =
+                RecordField { port: (*port).clone(), offset, bytes, gate: gate_of(port, &ports) };
             offset += bytes;
             field
         };
@@ -75,7 +76,8 @@ impl RecordLayout {
     /// valid bit belongs to the port, only lanes with that bit count.
     #[must_use]
     pub fn compared_values(&self, expected: &[u8]) -> u64 {
-        let lanes = |field: &RecordField| field.gate.open_lanes(&self.fields, expected, field.port.lanes);
+        let lanes =
+            |field: &RecordField| field.gate.open_lanes(&self.fields, expected, field.port.lanes);
         self.fields.iter().map(|field| u64::from(lanes(field))).sum()
     }
 

@@ -68,7 +68,8 @@ impl CosimLevel {
         if Self::is_whole_affordable(design) && !levels[1].is_whole(design) {
             levels.push(Self::Full);
         }
-        let is_there = |level: &Self| declares(sources, &prefix.prefixed_name(level.top().module()));
+        let is_there =
+            |level: &Self| declares(sources, &prefix.prefixed_name(level.top().module()));
         let found: Vec<Self> = levels.into_iter().filter(is_there).collect();
         if found.is_empty() { vec![Self::Rpu] } else { found }
     }

@@ -2,10 +2,10 @@
 //! A mismatch in terms of the vectors: every port that differs, with its place and time.
 
 use crate::comparison::PortDifference;
+use crate::core_activity::{CoreActivity, core_activities};
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::mismatch_region;
-use crate::core_activity::{CoreActivity, core_activities};
 use crate::recording::Recording;
 use foveate_design::{Design, PortRole};
 use serde::{Deserialize, Serialize};
@@ -99,14 +99,23 @@ fn port_mismatch(
     let record = recording.expected_at(clock)?;
     let first = recording.span(clock).and_then(|span| span.region);
     let layout = recording.outputs();
-    let region = mismatch_region::region_of_difference(design, level, layout, &record, difference, first);
+    let region =
+        mismatch_region::region_of_difference(design, level, layout, &record, difference, first);
     let role = layout.fields().iter().find(|field| field.port.name == port).map(|f| f.port.role);
     let is_score = matches!(
         role,
         Some(PortRole::ScoreValid | PortRole::ScoreIndex | PortRole::Region | PortRole::AnyScore)
     );
     let score = moment.score().filter(|_| is_score).map(str::to_owned);
-    Ok(PortMismatch { port, clock, region, score, activity: moment.to_string(), expected, actual: got })
+    Ok(PortMismatch {
+        port,
+        clock,
+        region,
+        score,
+        activity: moment.to_string(),
+        expected,
+        actual: got,
+    })
 }
 
 impl fmt::Display for PortMismatch {

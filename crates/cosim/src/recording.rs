@@ -6,8 +6,8 @@
 
 use crate::error::CosimError;
 use crate::layout::RecordLayout;
-use crate::vector_packer::VectorPacker;
 use crate::situations::{Occurrences, SituationMonitor};
+use crate::vector_packer::VectorPacker;
 use foveate_design::{Design, Port};
 use foveate_emit::Top;
 use foveate_staging::ScratchFolder;
@@ -156,7 +156,8 @@ impl Recording {
         mut see: impl FnMut(u64, &[u8], &[u8]),
     ) -> Result<(), CosimError> {
         let (inputs_path, expected_path) = (self.inputs_path(), self.expected_path());
-        let (mut inputs, mut outputs) = (open_buffered(&inputs_path)?, open_buffered(&expected_path)?);
+        let (mut inputs, mut outputs) =
+            (open_buffered(&inputs_path)?, open_buffered(&expected_path)?);
         let (mut input, mut expected) = (self.inputs.zero_record(), self.outputs.zero_record());
         inputs
             .seek(SeekFrom::Start(clocks.start * input.len() as u64))

@@ -147,7 +147,9 @@ impl SimulationRun<'_> {
     pub fn build(&self, dut: &DesignUnderTest) -> Result<PathBuf, CosimError> {
         dut.check()?;
         Ok(match self.simulator {
-            Simulator::Verilator => verilator::build(self.toolchain, self.cache, &self.verilator_job(dut))?,
+            Simulator::Verilator => {
+                verilator::build(self.toolchain, self.cache, &self.verilator_job(dut))?
+            }
             Simulator::Iverilog => {
                 let mut sources = dut.sources.clone();
                 sources.push((
@@ -169,7 +171,11 @@ impl SimulationRun<'_> {
     ///
     /// # Errors
     /// Fails if there is no result; a difference is a result.
-    pub fn run(&self, dut: &DesignUnderTest, recording: &Recording) -> Result<SimulationOutcome, CosimError> {
+    pub fn run(
+        &self,
+        dut: &DesignUnderTest,
+        recording: &Recording,
+    ) -> Result<SimulationOutcome, CosimError> {
         let version = self.toolchain.find(self.simulator.tools()[0])?.banner;
         let start = Instant::now();
         let program = self.build(dut)?;
@@ -284,7 +290,12 @@ impl SimulationRun<'_> {
         Ok((output, found))
     }
 
-    pub(crate) fn short_run_error(&self, recording: &Recording, got: u64, output: &ProgramOutput) -> CosimError {
+    pub(crate) fn short_run_error(
+        &self,
+        recording: &Recording,
+        got: u64,
+        output: &ProgramOutput,
+    ) -> CosimError {
         let log = output.log();
         let tail = log.lines().rev().find(|line| !line.trim().is_empty());
         CosimError::EndedEarly {

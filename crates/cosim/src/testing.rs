@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A small hand-made module, to test the machinery without model and RTL.
 
-use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
+use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
 
 /// Returns a port of any name and shape. It has the role of the clock for `clk_i`, and otherwise a
 /// role without meaning.

@@ -157,7 +157,8 @@ mod tests {
     #[test]
     fn the_line_of_the_harness_is_read() {
         let line = "TIMED passes 3 seconds 1.5 applying 0.25 kilobytes 4096";
-        let wanted = HarnessTimes { passes: 3, seconds: 1.5, unpacking_seconds: 0.25, kilobytes: 4096 };
+        let wanted =
+            HarnessTimes { passes: 3, seconds: 1.5, unpacking_seconds: 0.25, kilobytes: 4096 };
         assert_eq!(parse_timed(line), Some(wanted));
         for line in ["TIMED passes 3", "TIMED seconds 3 passes 1", "done"] {
             assert_eq!(parse_timed(line), None, "{line}");
@@ -166,7 +167,8 @@ mod tests {
 
     #[test]
     fn every_difference_counts_and_so_does_what_is_missing() {
-        let ports = [port("a_i", PortDirection::Input, 1, 1), port("b_o", PortDirection::Output, 4, 2)];
+        let ports =
+            [port("a_i", PortDirection::Input, 1, 1), port("b_o", PortDirection::Output, 4, 2)];
         let mut recorder = Recorder::new(&ports).unwrap();
         (0..100).for_each(|clock| recorder.push(&[0], &[clock]).unwrap());
         let recording = recorder.finish().unwrap();
@@ -174,7 +176,8 @@ mod tests {
         let mut bytes: Vec<u8> = (0..100).collect();
         let counted = |bytes: &[u8]| {
             std::fs::write(&actual, bytes).unwrap();
-            let OutputAgreement { compared, differing } = compare_outputs(&recording, &actual).unwrap();
+            let OutputAgreement { compared, differing } =
+                compare_outputs(&recording, &actual).unwrap();
             (compared, differing)
         };
         assert_eq!(counted(&bytes), (200, 0));

@@ -51,7 +51,10 @@ impl<W: Write> VectorPacker<W> {
         let mut expected = expected.to_vec();
         if let Some((waiting, run)) = &mut self.pending {
             keep_uncompared(&self.outputs, &waiting.expected, &mut expected);
-            if waiting.input == input && waiting.expected == expected && *run + clocks <= MAX_CLOCKS_PER_LINE {
+            if waiting.input == input
+                && waiting.expected == expected
+                && *run + clocks <= MAX_CLOCKS_PER_LINE
+            {
                 *run += clocks;
                 return Ok(());
             }
@@ -77,7 +80,8 @@ impl<W: Write> VectorPacker<W> {
         let Some((clock, run)) = self.pending.take() else { return Ok(()) };
         let before = self.last_written.as_ref();
         let inputs = changed_values(&self.inputs, &clock.input, before.map(|clock| &clock.input));
-        let outputs = changed_values(&self.outputs, &clock.expected, before.map(|clock| &clock.expected));
+        let outputs =
+            changed_values(&self.outputs, &clock.expected, before.map(|clock| &clock.expected));
         let columns = self.inputs.fields().len() + self.outputs.fields().len();
         let numbered = inputs.into_iter().chain(outputs).enumerate();
         let (mut changes, mut values) = (0u128, String::new());
@@ -103,9 +107,16 @@ impl<W: Write> VectorPacker<W> {
 }
 
 /// Returns the values of a record that differ from those before, as hexadecimal numbers.
-fn changed_values(layout: &RecordLayout, record: &[u8], before: Option<&Vec<u8>>) -> Vec<Option<String>> {
-    let differs = |field: &RecordField| before.is_none_or(|old| field.bytes_in(old) != field.bytes_in(record));
-    let value = |field: &RecordField| differs(field).then(|| without_leading_zeros(&field.hex(record)));
+fn changed_values(
+    layout: &RecordLayout,
+    record: &[u8],
+    before: Option<&Vec<u8>>,
+) -> Vec<Option<String>> {
+    let differs = |field: &RecordField| {
+        before.is_none_or(|old| field.bytes_in(old) != field.bytes_in(record))
+    };
+    let value =
+        |field: &RecordField| differs(field).then(|| without_leading_zeros(&field.hex(record)));
     layout.fields().iter().map(value).collect()
 }
 
@@ -130,7 +141,7 @@ fn keep_uncompared(layout: &RecordLayout, before: &[u8], record: &mut [u8]) {
 mod tests {
     use super::*;
     use crate::testing::port;
-    use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
+    use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
 
     #[test]
     fn only_changes_are_written_and_stretches_are_one_line() {

@@ -3,7 +3,8 @@
 //! that computes it. The defaults are those of the paper's design.
 
 use crate::{
-    InterfaceKind, PixelFeed, LaneMemoryKind, Organization, Pipelining, FrameStoreKind, ThresholdSource, keys::HARDWARE_KEYS,
+    FrameStoreKind, InterfaceKind, LaneMemoryKind, Organization, Pipelining, PixelFeed,
+    ThresholdSource, keys::HARDWARE_KEYS,
 };
 use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, ConfigKey, toml_text};
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,8 @@
 use std::ops::Deref;
 
 use crate::{
-    InterfaceKind, DesignConfig, Hardware, HardwareConfig, Organization, Pipelining, ThresholdSource, fingerprint,
+    DesignConfig, Hardware, HardwareConfig, InterfaceKind, Organization, Pipelining,
+    ThresholdSource, fingerprint,
 };
 use foveate_camera::Camera;
 

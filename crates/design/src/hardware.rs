@@ -4,7 +4,7 @@
 use crate::pipelined::PipelinedHardware;
 use crate::raster::RasterHardware;
 use crate::serial::SerialHardware;
-use crate::{InterfaceKind, HardwareConfig, Organization, Pipelining};
+use crate::{HardwareConfig, InterfaceKind, Organization, Pipelining};
 
 /// The hardware that computes a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 //! The interface of a core: a clock, a reset, streams, and control inputs. The list of ports
 //! follows from it, and so do headers, test harnesses, vectors and benches.
 
-use crate::{PortDirection, Port, PortRole, OutputQualifier};
+use crate::{OutputQualifier, Port, PortDirection, PortRole};
 
 /// The contents of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -2,7 +2,10 @@
 //! The keys of `[hardware]`. An unknown key is refused by name, and the message suggests the
 //! nearest known key.
 
-use crate::{InterfaceKind, PixelFeed, LaneMemoryKind, Organization, Pipelining, FrameStoreKind, ThresholdSource};
+use crate::{
+    FrameStoreKind, InterfaceKind, LaneMemoryKind, Organization, Pipelining, PixelFeed,
+    ThresholdSource,
+};
 use foveate_camera::ConfigKey;
 use foveate_camera::Takes::{Names, Text};
 

@@ -12,6 +12,7 @@ mod config;
 mod design;
 mod fingerprint;
 mod hardware;
+mod hardware_view;
 mod interface;
 mod keys;
 mod organization;
@@ -24,30 +25,35 @@ mod serial;
 mod takes;
 mod timing;
 mod validation;
-mod hardware_view;
 
-pub use choice::{InterfaceKind, PixelFeed, LaneMemoryKind, Organization, Pipelining, FrameStoreKind, ThresholdSource};
+pub use choice::{
+    FrameStoreKind, InterfaceKind, LaneMemoryKind, Organization, Pipelining, PixelFeed,
+    ThresholdSource,
+};
 pub use config::{DesignConfig, HardwareConfig};
 pub use design::Design;
 pub use foveate_camera::{
-    RegionAction, Camera, CameraConfig, VoteCombination, ConfigError, DECISION_BITS, Decimal, DecisionConfig,
-    DenoiseConfig, FeatureKind, DenoiseFilter, FrameConfig, IrrelevantRendering, MeanDivision, ScoreUnit, Neighborhood,
-    Payload, Periphery, PeripheryConfig, Reciprocal, ReferencePolicy, RegionConfig, RenderConfig,
-    SUMMARY_BLOCKS, SpatialConfig, SpatialFeature, TemporalParameters, TemporalConfig, VarianceWidths, ReferenceWriteTime,
-    bits_for, index_bits, mad_score_max,
+    Camera, CameraConfig, ConfigError, DECISION_BITS, Decimal, DecisionConfig, DenoiseConfig,
+    DenoiseFilter, FeatureKind, FrameConfig, IrrelevantRendering, MeanDivision, Neighborhood,
+    Payload, Periphery, PeripheryConfig, Reciprocal, ReferencePolicy, ReferenceWriteTime,
+    RegionAction, RegionConfig, RenderConfig, SUMMARY_BLOCKS, ScoreUnit, SpatialConfig,
+    SpatialFeature, TemporalConfig, TemporalParameters, VarianceWidths, VoteCombination, bits_for,
+    index_bits, mad_score_max,
 };
 pub use hardware::Hardware;
+pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};
 pub use interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 pub use organization::is_taken;
 pub use pipelined::{PipelinedHardware, PipelinedTiming};
-pub use port::{PortDirection, Port, PortRole, OutputQualifier};
+pub use port::{OutputQualifier, Port, PortDirection, PortRole};
 pub use preset::{PRESETS, Preset};
 pub use raster::{
-    FRAME_NUMBERS, RasterHardware, RasterMemory, RasterStreamTiming, RasterTiming, RowDeparture, SecondPassTiming,
+    FRAME_NUMBERS, RasterHardware, RasterMemory, RasterStreamTiming, RasterTiming, RowDeparture,
+    SecondPassTiming,
 };
 pub use rules::{ArrayStructure, ArrayUnit};
 pub use serial::{
-    SlotArea, SlotAreaKind, BlockMeanDivision, LaneMemory, LaneWidths, MemoryChoice, SerialPhase, SerialHardware, SerialTiming,
+    BlockMeanDivision, LaneMemory, LaneWidths, MemoryChoice, SerialHardware, SerialPhase,
+    SerialTiming, SlotArea, SlotAreaKind,
 };
 pub use timing::{DepartureTiming, DesignTiming};
-pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};

@@ -7,10 +7,12 @@
 
 use crate::pipelined::PipelinedHardware;
 use crate::raster::RasterHardware;
-use crate::rules::{OrganizationRules, ArrayUnit};
+use crate::rules::{ArrayUnit, OrganizationRules};
 use crate::serial::SerialHardware;
 use crate::takes::Taken;
-use crate::{Design, PixelFeed, Hardware, HardwareConfig, CoreInterface, Organization, Port, DesignTiming};
+use crate::{
+    CoreInterface, Design, DesignTiming, Hardware, HardwareConfig, Organization, PixelFeed, Port,
+};
 use foveate_camera::{CameraConfig, FeatureKind, ReferencePolicy};
 
 impl Organization {

@@ -270,7 +270,8 @@ pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
         ThresholdSource::Constant => return list,
         ThresholdSource::Runtime => {}
     }
-    let mut add = |role, width, doc| list.push(Port::scalar(PortDirection::Input, role, width, doc));
+    let mut add =
+        |role, width, doc| list.push(Port::scalar(PortDirection::Input, role, width, doc));
     for feature in design.features() {
         let kind = feature.kind();
         if feature.level().is_some() {

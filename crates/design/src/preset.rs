@@ -96,7 +96,8 @@ mod tests {
     /// The compiler does not check that a new name has a preset.
     #[test]
     fn every_organization_reference_and_way_to_show_has_a_preset() {
-        let configs: Vec<DesignConfig> = PRESETS.iter().map(|preset| preset.config().unwrap()).collect();
+        let configs: Vec<DesignConfig> =
+            PRESETS.iter().map(|preset| preset.config().unwrap()).collect();
         let some = |holds: &dyn Fn(&DesignConfig) -> bool| configs.iter().any(holds);
         for &own in Organization::ALL {
             assert!(some(&|config| config.hardware.organization == own), "{own}");

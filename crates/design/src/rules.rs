@@ -2,7 +2,7 @@
 //! The properties that every organization defines for its designs. The methods of `Design` in
 //! [`crate::organization`] return them.
 
-use crate::{Design, CoreInterface, DesignTiming};
+use crate::{CoreInterface, Design, DesignTiming};
 
 /// The structure of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,9 @@
 //! compute it yet.
 
 use crate::{HardwareConfig, ThresholdSource};
-use foveate_camera::{Camera, CameraConfig, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy};
+use foveate_camera::{
+    Camera, CameraConfig, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy,
+};
 
 /// The configurations that an organization supports. The trait is implemented by the properties of
 /// the organization.

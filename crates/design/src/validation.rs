@@ -2,7 +2,7 @@
 //! Validation: checks every range and combination of a configuration, and makes a design of it.
 
 use crate::takes::taken;
-use crate::{DesignConfig, Design, Hardware, HardwareConfig, Organization};
+use crate::{Design, DesignConfig, Hardware, HardwareConfig, Organization};
 use foveate_camera::{ConfigError, MAX_SIDE};
 
 impl DesignConfig {

@@ -4,8 +4,8 @@
 
 use crate::axi;
 use crate::organization::emitter;
-use crate::verilog_text::rendered_text;
 use crate::top::{self, AXI_TOP, CLOCK};
+use crate::verilog_text::rendered_text;
 use crate::{Prefix, SourceFile, Top, banner, synthesis_scripts, verilog};
 use askama::Template;
 use foveate_design::{ArrayStructure, Design};
@@ -61,7 +61,8 @@ const ICARUS_CLOCKS: u64 = 40_000;
 pub fn core_files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     let (mut files, mut lists) = (Vec::<SourceFile>::new(), Vec::new());
     let tops = Top::all_of(design).iter().rev().map(|&top| (top.module(), verilog(design, top)));
-    for (module, sources) in tops.chain(axi::axi_modules(design).map(|sources| (AXI_TOP, sources))) {
+    for (module, sources) in tops.chain(axi::axi_modules(design).map(|sources| (AXI_TOP, sources)))
+    {
         let sources = prefix.apply(sources);
         let path = prefix.prefixed_name(&format!("{module}.f"));
         lists.push(SourceFile { path, contents: file_list(&sources) });

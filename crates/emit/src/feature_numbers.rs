@@ -11,8 +11,11 @@ const _: () =
     assert!(FeatureKind::COUNT <= 1 << KIND_BITS, "widen KINDS where rtl/ has it as a parameter");
 
 /// Returns the value of `KINDS` for a list of features: the first feature has the lowest bits.
-pub(crate) fn kinds_value<'a>(features: impl DoubleEndedIterator<Item = &'a SpatialFeature>) -> String {
-    let list = features.rev().fold(0, |sum, feature| sum << KIND_BITS | feature_number(feature.kind()));
+pub(crate) fn kinds_value<'a>(
+    features: impl DoubleEndedIterator<Item = &'a SpatialFeature>,
+) -> String {
+    let list =
+        features.rev().fold(0, |sum, feature| sum << KIND_BITS | feature_number(feature.kind()));
     format!("{}'d{list}", KIND_BITS << KIND_BITS)
 }
 

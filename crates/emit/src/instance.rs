@@ -4,7 +4,7 @@
 
 use crate::thresholds::threshold_value;
 use crate::{Prefix, Top};
-use foveate_design::{Design, PortDirection, Port, PortRole};
+use foveate_design::{Design, Port, PortDirection, PortRole};
 
 /// Returns declarations and an instance of `rcm`, as lines of Verilog-2005. The signals have the
 /// names of the ports without `_i` and `_o`; threshold inputs are the constants of the

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules of cores and boards, and which of them a design needs.
 
-use foveate_design::{Design, FeatureKind, DenoiseFilter, Neighborhood, Pipelining, ReferencePolicy};
+use foveate_design::{
+    DenoiseFilter, Design, FeatureKind, Neighborhood, Pipelining, ReferencePolicy,
+};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,8 +12,8 @@
 
 use crate::Leaf;
 use foveate_design::{
-    Design, FeatureKind, PixelFeed, DenoiseFilter, LaneMemoryKind, Pipelining, RasterDesign, RasterTiming,
-    ReferencePolicy, SerialDesign, FrameStoreKind, ReferenceWriteTime,
+    DenoiseFilter, Design, FeatureKind, FrameStoreKind, LaneMemoryKind, Pipelining, PixelFeed,
+    RasterDesign, RasterTiming, ReferencePolicy, ReferenceWriteTime, SerialDesign,
 };
 
 /// Returns whether a leaf of a serial array contains `part`.
@@ -24,7 +24,9 @@ pub(crate) fn serial_leaf_has_part(design: SerialDesign<'_>, leaf: &str, part: &
         ("serial_array", "serial_sides") => design.needs_border() && design.fold() > 1,
         ("serial_array", "serial_summary") => design.periphery().is_some(),
         ("serial_raster_feed", _) => design.halo() > 0,
-        ("serial_memory", "frame_store") => design.lane_memory().kind == LaneMemoryKind::Distributed,
+        ("serial_memory", "frame_store") => {
+            design.lane_memory().kind == LaneMemoryKind::Distributed
+        }
         ("serial_decision", "frame_store") => has_region_marks(&design),
         _ => true,
     }
@@ -43,7 +45,9 @@ pub(crate) fn raster_leaf_has_part(design: RasterDesign<'_>, leaf: &str, part: &
         ("raster_core", "raster_store") => design.store() != FrameStoreKind::External,
         ("raster_core", "raster_ring") => design.has_forwarding() || scored(),
         ("raster_core", "raster_forward") => design.has_forwarding(),
-        ("raster_core", "raster_line") => design.has_forwarding() && design.has_separate_raw_pixels() && window(),
+        ("raster_core", "raster_line") => {
+            design.has_forwarding() && design.has_separate_raw_pixels() && window()
+        }
         ("raster_core", "raster_summary") => design.periphery().is_some(),
         ("raster_decision", "raster_valid") => has_region_marks(&design),
         ("raster_store", "raster_pairs") => design.store() == FrameStoreKind::SinglePort,

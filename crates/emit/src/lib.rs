@@ -6,13 +6,14 @@
 //! no dates and no paths, and only what the design needs.
 
 mod axi;
-mod leaf_parts;
 mod camera_flags;
 mod core_files;
 mod error;
-mod instance;
 mod feature_numbers;
+mod frame_sync;
+mod instance;
 mod leaf;
+mod leaf_parts;
 mod organization;
 mod prefix;
 mod raster;
@@ -20,17 +21,16 @@ mod rcm;
 mod readme;
 mod rpu;
 mod serial;
-mod frame_sync;
 mod synthesis_scripts;
-mod verilog_text;
 mod thresholds;
 mod top;
 mod verilog;
+mod verilog_text;
 mod wrapped_port;
 
 pub use crate::axi::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
-pub use crate::axi::{AXI_PARTS, RegisterField, FieldKind, Register};
-pub use crate::axi::{axi_modules, register_table, axi_registers, axi_software};
+pub use crate::axi::{AXI_PARTS, FieldKind, Register, RegisterField};
+pub use crate::axi::{axi_modules, axi_registers, axi_software, register_table};
 pub use crate::core_files::core_files;
 pub use error::EmitError;
 pub use leaf::{BOARD_LEAVES, LEAVES, Leaf};

@@ -3,7 +3,7 @@
 //! the organizations.
 
 use crate::leaf_parts::ParameterValues;
-use crate::{Prefix, SourceFile, Top, leaf_parts, leaf, raster, rcm, readme, serial};
+use crate::{Prefix, SourceFile, Top, leaf, leaf_parts, raster, rcm, readme, serial};
 use foveate_design::{Design, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 
 /// The parts of a core that depend on the organization of its design.

@@ -123,7 +123,11 @@ impl Prefix {
         // control characters.
         let shown = || text.chars().take(MAX_CHARACTERS + 1).flat_map(char::escape_debug).collect();
         let wrong = |wrong: &str| {
-            Err(EmitError::InvalidPrefix { prefix: shown(), wrong: wrong.to_owned(), most: MAX_CHARACTERS })
+            Err(EmitError::InvalidPrefix {
+                prefix: shown(),
+                wrong: wrong.to_owned(),
+                most: MAX_CHARACTERS,
+            })
         };
         if !text.starts_with(|first: char| first.is_ascii_alphabetic()) {
             return wrong("does not begin with a letter");
@@ -142,7 +146,10 @@ impl Prefix {
         }
         let prefix = Self(text.to_owned());
         let names = || LEAVES.iter().map(|leaf| leaf.name);
-        match names().map(|name| prefix.prefixed_name(name)).find(|made| names().any(|name| name == made)) {
+        match names()
+            .map(|name| prefix.prefixed_name(name))
+            .find(|made| names().any(|name| name == made))
+        {
             Some(made) => wrong(&format!("makes the name `{made}`, which cores without it have")),
             None => Ok(prefix),
         }
@@ -294,7 +301,8 @@ mod tests {
 
     #[test]
     fn the_prefix_of_a_top_is_what_stands_before_it() {
-        let of = |module| Prefix::of_top_module(module, Top::Rcm).map(|prefix| prefix.text().to_owned());
+        let of =
+            |module| Prefix::of_top_module(module, Top::Rcm).map(|prefix| prefix.text().to_owned());
         assert_eq!(of("rcm").as_deref(), Some(""));
         assert_eq!(of("left_eye_rcm").as_deref(), Some("left_eye"));
         for other in ["rpu", "xrcm", "_rcm", "cam0_rcm_replay", "1_rcm"] {

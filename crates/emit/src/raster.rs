@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
-use crate::leaf_parts::ParameterValues;
 use crate::camera_flags::{blanks_flag, last_sent_flag};
 use crate::feature_numbers::{deviation_mean, kinds_value};
 use crate::frame_sync::{self, FrameSync};
+use crate::leaf_parts::ParameterValues;
+use crate::thresholds::{
+    ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
+};
 use crate::verilog_text::{PortLine, module_file, rendered_text};
-use crate::thresholds::{ThresholdConstant, threshold_constants, threshold_signal, scores_text, summary_level_signal};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    VoteCombination, Design, FRAME_NUMBERS, FeatureKind, DenoiseFilter, Neighborhood, Pipelining, Port, PortRole,
-    RasterDesign, RasterTiming, SpatialFeature, FrameStoreKind, bits_for, index_bits,
+    DenoiseFilter, Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Pipelining,
+    Port, PortRole, RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
+    index_bits,
 };
 
 #[derive(Template)]
@@ -146,7 +149,10 @@ fn bit_range(width: u32) -> String {
 }
 
 /// Connects the streams of the core to the ports that the design has.
-fn stream_connections(design: RasterDesign<'_>, unused: &mut Vec<UnusedOutput>) -> Vec<(&'static str, String)> {
+fn stream_connections(
+    design: RasterDesign<'_>,
+    unused: &mut Vec<UnusedOutput>,
+) -> Vec<(&'static str, String)> {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let has: Vec<String> = design.rcm_ports().into_iter().map(|port| port.name).collect();
     let mut list = Vec::new();
@@ -332,7 +338,8 @@ fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
     ];
     for &kind in FeatureKind::ALL {
         if let Some(width) = level_bits(design, kind) {
-            let given = design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
+            let given =
+                design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
             list.push((format!("{kind}_level_i"), given.unwrap_or_else(|| format!("{width}'d0"))));
         }
     }
@@ -341,7 +348,8 @@ fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
 
 /// Returns the minima of all scores, that of the changed pixels last.
 fn minima(design: RasterDesign<'_>) -> Vec<String> {
-    let roles = features_in_core_order(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
+    let roles =
+        features_in_core_order(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
     let roles = roles.chain([PortRole::TemporalMinCount]);
     roles.map(|role| threshold_signal(&design, role)).collect()
 }

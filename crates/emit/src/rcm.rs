@@ -55,7 +55,8 @@ fn port_range(port: &Port) -> Option<String> {
 
 fn render(design: PipelinedDesign<'_>) -> String {
     let ports = design.rcm_ports();
-    let pins = design.rpu_ports().iter().map(|port| port_connection(design, port, &ports)).collect();
+    let pins =
+        design.rpu_ports().iter().map(|port| port_connection(design, port, &ports)).collect();
     let view = RcmModule {
         banner: banner(&design),
         columns: design.columns(),

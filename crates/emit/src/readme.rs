@@ -7,13 +7,13 @@ mod sync;
 pub(crate) use raster::raster_readme;
 
 use crate::instance::instance;
-use crate::verilog_text::rendered_text;
 use crate::thresholds::threshold_value;
+use crate::verilog_text::rendered_text;
 use crate::{Prefix, Top, banner, latency_text};
 use askama::Template;
 use foveate_design::{
-    Design, PortDirection, PixelFeed, LaneMemoryKind, PipelinedDesign, PipelinedTiming, Port, SerialDesign,
-    SerialTiming, CoreStream, ThresholdSource,
+    CoreStream, Design, LaneMemoryKind, PipelinedDesign, PipelinedTiming, PixelFeed, Port,
+    PortDirection, SerialDesign, SerialTiming, ThresholdSource,
 };
 
 #[derive(Template)]
@@ -189,7 +189,11 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         runtime: design.threshold_source() == ThresholdSource::Runtime,
         streams: stream_rows(&design),
         rcm_ports: port_rows(&design),
-        thresholds: design.rpu_ports().iter().filter_map(|port| threshold_row(&design, port)).collect(),
+        thresholds: design
+            .rpu_ports()
+            .iter()
+            .filter_map(|port| threshold_row(&design, port))
+            .collect(),
         instance: instance(&design, prefix),
         synthesized: crate::top::placed_top(&design),
         has_rpu: Top::has_rpu(&design),
@@ -222,7 +226,11 @@ fn longest_pause(design: SerialDesign<'_>) -> u32 {
     }
 }
 
-fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: PipelinedTiming) -> PipelinedReadme {
+fn pipelined_view(
+    design: PipelinedDesign<'_>,
+    prefix: &Prefix,
+    timing: PipelinedTiming,
+) -> PipelinedReadme {
     PipelinedReadme {
         banner: banner(&design),
         before: prefix.prefixed_name(""),
@@ -253,7 +261,11 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
         runtime: design.threshold_source() == ThresholdSource::Runtime,
         streams: stream_rows(&design),
         rcm_ports: port_rows(&design),
-        thresholds: design.rpu_ports().iter().filter_map(|port| threshold_row(&design, port)).collect(),
+        thresholds: design
+            .rpu_ports()
+            .iter()
+            .filter_map(|port| threshold_row(&design, port))
+            .collect(),
         instance: instance(&design, prefix),
         synthesized: crate::top::placed_top(&design),
         has_rpu: Top::has_rpu(&design),

@@ -3,15 +3,17 @@
 
 mod temporal_score;
 
-use self::temporal_score::{ReferenceCandidate, reference_candidates, compared_values, keeps_second_frame, unused_flags};
+use self::temporal_score::{
+    ReferenceCandidate, compared_values, keeps_second_frame, reference_candidates, unused_flags,
+};
 use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::thresholds::{ThresholdConstant, scores_text, threshold_constants, threshold_signal};
 use crate::verilog_text::{PortLine, rendered_text};
-use crate::thresholds::{ThresholdConstant, threshold_constants, threshold_signal, scores_text};
 use crate::{banner, latency_text};
 use askama::Template;
 use foveate_design::{
-    VoteCombination, FeatureKind, DenoiseFilter, MeanDivision, Neighborhood, Periphery, PipelinedDesign, PipelinedTiming,
-    Pipelining, PortRole, SpatialFeature, bits_for, index_bits,
+    DenoiseFilter, FeatureKind, MeanDivision, Neighborhood, Periphery, PipelinedDesign,
+    PipelinedTiming, Pipelining, PortRole, SpatialFeature, VoteCombination, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -211,7 +213,8 @@ impl SpatialParts {
                 }
                 FeatureKind::Mad => {
                     own.sums = true;
-                    own.mad = Some(mad_parameters(feature, feature.mean().expect("mad has a mean")));
+                    own.mad =
+                        Some(mad_parameters(feature, feature.mean().expect("mad has a mean")));
                 }
                 FeatureKind::Variance => {
                     own.sums = true;
@@ -247,7 +250,10 @@ fn mad_parameters(feature: &SpatialFeature, mean: &MeanDivision) -> MadParameter
     }
 }
 
-fn variance_widths(feature: &SpatialFeature, widths: &foveate_camera::VarianceWidths) -> VarianceWidths {
+fn variance_widths(
+    feature: &SpatialFeature,
+    widths: &foveate_camera::VarianceWidths,
+) -> VarianceWidths {
     VarianceWidths {
         square_bits: widths.square_bits,
         square_sum_bits: widths.square_sum_bits,

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `serial.v`, the top of a serial design: the array, or an array that has one lane.
 
-use crate::leaf_parts::ParameterValues;
 use crate::camera_flags::{blanks_flag, last_sent_flag};
 use crate::feature_numbers::{deviation_mean, kinds_value};
 use crate::frame_sync::{self, FrameSync};
+use crate::leaf_parts::ParameterValues;
+use crate::thresholds::{
+    ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
+};
 use crate::verilog_text::{PortLine, module_file, rendered_text};
-use crate::thresholds::{ThresholdConstant, threshold_constants, threshold_signal, scores_text, summary_level_signal};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    SlotAreaKind, VoteCombination, FeatureKind, PixelFeed, DenoiseFilter, LaneMemoryKind, Neighborhood, Pipelining, Port,
-    PortRole, SerialDesign, SerialTiming, SpatialFeature, ThresholdSource, bits_for, index_bits,
+    DenoiseFilter, FeatureKind, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port,
+    PortRole, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource,
+    VoteCombination, bits_for, index_bits,
 };
 
 #[derive(Template)]
@@ -140,7 +143,10 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> SerialTo
         widest: design.max_regions_per_line().max(design.columns()),
         highest: design.max_regions_per_line(),
         ports: PortLine::aligned(&top.ports(&named), |port| port_range(port, named)),
-        constants: threshold_constants(&design).into_iter().filter(|c| c.name != "EDGE_LEVEL").collect(),
+        constants: threshold_constants(&design)
+            .into_iter()
+            .filter(|c| c.name != "EDGE_LEVEL")
+            .collect(),
         parameters: array_parameters(design),
         fold: design.fold(),
         slot_bits: design.slot_bits(),
@@ -248,7 +254,8 @@ fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static 
     match kind {
         FeatureKind::Edge => Some(("edge_half_i", half_edge_level(design))),
         FeatureKind::Corner => {
-            let given = design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
+            let given =
+                design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
             let level = given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()));
             Some(("corner_level_i", level))
         }
@@ -261,7 +268,9 @@ fn half_edge_level(design: SerialDesign<'_>) -> String {
     let width = design.pixel_bits() + 2;
     let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
     match design.threshold_source() {
-        ThresholdSource::Constant => format!("{width}'d{}", edge.level().expect("edge has a level") / 2),
+        ThresholdSource::Constant => {
+            format!("{width}'d{}", edge.level().expect("edge has a level") / 2)
+        }
         ThresholdSource::Runtime => {
             let half = format!("edge_level_i[{}:1]", edge.level_bits() - 1);
             zero_extended(&half, edge.level_bits() - 1, width)
@@ -276,7 +285,11 @@ fn minima(design: SerialDesign<'_>) -> Vec<String> {
         zero_extended(&name, feature.score_bits(), width)
     };
     let mut list: Vec<_> = design.features().iter().rev().map(minimum).collect();
-    list.push(zero_extended(&threshold_signal(&design, PortRole::TemporalMinCount), design.count_bits(), width));
+    list.push(zero_extended(
+        &threshold_signal(&design, PortRole::TemporalMinCount),
+        design.count_bits(),
+        width,
+    ));
     list
 }
 

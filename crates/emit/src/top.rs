@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The modules that may be on top of a design: its RPU or lane, its array, and the core on AXI.
 
-use foveate_design::{ArrayStructure, InterfaceKind, Design, Hardware, CoreInterface, Port};
+use foveate_design::{ArrayStructure, CoreInterface, Design, Hardware, InterfaceKind, Port};
 
 /// The top module of a core on AXI, which contains the array.
 pub const AXI_TOP: &str = "rcm_axi";
@@ -39,7 +39,8 @@ impl Top {
     pub fn array_top(self, design: &Design) -> Self {
         match (self, design.unit().array) {
             (Self::Rpu, ArrayStructure::SharedLogic) => Self::Rpu,
-            (Self::Rpu, ArrayStructure::RpuCopies) | (Self::Rcm, ArrayStructure::RpuCopies | ArrayStructure::SharedLogic) => Self::Rcm,
+            (Self::Rpu, ArrayStructure::RpuCopies)
+            | (Self::Rcm, ArrayStructure::RpuCopies | ArrayStructure::SharedLogic) => Self::Rcm,
         }
     }
 

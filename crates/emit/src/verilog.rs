@@ -3,7 +3,7 @@
 
 use crate::organization::emitter;
 use crate::verilog_text::module_file;
-use crate::{SourceFile, Top, leaf_parts, leaf};
+use crate::{SourceFile, Top, leaf, leaf_parts};
 use foveate_design::Design;
 
 /// Returns the modules that `top` elaborates, each after those it instantiates. Smaller grids need
@@ -23,7 +23,10 @@ pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
         // Both tops get the same text of a leaf: the text fits the smaller top, whose parts both
         // tops elaborate.
         let is_whole = leaf.uses.iter().all(|part| of_lone.has_part(leaf.name, part));
-        module_file(leaf.name, leaf_parts::shipped_text(leaf, &of_lone.leaf_parameters(leaf.name), is_whole))
+        module_file(
+            leaf.name,
+            leaf_parts::shipped_text(leaf, &of_lone.leaf_parameters(leaf.name), is_whole),
+        )
     });
     leaves.chain(own.modules(top)).collect()
 }

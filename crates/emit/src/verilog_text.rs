@@ -4,7 +4,7 @@
 use crate::SourceFile;
 use crate::prefix::module_path;
 use askama::Template;
-use foveate_design::{PortDirection, Port};
+use foveate_design::{Port, PortDirection};
 
 /// Returns the file of a module.
 pub(crate) fn module_file(module: &str, contents: String) -> SourceFile {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A port of a core, in the form that the module around the core needs.
 
-use foveate_design::{PortDirection, Port};
+use foveate_design::{Port, PortDirection};
 
 /// A port other than the clock.
 pub(crate) struct WrappedPort {

@@ -5,7 +5,7 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use foveate_camera::{CameraConfig, FeatureKind, Neighborhood, SpatialConfig};
-use foveate_engine::{Engine, InstructionSet, EngineOptions, BatchScreens};
+use foveate_engine::{BatchScreens, Engine, EngineOptions, InstructionSet};
 
 fn main() {
     divan::main();
@@ -81,7 +81,12 @@ fn case(name: &str) -> BenchmarkCase {
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
 fn moving(bencher: Bencher, name: &str) {
-    run_single(bencher, case(name), EngineOptions { skips_identical_regions: false, ..EngineOptions::default() }, false);
+    run_single(
+        bencher,
+        case(name),
+        EngineOptions { skips_identical_regions: false, ..EngineOptions::default() },
+        false,
+    );
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
@@ -96,7 +101,12 @@ fn still_with_skip(bencher: Bencher, name: &str) {
 
 #[divan::bench(args = [1, 2])]
 fn threads(bencher: Bencher, threads: usize) {
-    run_single(bencher, HD, EngineOptions { threads, skips_identical_regions: false, ..EngineOptions::default() }, false);
+    run_single(
+        bencher,
+        HD,
+        EngineOptions { threads, skips_identical_regions: false, ..EngineOptions::default() },
+        false,
+    );
 }
 
 /// The numbers of threads and of frames per call, and whether the screens are kept.
@@ -113,7 +123,8 @@ const BATCH_OPTIONS: [(usize, usize, bool); 8] = [
 
 /// Times several frames per call.
 fn run_batch(bencher: Bencher, case: BenchmarkCase, (threads, batch, keep): (usize, usize, bool)) {
-    let options = EngineOptions { threads, skips_identical_regions: false, ..EngineOptions::default() };
+    let options =
+        EngineOptions { threads, skips_identical_regions: false, ..EngineOptions::default() };
     let (mut engine, frames) = setup(case, options);
     let frames: Vec<&[u8]> = frames.iter().map(Vec::as_slice).cycle().take(batch).collect();
     let width = usize::try_from(case.width).expect("a width");
@@ -138,5 +149,10 @@ fn batches_224(bencher: Bencher, way: (usize, usize, bool)) {
 fn instructions(bencher: Bencher, name: &str) {
     let level = InstructionSet::available().into_iter().find(|level| level.name() == name);
     let level = level.expect("an available level");
-    run_single(bencher, HD, EngineOptions { level, skips_identical_regions: false, ..EngineOptions::default() }, false);
+    run_single(
+        bencher,
+        HD,
+        EngineOptions { level, skips_identical_regions: false, ..EngineOptions::default() },
+        false,
+    );
 }

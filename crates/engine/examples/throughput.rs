@@ -17,9 +17,10 @@ use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
 use foveate_camera::{
-    CameraConfig, Decimal, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy, SpatialConfig,
+    CameraConfig, Decimal, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy,
+    SpatialConfig,
 };
-use foveate_engine::{Engine, FrameOutcome, InstructionSet, EngineOptions, BatchScreens};
+use foveate_engine::{BatchScreens, Engine, EngineOptions, FrameOutcome, InstructionSet};
 
 type BoxError = Box<dyn std::error::Error>;
 
@@ -149,8 +150,8 @@ fn measure(
     // differences between frames.
     let at = |number: usize| times.iter().skip(number).step_by(batches.len()).copied();
     let measured = batches.iter().take(times.len()).enumerate();
-    let frame_times =
-        measured.map(|(number, batch)| count_as_f64(batch.len()) * at(number).fold(f64::MAX, f64::min));
+    let frame_times = measured
+        .map(|(number, batch)| count_as_f64(batch.len()) * at(number).fold(f64::MAX, f64::min));
     let measured = batches.iter().take(times.len()).map(|batch| batch.len()).sum();
     let mean_of_all = frame_times.sum::<f64>() / count_as_f64(measured);
     times.sort_by(f64::total_cmp);

@@ -6,16 +6,21 @@ use std::ops::Range;
 use foveate_camera::ReferencePolicy;
 
 use crate::denoised::Denoiser;
-use crate::kernel::{SharedSides, WindowSides, WindowRows, corner, edge, mad, sums, temporal};
+use crate::kernel::{SharedSides, WindowRows, WindowSides, corner, edge, mad, sums, temporal};
 use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, FeaturePasses};
-use crate::working_memory::{ColumnSums, WorkingMemory, RegionSums};
+use crate::working_memory::{ColumnSums, RegionSums, WorkingMemory};
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 
 /// Returns the blocks of a run in row `y` of a padded plane.
 #[inline(always)]
-fn row_blocks<'a, T>(plane: &'a [T], stride: usize, y: usize, run: &Range<usize>) -> &'a [Block<T>] {
+fn row_blocks<'a, T>(
+    plane: &'a [T],
+    stride: usize,
+    y: usize,
+    run: &Range<usize>,
+) -> &'a [Block<T>] {
     plane[y * stride + run.start * BLOCK_LANES..][..run.len() * BLOCK_LANES].as_chunks().0
 }
 
@@ -78,7 +83,11 @@ impl<T: PixelLane> BandPass<'_, T> {
             let side = self.plan.side;
             sums::sum_by_region(&scratch.columns.above, side, &mut scratch.region_sums.above);
             if fraction_bits > 0 {
-                sums::sum_by_region(&scratch.columns.count_above, side, &mut scratch.region_sums.count_above);
+                sums::sum_by_region(
+                    &scratch.columns.count_above,
+                    side,
+                    &mut scratch.region_sums.count_above,
+                );
             }
         }
         if PERIPHERY && let Some(periphery) = self.plan.periphery {
@@ -147,7 +156,9 @@ impl<T: PixelLane> BandPass<'_, T> {
                     let windows = denoiser.windows(y);
                     match &plan.seams {
                         None => count_window_features(plan, windows, SharedSides, columns, run),
-                        Some(seams) => count_window_features(plan, windows, seams.masks_of(run), columns, run),
+                        Some(seams) => {
+                            count_window_features(plan, windows, seams.masks_of(run), columns, run)
+                        }
                     }
                 }
             } else {
@@ -172,7 +183,9 @@ impl<T: PixelLane> BandPass<'_, T> {
         let changed = &mut columns.changed.blocks_mut()[run.clone()];
         let store = row_blocks_mut(self.denoised, stride, row, run);
         match plan.reference {
-            ReferencePolicy::Previous => temporal::count_and_replace(now, store, plan.level, changed),
+            ReferencePolicy::Previous => {
+                temporal::count_and_replace(now, store, plan.level, changed)
+            }
             ReferencePolicy::LastSent => {
                 let reference = row_blocks(self.reference, stride, row, run);
                 temporal::count_and_store(now, reference, plan.level, changed, store);
@@ -191,7 +204,14 @@ impl<T: PixelLane> BandPass<'_, T> {
         let side = self.plan.side;
         // The pattern names every field, so that a new one is not forgotten. The sums of `mad`
         // follow in a second pass.
-        let FeaturePasses { edge, corner, has_windows: _, needs_sums: sums, needs_squares: squares, mad: _ } = self.plan.passes;
+        let FeaturePasses {
+            edge,
+            corner,
+            has_windows: _,
+            needs_sums: sums,
+            needs_squares: squares,
+            mad: _,
+        } = self.plan.passes;
         sums::sum_by_region(&columns.changed, side, &mut regions.changed);
         if edge.is_some() {
             sums::sum_by_region(&columns.edge, side, &mut regions.edge);
@@ -215,7 +235,12 @@ impl<T: PixelLane> BandPass<'_, T> {
             let mean = mad::region_mean(sum, n, fraction_bits) >> fraction_bits;
             saturated_threshold(u32::try_from(mean).expect("a mean is within the range of pixels"))
         };
-        sums::spread_over_columns(&scratch.region_sums.sum, self.plan.side, mean, &mut scratch.columns.mean);
+        sums::spread_over_columns(
+            &scratch.region_sums.sum,
+            self.plan.side,
+            mean,
+            &mut scratch.columns.mean,
+        );
     }
 
     #[inline(always)]
@@ -242,7 +267,14 @@ impl<T: PixelLane> ColumnSums<T> {
     /// Sets every sum that the first pass of a run uses to zero.
     #[inline(always)]
     fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
-        let FeaturePasses { edge, corner, has_windows: _, needs_sums: sums, needs_squares: squares, mad: _ } = plan.passes;
+        let FeaturePasses {
+            edge,
+            corner,
+            has_windows: _,
+            needs_sums: sums,
+            needs_squares: squares,
+            mad: _,
+        } = plan.passes;
         self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
         if edge.is_some() {
             self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);

@@ -4,12 +4,12 @@
 
 use foveate_camera::Camera;
 
-use crate::lane_engine::{LaneEngine, KeptBuffers};
 use crate::engine::{Engine, LaneCore};
+use crate::lane_engine::{KeptBuffers, LaneEngine};
 use crate::pixels::BorrowedFrame;
 use crate::plan::index;
 use crate::workers::Workers;
-use crate::{EngineError, FrameOutcome, BatchScreens, screens};
+use crate::{BatchScreens, EngineError, FrameOutcome, screens};
 use foveate_lanes::PixelLane;
 
 /// The number of bytes of frames that go through the engine together. It is small enough that

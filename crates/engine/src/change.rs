@@ -126,11 +126,16 @@ pub(crate) fn mark_affected<T: PixelLane>(
 /// each side, so runs that lie closer together than that are merged. If nearly all blocks are
 /// needed, one run covers the band.
 #[inline(always)]
-pub(crate) fn collect_runs<T: PixelLane>(plan: &CameraPlan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
+pub(crate) fn collect_runs<T: PixelLane>(
+    plan: &CameraPlan<T>,
+    affected: &[bool],
+    runs: &mut Vec<Range<usize>>,
+) {
     runs.clear();
     let (side, margin) = (plan.side, plan.margin_blocks());
     for (column, _) in affected.iter().enumerate().filter(|(_, affected)| **affected) {
-        let (start, end) = (column * side / BLOCK_LANES, ((column + 1) * side).div_ceil(BLOCK_LANES));
+        let (start, end) =
+            (column * side / BLOCK_LANES, ((column + 1) * side).div_ceil(BLOCK_LANES));
         match runs.last_mut() {
             Some(last) if start <= last.end + 2 * margin => last.end = end,
             _ => runs.push(start..end),

@@ -2,7 +2,7 @@
 //! The decision: from sums to scores, votes, SRS, TRS and the action of every region of a band.
 
 use foveate_camera::RegionAction;
-use foveate_camera::{VoteCombination, FeatureKind, IrrelevantRendering, ReferencePolicy};
+use foveate_camera::{FeatureKind, IrrelevantRendering, ReferencePolicy, VoteCombination};
 
 use crate::kernel::mad;
 use crate::outcome::RegionResults;
@@ -29,12 +29,15 @@ impl<T: PixelLane> CameraPlan<T> {
                 FeatureKind::Corner => update_affected(scores, affected, |at| sums.corner[at]),
                 FeatureKind::Mad => {
                     let bits = self.passes.mad.expect("the plan has what its features need");
-                    let score =
-                        |at| mad::mad_score(n, bits, sums.sum[at], sums.above[at], sums.count_above[at]);
+                    let score = |at| {
+                        mad::mad_score(n, bits, sums.sum[at], sums.above[at], sums.count_above[at])
+                    };
                     update_affected(scores, affected, score);
                 }
                 FeatureKind::Variance => {
-                    update_affected(scores, affected, |at| n * sums.square[at] - sums.sum[at] * sums.sum[at]);
+                    update_affected(scores, affected, |at| {
+                        n * sums.square[at] - sums.sum[at] * sums.sum[at]
+                    });
                 }
             }
         }
@@ -51,7 +54,13 @@ impl<T: PixelLane> CameraPlan<T> {
 
     /// Computes the temporal counts, from the last actions where no pixel has changed.
     #[inline(always)]
-    fn update_temporal_counts(&self, sums: &RegionSums, affected: &[bool], valid: &[bool], results: &mut RegionResults<'_>) {
+    fn update_temporal_counts(
+        &self,
+        sums: &RegionSums,
+        affected: &[bool],
+        valid: &[bool],
+        results: &mut RegionResults<'_>,
+    ) {
         let n = self.region_pixels();
         let regions = sums.changed.iter().zip(affected).zip(valid);
         let last = results.temporal_count.iter_mut().zip(&*results.actions);
@@ -78,8 +87,12 @@ impl<T: PixelLane> CameraPlan<T> {
         for (feature, scores) in self.features.iter().zip(&results.scores) {
             let votes = scores.iter().map(|&score| score >= feature.min_score);
             match self.combine {
-                VoteCombination::Any => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote),
-                VoteCombination::All => srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote),
+                VoteCombination::Any => {
+                    srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote)
+                }
+                VoteCombination::All => {
+                    srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote)
+                }
             }
         }
     }
@@ -90,7 +103,9 @@ impl<T: PixelLane> CameraPlan<T> {
     #[inline(always)]
     fn count_of_identical(&self, (action, count): (RegionAction, u32), n: u32) -> u32 {
         match (self.reference, action) {
-            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => 0,
+            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => {
+                0
+            }
             (ReferencePolicy::LastSent, RegionAction::Hold) => count,
             (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => n,
         }

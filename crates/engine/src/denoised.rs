@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use crate::kernel::{SharedSides, IsolatedSides, WindowRows, median};
+use crate::kernel::{IsolatedSides, SharedSides, WindowRows, median};
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, SeamMasks};
 use crate::working_memory::{BlockRow, DenoisedRow};
@@ -14,7 +14,10 @@ impl<T: PixelLane> SeamMasks<T> {
     /// Returns the masks of some blocks.
     #[inline(always)]
     pub(crate) fn masks_of(&self, span: &Range<usize>) -> IsolatedSides<'_, T> {
-        IsolatedSides { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
+        IsolatedSides {
+            first: &self.first.blocks()[span.clone()],
+            last: &self.last.blocks()[span.clone()],
+        }
     }
 }
 
@@ -97,7 +100,11 @@ impl<T: PixelLane> Denoiser<'_, T> {
         let row = &mut self.rows[y & (self.slots - 1)];
         if plan.median {
             let [low, mid, high] = &self.sorted[at];
-            let sorted = [low.blocks_with_neighbors(span), mid.blocks_with_neighbors(span), high.blocks_with_neighbors(span)];
+            let sorted = [
+                low.blocks_with_neighbors(span),
+                mid.blocks_with_neighbors(span),
+                high.blocks_with_neighbors(span),
+            ];
             let pixels = row.pixels.blocks_mut(span);
             let ahead = self.raw.row(y + PREFETCH_ROWS);
             let ahead = blocks_of(ahead, (span.start * BLOCK_LANES).min(plan.width));

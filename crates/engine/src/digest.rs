@@ -32,7 +32,9 @@ impl Engine {
         let mut hash = FnvHasher::new();
         match self.rendered() {
             FramePixels::Bytes(pixels) => hash.update(pixels.iter().flat_map(|&pixel| [pixel, 0])),
-            FramePixels::Words(pixels) => hash.update(pixels.iter().flat_map(|pixel| pixel.to_le_bytes())),
+            FramePixels::Words(pixels) => {
+                hash.update(pixels.iter().flat_map(|pixel| pixel.to_le_bytes()))
+            }
         }
         let outcome = self.outcome();
         hash.update(outcome.region_bytes());

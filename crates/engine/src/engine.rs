@@ -4,12 +4,12 @@
 use foveate_camera::Camera;
 use foveate_frame::Frame;
 
-use crate::lane_engine::{LaneEngine, KeptBuffers};
+use crate::lane_engine::{KeptBuffers, LaneEngine};
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, index};
 use crate::workers::{MAX_THREADS, Workers};
 use crate::{EngineError, FrameOutcome, InstructionSet};
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_frame::{ByteFrame, FramePixels};
 
 /// The options of an engine. They do not change what it computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,9 +84,15 @@ impl Engine {
 
     fn build(camera: &Camera, options: EngineOptions, workers: Workers) -> Self {
         let lanes = if camera.pixel_bits() <= 8 {
-            LaneCore::Bytes(LaneEngine::new(CameraPlan::new(camera), options.skips_identical_regions))
+            LaneCore::Bytes(LaneEngine::new(
+                CameraPlan::new(camera),
+                options.skips_identical_regions,
+            ))
         } else {
-            LaneCore::Words(LaneEngine::new(CameraPlan::new(camera), options.skips_identical_regions))
+            LaneCore::Words(LaneEngine::new(
+                CameraPlan::new(camera),
+                options.skips_identical_regions,
+            ))
         };
         let outcome = FrameOutcome::new(camera.features().len(), index(camera.regions()));
         Self {

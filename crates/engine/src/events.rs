@@ -6,7 +6,7 @@
 use std::fmt;
 use std::io::Write as _;
 
-use foveate_camera::{RegionAction, Camera};
+use foveate_camera::{Camera, RegionAction};
 
 use crate::FrameOutcome;
 
@@ -78,7 +78,9 @@ impl EventField {
     fn kind(self) -> EventColumnType {
         match self {
             Self::Frame | Self::Time | Self::Score(_) => EventColumnType::Long,
-            Self::Column | Self::Row | Self::Left | Self::Top | Self::TemporalCount => EventColumnType::Int,
+            Self::Column | Self::Row | Self::Left | Self::Top | Self::TemporalCount => {
+                EventColumnType::Int
+            }
             Self::Srs | Self::Trs => EventColumnType::Flag,
             Self::Action => EventColumnType::Text,
         }
@@ -169,7 +171,9 @@ impl EventTable {
     #[must_use]
     pub fn without_scores(self) -> Self {
         let pairs = self.columns.into_iter().zip(self.fields);
-        let known = pairs.filter(|(_, field)| !matches!(field, EventField::Score(_) | EventField::TemporalCount));
+        let known = pairs.filter(|(_, field)| {
+            !matches!(field, EventField::Score(_) | EventField::TemporalCount)
+        });
         let (columns, fields) = known.unzip();
         Self { columns, fields, ..self }
     }

@@ -8,16 +8,16 @@ use std::ops::Range;
 use foveate_camera::ReferencePolicy;
 
 use crate::change;
-use crate::change_search::{KnownChanges, ChangeSearch};
-use crate::state_copy::{EngineState, StateCopy};
+use crate::change_search::{ChangeSearch, KnownChanges};
 use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
-use crate::policy::{SearchPolicy, SAMPLE_DISTANCE, SearchStep};
-use crate::working_memory::WorkingMemory;
+use crate::policy::{SAMPLE_DISTANCE, SearchPolicy, SearchStep};
 use crate::screens::KeptScreen;
-use crate::strip::{KeptPart, SkippedWork, BandStrip};
+use crate::state_copy::{EngineState, StateCopy};
+use crate::strip::{BandStrip, KeptPart, SkippedWork};
 use crate::workers::Workers;
+use crate::working_memory::WorkingMemory;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::PixelLane;
 
@@ -127,9 +127,20 @@ impl<T: PixelLane> LaneEngine<T> {
     }
 
     fn copy_state(&mut self) {
-        let Self { plan, denoised, reference, reference_valid: valid, summary_shown: shown, means, screen, state_copy: memory, .. } = self;
+        let Self {
+            plan,
+            denoised,
+            reference,
+            reference_valid: valid,
+            summary_shown: shown,
+            means,
+            screen,
+            state_copy: memory,
+            ..
+        } = self;
         if let Some(memory) = memory {
-            memory.copy_from(plan, &EngineState { denoised, reference, valid, shown, means, screen });
+            memory
+                .copy_from(plan, &EngineState { denoised, reference, valid, shown, means, screen });
         }
     }
 
@@ -176,11 +187,18 @@ impl<T: PixelLane> LaneEngine<T> {
                 }
                 frames.len()
             }
-            SearchStep::Rest | SearchStep::CopySample | SearchStep::CompareWithinBatch => frames.len(),
+            SearchStep::Rest | SearchStep::CopySample | SearchStep::CompareWithinBatch => {
+                frames.len()
+            }
         }
     }
 
-    fn run_change_search(&mut self, step: SearchStep, frames: &[BorrowedFrame<'_, T>], workers: &Workers) {
+    fn run_change_search(
+        &mut self,
+        step: SearchStep,
+        frames: &[BorrowedFrame<'_, T>],
+        workers: &Workers,
+    ) {
         let plan = &self.plan;
         let (mut copy, mut changed) = (&mut self.last_frame[..], &mut self.changed_regions[..]);
         let looks = divide_bands(plan.rows, self.scratch.len()).map(|bands| ChangeSearch {
@@ -199,7 +217,8 @@ impl<T: PixelLane> LaneEngine<T> {
     fn count_saved_in_sample(&self, frame: usize, frames: usize) -> (usize, usize) {
         let plan = &self.plan;
         let (mut saved, mut blocks, mut runs) = (0, 0, Vec::new());
-        let bands = self.changed_regions.chunks_exact(plan.columns * frames).step_by(SAMPLE_DISTANCE);
+        let bands =
+            self.changed_regions.chunks_exact(plan.columns * frames).step_by(SAMPLE_DISTANCE);
         for changed in bands.map(|band| &band[frame * plan.columns..][..plan.columns]) {
             change::collect_runs(plan, changed, &mut runs);
             saved += plan.blocks - runs.iter().map(Range::len).sum::<usize>();
@@ -218,7 +237,11 @@ impl<T: PixelLane> LaneEngine<T> {
         keep: KeptBuffers<'_, T>,
     ) {
         let plan = &self.plan;
-        let changes = KnownChanges { changed: &self.changed_regions, frames: frames.len(), first_known: first };
+        let changes = KnownChanges {
+            changed: &self.changed_regions,
+            frames: frames.len(),
+            first_known: first,
+        };
         let (mut denoised, mut reference) = (&mut self.denoised[..], &mut self.reference[..]);
         let (mut valid, mut black) = (&mut self.reference_valid[..], &mut self.black_regions[..]);
         let (mut shown, mut means) = (&mut self.summary_shown[..], &mut self.means[..]);

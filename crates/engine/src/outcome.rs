@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_camera::{RegionAction, FeatureKind};
+use foveate_camera::{FeatureKind, RegionAction};
 
 /// The scores and decisions of every region, numbered row by row. The fields are those of the
 /// functional model's outcome. [`Engine::rendered`](crate::Engine::rendered) has the rendered

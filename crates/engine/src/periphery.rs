@@ -99,7 +99,8 @@ impl<T: PixelLane> PeripheryPlan<T> {
         let rows = means.chunks_exact(differs.len());
         for (now, sent) in rows.zip(summaries.means.chunks_exact(differs.len())) {
             for ((now, sent), differs) in now.iter().zip(sent).zip(differs.iter_mut()) {
-                *differs = (*differs).max(now.absolute_difference(*sent).saturating_minus(self.level));
+                *differs =
+                    (*differs).max(now.absolute_difference(*sent).saturating_minus(self.level));
             }
         }
         let regions = differs.chunks_exact(self.blocks).zip(affected).zip(&mut *summaries.is_shown);

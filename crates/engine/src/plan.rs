@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use foveate_camera::{
-    Camera, VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, ReferencePolicy,
+    Camera, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, Periphery,
+    ReferencePolicy, VoteCombination,
 };
 
 use crate::periphery::PeripheryPlan;
@@ -187,7 +188,8 @@ impl<T: PixelLane> CameraPlan<T> {
     /// Returns the range of columns of summary blocks, `side` pixels wide, that lie completely
     /// within a run.
     pub(crate) fn blocks_under(&self, side: usize, run: &Range<usize>) -> Range<usize> {
-        let (start, end) = (run.start * BLOCK_LANES, (run.end * BLOCK_LANES).min(self.padded_width()));
+        let (start, end) =
+            (run.start * BLOCK_LANES, (run.end * BLOCK_LANES).min(self.padded_width()));
         start.div_ceil(side)..(end / side).max(start.div_ceil(side))
     }
 

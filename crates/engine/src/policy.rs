@@ -62,7 +62,10 @@ pub(crate) struct SearchPolicy {
 
 impl SearchPolicy {
     pub(crate) fn new(on: bool) -> Self {
-        Self { phase: if on { SearchPhase::Resting(0) } else { SearchPhase::Off }, rest_frames: REST_FRAMES.0 }
+        Self {
+            phase: if on { SearchPhase::Resting(0) } else { SearchPhase::Off },
+            rest_frames: REST_FRAMES.0,
+        }
     }
 
     /// Returns the step for the next frames.

@@ -2,7 +2,7 @@
 //! The renderer alone: the screen of a receiver that gets actions, pixels and means over a link. It
 //! is the engine's own renderer, applied to the received pixels.
 
-use foveate_camera::{RegionAction, Camera, Payload, ReferencePolicy};
+use foveate_camera::{Camera, Payload, ReferencePolicy, RegionAction};
 use foveate_frame::FramePixels;
 use foveate_lanes::PixelLane;
 
@@ -146,7 +146,14 @@ impl<T: PixelLane> ReceiverState<T> {
             let (own, rest) = means.split_at(plan.band_means());
             means = rest;
             let reference: &mut [T] = &mut [];
-            let mut canvas = BandRenderer { screen, denoised, reference, reference_valid: valid, black_regions: black, means: own };
+            let mut canvas = BandRenderer {
+                screen,
+                denoised,
+                reference,
+                reference_valid: valid,
+                black_regions: black,
+                means: own,
+            };
             if plan.periphery.is_some() {
                 canvas.apply_actions::<true>(plan, raw, band, actions);
             } else {

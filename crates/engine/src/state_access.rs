@@ -5,8 +5,8 @@ use foveate_frame::FramePixels;
 use foveate_lanes::PixelLane;
 
 use crate::Engine;
-use crate::lane_engine::LaneEngine;
 use crate::engine::LaneCore;
+use crate::lane_engine::LaneEngine;
 use crate::state_copy::RegionStateBefore;
 
 impl Engine {
@@ -39,8 +39,12 @@ impl Engine {
     #[must_use]
     pub fn rendered_before(&self) -> Option<FramePixels<'_>> {
         match &self.lanes {
-            LaneCore::Bytes(core) => core.state_copy().map(|memory| FramePixels::Bytes(&memory.screen)),
-            LaneCore::Words(core) => core.state_copy().map(|memory| FramePixels::Words(&memory.screen)),
+            LaneCore::Bytes(core) => {
+                core.state_copy().map(|memory| FramePixels::Bytes(&memory.screen))
+            }
+            LaneCore::Words(core) => {
+                core.state_copy().map(|memory| FramePixels::Words(&memory.screen))
+            }
         }
     }
 }

@@ -141,9 +141,14 @@ impl<T: PixelLane> BandStrip<'_, T> {
         let means = &mut self.means[means];
         if PERIPHERY && let Some(periphery) = &plan.periphery {
             let shown = &mut self.summary_shown[regions.clone()];
-            let WorkingMemory { means: now, exceeds_level: differs, affected, .. } = &mut *self.scratch;
+            let WorkingMemory { means: now, exceeds_level: differs, affected, .. } =
+                &mut *self.scratch;
             let now = CurrentMeans { means: now, exceeds_level: differs, affected };
-            periphery.send_summaries(now, &mut SentSummaries { is_shown: shown, means }, &mut results);
+            periphery.send_summaries(
+                now,
+                &mut SentSummaries { is_shown: shown, means },
+                &mut results,
+            );
         }
         let mut canvas = BandRenderer {
             screen: &mut self.screen[lines..],
@@ -166,7 +171,8 @@ impl<T: PixelLane> BandStrip<'_, T> {
                 change::collect_runs(plan, &scratch.affected, &mut scratch.runs);
                 let computed: usize = scratch.runs.iter().map(Range::len).sum();
                 let skipped = scratch.affected.iter().filter(|affected| !**affected).count();
-                self.skipped[frame] += SkippedWork { regions: skipped, blocks: plan.blocks - computed };
+                self.skipped[frame] +=
+                    SkippedWork { regions: skipped, blocks: plan.blocks - computed };
             }
             None => {
                 scratch.affected.fill(true);
@@ -186,7 +192,12 @@ impl<T: PixelLane> BandStrip<'_, T> {
             if !black.is_empty() {
                 let top = row * plan.side * plan.width;
                 let screen = (&self.screen[top..], &self.black_regions[regions]);
-                keep_screen_band(plan, self.bands.start + row, screen, (&mut kept.screen[top..], black));
+                keep_screen_band(
+                    plan,
+                    self.bands.start + row,
+                    screen,
+                    (&mut kept.screen[top..], black),
+                );
             }
         }
     }

@@ -33,7 +33,10 @@ impl Workers {
     }
 
     /// Makes `threads` workers, the calling thread included.
-    pub(crate) fn new(level: InstructionSet, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+    pub(crate) fn new(
+        level: InstructionSet,
+        threads: usize,
+    ) -> Result<Self, rayon::ThreadPoolBuildError> {
         if threads <= 1 {
             return Ok(Self::calling_thread(level));
         }

@@ -6,13 +6,13 @@
 //! little from the whole.
 
 use foveate_emit::AXI_PARTS;
-use foveate_toolchain::{SynthesisResult, SynthesisJob, sources_sha256};
+use foveate_toolchain::{SynthesisJob, SynthesisResult, sources_sha256};
 use serde::{Deserialize, Serialize};
 
 use crate::area::Area;
 use crate::error::EstimateError;
 use crate::logic_levels::{LogicPath, longest_paths};
-use crate::netlist::{NETLIST, AreaNetlist};
+use crate::netlist::{AreaNetlist, NETLIST};
 
 /// The area of a core on AXI, with the array inside.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::device::{FpgaDevice, DeviceShare};
+use crate::device::{DeviceShare, FpgaDevice};
 use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
 use crate::report::AreaReport;
@@ -80,7 +80,9 @@ impl DesignComparison {
     }
 
     fn skipped(&self) -> impl Iterator<Item = String> {
-        self.skipped.iter().map(|SkippedDesign { name, reason }| format!("Without {name}: {reason}."))
+        self.skipped
+            .iter()
+            .map(|SkippedDesign { name, reason }| format!("Without {name}: {reason}."))
     }
 
     fn table(&self) -> ReportTable {
@@ -137,7 +139,8 @@ impl DesignComparison {
         let unit =
             [PAPER_RPU.lut - PAPER_RPU.lutram, PAPER_RPU.lutram, PAPER_RPU.lut, PAPER_RPU.ff];
         // The paper does not state its clock.
-        let speed = self.clock_mhz.map(|mhz| FrameRate::at_given_clock(mhz, PAPER_CLOCKS_PER_FRAME));
+        let speed =
+            self.clock_mhz.map(|mhz| FrameRate::at_given_clock(mhz, PAPER_CLOCKS_PER_FRAME));
         let array = [PAPER_RCM.lut, PAPER_RCM.lutram, PAPER_RCM.ff];
         texts
             .into_iter()

@@ -5,15 +5,19 @@
 use std::sync::atomic::Ordering;
 use std::thread;
 
-use foveate_toolchain::{Cache, SynthesisResult, SynthesisJob, ToolError, Toolchain, sources_sha256};
+use foveate_toolchain::{
+    Cache, SynthesisJob, SynthesisResult, ToolError, Toolchain, sources_sha256,
+};
 
 use crate::bus::BusArea;
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::leaf_areas::leaf_areas;
 use crate::logic_levels::{CellLibrary, longest_paths};
-use crate::netlist::{NETLIST, AreaNetlist};
-use crate::report::{AreaReport, MeasuredAreas, LongestPaths, RtlHashes, MeasuredTiming, UnitCount};
+use crate::netlist::{AreaNetlist, NETLIST};
+use crate::report::{
+    AreaReport, LongestPaths, MeasuredAreas, MeasuredTiming, RtlHashes, UnitCount,
+};
 
 /// A design to estimate.
 #[derive(Debug, Clone)]
@@ -72,15 +76,20 @@ pub fn estimate(
     go_on()?;
     let apart = leaves.map(|json| AreaNetlist::parse(NETLIST, &json)).transpose()?;
     let on_top = bus.as_ref().unwrap_or(&synthesis);
-    let clock = ClockEstimate::of(NETLIST, &on_top.json, &job.top_synthesis().array, CellLibrary::Xilinx)?;
+    let clock =
+        ClockEstimate::of(NETLIST, &on_top.json, &job.top_synthesis().array, CellLibrary::Xilinx)?;
     go_on()?;
-    let of_bus = |(job, made): (&SynthesisJob, &SynthesisResult)| BusArea::of(job, made, apart.as_ref());
+    let of_bus =
+        |(job, made): (&SynthesisJob, &SynthesisResult)| BusArea::of(job, made, apart.as_ref());
     let bus = job.bus.as_ref().zip(bus.as_ref()).map(of_bus).transpose()?;
     go_on()?;
     let [unit, array] = paths.try_into().expect("a path for each of the two modules");
     Ok(AreaReport::new(
         synthesis.tool,
-        RtlHashes { sha256: sources_sha256(&job.synthesis.sources), rpu_sha256: job.rpu_sha256.clone() },
+        RtlHashes {
+            sha256: sources_sha256(&job.synthesis.sources),
+            rpu_sha256: job.rpu_sha256.clone(),
+        },
         job.regions,
         UnitCount { name: job.unit_name.clone(), count: job.units },
         MeasuredAreas {

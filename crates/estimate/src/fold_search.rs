@@ -12,7 +12,7 @@ use foveate_design::Design;
 
 use crate::FpgaDevice;
 use crate::area::Area;
-use crate::speed::{most_clocks_per_frame, clocks_as_float};
+use crate::speed::{clocks_as_float, most_clocks_per_frame};
 
 /// The result of the synthesis of a fold.
 #[derive(Clone, Debug)]
@@ -127,8 +127,16 @@ mod tests {
         // 53 lanes of 15 slots have one block RAM each, and 98 lanes of 8 slots have more LUTs.
         let slower = |fold| if fold > 15 { needed_clock(15) } else { needed_clock(17) };
         assert_eq!(chosen_fold(slower, small), (15, vec![1, 17, 16, 8, 15]));
-        assert_eq!(chosen_fold(|_| needed_clock(1) - 0.001, small), (1, vec![1]), "fold 1 is the fastest");
+        assert_eq!(
+            chosen_fold(|_| needed_clock(1) - 0.001, small),
+            (1, vec![1]),
+            "fold 1 is the fastest"
+        );
         let fast_alone = |fold| if fold == 1 { needed_clock(17) } else { 0.001 };
-        assert_eq!(chosen_fold(fast_alone, small), (1, vec![1, 17, 16, 8]), "what else is too slow");
+        assert_eq!(
+            chosen_fold(fast_alone, small),
+            (1, vec![1, 17, 16, 8]),
+            "what else is too slow"
+        );
     }
 }

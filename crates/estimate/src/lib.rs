@@ -16,8 +16,8 @@ mod clock;
 mod comparison;
 mod device;
 mod error;
-mod fold_search;
 mod estimate_job;
+mod fold_search;
 mod leaf_areas;
 mod logic_levels;
 mod netlist;
@@ -34,17 +34,19 @@ pub use bus::{BusArea, PartArea};
 pub use cells::CellKind;
 pub use clock::ClockEstimate;
 pub use comparison::{ComparedDesign, DesignComparison, SkippedDesign};
-pub use device::{FpgaDevice, DeviceShare, XCVU9P};
+pub use device::{DeviceShare, FpgaDevice, XCVU9P};
 pub use error::EstimateError;
-pub use fold_search::{FoldCost, cheapest_fold};
 pub use estimate_job::{EstimateJob, estimate};
+pub use fold_search::{FoldCost, cheapest_fold};
 pub use logic_levels::LogicPath;
-pub use paper::{PaperComparison, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperReport, PaperRow, PaperRatios};
+pub use paper::{
+    PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperComparison, PaperRatios, PaperReport, PaperRow,
+};
 pub use render::{ramb36, render_markdown, render_text};
 pub use report::{AreaReport, FORMAT_VERSION, LeafArea, LongestPaths};
 pub use routing::{
-    CriticalPath, ClockStatistics, ResourceShortage, PathEnd, PlacementResult, ROUTE_DEVICES, ROUTE_FORMAT_VERSION, RouteDevice,
-    RouteJob, RouteReport, DeviceResult, ResourceUse, place_and_route, render_routes_markdown,
-    render_routes_text,
+    ClockStatistics, CriticalPath, DeviceResult, PathEnd, PlacementResult, ROUTE_DEVICES,
+    ROUTE_FORMAT_VERSION, ResourceShortage, ResourceUse, RouteDevice, RouteJob, RouteReport,
+    place_and_route, render_routes_markdown, render_routes_text,
 };
 pub use speed::{FrameRate, most_clocks_per_frame};

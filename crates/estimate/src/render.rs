@@ -73,7 +73,12 @@ fn area_table(report: &AreaReport) -> ReportTable {
         }
     }
     rows.push(share_row(report));
-    ReportTable { title: area_title(report), header: header("module", &COLUMNS), rows, note: Some(note) }
+    ReportTable {
+        title: area_title(report),
+        header: header("module", &COLUMNS),
+        rows,
+        note: Some(note),
+    }
 }
 
 fn area_title(report: &AreaReport) -> String {
@@ -92,7 +97,8 @@ fn path_table(report: &AreaReport) -> ReportTable {
     let row = |name: &str, path: &LogicPath| {
         vec![name.to_owned(), path.levels.to_string(), path.carry4.to_string()]
     };
-    let way = |path: &LogicPath| format!("from {} by {} to {}", path.from, path_cells(path), path.to);
+    let way =
+        |path: &LogicPath| format!("from {} by {} to {}", path.from, path_cells(path), path.to);
     let mut note = format!("{}: {}. ", report.unit, way(rpu));
     if rcm != rpu {
         note += &format!("RCM: {}. ", way(rcm));

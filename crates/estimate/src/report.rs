@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::area::Area;
 use crate::bus::BusArea;
 use crate::clock::ClockEstimate;
-use crate::device::{FpgaDevice, DeviceShare};
+use crate::device::{DeviceShare, FpgaDevice};
 use crate::error::EstimateError;
 use crate::logic_levels::LogicPath;
-use crate::paper::{PaperComparison, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperReport};
+use crate::paper::{PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperComparison, PaperReport};
 use crate::speed::FrameRate;
 use foveate_toolchain::ToolRecord;
 
@@ -152,7 +152,9 @@ impl AreaReport {
             rcm: array,
             bus,
             paths,
-            speed: clock.as_ref().map(|clock| FrameRate::at_estimated_clock(clock, clocks_per_frame)),
+            speed: clock
+                .as_ref()
+                .map(|clock| FrameRate::at_estimated_clock(clock, clocks_per_frame)),
             clock,
             clocks_per_frame,
             share,
@@ -187,7 +189,9 @@ impl AreaReport {
     /// # Errors
     /// Fails if the report cannot be serialized, which no report of this crate causes.
     pub fn to_json(&self) -> Result<String, EstimateError> {
-        serde_json::to_string_pretty(self).map(|text| text + "\n").map_err(EstimateError::UnwritableReport)
+        serde_json::to_string_pretty(self)
+            .map(|text| text + "\n")
+            .map_err(EstimateError::UnwritableReport)
     }
 }
 
@@ -221,7 +225,8 @@ pub(crate) mod tests {
             parts: vec![part("registers", &["axi_registers"], 205), part("rest", &["rcm_axi"], 9)],
             path: LogicPath { levels: 7, ..LogicPath::default() },
         };
-        let mut report = example_of_units(32_400, UnitCount { name: "core".into(), count: 1 }, Some(bus));
+        let mut report =
+            example_of_units(32_400, UnitCount { name: "core".into(), count: 1 }, Some(bus));
         report.leaves[0].module = "rcm_axi".into();
         report
     }
@@ -259,7 +264,8 @@ pub(crate) mod tests {
             area: rpu,
         };
         let leaves = vec![leaf("rpu", &[], 1), leaf("median", &["WIDTH=8", "SIDE=8"], 2)];
-        let areas = MeasuredAreas { unit: rpu, glue, array: rpu.multiplied(units.count).plus(glue), bus };
+        let areas =
+            MeasuredAreas { unit: rpu, glue, array: rpu.multiplied(units.count).plus(glue), bus };
         let path = LogicPath {
             levels: 3,
             carry4: 2,

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
 use foveate_fidelity::FidelityFigures;
-use foveate_footage::{InputOptions, ComparedInput, open};
+use foveate_footage::{ComparedInput, InputOptions, open};
 
 use crate::ExploreError;
-use crate::measure::{MeasuredClip, CameraMeasurement};
+use crate::measure::{CameraMeasurement, MeasuredClip};
 
 /// The errors of a camera over a clip.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,7 @@ pub fn compare(
         go_on,
     };
     let measured = clip.measure(&[camera])?.pop().and_then(|mut parts| parts.pop());
-    let CameraMeasurement { tally, problem, .. } = measured.expect("one camera and one part are measured");
+    let CameraMeasurement { tally, problem, .. } =
+        measured.expect("one camera and one part are measured");
     Ok(CameraComparison { figures: tally.figures(), problem })
 }

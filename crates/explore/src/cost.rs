@@ -99,7 +99,11 @@ impl Synthesizer {
             (key, area)
         });
         let by_rtl = areas.collect();
-        if hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(SynthesisResults { keys, by_rtl }) }
+        if hooks.cancelled() {
+            Err(ExploreError::Cancelled)
+        } else {
+            Ok(SynthesisResults { keys, by_rtl })
+        }
     }
 
     fn synthesize_job(&self, job: &EstimateJob) -> Result<SynthesisResult, ExploreError> {

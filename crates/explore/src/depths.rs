@@ -32,7 +32,11 @@ impl<'a> FrameDepths<'a> {
 
     /// Shows the frame to a camera in its depth. Every frame of a data set is a first frame, so the
     /// camera is reset before it.
-    pub(crate) fn step_engine(&self, engine: &mut Engine, kind: SourceKind) -> Result<(), ExploreError> {
+    pub(crate) fn step_engine(
+        &self,
+        engine: &mut Engine,
+        kind: SourceKind,
+    ) -> Result<(), ExploreError> {
         if kind == SourceKind::Set {
             engine.reset();
         }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use foveate_camera::Camera;
 
 use crate::footage::ExplorationFootage;
-use crate::{ExploreError, ExploreHooks, DesignPoint, RefusedCombination, ExploreRequest};
+use crate::{DesignPoint, ExploreError, ExploreHooks, ExploreRequest, RefusedCombination};
 
 /// The clips, the points, and the cameras to measure.
 ///

@@ -8,13 +8,13 @@ use foveate_design::Design;
 use foveate_files::tables::Table;
 
 use crate::cost::SynthesisResult;
+use crate::exploration_work::ExplorationWork;
 use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, write_mark};
 use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
 use crate::row::DesignRow;
 use crate::store::MeasurementStore;
 use crate::table::{error_cells, point_cells};
-use crate::exploration_work::ExplorationWork;
 use crate::{ClipRow, Exploration, ExploreError, ExploreHooks, ExploreRequest, Synthesizer};
 
 /// The names of the tables and of the page.
@@ -39,7 +39,8 @@ pub fn explore(
     let space = request.space;
     // The files of designs are not known before the clips have been opened.
     open_continued(output)?.check_files(TABLES.into_iter().chain([MARK_FILE]))?;
-    let ExplorationWork { footage, points, refused, cameras: looks, camera_of_point: look_of } = ExplorationWork::new(request, None, hooks)?;
+    let ExplorationWork { footage, points, refused, cameras: looks, camera_of_point: look_of } =
+        ExplorationWork::new(request, None, hooks)?;
     // The names are checked now, because writing the files may come hours later.
     let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));
     let names: Vec<String> = names.chain([MARK_FILE.to_owned()]).collect();
@@ -55,21 +56,24 @@ pub fn explore(
     for (index, (point, (design, synthesized))) in
         points.iter().zip(designs.iter().zip(synthesized)).enumerate()
     {
-        let of_point: Vec<&CameraMeasurement> = measured.iter().map(|clip| &clip[look_of[index]]).collect();
+        let of_point: Vec<&CameraMeasurement> =
+            measured.iter().map(|clip| &clip[look_of[index]]).collect();
         let settings = point.settings.clone();
         let clock = space.clock_mhz;
         rows.extend(DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock));
     }
     mark_fronts(&mut rows);
-    let of_clip = |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| ClipRow {
-        name: subject.name.clone(),
-        // Every space has at least one design.
-        frames: measured[0].tally.figures().frames,
-    };
-    let problem = |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| {
-        let problem = measured.iter().find_map(|one| one.problem.clone());
-        problem.map(|problem| format!("{}: {problem}", subject.name))
-    };
+    let of_clip =
+        |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| ClipRow {
+            name: subject.name.clone(),
+            // Every space has at least one design.
+            frames: measured[0].tally.figures().frames,
+        };
+    let problem =
+        |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| {
+            let problem = measured.iter().find_map(|one| one.problem.clone());
+            problem.map(|problem| format!("{}: {problem}", subject.name))
+        };
     let exploration = Exploration {
         format_version: 4,
         program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),

@@ -10,7 +10,8 @@ use foveate_camera::{Camera, CameraConfig};
 use foveate_fidelity::{ErrorTally, FidelityFigures};
 use foveate_footage::boxes::{BoxFile, ClipToLabel, assign_boxes};
 use foveate_footage::{
-    InputOptions, FrameSource, SourceFrame, ComparedInput, is_read_once, open, input_without_secrets, subjects,
+    ComparedInput, FrameSource, InputOptions, SourceFrame, input_without_secrets, is_read_once,
+    open, subjects,
 };
 use foveate_frame::Rect;
 
@@ -129,7 +130,8 @@ impl<'a> ExplorationFootage<'a> {
         count: &MeasurementCount,
     ) -> Result<Vec<CameraMeasurement>, ExploreError> {
         let keys = self.measurement_keys(clip, cameras);
-        let mut found: Vec<Option<CameraMeasurement>> = keys.iter().map(|key| store.get(key)).collect();
+        let mut found: Vec<Option<CameraMeasurement>> =
+            keys.iter().map(|key| store.get(key)).collect();
         count.add(found.iter().flatten().count());
         let missing: Vec<usize> =
             (0..cameras.len()).filter(|&index| found[index].is_none()).collect();
@@ -173,7 +175,10 @@ impl<'a> ExplorationFootage<'a> {
     }
 
     /// Opens a clip from its beginning.
-    pub(crate) fn open(&self, subject: &ComparedInput) -> Result<Box<dyn FrameSource>, ExploreError> {
+    pub(crate) fn open(
+        &self,
+        subject: &ComparedInput,
+    ) -> Result<Box<dyn FrameSource>, ExploreError> {
         Ok(open(&subject.inputs, self.ideal, self.input)?)
     }
 
@@ -193,7 +198,8 @@ impl<'a> ExplorationFootage<'a> {
             let done = before + found.len();
             let tell = || ExploreProgress::Measuring { done_pairs: done, all };
             for (clip, &(half, _)) in halves.iter().enumerate() {
-                let measured = self.measure_parts(clip, some, std::slice::from_ref(&(0..half)), &tell)?;
+                let measured =
+                    self.measure_parts(clip, some, std::slice::from_ref(&(0..half)), &tell)?;
                 for (sum, part) in sums.iter_mut().zip(measured.into_iter().flatten()) {
                     match sum {
                         Some((tally, objects)) => {
@@ -204,7 +210,8 @@ impl<'a> ExplorationFootage<'a> {
                     }
                 }
             }
-            let figures = |(tally, objects): &(ErrorTally, ObjectCounts)| (tally.figures(), *objects);
+            let figures =
+                |(tally, objects): &(ErrorTally, ObjectCounts)| (tally.figures(), *objects);
             found.extend(sums.iter().flatten().map(figures));
         }
         Ok(found)
@@ -224,6 +231,7 @@ impl<'a> ExplorationFootage<'a> {
         };
         let boxes = self.boxes.get(clip).map(AsRef::as_ref);
         let (subject, input, ideal) = (&self.subjects[clip], self.input, self.ideal);
-        measure::MeasuredClip { subject, input, ideal, parts, boxes, go_on: &go_on }.measure(cameras)
+        measure::MeasuredClip { subject, input, ideal, parts, boxes, go_on: &go_on }
+            .measure(cameras)
     }
 }

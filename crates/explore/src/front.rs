@@ -17,7 +17,8 @@ pub(crate) fn pareto_front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<b
         }
         Some((costs, index))
     };
-    let mut known: Vec<([FrontCost; 3], usize)> = points.iter().enumerate().filter_map(known).collect();
+    let mut known: Vec<([FrontCost; 3], usize)> =
+        points.iter().enumerate().filter_map(known).collect();
     known.sort_unstable();
     let mut on_front = vec![false; points.len()];
     let mut stairs = UnbeatenPairs::default();

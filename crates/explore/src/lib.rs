@@ -13,6 +13,7 @@ mod cost;
 mod depths;
 mod error;
 mod exploration;
+mod exploration_work;
 mod explore;
 mod fit;
 mod folder;
@@ -30,7 +31,6 @@ mod space;
 mod store;
 mod table;
 mod unit;
-mod exploration_work;
 
 pub use compare::{CameraComparison, compare};
 pub use cost::{DesignArea, Synthesizer};
@@ -38,12 +38,12 @@ pub use error::ExploreError;
 pub use exploration::{ClipRow, Exploration};
 pub use explore::explore;
 pub use fit::{
-    AgreementEstimate, CostObjective, Constraints, FittedDesign as FittedDesign, FitResult, FitRequest, FittedNetwork, ConstraintCheck,
-    NetworkGoal, ActivityTarget, fit,
+    ActivityTarget, AgreementEstimate, ConstraintCheck, Constraints, CostObjective, FitRequest,
+    FitResult, FittedDesign, FittedNetwork, NetworkGoal, fit,
 };
 pub use folder::check_folder;
 pub use foveate_fidelity::{FidelityFigures, ScoreError};
-pub use method::{SpaceAxis, SamplingMethod};
+pub use method::{SamplingMethod, SpaceAxis};
 pub use point::{DesignPoint, RefusedCombination};
 pub use request::ExploreRequest;
 pub use row::{DesignRow, FrontMembership};

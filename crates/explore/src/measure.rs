@@ -10,7 +10,7 @@ use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_fidelity::{ErrorTally, Fidelity};
 use foveate_footage::boxes::BoxFile;
-use foveate_footage::{InputOptions, SourceKind, FrameSource, ComparedInput, open};
+use foveate_footage::{ComparedInput, FrameSource, InputOptions, SourceKind, open};
 use foveate_frame::ByteFrame;
 use foveate_frame::Rect;
 use foveate_ideal::{IdealCamera, IdealOutcome};
@@ -70,7 +70,10 @@ struct MeasuredCamera {
 
 impl MeasuredClip<'_> {
     /// Returns the measurement of every camera in every part.
-    pub(crate) fn measure(&self, cameras: &[Camera]) -> Result<Vec<Vec<CameraMeasurement>>, ExploreError> {
+    pub(crate) fn measure(
+        &self,
+        cameras: &[Camera],
+    ) -> Result<Vec<Vec<CameraMeasurement>>, ExploreError> {
         let source = open(&self.subject.inputs, self.ideal, self.input)?;
         let (width, height) = source.size();
         let ideal = &self.ideal.validate_for_frames(width, height)?;
@@ -111,9 +114,13 @@ impl MeasuredClip<'_> {
             }
             let part = self.parts.iter().position(|part| part.contains(&judged.number));
             let Some(part) = part else { continue };
-            let frames =
-                FrameDepths::from_frame(&judged.frame, candidates.iter().map(|one| one.camera.pixel_bits()))?;
-            candidates.par_iter_mut().try_for_each(|one| one.add_frame(&judged, &frames, part, kind))?;
+            let frames = FrameDepths::from_frame(
+                &judged.frame,
+                candidates.iter().map(|one| one.camera.pixel_bits()),
+            )?;
+            candidates
+                .par_iter_mut()
+                .try_for_each(|one| one.add_frame(&judged, &frames, part, kind))?;
         }
         Ok(())
     }

@@ -157,7 +157,9 @@ mod tests {
 
     #[test]
     fn a_sample_has_as_many_as_asked_and_its_seed_decides_which() {
-        let of = |points, seed| SamplingMethod::Sample { points, seed }.combinations(&axes(&[10, 10, 10]));
+        let of = |points, seed| {
+            SamplingMethod::Sample { points, seed }.combinations(&axes(&[10, 10, 10]))
+        };
         let found = of(50, 1);
         let different: BTreeSet<_> = found.iter().collect();
         assert_eq!((found.len(), different.len()), (50, 50));

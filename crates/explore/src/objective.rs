@@ -107,7 +107,8 @@ mod tests {
             row.figures.action_flips = f64::from(chance.u32(0..6)) / 10.0;
             row.clocks_per_frame = chance.u64(1..12);
             let mhz = f64::from(chance.u32(1..4));
-            row.speed = (chance.u8(0..5) > 0).then(|| FrameRate::at_given_clock(mhz, row.clocks_per_frame));
+            row.speed =
+                (chance.u8(0..5) > 0).then(|| FrameRate::at_given_clock(mhz, row.clocks_per_frame));
             match &mut row.silicon {
                 Some(silicon) if chance.u8(0..5) > 0 => {
                     silicon.array.lut_total_packed = chance.u64(1..12);
@@ -147,8 +148,11 @@ mod tests {
                     let known = (!luts || row.silicon.is_some()) && (!fast || row.speed.is_some());
                     known && !rows.iter().any(|other| beats(other, row, fast, luts))
                 };
-                let expected =
-                    FrontMembership { speed: on(true, false), area: on(false, true), all: on(true, true) };
+                let expected = FrontMembership {
+                    speed: on(true, false),
+                    area: on(false, true),
+                    all: on(true, true),
+                };
                 assert_eq!(row.front, expected, "seed {seed}, {row:?}");
                 told_apart += usize::from(row.front.speed != row.front.area);
                 without_area += usize::from(row.silicon.is_none() && row.front.speed);

@@ -63,7 +63,10 @@ impl DesignSpace {
                     }
                 }
                 Err(reason) => {
-                    refused.push(RefusedCombination { settings: self.settings_of_point(&settings), reason });
+                    refused.push(RefusedCombination {
+                        settings: self.settings_of_point(&settings),
+                        reason,
+                    });
                 }
             }
         }
@@ -76,7 +79,12 @@ impl DesignSpace {
         settings_text(self.axes.iter().map(|axis| axis.key.as_str()), settings)
     }
 
-    fn config_of_values(&self, values: &[Option<&Value>], width: u32, height: u32) -> Result<DesignConfig, String> {
+    fn config_of_values(
+        &self,
+        values: &[Option<&Value>],
+        width: u32,
+        height: u32,
+    ) -> Result<DesignConfig, String> {
         let set = self.axes.iter().zip(values);
         let overrides: Vec<String> = set
             .filter_map(|(axis, value)| value.map(|value| format!("{}={value}", axis.key)))
@@ -92,7 +100,10 @@ impl DesignSpace {
 
 /// Returns the settings of some axes as `key = value`, without those that have the value of the
 /// start.
-pub(crate) fn settings_text<'a>(axes: impl Iterator<Item = &'a str>, settings: &[String]) -> String {
+pub(crate) fn settings_text<'a>(
+    axes: impl Iterator<Item = &'a str>,
+    settings: &[String],
+) -> String {
     let set = axes.zip(settings).filter(|(_, value)| !value.is_empty());
     let words: Vec<String> = set.map(|(axis, value)| format!("{axis} = {value}")).collect();
     if words.is_empty() { START_NAME.to_owned() } else { words.join(", ") }

@@ -17,7 +17,10 @@ pub(crate) mod sample;
 mod tests;
 
 use askama::Template;
-use foveate_pictures::page::{COLOUR_COUNT, PageNotice, ResultPage, PageError, PagePlot, TableRow, SortableTable, LinkTarget, number_text};
+use foveate_pictures::page::{
+    COLOUR_COUNT, LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable, TableRow,
+    number_text,
+};
 
 use crate::{DesignRow, Exploration, ExploreError, RefusedCombination};
 use card::PointCard;
@@ -29,8 +32,10 @@ const MAX_POINTS_SHOWN: usize = 2000;
 /// The most refused combinations that a page shows.
 const MAX_REFUSED_SHOWN: usize = 500;
 /// The targets of the links of a mark.
-const TARGETS: [LinkTarget; 2] =
-    [LinkTarget { prefix: "p", name: "its row" }, LinkTarget { prefix: "c", name: "its configuration" }];
+const TARGETS: [LinkTarget; 2] = [
+    LinkTarget { prefix: "p", name: "its row" },
+    LinkTarget { prefix: "c", name: "its configuration" },
+];
 /// The text at the end of the page.
 const FOOTER: &str = "Everything here is also in the files beside this page: <code>points.csv</code>, \
     <code>points.parquet</code>, <code>pareto.csv</code>, <code>clips.csv</code>, \
@@ -84,7 +89,8 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
     let columns = table::columns(&settings, areas);
-    let lines: Vec<TableRow> = rows.iter().map(|row| table::point_row(row, &settings, areas)).collect();
+    let lines: Vec<TableRow> =
+        rows.iter().map(|row| table::point_row(row, &settings, areas)).collect();
     let table = |prefix, tall, rows| SortableTable {
         prefix,
         number: "number of the point",

@@ -2,7 +2,7 @@
 //! A point with all its figures.
 
 use foveate_camera::Camera;
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_estimate::FrameRate;
 use foveate_fidelity::{ErrorTally, FidelityFigures};
 use serde::Serialize;

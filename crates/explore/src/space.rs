@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use crate::ExploreError;
-use crate::method::{SpaceAxis, MAX_POINTS, SamplingMethod};
+use crate::method::{MAX_POINTS, SamplingMethod, SpaceAxis};
 
 /// A space of designs.
 #[derive(Clone, Debug)]
@@ -38,7 +38,10 @@ impl StartConfig {
 
     /// Returns the configuration with overrides, with all thresholds, also overridden ones, in grey
     /// levels of the start.
-    pub(crate) fn with_overrides_in_start_levels(&self, overrides: &[String]) -> Result<DesignConfig, ConfigError> {
+    pub(crate) fn with_overrides_in_start_levels(
+        &self,
+        overrides: &[String],
+    ) -> Result<DesignConfig, ConfigError> {
         let (depth, others): (Vec<String>, Vec<String>) =
             overrides.iter().cloned().partition(|text| text.starts_with("frame.pixel_bits="));
         Self(self.with_overrides(&others)?.to_toml()).with_overrides(&depth)
@@ -110,12 +113,13 @@ impl DesignSpace {
         let start = DesignConfig::from_toml_with(preset, &table_overrides(&file.design));
         let start = StartConfig(start.map_err(section("design"))?.to_toml());
         // The ideal camera does not depend on the hardware.
-        let ideal = start.with_overrides(&table_overrides(&file.ideal)).map_err(section("ideal"))?;
+        let ideal =
+            start.with_overrides(&table_overrides(&file.ideal)).map_err(section("ideal"))?;
         let ideal = ideal.camera;
         ideal.validate().map_err(section("ideal"))?;
         let axes = read_axes("", &file.vary)?;
-        let method =
-            SamplingMethod::parse(file.method.as_deref(), file.points, file.seed).map_err(space_error)?;
+        let method = SamplingMethod::parse(file.method.as_deref(), file.points, file.seed)
+            .map_err(space_error)?;
         if let Some(clock_mhz) = file.clock_mhz.filter(|mhz| !(1..=10_000).contains(mhz)) {
             return Err(space_error(format!("clock_mhz = {clock_mhz} is not within 1 to 10000")));
         }

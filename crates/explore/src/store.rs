@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{InputOptions, ComparedInput};
+use foveate_footage::{ComparedInput, InputOptions};
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 
@@ -40,7 +40,11 @@ impl MeasurementStore {
 
     /// Returns a finished measurement; `None` if it does not exist or cannot be read.
     pub(crate) fn get(&self, key: &str) -> Option<CameraMeasurement> {
-        serde_json::from_slice(&foveate_reading::read_bytes(&self.measurement_path(key), MAX_MEASUREMENT_BYTES).ok()?).ok()
+        serde_json::from_slice(
+            &foveate_reading::read_bytes(&self.measurement_path(key), MAX_MEASUREMENT_BYTES)
+                .ok()?,
+        )
+        .ok()
     }
 
     pub(crate) fn put(&self, key: &str, measured: &CameraMeasurement) -> Result<(), ExploreError> {

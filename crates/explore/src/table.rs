@@ -4,7 +4,7 @@
 use foveate_design::FeatureKind;
 use foveate_estimate::FrameRate;
 use foveate_fidelity::FidelityFigures;
-use foveate_files::tables::{TableCell, NamedCells};
+use foveate_files::tables::{NamedCells, TableCell};
 
 use crate::row::{DesignRow, count_to_f64};
 

@@ -15,10 +15,10 @@ use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 use serde::{Deserialize, Serialize};
 
-use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
-use crate::footage::{MeasurementCount, CAMERAS_PER_UNIT};
-use crate::store::{KEY_DIGITS, MeasurementStore};
 use crate::exploration_work::ExplorationWork;
+use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
+use crate::footage::{CAMERAS_PER_UNIT, MeasurementCount};
+use crate::store::{KEY_DIGITS, MeasurementStore};
 use crate::{ExploreError, ExploreHooks, ExploreRequest};
 
 /// A unit of work.
@@ -91,7 +91,12 @@ pub fn measure_unit(
     claim_folder(output)?;
     let store = MeasurementStore::open(output)?;
     let looks = &work.cameras[part.looks.clone()];
-    let measured = work.footage.measure_clip(part.clip, looks, &store, &MeasurementCount::from_total(looks.len()))?;
+    let measured = work.footage.measure_clip(
+        part.clip,
+        looks,
+        &store,
+        &MeasurementCount::from_total(looks.len()),
+    )?;
     if let Some(problem) = measured.into_iter().find_map(|one| one.problem) {
         return Err(ExploreError::IncompleteClip { clip: part.unit.clip, problem });
     }
@@ -105,7 +110,10 @@ pub fn measure_unit(
 }
 
 /// Returns the units clip by clip, each with as many designs as a run measures together.
-fn planned_units<'a>(work: &'a ExplorationWork<'_>, output: &'a Path) -> impl Iterator<Item = PlannedUnit> + 'a {
+fn planned_units<'a>(
+    work: &'a ExplorationWork<'_>,
+    output: &'a Path,
+) -> impl Iterator<Item = PlannedUnit> + 'a {
     let clips = work.footage.subjects.iter().enumerate();
     let points = work.first_point_of_cameras();
     clips.flat_map(move |(clip, subject)| {

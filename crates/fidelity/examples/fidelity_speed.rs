@@ -22,7 +22,8 @@ fn main() {
             config.region.size = side;
             config.frame.pixel_bits = bits;
             let camera = config.validate().unwrap();
-            let size = SceneParameters { width, height, bits: bits.max(8), region_size: 8, frames: 2 };
+            let size =
+                SceneParameters { width, height, bits: bits.max(8), region_size: 8, frames: 2 };
             let own = Scene::Street.frames(size);
             let other = Scene::Street.frames(SceneParameters { bits, ..size });
             let mut reference = IdealCamera::new(&ideal);

@@ -54,8 +54,12 @@ impl<T: PixelSample> FrameConverter<T> {
             T::plane_pixels(screen)?
         } else {
             match screen {
-                FramePixels::Bytes(pixels) => convert_screen(pixels, &self.depth_table, &mut self.screen),
-                FramePixels::Words(pixels) => convert_screen(pixels, &self.depth_table, &mut self.screen),
+                FramePixels::Bytes(pixels) => {
+                    convert_screen(pixels, &self.depth_table, &mut self.screen)
+                }
+                FramePixels::Words(pixels) => {
+                    convert_screen(pixels, &self.depth_table, &mut self.screen)
+                }
             }
             &self.screen
         };

@@ -3,15 +3,15 @@
 
 use foveate_camera::Camera;
 use foveate_engine::FrameOutcome;
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_frame::{ByteFrame, FramePixels};
 use foveate_ideal::IdealOutcome;
 
 use crate::areas::{NO_AREAS, decision_state};
-use crate::overlap::GridCells;
-use crate::screens::ScreenComparison;
 use crate::converter::FrameConverter;
+use crate::overlap::GridCells;
 use crate::sample::PixelSample;
 use crate::scores::ScorePair;
+use crate::screens::ScreenComparison;
 use crate::staleness::StalenessTracker;
 use crate::{ErrorTally, FidelityError};
 
@@ -130,12 +130,14 @@ impl Fidelity {
         let Self { cells, states: [own, other], tally, .. } = self;
         own.clear();
         own.extend(
-            (0..ideal.srs.len()).map(|at| decision_state(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
+            (0..ideal.srs.len())
+                .map(|at| decision_state(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
         );
         other.clear();
         other.extend(
-            (0..candidate.srs.len())
-                .map(|at| decision_state(candidate.srs[at], candidate.trs[at], candidate.actions[at])),
+            (0..candidate.srs.len()).map(|at| {
+                decision_state(candidate.srs[at], candidate.trs[at], candidate.actions[at])
+            }),
         );
         let mut table = NO_AREAS;
         cells.add_areas(own, other, &mut table);
@@ -153,7 +155,10 @@ impl Fidelity {
         let given = (input.width(), input.height(), input.bits());
         if given != expected {
             let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
-            return Err(FidelityError::FrameFormat { given: kind(given), expected: kind(expected) });
+            return Err(FidelityError::FrameFormat {
+                given: kind(given),
+                expected: kind(expected),
+            });
         }
         let bits = self.candidate.pixel_bits();
         let (len, name) = match screen {
@@ -220,7 +225,9 @@ impl<T: PixelSample> TypedPixelComparison<T> {
         tally: &mut ErrorTally,
     ) {
         // The types have been checked, so this always succeeds.
-        let Some(pictures) = self.planes.convert(input.borrowed_pixels(), ideal, screen) else { return };
+        let Some(pictures) = self.planes.convert(input.borrowed_pixels(), ideal, screen) else {
+            return;
+        };
         let [to_ideal, to_input] = self.comparison.compare(pictures);
         tally.to_ideal.add(&to_ideal);
         tally.to_input.add(&to_input);

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ErrorTally;
-use crate::fixed_point::{ratio, count_to_f64};
+use crate::fixed_point::{count_to_f64, ratio};
 use crate::scores::ScoreTally;
 
 /// The distance of a candidate from the ideal. Shares are of the area (pixels times frames), 0..=1.

@@ -9,16 +9,16 @@
 #![forbid(unsafe_code)]
 
 mod areas;
+mod converter;
 mod error;
-mod fixed_point;
 mod fidelity;
 mod figures;
-mod similarity;
+mod fixed_point;
 mod overlap;
-mod screens;
-mod converter;
 mod sample;
 mod scores;
+mod screens;
+mod similarity;
 mod ssim;
 mod staleness;
 mod tally;

@@ -119,7 +119,8 @@ impl ScorePair {
     fn compare(&self, ideal: &[f64], candidate: impl Iterator<Item = f64>, tally: &mut ScoreTally) {
         let (mut max, mut sum, mut squares) = (0.0_f64, 0.0, 0.0);
         for (ideal, candidate) in ideal.iter().zip(candidate) {
-            let error = (ideal - candidate / self.divisor * self.depth_factor).abs() / self.share_divisor;
+            let error =
+                (ideal - candidate / self.divisor * self.depth_factor).abs() / self.share_divisor;
             max = max.max(error);
             sum += error;
             squares += error * error;

@@ -9,8 +9,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fixed_point::{FixedPoint, count_to_f64};
 use crate::converter::ComparedFrames;
+use crate::fixed_point::{FixedPoint, count_to_f64};
 use crate::sample::PixelSample;
 use crate::ssim::{SsimConstants, WindowSums};
 

@@ -2,8 +2,8 @@
 //! The PSNR and SSIM of a receiver's frames against the original, without a camera.
 
 use crate::FidelityError;
-use crate::screens::{ScreenComparison, ScreenTally};
 use crate::converter::ComparedFrames;
+use crate::screens::{ScreenComparison, ScreenTally};
 
 /// A comparison of frames of one size with 8 bits per pixel.
 #[derive(Clone, Debug)]
@@ -33,8 +33,12 @@ impl FrameSimilarity {
                 return Err(FidelityError::ResultLength { what, given, expected: self.pixels });
             }
         }
-        let pictures =
-            ComparedFrames { input: original, denoised: original, rendered: original, screen: seen };
+        let pictures = ComparedFrames {
+            input: original,
+            denoised: original,
+            rendered: original,
+            screen: seen,
+        };
         let [_, to_input] = self.comparison.compare(pictures);
         self.tally.add(&to_input);
         self.frames += 1;

@@ -66,7 +66,8 @@ mod tests {
     fn equal_windows_are_alike_and_inverse_ones_are_not() {
         let ssim = SsimConstants::new(64.0, 255.0);
         let half = 32.0 * 255.0;
-        let window = |product| WindowSums { a: half, b: half, squares: 2.0 * half * 255.0, product };
+        let window =
+            |product| WindowSums { a: half, b: half, squares: 2.0 * half * 255.0, product };
         assert_eq!(ssim.window_ssim(window(half * 255.0)), 1.0);
         assert!(ssim.window_ssim(window(0.0)) < -0.99);
         assert_eq!(SsimConstants::new(1.0, 1.0).window_ssim(WindowSums::default()), 1.0);

@@ -4,8 +4,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::areas::DecisionAreas;
-use crate::screens::ScreenTally;
 use crate::scores::ScoreTally;
+use crate::screens::ScreenTally;
 use crate::staleness::StalenessTally;
 
 /// The sums over frames, which can be added and stored. They are whole numbers, so the same frames

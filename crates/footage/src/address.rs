@@ -239,7 +239,11 @@ mod tests {
         ] {
             assert_eq!(url_without_secrets(url), shown);
             let text = format!("before `{url}' and {url}: after");
-            assert!(!text_without_secrets(&text).contains("secret"), "{}", text_without_secrets(&text));
+            assert!(
+                !text_without_secrets(&text).contains("secret"),
+                "{}",
+                text_without_secrets(&text)
+            );
             assert!(!input_without_secrets(Path::new(url)).contains("secret"));
         }
         for text in ["no address", "a:b", "://", "a ://b", "scene:street"] {

@@ -8,8 +8,8 @@ use foveate_frame::Frame;
 
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SkippedInput, entries, entry_kind, expand, collect_skipped_of_clip, collect_skipped_of_set, is_pattern, is_non_file_source,
-    find_same_number, skip_sentences, skipped_by_pattern,
+    EntryKind, SkippedInput, collect_skipped_of_clip, collect_skipped_of_set, entries, entry_kind,
+    expand, find_same_number, is_non_file_source, is_pattern, skip_sentences, skipped_by_pattern,
 };
 use crate::plan::tree;
 use crate::sets::{cifar, idx};

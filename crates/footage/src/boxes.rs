@@ -11,9 +11,9 @@ mod error;
 mod file;
 mod format;
 mod grid;
+mod image_name;
 mod labelled_box;
 mod limits;
-mod image_name;
 mod view;
 
 pub use assignment::{ClipToLabel, assign_boxes};

@@ -22,7 +22,10 @@ pub struct ComparedInput {
 ///
 /// # Errors
 /// The errors are those of [`plan`].
-pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<ComparedInput>, FootageError> {
+pub fn subjects(
+    inputs: &[PathBuf],
+    options: &InputOptions,
+) -> Result<Vec<ComparedInput>, FootageError> {
     let mut found = Vec::new();
     let sheets = options.images == ImageRelation::CifarSheet;
     if inputs.len() > 1 && !sheets && matches!(plan(inputs, options), Ok(ClipPlan::One)) {

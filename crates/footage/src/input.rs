@@ -7,10 +7,10 @@
 mod content_kind;
 mod entry;
 mod expansion;
+mod file_kind;
 mod pattern;
 mod skip_reason;
 mod skipped_entries;
-mod file_kind;
 
 pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
@@ -18,7 +18,9 @@ pub(crate) use expansion::expand;
 pub(crate) use pattern::{is_pattern, skipped_by_pattern};
 pub use skip_reason::{SkipReason, SkippedInput};
 pub(crate) use skip_reason::{find_same_number, skip_sentences};
-pub(crate) use skipped_entries::{skipped_folder, collect_skipped_of_clip, collect_skipped_of_set, unreadable_entry};
+pub(crate) use skipped_entries::{
+    collect_skipped_of_clip, collect_skipped_of_set, skipped_folder, unreadable_entry,
+};
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -32,11 +34,11 @@ use crate::options::{ImageRelation, InputOptions};
 use crate::sets::cifar::{CifarBatch, CifarSheet};
 use crate::sets::idx::IdxImages;
 use crate::sets::{open_pipe, open_unpacked};
-use crate::source::feed::{FrameAdjustment, FrameFeed, AdjustedSource};
+use crate::source::feed::{AdjustedSource, FrameAdjustment, FrameFeed};
 use crate::source::file_feeds::{ImageFile, ImageFiles, SceneFeed};
-use crate::video::{VideoMedium, VideoFeed};
+use crate::video::{VideoFeed, VideoMedium};
 use crate::y4m::Y4mFeed;
-use crate::{FootageError, SourceKind, FrameSource, picture};
+use crate::{FootageError, FrameSource, SourceKind, picture};
 
 /// The side of a scene in pixels if the configuration gives no size.
 const SCENE_SIDE: u32 = 224;
@@ -97,7 +99,9 @@ fn open_feed(
     config: &CameraConfig,
     options: &InputOptions,
 ) -> Result<Box<dyn FrameFeed>, FootageError> {
-    if let (Some(special), 2..) = (inputs.iter().find(|input| is_non_file_source(input)), inputs.len()) {
+    if let (Some(special), 2..) =
+        (inputs.iter().find(|input| is_non_file_source(input)), inputs.len())
+    {
         return Err(FootageError::NotAlone { input: input_without_secrets(special) });
     }
     // A depth out of range is refused here, so that the message names its key.
@@ -183,7 +187,9 @@ fn open_images(
     let kind = match (options.images, files.as_slice()) {
         (ImageRelation::Clip, _) => SourceKind::Clip,
         (ImageRelation::Set, _) => SourceKind::Set,
-        (ImageRelation::CifarSheet, [sheet]) => return Ok(Box::new(CifarSheet::open(&sheet.path, bits)?)),
+        (ImageRelation::CifarSheet, [sheet]) => {
+            return Ok(Box::new(CifarSheet::open(&sheet.path, bits)?));
+        }
         (ImageRelation::CifarSheet, _) => {
             let sheets =
                 format!("{} files are given; simulate one CIFAR sheet at a time", files.len());
@@ -200,7 +206,9 @@ fn open_file_feed(
     options: &InputOptions,
 ) -> Result<Box<dyn FrameFeed>, FootageError> {
     Ok(match kind {
-        file_kind::FileKind::Idx => Box::new(IdxImages::open(path, options.labels.as_deref(), bits)?),
+        file_kind::FileKind::Idx => {
+            Box::new(IdxImages::open(path, options.labels.as_deref(), bits)?)
+        }
         file_kind::FileKind::CifarBatch => Box::new(CifarBatch::open(path, bits)?),
         file_kind::FileKind::Y4m => {
             let name = path.display().to_string();

@@ -43,10 +43,11 @@ pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
 /// # Errors
 /// Fails if the image is too large, truncated or damaged, or is not a supported image.
 pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
-    let format = supported_format(bytes).ok_or_else(|| match unread_image_type_by_content(bytes) {
-        Some(name) => FootageError::ImageType { path: path.to_owned(), name },
-        None => FootageError::UnsupportedType { path: path.to_owned() },
-    })?;
+    let format =
+        supported_format(bytes).ok_or_else(|| match unread_image_type_by_content(bytes) {
+            Some(name) => FootageError::ImageType { path: path.to_owned(), name },
+            None => FootageError::UnsupportedType { path: path.to_owned() },
+        })?;
     let refused = |fault: PictureFault| match fault {
         PictureFault::Truncated(problem) => {
             FootageError::Truncated { path: path.to_owned(), problem }

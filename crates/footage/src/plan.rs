@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 use crate::address::input_without_secrets;
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SkipReason, SkippedInput, skipped_folder, entries, entry_kind, collect_skipped_of_clip, is_non_file_source,
-    unreadable_entry,
+    EntryKind, SkipReason, SkippedInput, collect_skipped_of_clip, entries, entry_kind,
+    is_non_file_source, skipped_folder, unreadable_entry,
 };
 use crate::{FootageError, ImageRelation, InputOptions, picture};
 
@@ -61,7 +61,9 @@ pub fn plan<P: AsRef<Path>>(
         _ => {}
     }
     let mut files = inputs.iter().filter(|path| !is_non_file_source(path));
-    if let Some((path, name)) = files.find_map(|path| Some((path, unread_image_type_of_entry(path)?))) {
+    if let Some((path, name)) =
+        files.find_map(|path| Some((path, unread_image_type_of_entry(path)?)))
+    {
         return Err(FootageError::ImageType { path: path.to_path_buf(), name });
     }
     let mut clips = Vec::new();
@@ -74,11 +76,18 @@ pub fn plan<P: AsRef<Path>>(
         if is_tree(path)? {
             let tree = tree(path)?;
             clips.extend(
-                tree.clips.into_iter().map(|clip| BatchClip { output_folder: place.join(clip.output_folder), ..clip }),
+                tree.clips.into_iter().map(|clip| BatchClip {
+                    output_folder: place.join(clip.output_folder),
+                    ..clip
+                }),
             );
             skipped.extend(tree.skipped);
         } else {
-            clips.push(BatchClip { inputs: vec![path.to_path_buf()], output_folder: place, label: None });
+            clips.push(BatchClip {
+                inputs: vec![path.to_path_buf()],
+                output_folder: place,
+                label: None,
+            });
         }
     }
     if clips.is_empty() {
@@ -202,7 +211,11 @@ impl ClipTree {
 
 impl TreeFolder<'_> {
     fn clip(&self, input: &Path, place: PathBuf) -> BatchClip {
-        BatchClip { inputs: vec![input.to_owned()], output_folder: place, label: self.label.map(str::to_owned) }
+        BatchClip {
+            inputs: vec![input.to_owned()],
+            output_folder: place,
+            label: self.label.map(str::to_owned),
+        }
     }
 }
 
@@ -215,8 +228,9 @@ fn name_of(path: &Path) -> PathBuf {
 
 /// Adds a number to clips whose place is already used, by another clip or as the folder of others.
 fn number_duplicates(clips: &mut [BatchClip]) {
-    let above =
-        |clip: &BatchClip| clip.output_folder.ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>();
+    let above = |clip: &BatchClip| {
+        clip.output_folder.ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>()
+    };
     let mut taken: HashSet<PathBuf> = clips.iter().flat_map(above).collect();
     for clip in clips {
         let first = clip.output_folder.clone();

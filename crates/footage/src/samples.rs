@@ -2,7 +2,7 @@
 //! The conversion of samples, as a pipe or a file has them, to a frame. 8-bit luma for a design of
 //! 8 bits is not copied; all other samples are converted in one pass.
 
-use foveate_frame::{FrameError, ByteFrame, convert_depth, luma};
+use foveate_frame::{ByteFrame, FrameError, convert_depth, luma};
 
 /// The layout of the samples of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -68,7 +68,8 @@ fn compressed_data_error(path: &Path) -> impl Fn(io::Error) -> FootageError + '_
 /// Reads to the end of a file, after which nothing may be left. A gzipped file has its checksum
 /// there.
 fn expect_end(input: &mut dyn BufRead, path: &Path, after: &str) -> Result<(), FootageError> {
-    let left = io::copy(&mut input.take(u64::MAX), &mut io::sink()).map_err(compressed_data_error(path))?;
+    let left = io::copy(&mut input.take(u64::MAX), &mut io::sink())
+        .map_err(compressed_data_error(path))?;
     if left > 0 {
         return Err(damaged(
             path,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sources of frames, and frames with their names and times.
 
-pub(crate) mod read_ahead;
 pub(crate) mod feed;
 pub(crate) mod file_feeds;
-pub(crate) mod set_form;
 pub(crate) mod memory_source;
+pub(crate) mod read_ahead;
 pub(crate) mod scaling;
 pub(crate) mod selection;
+pub(crate) mod set_form;
 
 use foveate_frame::ByteFrame;
 

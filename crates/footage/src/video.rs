@@ -14,11 +14,11 @@
 //! * Rotation is ignored, as is the EXIF orientation of images.
 
 mod decoder;
-mod formats;
 mod ffmpeg_log;
+mod formats;
+mod late_start;
 mod pixel_formats;
 mod probe;
-mod late_start;
 mod truncated_avi;
 
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use foveate_frame::ByteFrame;
 use foveate_toolchain::{Interrupt, Tool, Toolchain};
 
-use self::decoder::{VideoDecoder, DecodingParameters, StartPosition};
+use self::decoder::{DecodingParameters, StartPosition, VideoDecoder};
 use self::ffmpeg_log::AnnouncedFrame;
 use self::probe::VideoProperties;
 use crate::address::CameraAddress;
@@ -178,7 +178,9 @@ impl VideoFeed {
     fn determine_problem(&mut self) -> Result<(), FootageError> {
         let mut problem = self.decoder.finish()?;
         match &self.medium {
-            VideoMedium::File(path) => problem = truncated_avi::truncation_problem(path).or(problem),
+            VideoMedium::File(path) => {
+                problem = truncated_avi::truncation_problem(path).or(problem)
+            }
             // Messages of ffmpeg repeat the address and its parts.
             VideoMedium::Network(address) => problem = problem.map(|text| address.redact(&text)),
             VideoMedium::Camera(_) => {}

@@ -156,7 +156,11 @@ mod tests {
             }
             let (frames, problem) = read(&bytes, 8).unwrap();
             assert_eq!((frames.len(), problem), (3, None), "{colour}");
-            assert_eq!(frames[2].frame.borrowed_pixels().to_words(), [20, 21, 22, 23, 24, 25], "{colour}");
+            assert_eq!(
+                frames[2].frame.borrowed_pixels().to_words(),
+                [20, 21, 22, 23, 24, 25],
+                "{colour}"
+            );
             assert_eq!(frames[2].time_us, 160_000);
         }
     }
@@ -165,7 +169,10 @@ mod tests {
     fn deep_samples_follow_the_rule_of_depth() {
         let mut bytes = b"YUV4MPEG2 W2 H1 Cmono10\nFRAME\n".to_vec();
         bytes.extend([0x55, 0x02, 0xFF, 0xFF]);
-        assert_eq!(read(&bytes, 10).unwrap().0[0].frame.borrowed_pixels().to_words(), [0x255, 0x3FF]);
+        assert_eq!(
+            read(&bytes, 10).unwrap().0[0].frame.borrowed_pixels().to_words(),
+            [0x255, 0x3FF]
+        );
         assert_eq!(read(&bytes, 8).unwrap().0[0].frame.borrowed_pixels().to_words(), [0x95, 0xFF]);
     }
 

@@ -7,18 +7,18 @@
 //! Both report the same [`FrameError`]. A [`Rect`] is a rectangle in a frame. This crate knows no
 //! design.
 
+mod byte_frame;
 mod depth;
 mod error;
 mod frame;
 mod luma;
-mod byte_frame;
 mod rect;
 
+pub use byte_frame::{ByteFrame, FramePixels};
 pub use depth::{convert_depth, display_depth};
 pub use error::FrameError;
 pub use frame::Frame;
-pub use luma::{luma, append_luma_of_rgba};
-pub use byte_frame::{FramePixels, ByteFrame};
+pub use luma::{append_luma_of_rgba, luma};
 pub use rect::{MAX_COORDINATE, Rect};
 
 /// Converts a size or a coordinate to an index. The conversion is lossless: `usize` has 32 bits or

@@ -83,7 +83,9 @@ impl IdealCamera {
         self.raw.read_padded(frame.borrowed_pixels(), &self.grid);
         match self.camera.filter() {
             DenoiseFilter::None => self.denoised.copy_from(&self.raw),
-            DenoiseFilter::Median3x3 => filter_median(&self.raw, &mut self.denoised, &mut self.columns),
+            DenoiseFilter::Median3x3 => {
+                filter_median(&self.raw, &mut self.denoised, &mut self.columns)
+            }
         }
         self.score();
         for region in 0..self.grid.regions() {
@@ -155,7 +157,11 @@ impl IdealCamera {
 }
 
 /// Returns the frame whose pixels are sent: denoised or raw.
-fn payload_plane<'a>(camera: &Camera, raw: &'a PaddedPlane, denoised: &'a PaddedPlane) -> &'a PaddedPlane {
+fn payload_plane<'a>(
+    camera: &Camera,
+    raw: &'a PaddedPlane,
+    denoised: &'a PaddedPlane,
+) -> &'a PaddedPlane {
     match camera.payload() {
         Payload::Denoised => denoised,
         Payload::Raw => raw,

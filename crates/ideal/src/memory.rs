@@ -33,12 +33,22 @@ impl ReferenceMemory {
     }
 
     /// Pairs a frame with the references of its regions.
-    pub(crate) fn frame_view<'a>(&'a self, now: &'a PaddedPlane, grid: &'a RegionGrid) -> FrameView<'a> {
+    pub(crate) fn frame_view<'a>(
+        &'a self,
+        now: &'a PaddedPlane,
+        grid: &'a RegionGrid,
+    ) -> FrameView<'a> {
         FrameView { grid, denoised: now, references: &self.references }
     }
 
     /// Updates the reference of a region for the next frame.
-    pub(crate) fn update_reference(&mut self, now: &PaddedPlane, grid: &RegionGrid, region: usize, action: RegionAction) {
+    pub(crate) fn update_reference(
+        &mut self,
+        now: &PaddedPlane,
+        grid: &RegionGrid,
+        region: usize,
+        action: RegionAction,
+    ) {
         let RegionReferences { plane, valid } = &mut self.references;
         match (self.kind, action) {
             (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => {
@@ -50,7 +60,9 @@ impl ReferenceMemory {
             }
             (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             // The screen no longer shows the pixels that were sent.
-            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => valid[region] = false,
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
+                valid[region] = false
+            }
         }
     }
 }

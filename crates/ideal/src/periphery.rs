@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use foveate_camera::{RegionAction, Camera};
+use foveate_camera::{Camera, RegionAction};
 
 use crate::grid::{RegionGrid, to_index};
 use crate::plane::PaddedPlane;
@@ -37,7 +37,12 @@ impl PeripheryState {
     }
 
     /// Returns the means of a region's blocks.
-    pub(crate) fn means(&self, payload: &PaddedPlane, grid: &RegionGrid, region: usize) -> Vec<f64> {
+    pub(crate) fn means(
+        &self,
+        payload: &PaddedPlane,
+        grid: &RegionGrid,
+        region: usize,
+    ) -> Vec<f64> {
         let (columns, rows) = grid.area(region);
         let starts = |along: Range<usize>| along.step_by(self.side);
         let blocks =
@@ -69,7 +74,12 @@ impl PeripheryState {
     }
 
     /// Returns the value that the screen shows at a pixel of a region whose summary it shows.
-    pub(crate) fn shown_value(&self, grid: &RegionGrid, region: usize, (x, y): (usize, usize)) -> f64 {
+    pub(crate) fn shown_value(
+        &self,
+        grid: &RegionGrid,
+        region: usize,
+        (x, y): (usize, usize),
+    ) -> f64 {
         let (columns, rows) = grid.area(region);
         let block = (y - rows.start) / self.side * self.blocks + (x - columns.start) / self.side;
         self.shown_means[region].as_ref().map_or(0.0, |means| means[block])

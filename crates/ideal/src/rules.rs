@@ -2,7 +2,7 @@
 //! The thresholds and decisions, with the decimal numbers of the configuration.
 
 use foveate_camera::RegionAction;
-use foveate_camera::{Camera, VoteCombination, Decimal, FeatureKind, IrrelevantRendering};
+use foveate_camera::{Camera, Decimal, FeatureKind, IrrelevantRendering, VoteCombination};
 
 /// A spatial feature and its thresholds.
 #[derive(Clone, Copy, Debug)]

@@ -129,14 +129,17 @@ fn write(
     outputs: Vec<(String, TensorProto)>,
 ) -> Result<Vec<ArrayFile>, StagingError> {
     let folder = staging.folder().join(OUTPUTS_FOLDER);
-    std::fs::create_dir(&folder).map_err(|source| StagingError::Unwritable { path: folder, source })?;
+    std::fs::create_dir(&folder)
+        .map_err(|source| StagingError::Unwritable { path: folder, source })?;
     let mut files: Vec<ArrayFile> = Vec::new();
     for (name, tensor) in outputs {
         let taken: Vec<_> = files.iter().map(|file| file.file.clone()).collect();
         let file = format!("{OUTPUTS_FOLDER}/{}.npy", free_name(&name, &taken));
         let kind = tensor.data_type.unwrap_or_default();
-        let (descr, dtype, _) =
-            VALUE_TYPES.into_iter().find(|known| known.2 == kind).expect("outputs are of known types");
+        let (descr, dtype, _) = VALUE_TYPES
+            .into_iter()
+            .find(|known| known.2 == kind)
+            .expect("outputs are of known types");
         let lengths = tensor.dims.iter().map(|length| format!("{length}, ")).collect::<String>();
         let mut bytes = npy::npy_header(256, &format!("'{descr}'"), &lengths);
         bytes.extend(tensor.raw_data.unwrap_or_default());

@@ -5,7 +5,7 @@
 use crate::InferenceError;
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_footage::{SourceKind, SourceFrame};
+use foveate_footage::{SourceFrame, SourceKind};
 use foveate_frame::Rect;
 use foveate_network::Mask;
 use foveate_network::vision::{FrameFormat, FrameInput, VisionNetwork};
@@ -131,7 +131,8 @@ impl ReceiverCamera {
         let active = outcome.active.iter().filter(|&&active| active).count();
         self.since_last_received.active_regions += active as u64;
         self.since_last_received.sent.frames += 1;
-        self.since_last_received.sent.values += self.engine.camera().values_sent_per_frame(&outcome.actions);
+        self.since_last_received.sent.values +=
+            self.engine.camera().values_sent_per_frame(&outcome.actions);
         self.frames += 1;
         Ok(())
     }

@@ -3,10 +3,10 @@
 //! of each frame, and the trials of tuning.
 
 use crate::LayerSummary;
-use crate::table_columns::NamedTrial;
 use crate::frame::FrameFigures;
 use crate::summary::{InferenceSummary, TuningSummary};
-use foveate_pictures::chart::{Chart, LineLook, ChartData};
+use crate::table_columns::NamedTrial;
+use foveate_pictures::chart::{Chart, ChartData, LineLook};
 
 /// A chart, and the id of every point of its lines.
 pub(crate) struct ChartWithIds {
@@ -48,7 +48,8 @@ pub(crate) fn charts(summary: &InferenceSummary, frames: &[&FrameFigures]) -> Ve
         summary.mode,
         summary.inputs.join(" ")
     );
-    let mut charts = vec![depth_chart(summary), frames_chart(summary, frames), savings_chart(summary, frames)];
+    let mut charts =
+        vec![depth_chart(summary), frames_chart(summary, frames), savings_chart(summary, frames)];
     charts.extend(summary.tuning.as_ref().map(tuning_chart));
     for drawn in &mut charts {
         drawn.chart.caption.clone_from(&caption);
@@ -83,8 +84,9 @@ fn depth_chart(summary: &InferenceSummary) -> ChartWithIds {
 fn frames_chart(summary: &InferenceSummary, frames: &[&FrameFigures]) -> ChartWithIds {
     #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
     let line = |name: &str, look, share: fn(&FrameFigures) -> f64| {
-        let point =
-            |frame: &&FrameFigures| (frame_id(frame.index_in_run), (frame.index_in_run as f64, 100.0 * share(frame)));
+        let point = |frame: &&FrameFigures| {
+            (frame_id(frame.index_in_run), (frame.index_in_run as f64, 100.0 * share(frame)))
+        };
         series(name, look, frames.iter().map(point))
     };
     chart(
@@ -156,7 +158,11 @@ fn tuning_chart(tuning: &TuningSummary) -> ChartWithIds {
     )
 }
 
-fn series(name: &str, look: LineLook, points: impl Iterator<Item = (String, (f64, f64))>) -> ChartSeries {
+fn series(
+    name: &str,
+    look: LineLook,
+    points: impl Iterator<Item = (String, (f64, f64))>,
+) -> ChartSeries {
     ChartSeries { name: name.to_owned(), look, points: points.collect() }
 }
 

@@ -2,12 +2,12 @@
 //! The clips of a run: all have one size, and each is shown to its own camera, one after the other.
 
 use crate::InferenceError;
-use crate::camera::{ReceiverCamera, ReceivedFrame, CameraSetup};
+use crate::camera::{CameraSetup, ReceivedFrame, ReceiverCamera};
 use foveate_design::DesignConfig;
 use foveate_footage::boxes::{BoxFile, ClipToLabel, assign_boxes};
 use foveate_footage::{
-    FootageError, RunHooks, InputOptions, RunProgress, FrameSource, ComparedInput, is_read_once, open, read_ahead,
-    input_without_secrets, subjects,
+    ComparedInput, FootageError, FrameSource, InputOptions, RunHooks, RunProgress,
+    input_without_secrets, is_read_once, open, read_ahead, subjects,
 };
 use std::num::NonZeroU32;
 use std::path::PathBuf;
@@ -223,7 +223,9 @@ impl ClipPlayback<'_> {
                     return Ok(false);
                 }
                 let objects = match boxes.zip(origin) {
-                    Some((boxes, at)) => boxes.object_rects(&current, &at, self.clips.input.crop)?,
+                    Some((boxes, at)) => {
+                        boxes.object_rects(&current, &at, self.clips.input.crop)?
+                    }
                     None => None,
                 };
                 fits |= objects.is_some();

@@ -174,8 +174,12 @@ mod tests {
     fn what_is_no_number_is_not_close() {
         let (odd, _) = OutputDistance::between(&[1.0, 2.0], &[1.0, f32::NAN]);
         let closeness = ClosenessTally { distance: odd, frames: 1, ..ClosenessTally::default() };
-        let goals =
-            [TuningGoal::Agreement(0.1), TuningGoal::Cosine(-1.0), TuningGoal::Psnr(0.0), TuningGoal::Variation(1e9)];
+        let goals = [
+            TuningGoal::Agreement(0.1),
+            TuningGoal::Cosine(-1.0),
+            TuningGoal::Psnr(0.0),
+            TuningGoal::Variation(1e9),
+        ];
         for goal in goals {
             assert!(!goal.is_reached_by(&closeness), "{goal}");
         }
@@ -197,7 +201,10 @@ mod tests {
         let mut all = frame([7.0, 1.0], [7.0, 3.0]);
         all.add(&frame([7.0, 5.0], [7.0, 3.0]));
         assert_eq!((all.rms_of_variation(), all.agreement()), (1.0, 1.0));
-        assert!(TuningGoal::Variation(1.0).is_reached_by(&all) && !TuningGoal::Variation(0.99).is_reached_by(&all));
+        assert!(
+            TuningGoal::Variation(1.0).is_reached_by(&all)
+                && !TuningGoal::Variation(0.99).is_reached_by(&all)
+        );
         let mut exact = frame([7.0, 1.0], [7.0, 1.0]);
         exact.add(&frame([7.0, 5.0], [7.0, 5.0]));
         assert_eq!(exact.rms_of_variation(), 0.0);

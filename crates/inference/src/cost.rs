@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cost of a run's frames on an accelerator, computed whole and computed where the masks say.
 
-use foveate_accelerator::{Accelerator, AcceleratorError, LayerCost, Layer, LayerPlan, TensorShape, KernelWindow};
-use foveate_network::{Executor, TensorForm, Network, ProductKind, AxisWindow as Taps};
+use foveate_accelerator::{
+    Accelerator, AcceleratorError, KernelWindow, Layer, LayerCost, LayerPlan, TensorShape,
+};
+use foveate_network::{AxisWindow as Taps, Executor, Network, ProductKind, TensorForm};
 use serde::Serialize;
 
 /// The costs of a network's nodes on an accelerator.
@@ -59,7 +61,9 @@ impl<'a> NodeCosts<'a> {
             plan.map_err(|error| (network.nodes()[node].name().to_owned(), error))
         };
         let plans = (0..network.nodes().len()).map(plan).collect::<Result<Vec<_>, _>>()?;
-        let of = |plan: &Option<LayerPlan<'_>>| plan.as_ref().map(LayerPlan::whole_cost).unwrap_or_default();
+        let of = |plan: &Option<LayerPlan<'_>>| {
+            plan.as_ref().map(LayerPlan::whole_cost).unwrap_or_default()
+        };
         let whole: Vec<_> = plans.iter().map(of).collect();
         let masked = vec![LayerCost::default(); plans.len()];
         Ok(Self { accelerator, plans, whole, masked, frames: 0 })
@@ -148,9 +152,14 @@ fn accelerator_layer(network: &Network, node: usize) -> Result<Option<Layer>, Ac
         }
         // Every output takes an equal share of all inputs, wherever it is.
         ProductKind::None => {
-            let values: usize = inputs.iter().map(|&input| network.form(input).element_count()).sum();
+            let values: usize =
+                inputs.iter().map(|&input| network.form(input).element_count()).sum();
             let channels = values.div_ceil(output.position_count()) as u64;
-            Layer::transfer(TensorShape { channels, ..shape(output) }, shape(output), [KernelWindow::SAME; 2])?
+            Layer::transfer(
+                TensorShape { channels, ..shape(output) },
+                shape(output),
+                [KernelWindow::SAME; 2],
+            )?
         }
     }))
 }

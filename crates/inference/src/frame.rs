@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The figures of a frame: of each of its layers, and of all of them together.
 
-use crate::cost::{NodeCosts, FrameCost};
+use crate::cost::{FrameCost, NodeCosts};
 use crate::macs::{Macs, macs_of_layers};
 use crate::positions::PositionCounts;
-use crate::whole_frames::FrameAgreement;
 use crate::sums::sum;
 use crate::traffic::{FrameTraffic, TrafficTally};
+use crate::whole_frames::FrameAgreement;
 use foveate_accelerator::LayerCost;
 use foveate_network::{Executor, Network, NodeWork};
 
@@ -77,7 +77,10 @@ impl FrameFigures {
         layers.iter().for_each(|layer| moved += layer.traffic);
         let masked: Option<LayerCost> = layers.iter().map(|layer| layer.cost).sum();
         Self {
-            macs: macs_of_layers(network, &layers.iter().map(|layer| layer.positions).collect::<Vec<_>>()),
+            macs: macs_of_layers(
+                network,
+                &layers.iter().map(|layer| layer.positions).collect::<Vec<_>>(),
+            ),
             traffic: moved.mean(1),
             whole_cost: costs.map(NodeCosts::whole_frame_cost),
             masked_cost: costs.zip(masked).map(|(costs, cost)| costs.mean_cost(cost, 1)),

@@ -2,25 +2,25 @@
 //! A run: every frame of some clips goes through a camera and a network, and the results go to one
 //! folder.
 
-use crate::kept_clips::KeptClips;
 use crate::camera::CameraSetup;
 use crate::charts::{ChartWithIds, charts};
-use crate::clips::{RunClips, ClipPlayback};
+use crate::clips::{ClipPlayback, RunClips};
 use crate::cost::NodeCosts;
-use crate::layer_frame_table::LayerFrameTable;
-use crate::table_columns::{DETECTIONS, FRAMES, LAYERS, TRIALS, table};
 use crate::frame::counted_frames;
+use crate::kept_clips::KeptClips;
+use crate::layer_frame_table::LayerFrameTable;
 use crate::page::render_page;
-use crate::runner::{NetworkRunner, ExecutorMode};
-use crate::recording::{RecordOptions, OutputRecorder};
-use crate::run::{RunComparisons, FinishedRun, RunFiles, InferenceRun, RunMetadata};
-use crate::whole_frames::WholeFrameComparison;
+use crate::recording::{OutputRecorder, RecordOptions};
+use crate::run::{FinishedRun, InferenceRun, RunComparisons, RunFiles, RunMetadata};
+use crate::runner::{ExecutorMode, NetworkRunner};
 use crate::summary::{InferenceSummary, mode_name};
+use crate::table_columns::{DETECTIONS, FRAMES, LAYERS, TRIALS, table};
 use crate::tuning::{TunedLimits, tune};
-use crate::{TuningGoal, InferenceError, VisionOptions, VisionNetwork};
+use crate::whole_frames::WholeFrameComparison;
+use crate::{InferenceError, TuningGoal, VisionNetwork, VisionOptions};
 use foveate_accelerator::Accelerator;
-use foveate_design::{DesignConfig, Design};
-use foveate_footage::{RunHooks, InputOptions, FrameSource};
+use foveate_design::{Design, DesignConfig};
+use foveate_footage::{FrameSource, InputOptions, RunHooks};
 use foveate_network::ExecutionMode;
 use foveate_staging::{FolderKind, StagedFolder};
 use std::num::NonZeroU32;
@@ -154,10 +154,20 @@ impl Inference {
         };
         let (all, inputs) = (clips.count(), clips.inputs());
         let with_truth = clips.has_boxes();
-        let judge =
-            options.with_whole_frames.then(|| WholeFrameComparison::new(&witness, &design, &options.noise, with_truth));
-        let shown = CameraSetup { design: &design, witness: &witness, with_originals: options.with_whole_frames };
-        let mut showing = ClipPlayback { setup: shown, clips: &mut clips, every: options.frame_interval, frames_done: 0 };
+        let judge = options
+            .with_whole_frames
+            .then(|| WholeFrameComparison::new(&witness, &design, &options.noise, with_truth));
+        let shown = CameraSetup {
+            design: &design,
+            witness: &witness,
+            with_originals: options.with_whole_frames,
+        };
+        let mut showing = ClipPlayback {
+            setup: shown,
+            clips: &mut clips,
+            every: options.frame_interval,
+            frames_done: 0,
+        };
         let run = |way, reference| {
             let beside = RunComparisons { with_whole_computation: reference, whole_frames: judge };
             InferenceRun::new(&design, NetworkRunner::new(network, way), beside, costs, files)
@@ -176,7 +186,8 @@ impl Inference {
                     return Err(InferenceError::Cancelled);
                 }
                 let (parts, rest) = album.tuning_parts(all)?;
-                let TunedLimits { limits, tuning } = tune(network, goal, &parts, album.frames(), hooks)?;
+                let TunedLimits { limits, tuning } =
+                    tune(network, goal, &parts, album.frames(), hooks)?;
                 let mut run = run(ExecutorMode::Limits(limits), true);
                 if let Some(rest) = rest {
                     run.run_part(rest)?;
@@ -192,7 +203,8 @@ impl Inference {
                     (false, false) => return Err(InferenceError::Cancelled),
                 }
                 let problems = [album.problems(), run.problems()].concat();
-                let problem = missing_frames_reason(problems, all, tuned_on.min(all - 1) + run.clip_count());
+                let problem =
+                    missing_frames_reason(problems, all, tuned_on.min(all - 1) + run.clip_count());
                 (run, problem, format!("tuned to {goal}"), Some((tuning, goal)))
             }
         };
@@ -237,11 +249,15 @@ impl std::fmt::Debug for Inference {
 }
 
 /// Writes the tables, the charts and the summary of a run.
-fn write_tables_and_charts(staging: &StagedFolder, ended: &FinishedRun) -> Result<(), InferenceError> {
+fn write_tables_and_charts(
+    staging: &StagedFolder,
+    ended: &FinishedRun,
+) -> Result<(), InferenceError> {
     let FinishedRun { summary, frames, detections: detected } = ended;
     let layers = (0..).zip(&summary.layers);
     let of_frames = frames.iter().map(|frame| (frame.number, frame));
-    let tried: Option<Vec<_>> = summary.tuning.as_ref().map(|tuning| tuning.named_trials().collect());
+    let tried: Option<Vec<_>> =
+        summary.tuning.as_ref().map(|tuning| tuning.named_trials().collect());
     let tried = tried.map(|tried| table(None, TRIALS, (0..).zip(&tried)));
     let mut tables = vec![("layers", table(Some("layer"), LAYERS, layers))];
     tables.push(("frames", table(Some("frame"), FRAMES, of_frames)));

@@ -61,7 +61,11 @@ impl FrameConsumer for KeptClips {
             return Err(InferenceError::TooLong { frames: self.frames });
         }
         self.frames += 1;
-        self.clips.last_mut().expect("a clip has begun").frames.push(KeptFrame::from_received(seen));
+        self.clips
+            .last_mut()
+            .expect("a clip has begun")
+            .frames
+            .push(KeptFrame::from_received(seen));
         Ok(())
     }
 

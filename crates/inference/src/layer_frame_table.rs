@@ -6,7 +6,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::InferenceError;
-use crate::cost::{NodeCosts, FrameCost};
+use crate::cost::{FrameCost, NodeCosts};
 use crate::frame::{FrameFigures, LayerFigures};
 use crate::positions::PositionCounts;
 use crate::summary::mask_bytes;
@@ -34,7 +34,8 @@ struct LayerFrameRow<'a> {
 
 /// A column: its name, its type, whether its value may be missing (only without an accelerator),
 /// and its value.
-type LayerFrameColumn = (&'static str, ColumnType, bool, for<'a> fn(&LayerFrameRow<'a>) -> TableValue<'a>);
+type LayerFrameColumn =
+    (&'static str, ColumnType, bool, for<'a> fn(&LayerFrameRow<'a>) -> TableValue<'a>);
 
 const COLUMNS: [LayerFrameColumn; 16] = [
     ("clip", Text, false, |row| TableValue::Text(&row.frame.clip)),
@@ -42,7 +43,9 @@ const COLUMNS: [LayerFrameColumn; 16] = [
     ("counted", Flag, false, |row| TableValue::Flag(row.frame.is_counted)),
     ("layer", Long, false, |row| long(row.node as u64)),
     ("macs_needed", Real, false, |row| TableValue::Real(row.macs * row.positions.needed_share())),
-    ("macs_scheduled", Real, false, |row| TableValue::Real(row.macs * row.positions.scheduled_share())),
+    ("macs_scheduled", Real, false, |row| {
+        TableValue::Real(row.macs * row.positions.scheduled_share())
+    }),
     ("needed_share", Real, false, |row| TableValue::Real(row.positions.needed_share())),
     ("scheduled_share", Real, false, |row| TableValue::Real(row.positions.scheduled_share())),
     ("changed_share", Real, false, |row| TableValue::Real(row.positions.changed_share())),

@@ -6,7 +6,7 @@ use std::path::Path;
 use foveate_accelerator::Accelerator;
 use foveate_network::ExecutionMode;
 
-use crate::{TuningGoal, InferenceError};
+use crate::{InferenceError, TuningGoal};
 
 /// Parses a mode: `dense`, `exact`, `compare`, `truncate=0.25` or `fixed`.
 ///
@@ -84,8 +84,9 @@ pub fn read_accelerator(name: &str) -> Result<(String, Accelerator), InferenceEr
     let accelerator = if path.extension().is_some_and(|extension| extension == "toml") {
         let text = foveate_reading::read_settings(path)
             .map_err(|source| InferenceError::Read { path: path.to_owned(), source })?;
-        Accelerator::from_toml(&text)
-            .map_err(|error| InferenceError::InvalidOption { problem: format!("`{name}`: {error}") })?
+        Accelerator::from_toml(&text).map_err(|error| InferenceError::InvalidOption {
+            problem: format!("`{name}`: {error}"),
+        })?
     } else {
         Accelerator::from_preset(name)
             .map_err(|error| InferenceError::InvalidOption { problem: error.to_string() })?

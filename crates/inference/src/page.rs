@@ -4,12 +4,12 @@
 
 mod command_line;
 mod figures;
+mod frame_pictures;
 mod plots;
 mod rows;
-mod frame_pictures;
+mod sentences;
 #[cfg(test)]
 mod tests;
-mod sentences;
 
 use crate::InferenceSummary;
 use crate::charts::charts;
@@ -17,7 +17,9 @@ use crate::frame::{FrameFigures, counted_frames};
 use crate::whole_frames::KeptScreens;
 use askama::Template;
 use foveate_design::Design;
-use foveate_pictures::page::{PageNotice, ResultPage, PageError, PagePlot, SortableTable, LinkTarget};
+use foveate_pictures::page::{
+    LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable,
+};
 use rows::TableRows;
 
 /// The most frames that a page shows; with more it would be too large to open.
@@ -143,7 +145,10 @@ pub(crate) fn render_page(
 fn most_expensive_frames<'a>(frames: &[&'a FrameFigures], every: usize) -> Vec<&'a FrameFigures> {
     let by_macs = |one: &&&FrameFigures, other: &&&FrameFigures| {
         // Of equal frames the first one is taken.
-        one.macs.needed.total_cmp(&other.macs.needed).then(other.index_in_run.cmp(&one.index_in_run))
+        one.macs
+            .needed
+            .total_cmp(&other.macs.needed)
+            .then(other.index_in_run.cmp(&one.index_in_run))
     };
     let most = |frames: &[&'a FrameFigures]| frames.iter().max_by(by_macs).copied();
     frames.chunks(every).filter_map(most).collect()

@@ -4,7 +4,7 @@
 
 use crate::InferenceError;
 use foveate_files::npy::{ElementType, NpyWriter};
-use foveate_network::{Executor, TensorForm, Network};
+use foveate_network::{Executor, Network, TensorForm};
 use foveate_staging::{StagedFolder, StagingError};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -72,8 +72,9 @@ impl<'a> OutputRecorder<'a> {
         let values = || network.outputs().iter().zip(network.output_names());
         let is_picture = |value: usize| is_picture(network.form(value), network.input());
         if record.pictures && !values().any(|(&value, _)| is_picture(value)) {
-            let shapes = values()
-                .map(|(&value, name)| format!("`{name}` is {}", shape_text(network.form(value).shape())));
+            let shapes = values().map(|(&value, name)| {
+                format!("`{name}` is {}", shape_text(network.form(value).shape()))
+            });
             return Err(InferenceError::NoPictureOutput {
                 outputs: shapes.collect::<Vec<_>>().join(", "),
             });
@@ -86,7 +87,8 @@ impl<'a> OutputRecorder<'a> {
             let file = free_name(name, &taken.collect::<Vec<_>>());
             let shape = network.form(value).shape().to_vec();
             let path = folder.join(format!("{file}.npy"));
-            let array = record.arrays.then(|| NpyWriter::create(&path, ElementType::Float32, &shape));
+            let array =
+                record.arrays.then(|| NpyWriter::create(&path, ElementType::Float32, &shape));
             let told = RecordedOutput {
                 name: name.clone(),
                 shape,

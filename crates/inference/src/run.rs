@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A run in progress: the figures of every frame, and their sums.
 
-use crate::kept_clips::ClipPart;
 use crate::camera::ReceivedFrame;
 use crate::clips::FrameConsumer;
 use crate::cost::NodeCosts;
-use crate::layer_frame_table::LayerFrameTable;
 use crate::frame::{FrameFigures, LayerFigures, counted_frames, mean_of_frames};
+use crate::kept_clips::ClipPart;
+use crate::layer_frame_table::LayerFrameTable;
 use crate::macs::macs_of_layers;
-use crate::runner::NetworkRunner;
 use crate::positions::PositionCounts;
 use crate::recording::OutputRecorder;
-use crate::whole_computation::WholeComputation;
-use crate::whole_frames::{CountedDetections, WholeFrameComparison};
-use crate::summary::{InferenceSummary, TuningSummary, whole_computation_error, layer_summaries, mask_bytes};
+use crate::runner::NetworkRunner;
+use crate::summary::{
+    InferenceSummary, TuningSummary, layer_summaries, mask_bytes, whole_computation_error,
+};
 use crate::sums::share;
 use crate::tally::{NotFiniteTally, clip_summary};
 use crate::traffic::TrafficTally;
-use crate::{Framing, TuningGoal, InferenceError, PixelMapping};
+use crate::whole_computation::WholeComputation;
+use crate::whole_frames::{CountedDetections, WholeFrameComparison};
+use crate::{Framing, InferenceError, PixelMapping, TuningGoal};
 use foveate_design::Design;
 use foveate_network::Network;
 use std::num::NonZeroU32;
@@ -146,11 +148,14 @@ impl<'a> InferenceRun<'a> {
         let (executor, is_counted) = (self.player.executor(), self.player.is_counted());
         let clip = self.clips.last().expect("a clip has begun");
         self.not_finite.check_outputs((&clip.name, seen.number), self.network, executor);
-        let judge =
-            |reference: &mut WholeComputation<'_>| reference.compare(seen.values, executor, is_counted);
+        let judge = |reference: &mut WholeComputation<'_>| {
+            reference.compare(seen.values, executor, is_counted)
+        };
         let close = self.reference.as_mut().map(judge);
         let clip_at = (&clip.name[..], self.clips.len() as u64 - 1);
-        let look = |judge: &mut WholeFrameComparison<'_>| judge.compare_frame(clip_at, seen, executor, is_counted);
+        let look = |judge: &mut WholeFrameComparison<'_>| {
+            judge.compare_frame(clip_at, seen, executor, is_counted)
+        };
         let sight = self.judge.as_mut().and_then(look);
         let layers = LayerFigures::of_all_nodes(self.network, executor, &work, self.costs.as_ref());
         if is_counted {

@@ -2,7 +2,7 @@
 //! Runs of a network: an executor goes over clips, or over the frames of data sets one by one.
 
 use crate::camera::ReceivedFrame;
-use foveate_network::{Executor, Mask, ExecutionMode, Network, NodeWork};
+use foveate_network::{ExecutionMode, Executor, Mask, Network, NodeWork};
 
 /// The computation of an executor.
 #[derive(Clone, Debug)]

@@ -2,14 +2,14 @@
 //! The summary of a run, and its tables.
 
 use crate::closeness::ClosenessTally;
-use crate::cost::{AcceleratorSummary, NodeCosts, FrameCost};
+use crate::cost::{AcceleratorSummary, FrameCost, NodeCosts};
 use crate::macs::Macs;
 use crate::positions::PositionCounts;
-use crate::whole_computation::WholeComputation;
 use crate::traffic::FrameTraffic;
+use crate::whole_computation::WholeComputation;
 use crate::{Framing, PixelMapping, RecordedOutput, WholeFrameAgreement};
 use foveate_design::DesignConfig;
-use foveate_network::{Executor, TensorForm, ExecutionMode, Network};
+use foveate_network::{ExecutionMode, Executor, Network, TensorForm};
 use serde::Serialize;
 use std::num::NonZeroU32;
 
@@ -324,7 +324,8 @@ impl InferenceSummary {
         let computing = self.seconds_per_frame - self.overhead_seconds_per_frame;
         let per_share = computing * self.macs.whole_blocks / self.macs.scheduled;
         let share = (dense - self.overhead_seconds_per_frame) / per_share;
-        (share.is_finite() && self.macs.scheduled < self.macs.whole_blocks).then_some(share.min(1.0))
+        (share.is_finite() && self.macs.scheduled < self.macs.whole_blocks)
+            .then_some(share.min(1.0))
     }
 
     /// Returns whether the limits were chosen on other clips than the reported ones, and not on the

@@ -5,10 +5,12 @@
 use crate::DetectionCounts;
 use crate::LayerSummary;
 use crate::frame::FrameFigures;
-use crate::whole_frames::DetectionRow;
 use crate::summary::{ClipSummary, TuningTrial};
-use FigureValue::{Count, Error, Flag, GoalReached, Limit, Milliseconds, Psnr, Real, Shape, Share, Text};
-use foveate_files::tables::{TableCell, NamedCells, Table};
+use crate::whole_frames::DetectionRow;
+use FigureValue::{
+    Count, Error, Flag, GoalReached, Limit, Milliseconds, Psnr, Real, Shape, Share, Text,
+};
+use foveate_files::tables::{NamedCells, Table, TableCell};
 
 /// A value of a column with its kind. The files and the page each format the kinds in their own
 /// way.
@@ -103,14 +105,16 @@ const OUTPUT: &str = "bytes of the output, which stays from frame to frame";
 const CYCLES: &str = "cycles per frame on the accelerator, where the masks say";
 const ENERGY: &str = "energy per frame on the accelerator, where the masks say";
 const DIFFERENCE: &str = "relative RMS difference of the outputs from a whole computation";
-const RELATIVE_LIMIT: &str = "share of the root mean square of each layer's values, if it is one for all";
+const RELATIVE_LIMIT: &str =
+    "share of the root mean square of each layer's values, if it is one for all";
 const AGREEMENT: &str = "frames in which every output has its largest value at the same place";
 const COSINE: &str = "cosine of the angle between all outputs and those of a whole computation";
 const LIMITS: &str = "exact: limits of 0; uniform: one relative limit; frozen: nothing after the first frame; chosen";
 const SENT: &str =
     "bytes that the camera sends: two bits per region, pixels of active regions and means";
 const PICTURE: &str = "PSNR of what the receiver sees against the whole frame";
-const FINDINGS_AGREE: &str = "what the network says of the whole frame that it says behind the camera, too";
+const FINDINGS_AGREE: &str =
+    "what the network says of the whole frame that it says behind the camera, too";
 const VARIATION: &str = "RMS error of the outputs, as a share of their standard deviation over the frames of their clip";
 
 /// The columns of the table of clips, for the page.
@@ -189,10 +193,12 @@ pub(crate) const FRAMES: &[FigureColumn<FrameFigures>] = &[
     file_column("energy_mj", |it| Real(it.masked_cost.map(|cost| cost.energy_mj), 4)),
     heading("sent_bytes", "sent", "bytes", SENT)
         .number(|it| Real(it.whole_frame_agreement.map(|sight| sight.sent_bytes), 0)),
-    heading("picture_psnr", "picture", "dB", PICTURE)
-        .number(|it| it.whole_frame_agreement.map_or(Real(None, 1), |sight| Psnr(sight.picture_psnr))),
-    heading("agreement", "agreement", "%", FINDINGS_AGREE)
-        .number(|it| it.whole_frame_agreement.map_or(Real(None, 1), |sight| Share(sight.agreement))),
+    heading("picture_psnr", "picture", "dB", PICTURE).number(|it| {
+        it.whole_frame_agreement.map_or(Real(None, 1), |sight| Psnr(sight.picture_psnr))
+    }),
+    heading("agreement", "agreement", "%", FINDINGS_AGREE).number(|it| {
+        it.whole_frame_agreement.map_or(Real(None, 1), |sight| Share(sight.agreement))
+    }),
     heading("whole_detections", "found", "whole", "detections in the whole frame")
         .number(|it| detection_count(it, |found| found.whole)),
     heading("kept_detections", "found", "kept", "of these found in what the receiver sees, too")

@@ -7,7 +7,11 @@ use crate::summary::ClipSummary;
 use foveate_network::{Executor, Network};
 
 /// Returns a clip with the means of its counted frames.
-pub(crate) fn clip_summary(name: &str, problem: Option<&String>, frames: &[FrameFigures]) -> ClipSummary {
+pub(crate) fn clip_summary(
+    name: &str,
+    problem: Option<&String>,
+    frames: &[FrameFigures],
+) -> ClipSummary {
     let counted = counted_frames(frames);
     ClipSummary {
         name: name.to_owned(),
@@ -41,8 +45,9 @@ impl NotFiniteTally {
         network: &Network,
         executor: &Executor<'_>,
     ) {
-        let is_odd =
-            |value: usize| !executor.tensor(value).real_values().iter().all(|value| value.is_finite());
+        let is_odd = |value: usize| {
+            !executor.tensor(value).real_values().iter().all(|value| value.is_finite())
+        };
         if !network.outputs().iter().any(|&value| is_odd(value)) {
             return;
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bytes that the layers read and write for a frame, and their time.
 
-use foveate_network::{Executor, TensorForm, Network};
+use foveate_network::{Executor, Network, TensorForm};
 use serde::Serialize;
 use std::ops::AddAssign;
 
@@ -31,8 +31,9 @@ pub struct FrameTraffic {
 impl TrafficTally {
     /// Returns the traffic of a node for the last frame.
     pub(crate) fn of_node(network: &Network, executor: &Executor<'_>, node: usize) -> Self {
-        let bytes =
-            |form: &TensorForm, positions: usize| form.bytes() / form.position_count() as u64 * positions as u64;
+        let bytes = |form: &TensorForm, positions: usize| {
+            form.bytes() / form.position_count() as u64 * positions as u64
+        };
         let mut found = Self {
             written: bytes(network.form(node + 1), executor.needed_mask(node).count()),
             seconds: executor.operator_time(node).as_secs_f64(),

@@ -8,14 +8,14 @@
 //! reached and fewer MACs are needed.
 
 use crate::InferenceError;
-use crate::kept_clips::ClipPart;
 use crate::closeness::{ClosenessTally, TuningGoal};
+use crate::kept_clips::ClipPart;
 use crate::macs::{Macs, macs_of_layers};
-use crate::runner::{NetworkRunner, ExecutorMode};
 use crate::positions::PositionCounts;
-use crate::summary::{TuningTrial, TuningSummary};
+use crate::runner::{ExecutorMode, NetworkRunner};
+use crate::summary::{TuningSummary, TuningTrial};
 use foveate_footage::{RunHooks, RunProgress};
-use foveate_network::{Executor, ExecutionMode, Network};
+use foveate_network::{ExecutionMode, Executor, Network};
 use std::borrow::Cow;
 
 /// The exponents of 2 of the multiples that all nodes get together.
@@ -61,7 +61,8 @@ pub(crate) fn tune(
     hooks: &mut dyn RunHooks,
 ) -> Result<TunedLimits, InferenceError> {
     let (right, scales) = whole_outputs(network, parts);
-    let mut tuner = Tuner { network, goal, parts, whole_outputs: right, runs: 0, frames_before: before, hooks };
+    let mut tuner =
+        Tuner { network, goal, parts, whole_outputs: right, runs: 0, frames_before: before, hooks };
     let exact = tuner.try_limits(vec![0.0; scales.len()])?;
     let together = |power: i32| scales.iter().map(|scale| scale * 2f32.powi(power)).collect();
     let mut uniform = Vec::new();
@@ -70,7 +71,8 @@ pub(crate) fn tune(
     }
     // A larger limit that reaches the goal after a smaller one missed it does so by chance, and
     // does not count.
-    let holding = uniform.iter().take_while(|(_, trial)| goal.is_reached_by(&trial.closeness)).last();
+    let holding =
+        uniform.iter().take_while(|(_, trial)| goal.is_reached_by(&trial.closeness)).last();
     let best = holding.map_or(&exact, |(_, trial)| trial).clone();
     let start = match holding {
         Some((power, _)) => tuner.try_limits(together(power - 1))?,
@@ -114,14 +116,20 @@ fn whole_outputs(network: &Network, parts: &[ClipPart<'_>]) -> (Vec<Vec<Vec<f32>
         dense.step(seen.values, seen.changed);
         let nodes = 1..=network.nodes().len();
         if scales.is_empty() {
-            scales =
-                nodes.clone().map(|value| root_mean_square(&dense.tensor(value).real_values())).collect();
+            scales = nodes
+                .clone()
+                .map(|value| root_mean_square(&dense.tensor(value).real_values()))
+                .collect();
         }
         // The outputs are stored by value, so that they are found like those of an executor. Other
         // values are not needed.
         let outputs = network.outputs();
         let of = |value| {
-            if outputs.contains(&value) { dense.tensor(value).real_values().to_vec() } else { Vec::new() }
+            if outputs.contains(&value) {
+                dense.tensor(value).real_values().to_vec()
+            } else {
+                Vec::new()
+            }
         };
         right.push((0..=network.nodes().len()).map(of).collect());
     }
@@ -145,7 +153,8 @@ impl Tuner<'_> {
         let frames = self.parts.iter().flat_map(|part| {
             part.frames.iter().enumerate().map(move |(at, kept)| (part, at == 0, kept))
         });
-        for (number, ((part, is_first, kept), right)) in (1..).zip(frames.zip(&self.whole_outputs)) {
+        for (number, ((part, is_first, kept), right)) in (1..).zip(frames.zip(&self.whole_outputs))
+        {
             if self.hooks.is_cancelled() {
                 return Err(InferenceError::Cancelled);
             }
@@ -156,7 +165,10 @@ impl Tuner<'_> {
             let work = player.step(kept.as_received()).to_vec();
             if player.is_counted() {
                 for (node, (sums, work)) in sums.iter_mut().zip(&work).enumerate() {
-                    *sums += PositionCounts::from_work(work, self.network.form(node + 1).position_count());
+                    *sums += PositionCounts::from_work(
+                        work,
+                        self.network.form(node + 1).position_count(),
+                    );
                 }
                 closeness.add(&ClosenessTally::compare_outputs(
                     self.network,
@@ -172,7 +184,11 @@ impl Tuner<'_> {
     }
 
     /// Doubles the limits of one node after the other; limits that are 0 start at `least`.
-    fn double_limits(&mut self, start: LimitTrial, least: &[f32]) -> Result<LimitTrial, InferenceError> {
+    fn double_limits(
+        &mut self,
+        start: LimitTrial,
+        least: &[f32],
+    ) -> Result<LimitTrial, InferenceError> {
         let mut best = start;
         for (node, &least) in least.iter().enumerate() {
             for _ in 0..MAX_DOUBLINGS {

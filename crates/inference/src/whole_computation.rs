@@ -3,7 +3,7 @@
 
 use crate::closeness::ClosenessTally;
 use foveate_network::vision::OutputDistance;
-use foveate_network::{Executor, Mask, ExecutionMode, Network};
+use foveate_network::{ExecutionMode, Executor, Mask, Network};
 use std::time::Instant;
 
 /// A whole computation that runs next to the compared one.
@@ -45,14 +45,20 @@ impl<'a> WholeComputation<'a> {
         let seconds = start.elapsed().as_secs_f64();
         let mut is_different = false;
         for (node, layer) in self.layers.iter_mut().enumerate() {
-            let (distance, differs) =
-                OutputDistance::between(&self.dense.tensor(node + 1).real_values(), &other.tensor(node + 1).real_values());
+            let (distance, differs) = OutputDistance::between(
+                &self.dense.tensor(node + 1).real_values(),
+                &other.tensor(node + 1).real_values(),
+            );
             if is_counted {
                 layer.add(distance);
             }
             is_different |= differs;
         }
-        let outputs = ClosenessTally::compare_outputs(self.network, |value| self.dense.tensor(value).real_values(), other);
+        let outputs = ClosenessTally::compare_outputs(
+            self.network,
+            |value| self.dense.tensor(value).real_values(),
+            other,
+        );
         self.different_frames += u64::from(is_different);
         if is_counted {
             self.outputs.add(&outputs);

@@ -29,7 +29,9 @@ pub trait PanelTask {
 /// A [`PanelTask`] with a fixed panel size.
 struct SizedPanelTask<T, const LANES: usize, const FUSED: bool>(T);
 
-impl<T: PanelTask, const LANES: usize, const FUSED: bool> VectorTask for SizedPanelTask<T, LANES, FUSED> {
+impl<T: PanelTask, const LANES: usize, const FUSED: bool> VectorTask
+    for SizedPanelTask<T, LANES, FUSED>
+{
     #[inline(always)]
     fn run(self) {
         self.0.run::<LANES, FUSED>();
@@ -136,7 +138,9 @@ impl InstructionSet {
             InstructionSetKind::Avx2 => unsafe { run_avx2(SizedPanelTask::<_, 16, true>(task)) },
             // SAFETY: only `available` makes this value, as in `run`.
             #[cfg(target_arch = "x86_64")]
-            InstructionSetKind::Avx512 => unsafe { run_avx512(SizedPanelTask::<_, 32, true>(task)) },
+            InstructionSetKind::Avx512 => unsafe {
+                run_avx512(SizedPanelTask::<_, 32, true>(task))
+            },
         }
     }
 }
@@ -202,6 +206,9 @@ mod tests {
             level.run_panels(LaneCountTask(&mut lanes));
             assert_eq!(lanes, level.panel_lanes());
         }
-        assert_eq!((levels[0].name(), levels.last()), ("portable", Some(&InstructionSet::detect())));
+        assert_eq!(
+            (levels[0].name(), levels.last()),
+            ("portable", Some(&InstructionSet::detect()))
+        );
     }
 }

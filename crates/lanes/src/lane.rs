@@ -41,7 +41,15 @@ pub trait PixelLane:
         + From<Self>
         + TryFrom<u32>;
     /// The sum of a column of pixels of one region: 64 pixels at most.
-    type ColumnSum: Copy + Debug + Default + Send + Sync + AddAssign + From<Self> + Into<u32> + Into<u64>;
+    type ColumnSum: Copy
+        + Debug
+        + Default
+        + Send
+        + Sync
+        + AddAssign
+        + From<Self>
+        + Into<u32>
+        + Into<u64>;
     /// The sum of the squares of a column of pixels of one region: 64 pixels at most.
     type SquareSum: Copy + Debug + Default + Send + Sync + AddAssign + Into<u64>;
 

@@ -9,11 +9,11 @@
 //! * [`best_arc`]: FAST 5/8 as a network of minima and maxima.
 
 mod aligned_buffer;
-mod lane;
 mod instruction_set;
+mod lane;
 mod ring;
 
 pub use aligned_buffer::AlignedBuffer;
-pub use lane::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 pub use instruction_set::{InstructionSet, PanelTask, VectorTask, prefetch};
+pub use lane::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 pub use ring::best_arc;

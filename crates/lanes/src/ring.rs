@@ -10,7 +10,11 @@ use crate::PixelLane;
 /// Returns the score of the best of the eight arcs of five neighbors in a ring. The score of an arc
 /// is its worst pixel by `worse`; `better` chooses among scores.
 #[inline(always)]
-pub fn best_arc<T: PixelLane>(x: [T; 8], worse: impl Fn(T, T) -> T, better: impl Fn(T, T) -> T) -> T {
+pub fn best_arc<T: PixelLane>(
+    x: [T; 8],
+    worse: impl Fn(T, T) -> T,
+    better: impl Fn(T, T) -> T,
+) -> T {
     let pair = [worse(x[0], x[1]), worse(x[2], x[3]), worse(x[4], x[5]), worse(x[6], x[7])];
     // An arc is the four pixels k to k + 3 with a fifth, k - 1 or k + 4.
     let arcs = |four: T, before: T, after: T| worse(four, better(before, after));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Charts of bytes against quality: for the design's thresholds and the codecs' quantizers.
 
-use foveate_pictures::chart::{Chart, ChartSeries, LineLook, ChartData};
+use foveate_pictures::chart::{Chart, ChartData, ChartSeries, LineLook};
 
 use crate::report::QUANTIZER;
 use crate::{ClipReport, CurvePoint, Quality};

@@ -5,10 +5,10 @@ use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::Path;
 
-use foveate_design::{RegionAction, DesignConfig, Design};
+use foveate_design::{Design, DesignConfig, RegionAction};
 use foveate_engine::Engine;
 use foveate_fidelity::FrameSimilarity;
-use foveate_footage::{FootageError, InputOptions, SourceKind, ComparedInput, open};
+use foveate_footage::{ComparedInput, FootageError, InputOptions, SourceKind, open};
 use foveate_frame::FramePixels;
 use foveate_simulator::{PixelCamera, PixelEventOptions};
 

@@ -6,19 +6,19 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{InputOptions, ComparedInput, subjects};
+use foveate_footage::{ComparedInput, InputOptions, subjects};
 use foveate_simulator::{BatchHooks, BatchProgress};
 use foveate_staging::{FolderKind, ScratchFolder, StagedFolder};
 use foveate_toolchain::{Tool, Toolchain};
 
-use crate::clip::{SweptResult, ClipResults, read_clip};
+use crate::clip::{ClipResults, SweptResult, read_clip};
 use crate::encoder::{check_encoders, scratch_error};
 use crate::figures::bytes_per_second;
 use crate::report::{FORMAT_VERSION, QUANTIZER};
 use crate::search::coarsest_quantizer;
 use crate::{
-    SenderCameras, ClipReport, Codec, EncoderPreset, EncodedClip, ClipEncoder, LinkFigures, LinkError, LinkReport, CurvePoint,
-    Quality, SenderReport, Timeline, LinkUnit, files,
+    ClipEncoder, ClipReport, Codec, CurvePoint, EncodedClip, EncoderPreset, LinkError, LinkFigures,
+    LinkReport, LinkUnit, Quality, SenderCameras, SenderReport, Timeline, files,
 };
 use foveate_design::DECISION_BITS;
 
@@ -94,12 +94,15 @@ fn compare_clip(
     let seen = read_clip(subject, request.config, request.input, folder.path(), tick)?;
     let timeline = Timeline::new(&subject.name, &seen.times_us, seen.design.height())?;
     let cameras = SenderCameras::new(&subject.name, &seen.design, &timeline, request.clock_hz)?;
-    let figures = |units: Vec<LinkUnit>| LinkFigures::from_units(units, &timeline, request.link_bits_per_second);
+    let figures = |units: Vec<LinkUnit>| {
+        LinkFigures::from_units(units, &timeline, request.link_bits_per_second)
+    };
     let mut senders = camera_reports(&cameras, &seen, &figures);
     let mut curves: Vec<CurvePoint> =
         seen.swept.iter().map(|measured| region_point(&seen, measured, &timeline)).collect();
     for &codec in request.codecs {
-        let mut encoder = ClipEncoder::new(tools, &seen.grey_footage, (codec, request.preset), tick);
+        let mut encoder =
+            ClipEncoder::new(tools, &seen.grey_footage, (codec, request.preset), tick);
         for equal in EqualFigure::ALL {
             let (quantizer, found) = equal.search(&mut encoder, codec, seen.quality)?;
             let encoded = encoder.encode_with(quantizer)?;
@@ -115,7 +118,9 @@ fn compare_clip(
         for &quantizer in codec.curve_quantizers() {
             encoder.encode_with(quantizer)?;
         }
-        curves.extend(encoder.encoded_clips().iter().map(|known| codec_point(codec, known, &timeline)));
+        curves.extend(
+            encoder.encoded_clips().iter().map(|known| codec_point(codec, known, &timeline)),
+        );
     }
     Ok(ClipReport {
         name: subject.name.clone(),
@@ -221,7 +226,10 @@ fn codec_point(
         sender: codec.name(),
         setting: QUANTIZER,
         value: quantizer.into(),
-        bytes_per_second: bytes_per_second(8 * encoded.packets.iter().sum::<u64>(), timeline.end_ns()),
+        bytes_per_second: bytes_per_second(
+            8 * encoded.packets.iter().sum::<u64>(),
+            timeline.end_ns(),
+        ),
         quality: encoded.quality,
     }
 }

@@ -107,7 +107,10 @@ impl<'a> ClipEncoder<'a> {
             .args(["-f", self.codec.format()])
             .arg(&self.stream);
         self.tools.run_checked(&encode).map_err(|error| self.encoder_error(error))?;
-        Ok(EncodedClip { packets: self.packet_sizes(quantizer)?, quality: self.decoded_quality(quantizer)? })
+        Ok(EncodedClip {
+            packets: self.packet_sizes(quantizer)?,
+            quality: self.decoded_quality(quantizer)?,
+        })
     }
 
     /// Converts an error of ffmpeg to an error in one line, if the encoder printed a reason.
@@ -145,7 +148,8 @@ impl<'a> ClipEncoder<'a> {
         let text = String::from_utf8_lossy(&text);
         let sizes = text.lines().map(|line| line.trim_end_matches(',').parse());
         let sizes: Result<Vec<u64>, _> = sizes.collect();
-        let sizes = sizes.map_err(|error| self.lost_frames_error(quantizer, 0, error.to_string()))?;
+        let sizes =
+            sizes.map_err(|error| self.lost_frames_error(quantizer, 0, error.to_string()))?;
         self.check_frame_count(quantizer, sizes.len() as u64, "of ffprobe's packets")?;
         Ok(sizes)
     }
@@ -194,7 +198,14 @@ impl<'a> ClipEncoder<'a> {
 
     fn lost_frames_error(&self, quantizer: u32, found: u64, said: String) -> LinkError {
         let (clip, expected) = (self.footage.clip.clone(), self.footage.frames);
-        LinkError::LostFrames { codec: self.codec.name(), quantizer, clip, found, expected, message: said }
+        LinkError::LostFrames {
+            codec: self.codec.name(),
+            quantizer,
+            clip,
+            found,
+            expected,
+            message: said,
+        }
     }
 }
 

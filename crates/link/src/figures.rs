@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::windows::nearest_rank;
-use crate::{WindowRates, Timeline, LinkUnit, send_over_link};
+use crate::{LinkUnit, Timeline, WindowRates, send_over_link};
 
 /// The lengths of the windows in ms.
 pub(crate) const WINDOWS_MS: [u64; 3] = [1, 10, 100];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files of a comparison.
 
-use foveate_files::tables::{TableCell, NamedCells, Table};
+use foveate_files::tables::{NamedCells, Table, TableCell};
 use foveate_staging::StagedFolder;
 
 use crate::charts::charts;
-use crate::{ClipReport, LinkError, LinkReport, CurvePoint, Quality, SenderReport};
+use crate::{ClipReport, CurvePoint, LinkError, LinkReport, Quality, SenderReport};
 
 /// Writes all files.
 pub(crate) fn write(staging: &StagedFolder, report: &LinkReport) -> Result<(), LinkError> {

@@ -7,16 +7,16 @@
 //! rates in windows, latency and the buffer. [`compare`] runs clips through the cameras and the
 //! codecs, and writes a folder that appears complete or not at all. Times and rates are integers.
 
+mod charts;
 mod clip;
 mod codec;
 mod compare;
 mod encoder;
 mod error;
-mod queue;
 mod figures;
 mod files;
-mod charts;
 mod quality;
+mod queue;
 mod report;
 mod search;
 mod sender;
@@ -29,12 +29,12 @@ mod windows;
 
 pub use codec::{Codec, EncoderPreset};
 pub use compare::{LINK_FOLDER, LinkRequest, compare};
-pub use encoder::{EncodedClip, ClipEncoder, GreyFootage, check_encoders};
+pub use encoder::{ClipEncoder, EncodedClip, GreyFootage, check_encoders};
 pub use error::LinkError;
-pub use queue::{QueueResult, send_over_link};
 pub use figures::{DeliveryTimes, LinkFigures};
 pub use quality::Quality;
-pub use report::{ClipReport, LinkReport, CurvePoint, SenderReport};
+pub use queue::{QueueResult, send_over_link};
+pub use report::{ClipReport, CurvePoint, LinkReport, SenderReport};
 pub use search::coarsest_quantizer;
 pub use sender::{SenderCameras, SentCounts};
 pub use timeline::Timeline;

@@ -15,11 +15,13 @@
 //! regions after the other: the decisions of a row when the last of them falls, and the pixels when
 //! the last word is out. A decision has two bits.
 
-use foveate_design::{RegionAction, DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming};
+use foveate_design::{
+    DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming, RegionAction,
+};
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
-use crate::stream::{RowDepartureTimes, RasterArrayStream, most_added_clocks};
-use crate::{LinkError, Timeline, LinkUnit};
+use crate::stream::{RasterArrayStream, RowDepartureTimes, most_added_clocks};
+use crate::{LinkError, LinkUnit, Timeline};
 
 /// The values that a region camera sends for one frame, and the events of a pixel camera.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -91,8 +93,14 @@ impl<'a> SenderCameras<'a> {
         if let Some(core) = self.raster_timing() {
             return most_added_clocks(core, self.design.regions());
         }
-        let DepartureTiming { take_clocks, decision_clocks, forward_clocks, slot_clocks, has_independent_units: alone, .. } =
-            self.departure;
+        let DepartureTiming {
+            take_clocks,
+            decision_clocks,
+            forward_clocks,
+            slot_clocks,
+            has_independent_units: alone,
+            ..
+        } = self.departure;
         let last_slot = u64::from(self.design.slots() - 1) * slot_clocks;
         let array = take_clocks + decision_clocks.max(forward_clocks) + last_slot;
         let row = if alone { self.row_clocks(self.design.rows() - 1).1 } else { 0 };
@@ -111,7 +119,9 @@ impl<'a> SenderCameras<'a> {
     /// organizations.
     fn raster_timing(&self) -> Option<RasterTiming> {
         match self.design.hardware() {
-            Hardware::Raster(own) => Some(RasterTiming::from_design(self.design.with_hardware(own))),
+            Hardware::Raster(own) => {
+                Some(RasterTiming::from_design(self.design.with_hardware(own)))
+            }
             Hardware::Pipelined(_) | Hardware::Serial(_) => None,
         }
     }
@@ -186,11 +196,23 @@ impl<'a> SenderCameras<'a> {
             let rows = array.next_frame(&sent.actions).into_iter().zip(&sent.rows);
             for (row, (RowDepartureTimes { decided, sent }, &pixels)) in (0..).zip(rows) {
                 let read = self.timeline.row_read_ns(frame, row * self.design.region_size());
-                units.push(LinkUnit { frame, read_ns: read, decided_ns: decided, sent_ns: decided, bits: map });
+                units.push(LinkUnit {
+                    frame,
+                    read_ns: read,
+                    decided_ns: decided,
+                    sent_ns: decided,
+                    bits: map,
+                });
                 let bits = pixels * u64::from(self.design.pixel_bits());
                 // The pixels may be out before the last decision of the row, if the last decisions
                 // send no pixels.
-                let unit = |sent| LinkUnit { frame, read_ns: read, decided_ns: decided.min(sent), sent_ns: sent, bits };
+                let unit = |sent| LinkUnit {
+                    frame,
+                    read_ns: read,
+                    decided_ns: decided.min(sent),
+                    sent_ns: sent,
+                    bits,
+                };
                 units.extend(sent.map(unit));
             }
         }
@@ -210,11 +232,23 @@ impl<'a> SenderCameras<'a> {
                 let decided = self.departure_ns(frame, decision_frames, decision_clocks + wait);
                 // The slot has the regions `slot`, `slot + fold`, `slot + 2 fold` and so on.
                 let map = DECISION_BITS * u64::from((regions - slot).div_ceil(fold));
-                units.push(LinkUnit { frame, read_ns: read, decided_ns: decided, sent_ns: decided, bits: map });
+                units.push(LinkUnit {
+                    frame,
+                    read_ns: read,
+                    decided_ns: decided,
+                    sent_ns: decided,
+                    bits: map,
+                });
                 let sent = self.departure_ns(frame, forward_frames, forward_clocks + wait);
                 let bits = pixels * u64::from(self.design.pixel_bits());
                 if bits > 0 {
-                    units.push(LinkUnit { frame, read_ns: read, decided_ns: decided, sent_ns: sent, bits });
+                    units.push(LinkUnit {
+                        frame,
+                        read_ns: read,
+                        decided_ns: decided,
+                        sent_ns: sent,
+                        bits,
+                    });
                 }
             }
         }
@@ -240,7 +274,13 @@ impl<'a> SenderCameras<'a> {
                 let at = self.timeline.row_read_ns(frame, row);
                 match bits(number, place) {
                     0 => {}
-                    bits => units.push(LinkUnit { frame, read_ns: at, decided_ns: at, sent_ns: at, bits }),
+                    bits => units.push(LinkUnit {
+                        frame,
+                        read_ns: at,
+                        decided_ns: at,
+                        sent_ns: at,
+                        bits,
+                    }),
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! that nanoseconds and clocks are whole numbers of ticks. Without a clock the array takes no time,
 //! and a tick is a nanosecond.
 
-use foveate_design::{RegionAction, RasterStreamTiming, RasterTiming, RowDeparture};
+use foveate_design::{RasterStreamTiming, RasterTiming, RegionAction, RowDeparture};
 
 use crate::Timeline;
 
@@ -31,7 +31,12 @@ pub(crate) struct RowDepartureTimes {
 impl<'a> RasterArrayStream<'a> {
     pub(crate) fn new(timing: RasterTiming, timeline: &'a Timeline, clock_hz: Option<u64>) -> Self {
         let (of_nano, clock) = clock_hz.map_or((1, 0), |hertz| (hertz.into(), NS_PER_SECOND));
-        Self { timeline, stream: RasterStreamTiming::new(timing, clock), ticks_per_ns: of_nano, frame: 0 }
+        Self {
+            timeline,
+            stream: RasterStreamTiming::new(timing, clock),
+            ticks_per_ns: of_nano,
+            frame: 0,
+        }
     }
 
     /// Returns the times of the next frame, one entry per row of regions.
@@ -48,7 +53,11 @@ impl<'a> RasterArrayStream<'a> {
         };
         let nanos = |ticks: u128| u64::try_from(ticks.div_ceil(of_nano)).unwrap_or(u64::MAX);
         let rows = self.stream.advance_frame(read, actions).into_iter();
-        rows.map(|row| RowDepartureTimes { decided: nanos(row.last_decision), sent: row.last_word.map(nanos) }).collect()
+        rows.map(|row| RowDepartureTimes {
+            decided: nanos(row.last_decision),
+            sent: row.last_word.map(nanos),
+        })
+        .collect()
     }
 }
 
@@ -64,14 +73,16 @@ pub(crate) fn most_added_clocks(timing: RasterTiming, regions: u32) -> u64 {
     const FRAMES: u128 = 3;
     let interval = u128::from(timing.max_clocks_per_frame()) * CLOCK;
     let active = vec![RegionAction::Forward; regions as usize];
-    let (mut with, mut without) = (RasterStreamTiming::new(timing, CLOCK), RasterStreamTiming::new(timing, 0));
+    let (mut with, mut without) =
+        (RasterStreamTiming::new(timing, CLOCK), RasterStreamTiming::new(timing, 0));
     let mut most = 0;
     for frame in 0..FRAMES {
         let at = |row: u32| {
             frame * interval + interval * u128::from(row) / u128::from(timing.taken_rows)
         };
         let read = |row: u32| (at(row), at(row + 1));
-        let rows = with.advance_frame(read, &active).into_iter().zip(without.advance_frame(read, &active));
+        let rows =
+            with.advance_frame(read, &active).into_iter().zip(without.advance_frame(read, &active));
         for (with, without) in rows {
             let of = |row: RowDeparture| row.last_word.unwrap_or(row.last_decision);
             most = most.max(of(with) - of(without));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The design with one threshold at a time set to other values, for the points of its own curves.
 
-use foveate_design::{DesignConfig, Decimal, Design};
+use foveate_design::{Decimal, Design, DesignConfig};
 
 /// The values of `temporal.level`, in grey levels of 8 bits.
 const LEVELS: [u32; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];
@@ -22,8 +22,9 @@ pub(crate) struct SweptDesign {
 /// varied alone.
 pub(crate) fn swept_designs(config: &DesignConfig) -> Vec<SweptDesign> {
     // A score above the largest one of this design's regions is not valid, and is left out.
-    let swept =
-        |key, value, config: DesignConfig| Some(SweptDesign { key, value, design: config.validate().ok()? });
+    let swept = |key, value, config: DesignConfig| {
+        Some(SweptDesign { key, value, design: config.validate().ok()? })
+    };
     let level = |&value: &u32| {
         let mut config = config.clone();
         config.camera.temporal.level = Some(value);

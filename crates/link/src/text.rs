@@ -71,8 +71,9 @@ fn megahertz_text(hertz: u64) -> String {
 
 fn row(clip: &ClipReport, sender: &SenderReport) -> [String; COLUMNS.len()] {
     let figures = &sender.figures;
-    let [one, ten, hundred] =
-        figures.windows.map(|rates| format!("{}, {}", thousands_text(rates.p99), thousands_text(rates.peak)));
+    let [one, ten, hundred] = figures
+        .windows
+        .map(|rates| format!("{}, {}", thousands_text(rates.p99), thousands_text(rates.peak)));
     let delivery = figures.delivery_ns;
     let grows = if figures.overloaded { "grows: " } else { "" };
     let ms = |ns: u64| thousandths_text(ns / 1000, 3);

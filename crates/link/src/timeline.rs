@@ -31,7 +31,11 @@ impl Timeline {
         }
         if let Some(frame) = times_us.windows(2).position(|pair| pair[1] <= pair[0]) {
             let time_us = times_us[frame + 1];
-            return Err(LinkError::TimesNotRising { clip: clip.to_owned(), frame: frame + 1, time_us });
+            return Err(LinkError::TimesNotRising {
+                clip: clip.to_owned(),
+                frame: frame + 1,
+                time_us,
+            });
         }
         // The last frame lasts as long as the others on average.
         let (span, intervals) = (u128::from(last - first), u128::from(frames - 1));
@@ -73,7 +77,8 @@ impl Timeline {
     /// Returns the shortest time between two frames in ns.
     #[must_use]
     pub fn shortest_interval_ns(&self) -> u64 {
-        let intervals = (0..self.frames()).map(|frame| self.start_ns(frame + 1) - self.start_ns(frame));
+        let intervals =
+            (0..self.frames()).map(|frame| self.start_ns(frame + 1) - self.start_ns(frame));
         intervals.min().expect("there are two frames")
     }
 }

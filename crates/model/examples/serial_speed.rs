@@ -6,7 +6,7 @@
 
 use std::time::{Duration, Instant};
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_model::{CoreInput, SerialRcm, ThresholdInputs};
 
 /// Duration of each measurement.

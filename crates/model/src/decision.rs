@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The rules by which votes become SRS, and by which SRS and TRS become an action.
 
-use foveate_camera::{RegionAction, VoteCombination, IrrelevantRendering};
+use foveate_camera::{IrrelevantRendering, RegionAction, VoteCombination};
 
 /// Returns SRS for the votes of the features.
-pub(crate) fn combine_votes(combine: VoteCombination, mut votes: impl Iterator<Item = bool>) -> bool {
+pub(crate) fn combine_votes(
+    combine: VoteCombination,
+    mut votes: impl Iterator<Item = bool>,
+) -> bool {
     match combine {
         VoteCombination::Any => votes.any(|vote| vote),
         VoteCombination::All => votes.all(|vote| vote),

@@ -8,7 +8,7 @@
 mod gather;
 mod text;
 
-use foveate_camera::{FeatureKind, DenoiseFilter};
+use foveate_camera::{DenoiseFilter, FeatureKind};
 use serde::Serialize;
 
 /// A square of values, row by row.

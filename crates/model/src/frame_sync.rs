@@ -64,7 +64,9 @@ impl FrameSync {
             (SyncState::Seek | SyncState::Start, true) => (SyncState::Inside(1), true, false),
             (SyncState::Seek, false) => (SyncState::Seek, false, false),
             (SyncState::Start, false) => (SyncState::Seek, false, true),
-            (SyncState::Inside(had) | SyncState::Fill(had), true) => (SyncState::Fill(had), false, true),
+            (SyncState::Inside(had) | SyncState::Fill(had), true) => {
+                (SyncState::Fill(had), false, true)
+            }
             (SyncState::Inside(had) | SyncState::Fill(had), false) => {
                 let is_last = had + 1 == beats;
                 (if is_last { SyncState::Start } else { SyncState::Inside(had + 1) }, true, false)

@@ -5,15 +5,15 @@
 use foveate_camera::{Camera, Payload};
 
 use crate::ModelError;
+use crate::conversions::index;
 use crate::decision::combine_votes;
 use crate::denoising::denoise_into;
 use crate::feature::score;
-use crate::conversions::index;
 use crate::periphery::{ShownSummary, block_means, no_summaries};
 use crate::region::{RegionArea, black_frame, black_padded_frame, check_frame_kind, pad_into};
+use crate::region_view::FrameRegion;
 use crate::screen::Screen;
 use crate::temporal::{RegionReferences, changed_pixels};
-use crate::region_view::FrameRegion;
 use foveate_camera::RegionAction;
 use foveate_frame::Frame;
 

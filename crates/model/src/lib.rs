@@ -12,6 +12,7 @@
 //! The crate reads no files and no Verilog.
 #![forbid(unsafe_code)]
 
+mod conversions;
 mod core_models;
 mod cycle_model;
 mod decision;
@@ -19,37 +20,36 @@ pub mod denoising;
 mod error;
 pub mod explanation;
 pub mod feature;
+mod frame_sync;
 pub mod functional;
-mod conversions;
 mod periphery;
 pub mod pipelined;
+mod pixel_square;
 pub mod raster;
 mod region;
-mod screen;
-mod scorer;
-pub mod serial;
-mod pixel_square;
-mod stream;
-mod frame_sync;
-mod temporal;
-mod thresholds;
 mod region_decision;
 mod region_view;
+mod scorer;
+mod screen;
+pub mod serial;
+mod stream;
+mod temporal;
+mod thresholds;
 pub mod window;
 
 pub use self::core_models::{rcm_model, rpu_model};
 pub use cycle_model::{CoreInput, CycleModel};
 pub use decision::region_action;
 pub use error::ModelError;
+pub use frame_sync::FrameSync;
 pub use functional::{FunctionalCamera, FunctionalOutcome, RegionMemory};
 pub use periphery::block_means;
 pub use pipelined::{PipelinedRcm, PipelinedRpu, RpuInput, RpuOutput};
 pub use raster::{RasterOutput, RasterRcm};
 pub use region::{pad, region_pixels};
+pub use region_view::RegionView;
 pub use scorer::RegionScorer;
 pub use serial::{SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
-pub use frame_sync::FrameSync;
 pub use temporal::{changed_pixels, temporal_differences};
 pub use thresholds::ThresholdInputs;
-pub use region_view::RegionView;

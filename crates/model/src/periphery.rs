@@ -2,10 +2,10 @@
 //! The summaries of irrelevant regions: the means of their blocks, and the frames in which they are
 //! sent.
 
-use foveate_camera::{RegionAction, Camera, IrrelevantRendering, Periphery};
+use foveate_camera::{Camera, IrrelevantRendering, Periphery, RegionAction};
 
-use crate::decision::region_action;
 use crate::conversions::index;
+use crate::decision::region_action;
 use crate::region::RegionArea;
 use foveate_frame::Frame;
 

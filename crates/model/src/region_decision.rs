@@ -3,8 +3,8 @@
 
 use foveate_camera::{Camera, FeatureKind};
 
-use crate::decision::combine_votes;
 use crate::conversions::index;
+use crate::decision::combine_votes;
 use crate::{RegionScorer, ThresholdInputs};
 
 /// The scores and the decision of one region in one frame.

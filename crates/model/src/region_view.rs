@@ -6,7 +6,7 @@ use foveate_camera::{Camera, Neighborhood};
 
 use crate::conversions::index;
 use crate::region::RegionArea;
-use crate::window::{WindowBounds, PixelWindow};
+use crate::window::{PixelWindow, WindowBounds};
 use foveate_frame::Frame;
 
 /// The denoised pixels of a region and of its reference, in row-major order.
@@ -41,9 +41,12 @@ impl<'a> FrameRegion<'a> {
                 right: area.left + area.side - 1,
                 bottom: area.top + area.side - 1,
             },
-            Neighborhood::Shared => {
-                WindowBounds { left: 0, top: 0, right: frame.width() - 1, bottom: frame.height() - 1 }
-            }
+            Neighborhood::Shared => WindowBounds {
+                left: 0,
+                top: 0,
+                right: frame.width() - 1,
+                bottom: frame.height() - 1,
+            },
         };
         Self { frame, area, bounds, reference: None }
     }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The scores of one region, computed from its stream alone.
 
-use foveate_camera::{Camera, FeatureKind, DenoiseFilter, Payload, Periphery, SpatialFeature};
+use foveate_camera::{Camera, DenoiseFilter, FeatureKind, Payload, Periphery, SpatialFeature};
 
 use crate::ThresholdInputs;
+use crate::conversions::{as_u64, index};
 use crate::denoising::median;
 use crate::feature::score;
-use crate::conversions::{as_u64, index};
 use crate::periphery::block_means;
 use crate::pixel_square::PixelSquare;
-use crate::temporal::changed_pixels;
 use crate::region_view::RegionView;
+use crate::temporal::changed_pixels;
 use crate::window::PixelWindow;
 
 /// A scorer of one region after the other. A test driver uses it to know the scores of a frame

@@ -55,7 +55,8 @@ impl RegionReferences {
 
     /// Returns the reference of a region in row-major order, or `None` if it is not valid.
     pub(crate) fn pixels(&self, camera: &Camera, region: u32) -> Option<Vec<u16>> {
-        self.frame(region).map(|frame| RegionArea::from_region(camera, region).pixels(frame).collect())
+        self.frame(region)
+            .map(|frame| RegionArea::from_region(camera, region).pixels(frame).collect())
     }
 
     /// Sets the reference of a region to `pixels`, in row-major order.
@@ -82,7 +83,9 @@ impl RegionReferences {
         action: RegionAction,
     ) {
         let keep = match (camera.temporal().reference, action) {
-            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => false,
+            (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => {
+                false
+            }
             (ReferencePolicy::LastSent, RegionAction::Hold) => true,
             (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
                 // The screen no longer shows the pixels that were sent.

@@ -8,7 +8,7 @@
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network};
+use foveate_network::{ExecutionMode, Executor, FrameSize, Mask, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -12,7 +12,7 @@
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network};
+use foveate_network::{ExecutionMode, Executor, FrameSize, Mask, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -36,8 +36,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let whole = Mask::full(frames.height, frames.width);
     let mut dense = Executor::new(&network, ExecutionMode::Dense);
     dense.step(&picture, &whole);
-    let values =
-        network.outputs().iter().flat_map(|&output| dense.tensor(output).real_values().into_owned());
+    let values = network
+        .outputs()
+        .iter()
+        .flat_map(|&output| dense.tensor(output).real_values().into_owned());
     std::fs::write(outputs, values.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
     let mut best = Duration::MAX;
     for _ in 0..TIMED {
@@ -62,9 +64,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// Returns the products that the changed frames needed and those of dense computations, with a
 /// description of the first tensor that differs from a dense computation.
 #[allow(clippy::cast_precision_loss, reason = "shares")]
-fn changed(network: &Network, mode: ExecutionMode, picture: &[f32]) -> ((f64, f64), Option<String>) {
+fn changed(
+    network: &Network,
+    mode: ExecutionMode,
+    picture: &[f32],
+) -> ((f64, f64), Option<String>) {
     let (height, width) = (network.input().height(), network.input().width());
-    let (mut dense, mut part) = (Executor::new(network, ExecutionMode::Dense), Executor::new(network, mode));
+    let (mut dense, mut part) =
+        (Executor::new(network, ExecutionMode::Dense), Executor::new(network, mode));
     let mut picture = picture.to_vec();
     let (mut needed, mut all) = (0.0, 0.0);
     for number in 0..=CHANGED {
@@ -82,7 +89,8 @@ fn changed(network: &Network, mode: ExecutionMode, picture: &[f32]) -> ((f64, f6
         let work = part.step(&picture, &mask).to_vec();
         for (node, work) in work.iter().enumerate().filter(|_| number > 0) {
             let macs = network.macs(node) as f64;
-            needed += macs * work.needed_positions as f64 / network.form(node + 1).position_count() as f64;
+            needed += macs * work.needed_positions as f64
+                / network.form(node + 1).position_count() as f64;
             all += macs;
         }
         for value in 0..=network.nodes().len() {

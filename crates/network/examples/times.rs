@@ -9,7 +9,7 @@
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network, ProductKind};
+use foveate_network::{ExecutionMode, Executor, FrameSize, Mask, Network, ProductKind};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{Duration, Instant};

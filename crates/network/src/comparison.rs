@@ -3,9 +3,9 @@
 //! neighbors in memory, in vector lanes, because this comparison is the only extra cost of the
 //! modes that compare.
 
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
 use crate::tensor::for_each_run;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 /// The positions that are compared in all channels before the next ones, so that their marks stay
@@ -80,7 +80,12 @@ fn mark_differing<T: TensorNumber>(
 }
 
 /// Copies the values at the positions of `at`.
-pub(crate) fn copy_positions<T: TensorNumber>(form: &TensorForm, from: &[T], to: &mut [T], at: &Mask) {
+pub(crate) fn copy_positions<T: TensorNumber>(
+    form: &TensorForm,
+    from: &[T],
+    to: &mut [T],
+    at: &Mask,
+) {
     for_each_run(form, at, |run| to[run.clone()].copy_from_slice(&from[run]));
 }
 
@@ -91,7 +96,13 @@ mod tests {
     use proptest::prelude::*;
 
     /// Compares value by value, by the definition of the modes.
-    fn naive<T: TensorNumber>(form: &TensorForm, kept: &[T], fresh: &[T], at: &Mask, limit: f32) -> Mask {
+    fn naive<T: TensorNumber>(
+        form: &TensorForm,
+        kept: &[T],
+        fresh: &[T],
+        at: &Mask,
+        limit: f32,
+    ) -> Mask {
         let (inner, places) = (form.inner_size(), form.position_count());
         let differs = |kept: T, fresh: T| {
             !kept.has_same_bits(fresh)
@@ -113,10 +124,12 @@ mod tests {
     /// Forms with fewer and more positions than a mask word and a comparison block, and forms with
     /// the channels last.
     fn forms() -> impl Strategy<Value = TensorForm> {
-        let features = (1usize..4, 1usize..70, prop_oneof![1usize..10, 60usize..70])
-            .prop_map(|(channels, height, width)| TensorForm::features(vec![1, channels, height, width]));
-        let last = (1usize..9, 1usize..70, 1usize..5)
-            .prop_map(|(height, width, inner)| TensorForm::with_positions(vec![1, height, width, inner], 1..3));
+        let features = (1usize..4, 1usize..70, prop_oneof![1usize..10, 60usize..70]).prop_map(
+            |(channels, height, width)| TensorForm::features(vec![1, channels, height, width]),
+        );
+        let last = (1usize..9, 1usize..70, 1usize..5).prop_map(|(height, width, inner)| {
+            TensorForm::with_positions(vec![1, height, width, inner], 1..3)
+        });
         prop_oneof![features, last]
     }
 

@@ -44,7 +44,7 @@ macro_rules! with_byte_type {
     };
 }
 
-pub(crate) use {with_element_type, with_byte_type};
+pub(crate) use {with_byte_type, with_element_type};
 
 /// The type of a stored value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -37,7 +37,12 @@ pub enum NetworkError {
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.
-    #[error("node `{}` ({}): {}", printable_text(node), printable_text(operator), printable_text(problem))]
+    #[error(
+        "node `{}` ({}): {}",
+        printable_text(node),
+        printable_text(operator),
+        printable_text(problem)
+    )]
     InvalidNode {
         /// The name of the node.
         node: String,

@@ -3,10 +3,10 @@
 //! of other programs.
 
 use crate::error::NetworkError;
-use crate::executor::{Executor, ExecutionMode};
+use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;
-use crate::optional_instant::OptionalInstant;
 use crate::onnx::TensorProto;
+use crate::optional_instant::OptionalInstant;
 use crate::reader::read_for_arrays;
 use std::path::Path;
 use std::time::Duration;

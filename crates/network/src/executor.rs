@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs a network frame by frame, and recomputes only what may have changed.
 
-use crate::comparison::{copy_positions, changed_positions};
+use crate::comparison::{changed_positions, copy_positions};
 use crate::element::{ElementType, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
-use crate::optional_instant::OptionalInstant;
 use crate::network::Network;
 use crate::operator::OperatorJob;
+use crate::optional_instant::OptionalInstant;
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use crate::values::{TensorNumber, TensorValues};
 use std::time::Duration;
 
@@ -92,7 +92,10 @@ impl<'a> Executor<'a> {
             change_limits: limits,
             tensors: forms().map(|form| Tensor::zeros(form.clone())).collect(),
             change_masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
-            needed_masks: forms().skip(1).map(|form| Mask::empty(form.height(), form.width())).collect(),
+            needed_masks: forms()
+                .skip(1)
+                .map(|form| Mask::empty(form.height(), form.width()))
+                .collect(),
             work: vec![NodeWork::default(); network.nodes().len()],
             scratch: ElementType::ALL.map(fresh),
             has_begun: false,
@@ -122,7 +125,11 @@ impl<'a> Executor<'a> {
     /// Panics if `picture` or `changed` does not have the size of the network's input.
     pub fn step(&mut self, picture: &[f32], changed: &Mask) -> &[NodeWork] {
         let input = self.network.input();
-        assert_eq!(picture.len(), input.element_count(), "a picture has as many values as the input");
+        assert_eq!(
+            picture.len(),
+            input.element_count(),
+            "a picture has as many values as the input"
+        );
         assert_eq!(
             (changed.height(), changed.width()),
             (input.height(), input.width()),
@@ -205,7 +212,12 @@ impl<'a> Executor<'a> {
             None => changed.clone(),
         };
         let form = self.network.input();
-        copy_positions(form, picture, f32::slice_of_mut(self.tensors[0].values_mut()), &self.change_masks[0]);
+        copy_positions(
+            form,
+            picture,
+            f32::slice_of_mut(self.tensors[0].values_mut()),
+            &self.change_masks[0],
+        );
     }
 
     /// Returns the positions of a node's output that are to be computed.
@@ -225,7 +237,8 @@ impl<'a> Executor<'a> {
     }
 
     fn run_node(&mut self, node: usize, camera: &Mask) {
-        let (at, limit) = (self.positions_to_compute(node, camera), self.comparison_limit(node + 1));
+        let (at, limit) =
+            (self.positions_to_compute(node, camera), self.comparison_limit(node + 1));
         self.needed_masks[node].clone_from(&at);
         let place = &self.network.nodes()[node];
         let form = self.network.form(node + 1);
@@ -237,7 +250,12 @@ impl<'a> Executor<'a> {
         let mut compute = |output: &mut TensorValues| {
             let start = OptionalInstant::now();
             if !at.is_empty() {
-                place.operator.compute(OperatorJob { inputs: &inputs, form, output, positions: &at });
+                place.operator.compute(OperatorJob {
+                    inputs: &inputs,
+                    form,
+                    output,
+                    positions: &at,
+                });
             }
             *computing = start.elapsed();
         };
@@ -261,7 +279,11 @@ impl<'a> Executor<'a> {
                 changed
             })
         };
-        self.work[node] = NodeWork { needed_positions: needed, scheduled_positions: scheduled, changed_positions: changed.count() };
+        self.work[node] = NodeWork {
+            needed_positions: needed,
+            scheduled_positions: scheduled,
+            changed_positions: changed.count(),
+        };
         self.change_masks[node + 1] = changed;
     }
 }
@@ -275,7 +297,8 @@ mod tests {
     use std::sync::Arc;
 
     /// A 3x3 window that moves by two rows and columns, with a padding of 1.
-    const WINDOW: AxisWindow = AxisWindow { kernel: 3, stride: 2, dilation: 1, padding_before: 1, padding_after: 1 };
+    const WINDOW: AxisWindow =
+        AxisWindow { kernel: 3, stride: 2, dilation: 1, padding_before: 1, padding_after: 1 };
 
     /// The function of a test operator, on floating-point values of one channel.
     #[derive(Clone, Copy, Debug)]
@@ -334,19 +357,31 @@ mod tests {
     impl Operator for FaultyOperator {
         fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
             let halved = TensorForm::features(vec![1, 1, 12, 12]);
-            Ok(if matches!(self.kind, TestOperatorKind::Window) { halved } else { inputs[0].clone() })
+            Ok(if matches!(self.kind, TestOperatorKind::Window) {
+                halved
+            } else {
+                inputs[0].clone()
+            })
         }
 
         fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
             let (height, width) = (output.height(), output.width());
             let through = |window| inputs[0].1.outputs_through(window, window, height, width);
             match (self.kind, self.fault) {
-                (_, PlantedFault::Padding) => through(AxisWindow { padding_before: WINDOW.padding_before - 1, ..WINDOW }),
-                (_, PlantedFault::Phase) => through(AxisWindow { padding_before: WINDOW.padding_before + 1, ..WINDOW }),
-                (_, PlantedFault::Kernel) => through(AxisWindow { kernel: WINDOW.kernel - 1, ..WINDOW }),
+                (_, PlantedFault::Padding) => {
+                    through(AxisWindow { padding_before: WINDOW.padding_before - 1, ..WINDOW })
+                }
+                (_, PlantedFault::Phase) => {
+                    through(AxisWindow { padding_before: WINDOW.padding_before + 1, ..WINDOW })
+                }
+                (_, PlantedFault::Kernel) => {
+                    through(AxisWindow { kernel: WINDOW.kernel - 1, ..WINDOW })
+                }
                 (_, PlantedFault::MissedUnion) => position_union(&inputs[..1], output),
                 (TestOperatorKind::Window, PlantedFault::None) => through(WINDOW),
-                (TestOperatorKind::Zero | TestOperatorKind::Sum, PlantedFault::None) => position_union(inputs, output),
+                (TestOperatorKind::Zero | TestOperatorKind::Sum, PlantedFault::None) => {
+                    position_union(inputs, output)
+                }
             }
         }
 
@@ -366,7 +401,8 @@ mod tests {
     /// Returns a network of windows with stride 2 and the sum of two branches. The first window and
     /// the sum have the given faults. The first branch never changes.
     fn two_branch_network(in_window: PlantedFault, in_sum: PlantedFault) -> Network {
-        let mut network = Network::new(TensorForm::features(vec![1, 1, 24, 24]), InputLayout::Nchw).unwrap();
+        let mut network =
+            Network::new(TensorForm::features(vec![1, 1, 24, 24]), InputLayout::Nchw).unwrap();
         let mut push = |kind, fault, inputs| {
             let (name, operator) = (format!("{kind:?}"), Arc::new(FaultyOperator { kind, fault }));
             network.push(&name, &name, operator, inputs).unwrap()
@@ -383,16 +419,19 @@ mod tests {
     fn is_exact(network: &Network) -> bool {
         (0..24).all(|at| {
             let mut picture = vec![0.5; 24 * 24];
-            let (mut dense, mut exact) =
-                (Executor::new(network, ExecutionMode::Dense), Executor::new(network, ExecutionMode::Compare));
+            let (mut dense, mut exact) = (
+                Executor::new(network, ExecutionMode::Dense),
+                Executor::new(network, ExecutionMode::Compare),
+            );
             dense.step(&picture, &Mask::full(24, 24));
             exact.step(&picture, &Mask::full(24, 24));
             picture[at * 25] = 0.75;
             let changed = Mask::from_fn(24, 24, |x, y| (x, y) == (at, at));
             dense.step(&picture, &changed);
             exact.step(&picture, &changed);
-            (0..=network.nodes().len())
-                .all(|value| dense.tensor(value).differing_positions(exact.tensor(value)).is_empty())
+            (0..=network.nodes().len()).all(|value| {
+                dense.tensor(value).differing_positions(exact.tensor(value)).is_empty()
+            })
         })
     }
 

@@ -32,7 +32,8 @@ pub struct AxisWindow {
 
 impl AxisWindow {
     /// The window of an output that sees only the input at its own position.
-    pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, padding_before: 0, padding_after: 0 };
+    pub const SAME: Self =
+        Self { kernel: 1, stride: 1, dilation: 1, padding_before: 0, padding_after: 0 };
 
     /// The number of inputs from the first tap to the last, both included.
     #[must_use]
@@ -195,7 +196,13 @@ impl Mask {
     /// Returns the positions of `height` x `width` outputs that see a position of this mask through
     /// a window.
     #[must_use]
-    pub fn outputs_through(&self, rows: AxisWindow, columns: AxisWindow, height: usize, width: usize) -> Self {
+    pub fn outputs_through(
+        &self,
+        rows: AxisWindow,
+        columns: AxisWindow,
+        height: usize,
+        width: usize,
+    ) -> Self {
         let mut seen = Self::empty(height, width);
         let mut line = vec![0; self.words_per_row];
         for y in 0..height {
@@ -217,7 +224,13 @@ impl Mask {
     /// Returns the positions of `height` x `width` inputs that an output at a position of this mask
     /// sees through a window.
     #[must_use]
-    pub fn inputs_through(&self, rows: AxisWindow, columns: AxisWindow, height: usize, width: usize) -> Self {
+    pub fn inputs_through(
+        &self,
+        rows: AxisWindow,
+        columns: AxisWindow,
+        height: usize,
+        width: usize,
+    ) -> Self {
         let mut seen = Self::empty(height, width);
         let mut line = Self::empty(1, width);
         for y in (0..self.height).filter(|&y| self.row(y).iter().any(|&word| word != 0)) {
@@ -300,7 +313,8 @@ impl Mask {
         let mut from = 0;
         while let Some(x) = next_position(line, from, inputs, false) {
             for tap in 0..columns.kernel {
-                let Some(at) = (x + columns.padding_before).checked_sub(tap * columns.dilation) else {
+                let Some(at) = (x + columns.padding_before).checked_sub(tap * columns.dilation)
+                else {
                     continue;
                 };
                 if at % columns.stride == 0 && at / columns.stride < self.width {

@@ -4,10 +4,10 @@
 
 use crate::element::Encoding;
 use crate::error::NetworkError;
-use crate::tensor_form::{TensorForm, MAX_AXES, checked_element_count};
 use crate::input_layout::InputLayout;
 use crate::mask::Mask;
 use crate::operator::{Operator, ProductKind};
+use crate::tensor_form::{MAX_AXES, TensorForm, checked_element_count};
 use std::sync::Arc;
 
 /// The largest number of values of a tensor.
@@ -132,7 +132,13 @@ impl Network {
         self.frame_grids.push(self.frame_grid(&form, &inputs));
         self.forms.push(form);
         let (name, kind) = (name.to_owned(), kind.to_owned());
-        self.nodes.push(NetworkNode { name, operator_name: kind, operator, inputs, scheduled_positions: scheduled });
+        self.nodes.push(NetworkNode {
+            name,
+            operator_name: kind,
+            operator,
+            inputs,
+            scheduled_positions: scheduled,
+        });
         Ok(self.nodes.len())
     }
 
@@ -140,11 +146,15 @@ impl Network {
     /// belong.
     fn frame_grid(&self, form: &TensorForm, inputs: &[usize]) -> Option<(usize, usize)> {
         let own = (form.height(), form.width());
-        let of = |&value: &usize| match (form.position_axes().len(), self.forms[value].position_axes().len()) {
+        let of = |&value: &usize| match (
+            form.position_axes().len(),
+            self.forms[value].position_axes().len(),
+        ) {
             (2, 2) => self.frame_grids[value].map(|_| own),
             // A flattened axis becomes rows and columns again if their numbers are those of before.
             (2, _) => self.frame_grids[value].filter(|&grid| grid == own),
-            (1, _) => self.frame_grids[value].filter(|&(height, width)| height * width == form.position_count()),
+            (1, _) => self.frame_grids[value]
+                .filter(|&(height, width)| height * width == form.position_count()),
             _ => None,
         };
         inputs.iter().find_map(of)

@@ -2,8 +2,8 @@
 //! A tensor: a form with its values.
 
 use crate::element::{ElementType, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::values::{TensorNumber, TensorValues};
 use std::borrow::Cow;
 
@@ -27,7 +27,11 @@ impl Tensor {
     /// Panics if the number of values is not the number of elements of the form.
     #[must_use]
     pub fn new(form: TensorForm, values: Vec<f32>) -> Self {
-        assert_eq!(form.element_count(), values.len(), "a tensor has as many values as its form says");
+        assert_eq!(
+            form.element_count(),
+            values.len(),
+            "a tensor has as many values as its form says"
+        );
         Self { form, values: TensorValues::F32(values) }
     }
 
@@ -103,7 +107,11 @@ impl Tensor {
 }
 
 /// Calls `visit` with the memory range of every run of positions of `at`, for every outer index.
-pub(crate) fn for_each_run(form: &TensorForm, at: &Mask, mut visit: impl FnMut(std::ops::Range<usize>)) {
+pub(crate) fn for_each_run(
+    form: &TensorForm,
+    at: &Mask,
+    mut visit: impl FnMut(std::ops::Range<usize>),
+) {
     let (places, inner, ranges) = (form.position_count(), form.inner_size(), at.memory_ranges());
     for outer in 0..form.outer_size() {
         for range in &ranges {

@@ -31,7 +31,11 @@ impl TensorForm {
     /// axes than four has no positions.
     #[must_use]
     pub fn features(shape: Vec<usize>) -> Self {
-        if shape.len() == 4 { Self::with_positions(shape, 2..4) } else { Self::without_positions(shape) }
+        if shape.len() == 4 {
+            Self::with_positions(shape, 2..4)
+        } else {
+            Self::without_positions(shape)
+        }
     }
 
     /// Returns the form of a tensor without positions.

@@ -89,7 +89,9 @@ impl PacketError {
     #[must_use]
     pub fn frame(&self) -> Option<u32> {
         match *self {
-            Self::NoFrame { .. } | Self::FieldOutOfRange { .. } | Self::ValueCountMismatch { .. } => None,
+            Self::NoFrame { .. }
+            | Self::FieldOutOfRange { .. }
+            | Self::ValueCountMismatch { .. } => None,
             Self::UnsupportedVersion { frame, .. }
             | Self::DesignMismatch { frame, .. }
             | Self::FieldMismatch { frame, .. } => Some(frame),

@@ -6,7 +6,7 @@
 //! consecutive numbers show that the sender has restarted its count. Without this rule, one wrong
 //! number would make all later frames late.
 
-use crate::{FrameInfo, PacketLayout, StreamLoss, Packet, PacketError, ReceivedFrame};
+use crate::{FrameInfo, Packet, PacketError, PacketLayout, ReceivedFrame, StreamLoss};
 
 /// Assembles frames from packets, and lists the losses.
 #[derive(Debug)]

@@ -6,26 +6,29 @@
 //! with a list of losses. The crate accesses no files and does not depend on the code that computes
 //! a frame.
 
+mod error;
 mod frame_assembler;
 mod frame_clock;
-mod register_command;
-mod error;
-mod received_frame;
 mod frame_info;
-mod packet_layout;
-mod stream_loss;
 mod packet;
+mod packet_layout;
 mod packet_splitter;
-mod word_fields;
 pub mod packet_writer;
+mod received_frame;
+mod register_command;
+mod stream_loss;
+mod word_fields;
 
+pub use error::PacketError;
 pub use frame_assembler::FrameAssembler;
 pub use frame_clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
-pub use register_command::RegisterCommand;
-pub use error::PacketError;
-pub use received_frame::{RegionContent, ReceivedFrame};
 pub use frame_info::FrameInfo;
-pub use packet_layout::{PacketLayout, MAGIC, VERSION};
+pub use packet::{
+    EndPacket, Packet, RegionDecision, RegionFlags, RegionPacket, RegisterPacket, RowPacket,
+    ScoresPacket,
+};
+pub use packet_layout::{MAGIC, PacketLayout, VERSION};
+pub use packet_splitter::{PacketSplitter, StreamItem};
+pub use received_frame::{ReceivedFrame, RegionContent};
+pub use register_command::RegisterCommand;
 pub use stream_loss::StreamLoss;
-pub use packet::{RegionDecision, EndPacket, Packet, RegionPacket, RegionFlags, RegisterPacket, RowPacket, ScoresPacket};
-pub use packet_splitter::{StreamItem, PacketSplitter};

@@ -2,8 +2,11 @@
 //! Packets as values, and their checks: only bytes that exactly match the layout are a packet.
 
 use crate::FrameInfo;
-use crate::packet_layout::{HEAD_AND_TAIL_WORDS, END_WORDS, FRAME_WORDS, PacketLayout, MAGIC, MARK, REGISTER_WORDS, WORD_BYTES};
-use crate::word_fields::{bits8, bits32, index, bits16, word};
+use crate::packet_layout::{
+    END_WORDS, FRAME_WORDS, HEAD_AND_TAIL_WORDS, MAGIC, MARK, PacketLayout, REGISTER_WORDS,
+    WORD_BYTES,
+};
+use crate::word_fields::{bits8, bits16, bits32, index, word};
 
 /// The decision of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -135,7 +138,9 @@ impl PacketHead {
     fn is_possible(self, layout: Option<&PacketLayout>) -> bool {
         match self.kind {
             FRAME_TYPE => return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0,
-            REGISTER_TYPE => return self.flags <= 1 && self.words == REGISTER_WORDS && self.column == 0,
+            REGISTER_TYPE => {
+                return self.flags <= 1 && self.words == REGISTER_WORDS && self.column == 0;
+            }
             _ => {}
         }
         let Some(layout) = layout else { return false };
@@ -179,7 +184,11 @@ impl RegionFlags {
 impl Packet {
     /// Parses these bytes, which begin with `head`, to a packet and the number of its frame; `None`
     /// if they are not exactly one packet.
-    pub(crate) fn of(bytes: &[u8], head: PacketHead, layout: Option<&PacketLayout>) -> Option<(u32, Self)> {
+    pub(crate) fn of(
+        bytes: &[u8],
+        head: PacketHead,
+        layout: Option<&PacketLayout>,
+    ) -> Option<(u32, Self)> {
         let (before, tail) = bytes.split_last_chunk::<WORD_BYTES>()?;
         let tail = u64::from_le_bytes(*tail);
         let (checked, _) = bytes.split_at_checked(bytes.len() - 4)?;

@@ -3,7 +3,7 @@
 
 use foveate_design::{Camera, Design, IrrelevantRendering, Payload};
 
-use crate::word_fields::{checked_field, index, checked_u16, checked_u8};
+use crate::word_fields::{checked_field, checked_u8, checked_u16, index};
 use crate::{FrameInfo, PacketError};
 
 /// The version of the format, in every FRAME.
@@ -54,7 +54,11 @@ impl PacketLayout {
     }
 
     /// Makes the layout without a check of lengths and of the unit of time.
-    fn without_checks(design: &Design, has_scores: bool, ticks_per_second: u32) -> Result<Self, PacketError> {
+    fn without_checks(
+        design: &Design,
+        has_scores: bool,
+        ticks_per_second: u32,
+    ) -> Result<Self, PacketError> {
         let camera: &Camera = design;
         let info = FrameInfo {
             version: VERSION,
@@ -181,7 +185,8 @@ impl PacketLayout {
     /// Returns the number of bytes of the scores of a region. Each score is aligned to its own
     /// size, and the record ends at a word.
     pub(crate) fn record_bytes(&self) -> usize {
-        let end = self.score_fields().fold(0usize, |at, (_, bytes)| at.next_multiple_of(bytes) + bytes);
+        let end =
+            self.score_fields().fold(0usize, |at, (_, bytes)| at.next_multiple_of(bytes) + bytes);
         end.next_multiple_of(WORD_BYTES)
     }
 }

@@ -2,9 +2,9 @@
 //! Finds packets in bytes. Bytes that belong to no packet are skipped one by one, so the next whole
 //! packet is found wherever it begins.
 
-use crate::packet_layout::{MARK, WORD_BYTES};
 use crate::packet::PacketHead;
-use crate::{PacketLayout, Packet};
+use crate::packet_layout::{MARK, WORD_BYTES};
+use crate::{Packet, PacketLayout};
 
 /// The number of skipped bytes that are reported at the latest, so that endless noise is noticed.
 const REPORTED_BYTES: u64 = 1 << 20;
@@ -76,7 +76,9 @@ impl PacketSplitter {
                 continue;
             }
             let whole = match PacketHead::of(ahead, layout) {
-                None if ahead.len() < WORD_BYTES && !self.is_complete => return StreamItem::Pending,
+                None if ahead.len() < WORD_BYTES && !self.is_complete => {
+                    return StreamItem::Pending;
+                }
                 None => None,
                 Some(head) => match ahead.get(..head.words * WORD_BYTES) {
                     None if !self.is_complete => return StreamItem::Pending,

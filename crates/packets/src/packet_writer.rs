@@ -2,13 +2,21 @@
 //! Makes packets. Each function appends one packet to a vector, or appends nothing and fails if the
 //! packet does not fit the format.
 
-use crate::packet_layout::{HEAD_AND_TAIL_WORDS, END_WORDS, FRAME_WORDS, PacketLayout, MAGIC, MARK, REGISTER_WORDS, WORD_BYTES};
 use crate::packet::{END_TYPE, FRAME_TYPE, REGION_TYPE, REGISTER_TYPE, ROW_TYPE, SCORES_TYPE};
+use crate::packet_layout::{
+    END_WORDS, FRAME_WORDS, HEAD_AND_TAIL_WORDS, MAGIC, MARK, PacketLayout, REGISTER_WORDS,
+    WORD_BYTES,
+};
 use crate::word_fields::{checked_field, checked_u16};
-use crate::{RegionDecision, EndPacket, PacketError, RegionFlags, RegisterPacket};
+use crate::{EndPacket, PacketError, RegionDecision, RegionFlags, RegisterPacket};
 
 /// Appends the FRAME of frame `number`. The time is in ticks.
-pub fn append_frame(out: &mut Vec<u8>, layout: &PacketLayout, number: u32, (time, first): (u64, bool)) {
+pub fn append_frame(
+    out: &mut Vec<u8>,
+    layout: &PacketLayout,
+    number: u32,
+    (time, first): (u64, bool),
+) {
     let info = layout.info();
     let size = u64::from(info.ticks_per_second)
         | u64::from(info.width) << 32
@@ -147,7 +155,9 @@ pub fn append_end(out: &mut Vec<u8>, number: u32, end: EndPacket) -> Result<(), 
 pub fn append_register(out: &mut Vec<u8>, register: RegisterPacket) {
     let flags = register.is_write.into();
     let head = PacketFields { kind: REGISTER_TYPE, flags, row: register.address, column: 0 };
-    append_packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
+    append_packet(out, head, REGISTER_WORDS, 0, |out| {
+        out.extend(u64::from(register.value).to_le_bytes())
+    });
 }
 
 /// The fields of a packet's first word, except for its length.
@@ -202,7 +212,10 @@ fn append_packet(
     let start = out.len();
     out.extend(first.to_le_bytes());
     carry(out);
-    debug_assert!(out.len() - start <= (words + 1 - HEAD_AND_TAIL_WORDS) * WORD_BYTES, "it carries too much");
+    debug_assert!(
+        out.len() - start <= (words + 1 - HEAD_AND_TAIL_WORDS) * WORD_BYTES,
+        "it carries too much"
+    );
     out.resize(start + (words + 1 - HEAD_AND_TAIL_WORDS) * WORD_BYTES, 0);
     out.extend(number.to_le_bytes());
     let check = crc32fast::hash(&out[start..]);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A received frame: its decisions, its regions and its losses.
 
-use foveate_design::{RegionAction, IrrelevantRendering};
+use foveate_design::{IrrelevantRendering, RegionAction};
 
 use crate::word_fields::index;
-use crate::{RegionDecision, EndPacket, FrameInfo, PacketLayout, StreamLoss, RegionPacket, RowPacket, ScoresPacket};
+use crate::{
+    EndPacket, FrameInfo, PacketLayout, RegionDecision, RegionPacket, RowPacket, ScoresPacket,
+    StreamLoss,
+};
 
 /// The pixels or means that were received for a region.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,8 +110,11 @@ impl ReceivedFrame {
         match self.contents.get_mut(at) {
             Some(content) if content.is_none() => {
                 let (values, means) = (region.values, region.flags.summary);
-                *content =
-                    Some(if means { RegionContent::Means(values) } else { RegionContent::Pixels(values) });
+                *content = Some(if means {
+                    RegionContent::Means(values)
+                } else {
+                    RegionContent::Pixels(values)
+                });
             }
             _ => self.count_misplaced(),
         }
@@ -149,7 +155,8 @@ impl ReceivedFrame {
                 // The decision is derived from the received packet; a summary tells nothing about
                 // TRS.
                 let active = came == Some(false);
-                *decision = RegionDecision { srs: active, trs: active, summary: came == Some(true) };
+                *decision =
+                    RegionDecision { srs: active, trs: active, summary: came == Some(true) };
                 continue;
             }
             let asked = if decision.summary {
@@ -164,7 +171,12 @@ impl ReceivedFrame {
                 let (row, column) = (region / columns, region % columns);
                 let narrow = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
                 let (row, column) = (narrow(row), narrow(column));
-                losses.push(StreamLoss::Region { frame, row, column, dropped: end.regions_dropped > 0 });
+                losses.push(StreamLoss::Region {
+                    frame,
+                    row,
+                    column,
+                    dropped: end.regions_dropped > 0,
+                });
             }
         }
         if self.misplaced > 0 {

@@ -33,6 +33,9 @@ impl RegisterCommand {
     pub fn is_answered_by(self, answer: RegisterPacket) -> bool {
         let Self(asked) = self;
         answer
-            == RegisterPacket { value: if asked.is_write { asked.value } else { answer.value }, ..asked }
+            == RegisterPacket {
+                value: if asked.is_write { asked.value } else { answer.value },
+                ..asked
+            }
     }
 }

@@ -40,7 +40,12 @@ pub(crate) fn checked_field(
     range: RangeInclusive<u64>,
 ) -> Result<u64, PacketError> {
     let (&least, &most) = (range.start(), range.end());
-    range.contains(&value).then_some(value).ok_or(PacketError::FieldOutOfRange { field, value, least, most })
+    range.contains(&value).then_some(value).ok_or(PacketError::FieldOutOfRange {
+        field,
+        value,
+        least,
+        most,
+    })
 }
 
 /// Returns the number if a field of 16 bits can hold it.

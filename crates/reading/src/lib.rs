@@ -20,4 +20,4 @@ mod table;
 
 pub use file::{SETTINGS_LIMIT, read_bytes, read_settings, read_text};
 pub use limited_reader::LimitedReader;
-pub use table::{RECORD_LIMIT, TableRecords, TableReader, table_reader};
+pub use table::{RECORD_LIMIT, TableReader, TableRecords, table_reader};

@@ -76,7 +76,13 @@ impl Canvas {
 
     /// Returns the number of samples of a pixel, 0..=16, that are within `bounds` and for which
     /// `inside` returns true.
-    fn covered_samples(&self, x: u32, y: u32, bounds: ShapeBounds, inside: &impl Fn(i64, i64) -> bool) -> u32 {
+    fn covered_samples(
+        &self,
+        x: u32,
+        y: u32,
+        bounds: ShapeBounds,
+        inside: &impl Fn(i64, i64) -> bool,
+    ) -> u32 {
         let mut covered = 0;
         for sample_y in 0..SAMPLES {
             let v = self.sample_center(i64::from(y) * SAMPLES + sample_y);
@@ -164,8 +170,12 @@ impl ShapePainter<'_> {
 
     fn fill_disc(&mut self, x: i64, y: i64, radius: i64, shade: u16, opacity: u32) {
         let (cx, cy) = self.canvas_position(x * UNIT, y * UNIT);
-        let bounds =
-            ShapeBounds { left: cx - radius, top: cy - radius, right: cx + radius, bottom: cy + radius };
+        let bounds = ShapeBounds {
+            left: cx - radius,
+            top: cy - radius,
+            right: cx + radius,
+            bottom: cy + radius,
+        };
         self.canvas.fill(bounds, shade, opacity, |u, v| {
             (u - cx) * (u - cx) + (v - cy) * (v - cy) <= radius * radius
         });

@@ -4,7 +4,7 @@
 use foveate_frame::Frame;
 
 use crate::canvas::Canvas;
-use crate::street::{TimeOfDay, Street};
+use crate::street::{Street, TimeOfDay};
 use crate::{Scene, SceneParameters, noise, patterns};
 
 impl Scene {
@@ -43,14 +43,19 @@ impl SceneFrames {
     #[must_use]
     pub fn frame_at(&self, t: u32) -> Frame {
         match (self.scene, &self.street) {
-            (Scene::Street, Some(street)) => self.sensor_frame(&street.canvas_at(t), (0, 0), 160, t),
-            (Scene::NightRain, Some(street)) => self.sensor_frame(&street.canvas_at(t), (0, 0), 450, t),
+            (Scene::Street, Some(street)) => {
+                self.sensor_frame(&street.canvas_at(t), (0, 0), 160, t)
+            }
+            (Scene::NightRain, Some(street)) => {
+                self.sensor_frame(&street.canvas_at(t), (0, 0), 450, t)
+            }
             (Scene::Shake, Some(street)) => {
                 let span = 2 * shake_reach(&self.size) + 1;
                 let shift = |axis| noise::pick(0x5AAE, t, axis, 0, span);
                 self.sensor_frame(street.backdrop(), (shift(0), shift(1)), 0, t)
             }
-            _ => self.frame_from_pixels(|x, y| patterns::pattern_pixel(self.scene, &self.size, t, x, y)),
+            _ => self
+                .frame_from_pixels(|x, y| patterns::pattern_pixel(self.scene, &self.size, t, x, y)),
         }
     }
 

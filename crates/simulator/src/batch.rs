@@ -16,7 +16,7 @@ use foveate_toolchain::Interrupt;
 
 use crate::output::INTERRUPTED;
 use crate::simulation::SIMULATION_FOLDER;
-use crate::{RunHooks, RunProgress, RunOptions, Simulation, SimulatorError, RunSummary};
+use crate::{RunHooks, RunOptions, RunProgress, RunSummary, Simulation, SimulatorError};
 use foveate_footage::{BatchClip, InputOptions, open};
 
 /// The progress of a batch.
@@ -103,7 +103,8 @@ impl BatchRun<'_> {
             .into_iter()
             .zip(self.clips)
             .map(|(slot, clip)| {
-                result(slot).unwrap_or_else(|| ClipSummary::of_failed_clip(clip, "not started".to_owned()))
+                result(slot)
+                    .unwrap_or_else(|| ClipSummary::of_failed_clip(clip, "not started".to_owned()))
             })
             .collect();
         self.batch_summary(clips)
@@ -118,7 +119,9 @@ impl BatchRun<'_> {
             };
             let summary = match self.simulate(clip) {
                 Ok(summary) => ClipSummary::of_finished_clip(clip, summary),
-                Err(SimulatorError::Cancelled) => ClipSummary::of_failed_clip(clip, INTERRUPTED.to_owned()),
+                Err(SimulatorError::Cancelled) => {
+                    ClipSummary::of_failed_clip(clip, INTERRUPTED.to_owned())
+                }
                 Err(error) => ClipSummary::of_failed_clip(clip, error.to_string()),
             };
             *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(summary);

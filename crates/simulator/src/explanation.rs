@@ -3,9 +3,9 @@
 //! camera, so that reference and screen are those of the run.
 
 use foveate_design::DesignConfig;
-use foveate_footage::{SourceKind, FrameSource};
+use foveate_footage::{FrameSource, SourceKind};
 use foveate_model::FunctionalCamera;
-use foveate_model::explanation::{RegionExplanation, FrameIdentification};
+use foveate_model::explanation::{FrameIdentification, RegionExplanation};
 
 use crate::SimulatorError;
 
@@ -40,7 +40,8 @@ pub fn explain_region(
         let before = camera.region_memory(number);
         let outcome = camera.step(&current.frame.to_frame()?)?;
         if frames == frame {
-            let moment = FrameIdentification { number: frame, name: &current.name, t_us: current.time_us };
+            let moment =
+                FrameIdentification { number: frame, name: &current.name, t_us: current.time_us };
             return Ok(RegionExplanation::from_outcome(&design, moment, number, before, outcome));
         }
         frames += 1;

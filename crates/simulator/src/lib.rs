@@ -10,25 +10,26 @@
 //! through [`Hooks`].
 
 mod batch;
-mod recording;
 mod error;
 mod explanation;
 mod losses;
 mod output;
+mod recording;
 mod simulation;
 mod stream;
 
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
-pub use recording::{DecodedRecording, PacketRecording};
 pub use error::SimulatorError;
 pub use explanation::explain_region;
 pub use foveate_engine::MAX_THREADS;
 pub use foveate_footage::{RunHooks, RunProgress, SilentHooks};
 pub use foveate_model::explanation::RegionExplanation;
-pub use foveate_packets::{RegisterCommand, StreamLoss, RegisterPacket};
+pub use foveate_packets::{RegisterCommand, RegisterPacket, StreamLoss};
 pub use output::{
-    BandwidthComparison, DataSetPaths, EventTableOptions, GridSize, PictureFormat, PIXEL_EVENT_BYTES, PacketContent, PixelCamera,
-    PixelEvent, PixelEventOptions, ValueRange, RunOptions, RunSummary, CameraTraffic, write_packets,
+    BandwidthComparison, CameraTraffic, DataSetPaths, EventTableOptions, GridSize,
+    PIXEL_EVENT_BYTES, PacketContent, PictureFormat, PixelCamera, PixelEvent, PixelEventOptions,
+    RunOptions, RunSummary, ValueRange, write_packets,
 };
+pub use recording::{DecodedRecording, PacketRecording};
 pub use simulation::{SIMULATION_FOLDER, Simulation};
-pub use stream::{MAX_CLAIMED_PIXELS, StreamItem, ShownFrame, PacketStream};
+pub use stream::{MAX_CLAIMED_PIXELS, PacketStream, ShownFrame, StreamItem};

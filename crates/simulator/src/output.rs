@@ -4,44 +4,44 @@
 //! An output that takes frames one at a time and writes them at once is a [`sink::Sink`]; the
 //! recorder feeds all of them. A new kind of output is a new sink and a line in the recorder.
 
+mod activity_chart;
 mod arrays;
 mod bandwidth;
 mod canvas;
-mod png_writers;
 mod csv;
 mod data_set;
+mod deflate_packer;
 mod event_files;
 mod font;
-mod picture_series;
+mod frame_table;
 mod headed_file;
 mod heatmap;
 mod npz;
 mod options;
 mod overlay;
-mod deflate_packer;
 mod packet_file;
 mod parquet_table;
-mod raw_image;
+mod picture_series;
 mod pixel_camera;
 mod pixel_event_files;
 mod png;
 mod png_series;
+mod png_writers;
+mod raw_image;
 mod recorder;
 mod row_writer;
 mod sink;
-mod activity_chart;
 mod summary;
-mod frame_table;
 mod video_file;
 
-pub use bandwidth::{BandwidthComparison, PIXEL_EVENT_BYTES, CameraTraffic};
+pub use bandwidth::{BandwidthComparison, CameraTraffic, PIXEL_EVENT_BYTES};
 pub(crate) use csv::CsvFile;
 pub use data_set::DataSetPaths;
-pub use options::{EventTableOptions, PictureFormat, PacketContent, PixelEventOptions, RunOptions};
+pub use options::{EventTableOptions, PacketContent, PictureFormat, PixelEventOptions, RunOptions};
 pub use packet_file::write_packets;
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, INTERRUPTED, RunRecorder};
-pub use summary::{GridSize, ValueRange, RunSummary};
+pub use summary::{GridSize, RunSummary, ValueRange};
 
 use std::io;
 use std::path::Path;

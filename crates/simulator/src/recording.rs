@@ -6,17 +6,17 @@
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_footage::{SetForm, SourceFrame};
-use foveate_packets::{StreamLoss, PacketError};
+use foveate_packets::{PacketError, StreamLoss};
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
 
 use crate::losses::LossTable;
 use crate::output::{INTERRUPTED, RunRecorder};
 use crate::simulation::{SIMULATION_FOLDER, disk_full_problem};
-use crate::stream::{StreamItem, ShownFrame, PacketStream};
-use crate::{RunHooks, RunProgress, RunOptions, SimulatorError, RunSummary};
+use crate::stream::{PacketStream, ShownFrame, StreamItem};
+use crate::{RunHooks, RunOptions, RunProgress, RunSummary, SimulatorError};
 
 /// The number of bytes that are read at once.
 const CHUNK: usize = 1 << 16;
@@ -77,12 +77,15 @@ impl PacketRecording<'_> {
             losses: LossTable::new(folder),
             recorder: None,
         };
-        let (mut stream, mut chunk, mut bytes) = (PacketStream::new(self.config), vec![0; CHUNK], 0u64);
+        let (mut stream, mut chunk, mut bytes) =
+            (PacketStream::new(self.config), vec![0; CHUNK], 0u64);
         let (mut is_cancelled, mut is_full) = (false, None);
         loop {
             let read = match self.stream.read(&mut chunk) {
                 // The system asks to try again, or the user stopped the run during the wait.
-                Err(source) if source.kind() == ErrorKind::Interrupted || hooks.is_cancelled() => None,
+                Err(source) if source.kind() == ErrorKind::Interrupted || hooks.is_cancelled() => {
+                    None
+                }
                 Err(source) => {
                     return Err(SimulatorError::ReadStream {
                         stream: self.name.to_owned(),
@@ -100,13 +103,14 @@ impl PacketRecording<'_> {
                 stream.feed(&chunk[..read]);
             }
             // A few bytes may cause much work, so the run can be stopped between two frames, too.
-            let is_all = match (writer.write_received(&mut stream, hooks, is_cancelled), writer.frames()) {
-                (Err(error), 1..) if error.is_full() => {
-                    is_full = Some(disk_full_problem(&error, writer.frames(), folder));
-                    break;
-                }
-                (other, _) => other?,
-            };
+            let is_all =
+                match (writer.write_received(&mut stream, hooks, is_cancelled), writer.frames()) {
+                    (Err(error), 1..) if error.is_full() => {
+                        is_full = Some(disk_full_problem(&error, writer.frames(), folder));
+                        break;
+                    }
+                    (other, _) => other?,
+                };
             is_cancelled |= !is_all;
             if ends || !is_all {
                 break;

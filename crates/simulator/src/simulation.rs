@@ -3,13 +3,13 @@
 
 use std::path::Path;
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_engine::Engine;
 use foveate_staging::{FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, INTERRUPTED, RunRecorder};
-use crate::{RunOptions, SimulatorError, RunSummary};
-use foveate_footage::{FootageError, RunHooks, SourceKind, RunProgress, FrameSource, read_ahead};
+use crate::{RunOptions, RunSummary, SimulatorError};
+use foveate_footage::{FootageError, FrameSource, RunHooks, RunProgress, SourceKind, read_ahead};
 
 /// A design and the frames that it takes.
 pub struct Simulation {
@@ -22,7 +22,10 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if the configuration gives another size, or is not a valid design.
-    pub fn new(config: &DesignConfig, source: Box<dyn FrameSource>) -> Result<Self, SimulatorError> {
+    pub fn new(
+        config: &DesignConfig,
+        source: Box<dyn FrameSource>,
+    ) -> Result<Self, SimulatorError> {
         let (width, height) = source.size();
         Ok(Self { design: config.validate_for_frames(width, height)?, source })
     }
@@ -95,7 +98,9 @@ impl Simulation {
             (Err(SimulatorError::VideoOutput { .. }), 1..) if hooks.is_cancelled() => {
                 Some(INTERRUPTED.to_owned())
             }
-            (Err(error), 1..) if error.is_full() => Some(disk_full_problem(&error, recorder.frames(), folder)),
+            (Err(error), 1..) if error.is_full() => {
+                Some(disk_full_problem(&error, recorder.frames(), folder))
+            }
             (Err(error), _) => return Err(error),
         };
         recorder.finish(folder, self.source.inputs(), problem)

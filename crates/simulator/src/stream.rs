@@ -5,12 +5,12 @@
 
 use std::collections::VecDeque;
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_engine::{FrameOutcome, Receiver};
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_frame::{ByteFrame, FramePixels};
 use foveate_packets::{
-    FrameAssembler, RegionContent, FrameClock, FrameInfo, PacketLayout, StreamLoss, Packet, PacketError,
-    ReceivedFrame, RegisterPacket, PacketSplitter,
+    FrameAssembler, FrameClock, FrameInfo, Packet, PacketError, PacketLayout, PacketSplitter,
+    ReceivedFrame, RegionContent, RegisterPacket, StreamLoss,
 };
 
 use crate::SimulatorError;
@@ -110,20 +110,24 @@ impl PacketStream {
                 return Ok(Some(found));
             }
             match self.splitter.next(self.decoder.as_ref().map(|run| run.assembler.layout())) {
-                foveate_packets::StreamItem::Pending => match self.decoder.as_mut().filter(|_| self.is_complete) {
-                    Some(run) => match run.assembler.end_frame() {
-                        Some(last) => run.add_frames([Some(last)], &mut self.items)?,
+                foveate_packets::StreamItem::Pending => {
+                    match self.decoder.as_mut().filter(|_| self.is_complete) {
+                        Some(run) => match run.assembler.end_frame() {
+                            Some(last) => run.add_frames([Some(last)], &mut self.items)?,
+                            None => return Ok(None),
+                        },
                         None => return Ok(None),
-                    },
-                    None => return Ok(None),
-                },
+                    }
+                }
                 // The lengths of another camera's packets are not known, so skipped bytes are not a
                 // loss.
                 foveate_packets::StreamItem::Skipped { .. } if self.is_refused => {}
                 foveate_packets::StreamItem::Skipped { offset, bytes } => {
                     return Ok(Some(StreamItem::Loss(StreamLoss::Bytes { offset, bytes })));
                 }
-                foveate_packets::StreamItem::Packet { packet: Packet::Register(register), .. } => {
+                foveate_packets::StreamItem::Packet {
+                    packet: Packet::Register(register), ..
+                } => {
                     return Ok(Some(StreamItem::Register(register)));
                 }
                 foveate_packets::StreamItem::Packet { frame, packet } => {
@@ -229,7 +233,11 @@ impl StreamDecoder {
 }
 
 /// Refuses a stream that alone claims larger frames than permitted.
-fn check_claimed_size(config: &DesignConfig, frame: u32, info: &FrameInfo) -> Result<(), SimulatorError> {
+fn check_claimed_size(
+    config: &DesignConfig,
+    frame: u32,
+    info: &FrameInfo,
+) -> Result<(), SimulatorError> {
     let (width, height) = (u32::from(info.width), u32::from(info.height));
     let own = &config.camera.frame;
     let is_given = own.width.is_some() && own.height.is_some();

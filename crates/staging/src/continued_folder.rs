@@ -39,7 +39,10 @@ impl ContinuedFolder {
     ///
     /// # Errors
     /// Fails if there is such a file; the error names it.
-    pub fn check_files<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), StagingError> {
+    pub fn check_files<'a>(
+        &self,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Result<(), StagingError> {
         let objection = |name: &str| {
             let path = self.folder.join(name);
             fs::symlink_metadata(&path).ok()?;
@@ -55,7 +58,8 @@ impl ContinuedFolder {
     /// Returns the names of the written files that are still there and unchanged.
     #[must_use]
     pub fn unchanged_files(&self) -> Vec<String> {
-        let is_there = |name: &&str| self.list.has_unchanged(name.as_bytes(), &self.folder.join(name));
+        let is_there =
+            |name: &&str| self.list.has_unchanged(name.as_bytes(), &self.folder.join(name));
         let names = self.list.names().filter_map(|name| std::str::from_utf8(name).ok());
         names.filter(|name| stays_in_folder(name)).filter(is_there).map(str::to_owned).collect()
     }
@@ -98,7 +102,10 @@ impl ContinuedFolder {
     ///
     /// # Errors
     /// Fails if a file cannot be read or the list cannot be written.
-    pub fn list_files(&mut self, names: impl IntoIterator<Item = String>) -> Result<(), StagingError> {
+    pub fn list_files(
+        &mut self,
+        names: impl IntoIterator<Item = String>,
+    ) -> Result<(), StagingError> {
         for name in names {
             let path = self.folder.join(&name);
             if fs::symlink_metadata(&path).is_ok_and(|about| about.is_file()) {

@@ -63,7 +63,10 @@ fn resolve_links(path: &Path) -> PathBuf {
 /// Writes a new file, with the same permissions as files of other programs.
 fn create(place: &Path, contents: &[u8]) -> io::Result<()> {
     const MODE: u32 = 0o666;
-    write_temporary_file(place, contents, MODE)?.persist(place).map(drop).map_err(|error| without_path(&error.error))
+    write_temporary_file(place, contents, MODE)?
+        .persist(place)
+        .map(drop)
+        .map_err(|error| without_path(&error.error))
 }
 
 /// Replaces an existing file and keeps its owner, mode and links. If that requires the same inode,

@@ -72,8 +72,9 @@ impl FileList {
     /// Returns whether a file is listed and has allowed contents; false if it is not a plain file.
     pub(crate) fn has_unchanged(&self, name: &[u8], path: &Path) -> bool {
         let is_file = || fs::symlink_metadata(path).is_ok_and(|about| about.is_file());
-        let is_unchanged =
-            |sums: &Vec<FileHash>| is_file() && hash_of_file(path).is_ok_and(|sum| sums.contains(&sum));
+        let is_unchanged = |sums: &Vec<FileHash>| {
+            is_file() && hash_of_file(path).is_ok_and(|sum| sums.contains(&sum))
+        };
         self.0.get(name).is_some_and(is_unchanged)
     }
 

@@ -6,8 +6,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::StagingError;
-use crate::leftovers::{PREVIOUS_FOLDER, partial_prefix, restore_previous, remove_leftovers_once};
 use crate::file_list::{self, FileList, first_names};
+use crate::leftovers::{PREVIOUS_FOLDER, partial_prefix, remove_leftovers_once, restore_previous};
 use crate::locked_folder::LockedFolder;
 
 /// The kind of an output folder, which identifies folders that may be replaced. A folder of any
@@ -175,7 +175,9 @@ fn check_replaceable(
     }
     match (replace, (kind.matches)(folder)) {
         (false, _) => return Err(StagingError::NotEmpty { path: path() }),
-        (true, false) => return Err(StagingError::OtherContent { path: path(), what: kind.description }),
+        (true, false) => {
+            return Err(StagingError::OtherContent { path: path(), what: kind.description });
+        }
         (true, true) => {}
     }
     let list = FileList::read(folder).map_err(&failed)?;
@@ -193,8 +195,10 @@ fn check_replaceable(
 mod tests {
     use super::*;
 
-    const KIND: FolderKind =
-        FolderKind { description: "a test (marker)", matches: |folder| folder.join("marker").is_file() };
+    const KIND: FolderKind = FolderKind {
+        description: "a test (marker)",
+        matches: |folder| folder.join("marker").is_file(),
+    };
 
     fn write(target: &Path, name: &str, replace: bool) -> Result<(), StagingError> {
         let staged = StagedFolder::new(target, KIND, replace)?;
@@ -299,8 +303,9 @@ mod tests {
         let (target, thesis) = (dir.path().join("out"), dir.path().join("thesis"));
         fs::create_dir(&thesis).unwrap();
         fs::write(thesis.join("text"), "thesis").unwrap();
-        let line =
-            |name: &str| format!("{}  {name}\n", String::from_utf8(file_list::hash(b"thesis")).unwrap());
+        let line = |name: &str| {
+            format!("{}  {name}\n", String::from_utf8(file_list::hash(b"thesis")).unwrap())
+        };
         let forged = |names: &[&str]| {
             let text: String = names.iter().map(|name| line(name)).collect();
             fs::write(target.join(".foveate"), text).unwrap();

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::file_list;
-use crate::locked_folder::{RANDOM_LETTERS, LockedFolder, is_own, is_same_file};
+use crate::locked_folder::{LockedFolder, RANDOM_LETTERS, is_own, is_same_file};
 
 /// The prefix of the names of unfinished files of [`write_file`](crate::write_file).
 pub const TEMPORARY_PREFIX: &str = ".foveate-";
@@ -69,7 +69,9 @@ impl LeftoverKind {
     fn from_name(name: &OsStr) -> Option<Self> {
         // Names that are not text are not leftovers.
         let (stem, letters) = name.to_str()?.rsplit_once('-')?;
-        if letters.len() != RANDOM_LETTERS || !letters.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
+        if letters.len() != RANDOM_LETTERS
+            || !letters.bytes().all(|byte| byte.is_ascii_alphanumeric())
+        {
             return None;
         }
         match format!("{stem}-").as_str() {

@@ -10,13 +10,13 @@
 mod continued_folder;
 mod error;
 mod file;
+mod file_list;
 mod folder;
 mod growing_file;
 mod leftovers;
-mod file_list;
 mod locked_folder;
-mod space_reserve;
 mod scratch_folder;
+mod space_reserve;
 
 pub use continued_folder::ContinuedFolder;
 pub use error::{StagingError, is_full};
@@ -24,5 +24,5 @@ pub use file::{check_file, write_file};
 pub use folder::{FolderKind, StagedFolder};
 pub use growing_file::GrowingFile;
 pub use leftovers::TEMPORARY_PREFIX;
-pub use space_reserve::{SpaceReserve, has_room};
 pub use scratch_folder::ScratchFolder;
+pub use space_reserve::{SpaceReserve, has_room};

@@ -2,13 +2,18 @@
 //! The designs of the cases.
 
 use foveate_design::{
-    DesignConfig, Decimal, Design, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Organization, Payload,
-    ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
+    Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, Neighborhood,
+    Organization, Payload, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 
 /// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
 /// The thresholds are low enough for any depth.
-pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[FeatureKind]) -> DesignConfig {
+pub(crate) fn config(
+    size: (u32, u32),
+    side: u32,
+    bits: u32,
+    features: &[FeatureKind],
+) -> DesignConfig {
     let mut config = DesignConfig::default();
     (config.camera.frame.width, config.camera.frame.height) = (Some(size.0), Some(size.1));
     config.camera.frame.pixel_bits = bits;
@@ -92,7 +97,9 @@ pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<
                 FeatureKind::Edge | FeatureKind::Corner => {
                     Some(Decimal::from_whole(u64::from(side * side / 2)))
                 }
-                FeatureKind::Mad | FeatureKind::Variance => Some(Decimal::from_whole(1 << (bits - 2))),
+                FeatureKind::Mad | FeatureKind::Variance => {
+                    Some(Decimal::from_whole(1 << (bits - 2)))
+                }
             };
         }
         designs.push(design(&config));

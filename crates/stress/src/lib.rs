@@ -10,16 +10,16 @@
 //! cycle-level model.
 
 mod case;
+mod case_row;
 mod depth;
 mod designs;
-mod test_frames;
-mod case_row;
 mod model_comparison;
+mod test_frames;
 
 use rayon::prelude::*;
 
-pub use depth::RunDepth;
 pub use case_row::CaseRow;
+pub use depth::RunDepth;
 
 /// Runs every case in parallel. `done` is called with the number of finished cases and the number
 /// of all. The rows are in the order of the documentation. Cases that have not started when

@@ -27,7 +27,10 @@ impl AgreementTally {
     }
 
     pub(crate) fn add(self, other: Self) -> Self {
-        Self { differing: self.differing + other.differing, compared: self.compared + other.compared }
+        Self {
+            differing: self.differing + other.differing,
+            compared: self.compared + other.compared,
+        }
     }
 }
 
@@ -173,7 +176,8 @@ mod tests {
         let tally = compare_models(&design(&config), frames(), false);
         assert_eq!(tally.differing, 0);
         assert!(tally.compared > 3 * (5 + 4), "{tally:?}");
-        let wrong_size = compare_models(&design(&config), [RandomNumbers::new(1).frame((16, 24), 8)], false);
+        let wrong_size =
+            compare_models(&design(&config), [RandomNumbers::new(1).frame((16, 24), 8)], false);
         assert_eq!(wrong_size.differing, 1);
     }
 }

@@ -3,9 +3,9 @@
 
 use foveate_pictures::chart::Chart;
 
+use crate::runner::ClipResult;
 use crate::study::Study;
 use crate::table::StudyTable;
-use crate::runner::ClipResult;
 
 /// The findings of a study.
 pub(crate) struct StudyFindings {
@@ -40,7 +40,14 @@ impl StudyFindings {
             problems.extend(clip.problem.as_ref().map(|why| format!("{}: {why}", clip.name)));
         }
         notes.extend(problems.iter().map(|problem| format!("NOT COMPLETE: {problem}")));
-        Self { table, printed: None, further_tables: Vec::new(), charts: Vec::new(), notes, problems }
+        Self {
+            table,
+            printed: None,
+            further_tables: Vec::new(),
+            charts: Vec::new(),
+            notes,
+            problems,
+        }
     }
 
     /// Adds a chart, with a caption that names the program, the first designs and the inputs.

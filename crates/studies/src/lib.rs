@@ -12,12 +12,12 @@ mod findings;
 mod number;
 mod rank;
 mod report;
+mod runner;
 mod study;
 mod table;
 mod tally;
-mod runner;
 
 pub use error::StudyError;
 pub use rank::spearman;
-pub use report::{StudyRequest, STUDY_FOLDER, StudyReport, analyze};
+pub use report::{STUDY_FOLDER, StudyReport, StudyRequest, analyze};
 pub use study::Study;

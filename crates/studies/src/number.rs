@@ -36,7 +36,10 @@ mod tests {
 
     #[test]
     fn shares_are_rounded_to_six_digits() {
-        assert_eq!([share_text(1, 3), share_text(2, 3), share_text(3, 3)], ["0.333333", "0.666667", "1.000000"]);
+        assert_eq!(
+            [share_text(1, 3), share_text(2, 3), share_text(3, 3)],
+            ["0.333333", "0.666667", "1.000000"]
+        );
         assert_eq!((share_text(0, 0).as_str(), percent(1, 8)), ("0.000000", 12.5));
     }
 }

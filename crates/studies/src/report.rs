@@ -11,9 +11,9 @@ use serde::Serialize;
 
 use crate::StudyError;
 use crate::findings::StudyFindings;
+use crate::runner::StudyRunner;
 use crate::study::{Study, activity, histogram, recall, redundancy, sensor, sweep, temporal};
 use crate::table::StudyTable;
-use crate::runner::StudyRunner;
 
 /// The request of a study.
 #[derive(Clone, Debug)]
@@ -98,11 +98,15 @@ pub fn analyze(
         }
     }
     staging.commit()?;
-    let StudyFindings { table: StudyTable { columns, rows }, printed: shown, problems, .. } = findings;
+    let StudyFindings { table: StudyTable { columns, rows }, printed: shown, problems, .. } =
+        findings;
     Ok(StudyReport { study: study.name(), files, columns, rows, problems, printed: shown })
 }
 
-fn run_study(watcher: &StudyRunner<'_>, request: &StudyRequest<'_>) -> Result<StudyFindings, StudyError> {
+fn run_study(
+    watcher: &StudyRunner<'_>,
+    request: &StudyRequest<'_>,
+) -> Result<StudyFindings, StudyError> {
     match request.study {
         Study::Activity => activity::run(watcher),
         Study::Temporal => temporal::run(watcher),
@@ -116,7 +120,8 @@ fn run_study(watcher: &StudyRunner<'_>, request: &StudyRequest<'_>) -> Result<St
 }
 
 /// The kind of folder that a study writes, and the only kind that it replaces.
-pub const STUDY_FOLDER: FolderKind = FolderKind { description: "a study (its CSV)", matches: is_study };
+pub const STUDY_FOLDER: FolderKind =
+    FolderKind { description: "a study (its CSV)", matches: is_study };
 
 fn is_study(folder: &Path) -> bool {
     Study::ALL.iter().any(|study| {

@@ -6,9 +6,11 @@
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_footage::{FootageError, InputOptions, SourceKind, FrameSource, SourceFrame, ComparedInput, open};
+use foveate_footage::{
+    ComparedInput, FootageError, FrameSource, InputOptions, SourceFrame, SourceKind, open,
+};
 use foveate_simulator::{BatchHooks, BatchProgress};
 use rayon::prelude::*;
 
@@ -30,7 +32,8 @@ pub(crate) struct ClipResult<T, G = ()> {
 /// A guide sees every frame of a clip before the designs do, and computes what is the same for all
 /// of them.
 pub(crate) trait FrameAnnotator: Send + Sync {
-    fn annotate(&mut self, frame: &SourceFrame, source: &dyn FrameSource) -> Result<(), StudyError>;
+    fn annotate(&mut self, frame: &SourceFrame, source: &dyn FrameSource)
+    -> Result<(), StudyError>;
 }
 
 impl FrameAnnotator for () {
@@ -65,7 +68,11 @@ impl StudyRunner<'_> {
         configs: &[DesignConfig],
         see: impl Fn(&mut T, &Design, &FrameResult<'_>) + Sync,
     ) -> Result<Vec<ClipResult<T>>, StudyError> {
-        self.run_annotated_clips(configs, |_| (), |(), value, design, seen| see(value, design, seen))
+        self.run_annotated_clips(
+            configs,
+            |_| (),
+            |(), value, design, seen| see(value, design, seen),
+        )
     }
 
     /// Shows every clip to an engine of each configuration, with a guide for every clip, which is
@@ -144,7 +151,12 @@ impl StudyRunner<'_> {
                 }
                 let outcome = camera.step_byte_frame(&current.frame)?;
                 let (without_reference, time_us) = (!set && frame == 0, current.time_us);
-                see(guide, value, design, &FrameResult { is_without_reference: without_reference, time_us, outcome });
+                see(
+                    guide,
+                    value,
+                    design,
+                    &FrameResult { is_without_reference: without_reference, time_us, outcome },
+                );
                 Ok::<_, StudyError>(())
             })?;
             frame += 1;

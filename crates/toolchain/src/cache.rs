@@ -10,10 +10,10 @@
 
 mod entry;
 mod eviction;
+mod folder_trust;
 mod limit;
 #[cfg(test)]
 mod tests;
-mod folder_trust;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -29,9 +29,9 @@ pub use self::entry::CacheEntry;
 use self::entry::FolderLock;
 use self::eviction::{BUILDING_PREFIX, LOG_FOLDER};
 use self::limit::CacheLimit;
+use crate::cache_key::CacheKey;
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
-use crate::cache_key::CacheKey;
 
 /// The number of attempts to move a build to its place while other processes add and remove
 /// entries.
@@ -70,7 +70,8 @@ impl Cache {
 
     fn from_host(host: &dyn Host) -> Result<Self, ToolError> {
         let variable = |name| host.variable(name).filter(|value: &OsString| !value.is_empty());
-        let limit = variable(limit::VARIABLE).map(|value| CacheLimit::parse(&value.to_string_lossy()));
+        let limit =
+            variable(limit::VARIABLE).map(|value| CacheLimit::parse(&value.to_string_lossy()));
         let limit = limit.transpose()?.unwrap_or_default();
         let root = match variable("FOVEATE_CACHE") {
             Some(value) if value == "off" => return Self::temporary(),
@@ -185,10 +186,17 @@ impl Cache {
 }
 
 /// Moves a finished build to its place, unless another process has already built the entry.
-fn publish(dir: TempDir, hold: FolderLock, place: &Path, artifact: &str) -> Result<CacheEntry, ToolError> {
+fn publish(
+    dir: TempDir,
+    hold: FolderLock,
+    place: &Path,
+    artifact: &str,
+) -> Result<CacheEntry, ToolError> {
     let mut attempts = PUBLISH_ATTEMPTS;
     loop {
-        if place.exists() && !(place.join(artifact).exists() && folder_trust::is_entry(place, artifact)) {
+        if place.exists()
+            && !(place.join(artifact).exists() && folder_trust::is_entry(place, artifact))
+        {
             // The entry is damaged because a part of it was deleted, by hand or by a cleaner of old
             // files, or another user could change it.
             fs::remove_dir_all(place).map_err(ToolError::io("remove the damaged", place))?;

@@ -255,7 +255,12 @@ impl ToolError {
 
     /// Returns a function for `map_err` that names the folder of the cache as the fault.
     pub(crate) fn cache(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::UnwritablePlace { action, path: path.to_owned(), source, advice: CACHE_ADVICE }
+        move |source| Self::UnwritablePlace {
+            action,
+            path: path.to_owned(),
+            source,
+            advice: CACHE_ADVICE,
+        }
     }
 
     /// Returns a function for `map_err` that names the folder of temporary files as the fault.

@@ -29,7 +29,11 @@ pub trait Host: Send + Sync {
     ///
     /// # Errors
     /// Fails like [`Host::run`], and with [`ToolError::Interrupted`].
-    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<ProgramOutput, ToolError> {
+    fn run_until(
+        &self,
+        invocation: &Invocation,
+        cancel: &AtomicBool,
+    ) -> Result<ProgramOutput, ToolError> {
         if cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted);
         }
@@ -54,7 +58,11 @@ impl Host for SystemHost {
         process::run(invocation, &AtomicBool::new(false))
     }
 
-    fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<ProgramOutput, ToolError> {
+    fn run_until(
+        &self,
+        invocation: &Invocation,
+        cancel: &AtomicBool,
+    ) -> Result<ProgramOutput, ToolError> {
         process::run(invocation, cancel)
     }
 }

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::ToolError;
-use crate::source_files::log_excerpt;
 use crate::escaping::shell_word;
+use crate::source_files::log_excerpt;
 
 /// The content of a program's standard input.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -251,7 +251,8 @@ mod tests {
 
     #[test]
     fn failures_carry_command_code_and_log() {
-        let error = ProgramOutput::failure(3, "bad\n").into_checked(&Invocation::new("tool")).unwrap_err();
+        let error =
+            ProgramOutput::failure(3, "bad\n").into_checked(&Invocation::new("tool")).unwrap_err();
         assert_eq!(error.to_string(), "`tool` failed (exit status: 3):\nbad");
     }
 

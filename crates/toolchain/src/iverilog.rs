@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::cache::Cache;
-use crate::error::ToolError;
-use crate::source_files::{self, Source, log_excerpt};
-use crate::invocation::{Invocation, ProgramOutput};
 use crate::cache_key::CacheKey;
+use crate::error::ToolError;
+use crate::invocation::{Invocation, ProgramOutput};
 use crate::port_widths;
+use crate::source_files::{self, Source, log_excerpt};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use crate::cache::Cache;
+use crate::cache_key::CacheKey;
 use crate::error::ToolError;
 use crate::source_files::{self, log_excerpt};
-use crate::cache_key::CacheKey;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 

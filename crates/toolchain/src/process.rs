@@ -11,12 +11,15 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::error::ToolError;
-use crate::process_family::ProcessFamily;
 use crate::interrupt::flag_is_set_soon;
-use crate::invocation::{StandardInput, Invocation, ProgramOutput};
+use crate::invocation::{Invocation, ProgramOutput, StandardInput};
+use crate::process_family::ProcessFamily;
 
 /// Runs a program to its end, to its time limit, or until `cancel` is set.
-pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<ProgramOutput, ToolError> {
+pub(crate) fn run(
+    invocation: &Invocation,
+    cancel: &AtomicBool,
+) -> Result<ProgramOutput, ToolError> {
     let program = &invocation.program;
     let mut stdout = match &invocation.stdout {
         Some(path) => File::create(path).map_err(ToolError::io("write", path))?,
@@ -54,7 +57,8 @@ fn wait(
     let start = Instant::now();
     loop {
         if let Some(status) = family.try_wait().map_err(failed)? {
-            let stopped = !status.success() && (was_signalled_to_stop(status) || flag_is_set_soon(cancel));
+            let stopped =
+                !status.success() && (was_signalled_to_stop(status) || flag_is_set_soon(cancel));
             return if stopped { Err(ToolError::Interrupted) } else { Ok(status) };
         }
         if cancel.load(Ordering::Relaxed) {
@@ -86,7 +90,9 @@ fn was_signalled_to_stop(_: ExitStatus) -> bool {
 fn stdin(input: &StandardInput) -> Result<Stdio, ToolError> {
     match input {
         StandardInput::Empty => Ok(Stdio::null()),
-        StandardInput::File(path) => File::open(path).map(Into::into).map_err(ToolError::io("read", path)),
+        StandardInput::File(path) => {
+            File::open(path).map(Into::into).map_err(ToolError::io("read", path))
+        }
         StandardInput::Bytes(bytes) => {
             let mut file = temporary_file()?;
             file.write_all(bytes).and_then(|()| file.rewind()).map_err(temporary_error("write"))?;

@@ -14,9 +14,9 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
 use crate::error::ToolError;
-use crate::process_family::ProcessFamily;
 use crate::interrupt::{GracePeriod, Interrupt, InterruptibleReader, POLL_STEP};
 use crate::invocation::Invocation;
+use crate::process_family::ProcessFamily;
 
 /// The number of bytes of a line that are kept. The rest of the line is dropped, so that it cannot
 /// appear as a line of its own.
@@ -56,8 +56,10 @@ impl ProgramReader {
     /// # Errors
     /// Fails if the program cannot be started.
     pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
-        let mut running = RunningProgram::start(invocation, interrupt, Stdio::null(), Stdio::piped())?;
-        let stdout = running.family.leader.stdout.take().ok_or_else(|| missing_pipe_error(invocation))?;
+        let mut running =
+            RunningProgram::start(invocation, interrupt, Stdio::null(), Stdio::piped())?;
+        let stdout =
+            running.family.leader.stdout.take().ok_or_else(|| missing_pipe_error(invocation))?;
         enlarge_pipe(&stdout);
         Ok(Self { running, stdout: InterruptibleReader::new(stdout, interrupt) })
     }
@@ -103,8 +105,10 @@ impl ProgramWriter {
     /// # Errors
     /// Fails if the program cannot be started.
     pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
-        let mut running = RunningProgram::start(invocation, interrupt, Stdio::piped(), Stdio::null())?;
-        let stdin = running.family.leader.stdin.take().ok_or_else(|| missing_pipe_error(invocation))?;
+        let mut running =
+            RunningProgram::start(invocation, interrupt, Stdio::piped(), Stdio::null())?;
+        let stdin =
+            running.family.leader.stdin.take().ok_or_else(|| missing_pipe_error(invocation))?;
         enlarge_pipe(&stdin);
         set_nonblocking(&stdin).map_err(ToolError::io("run", &invocation.program))?;
         Ok(Self { running, stdin: Some(stdin) })
@@ -179,7 +183,8 @@ impl RunningProgram {
         let family = started.map_err(ToolError::io("run", &invocation.program))?;
         let (sender, lines) = mpsc::channel();
         let mut running = Self { family, lines, interrupt: interrupt.clone() };
-        let stderr = running.family.leader.stderr.take().ok_or_else(|| missing_pipe_error(invocation))?;
+        let stderr =
+            running.family.leader.stderr.take().ok_or_else(|| missing_pipe_error(invocation))?;
         let collector = std::thread::Builder::new().name("stderr of a tool".to_owned());
         let collector = collector.spawn(move || collect_lines(stderr, &sender));
         collector.map_err(ToolError::io("run", &invocation.program))?;
@@ -300,7 +305,8 @@ mod tests {
     #[test]
     fn a_stream_that_is_dropped_ends_its_program() {
         let stream =
-            ProgramReader::start(&shell("echo $$ >&2; exec sleep 60"), &Interrupt::default()).unwrap();
+            ProgramReader::start(&shell("echo $$ >&2; exec sleep 60"), &Interrupt::default())
+                .unwrap();
         let pid = stream.next_line().unwrap().unwrap();
         drop(stream);
         let alive = Command::new("kill").args(["-0", &pid]).stderr(Stdio::null()).status();
@@ -325,8 +331,9 @@ mod tests {
 
     #[test]
     fn a_program_that_is_not_there_is_named() {
-        let error = ProgramReader::start(&Invocation::new("/nonexistent/tool"), &Interrupt::default())
-            .unwrap_err();
+        let error =
+            ProgramReader::start(&Invocation::new("/nonexistent/tool"), &Interrupt::default())
+                .unwrap_err();
         assert!(error.to_string().starts_with("cannot run `/nonexistent/tool`"), "{error}");
     }
 

@@ -26,7 +26,11 @@ pub fn check_source_name(name: &str) -> Result<(), ToolError> {
         && !is_option
         && name.chars().all(is_plain)
         && Path::new(name).components().all(is_inside);
-    if is_right { Ok(()) } else { Err(ToolError::InvalidSourceName { name: escape_hidden(name).into_owned() }) }
+    if is_right {
+        Ok(())
+    } else {
+        Err(ToolError::InvalidSourceName { name: escape_hidden(name).into_owned() })
+    }
 }
 
 /// Writes one file and the folders above it.

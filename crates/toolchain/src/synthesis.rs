@@ -88,8 +88,10 @@ impl SynthesisJob {
         let cells = xilinx_cells::reduced_cell_library(toolchain, cache)?;
         let mut run = yosys::run(toolchain, cache, &self.array_job(cells))?;
         let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
-        let flags =
-            format!("{SYNTHESIS_COMMAND} -flatten, then xilinx_srl; {} kept as a module", self.unit);
+        let flags = format!(
+            "{SYNTHESIS_COMMAND} -flatten, then xilinx_srl; {} kept as a module",
+            self.unit
+        );
         Ok(SynthesisResult {
             tool: ToolRecord { name: "Yosys".into(), version, flags },
             json: file(NETLIST),

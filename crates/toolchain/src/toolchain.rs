@@ -131,7 +131,8 @@ impl Toolchain {
     fn locate(&self, tool: Tool) -> Result<PathBuf, ToolError> {
         if let Some(value) = self.host.variable(tool.variable()).filter(|v| !v.is_empty()) {
             let path = PathBuf::from(value);
-            let named = if path.components().count() == 1 { self.find_in_path(&path) } else { None };
+            let named =
+                if path.components().count() == 1 { self.find_in_path(&path) } else { None };
             let path = named.unwrap_or(path);
             return if self.host.is_executable(&path) {
                 Ok(absolute(path))

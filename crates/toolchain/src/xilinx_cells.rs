@@ -13,9 +13,9 @@ use std::collections::HashSet;
 use std::fs;
 
 use crate::cache::Cache;
+use crate::cache_key::CacheKey;
 use crate::error::ToolError;
 use crate::source_files;
-use crate::cache_key::CacheKey;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 use crate::yosys;
@@ -34,7 +34,10 @@ const REDUCED_FILE: &str = "cells.v";
 ///
 /// # Errors
 /// Fails if Yosys is missing or the cache cannot be used.
-pub(crate) fn reduced_cell_library(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String>, ToolError> {
+pub(crate) fn reduced_cell_library(
+    toolchain: &Toolchain,
+    cache: &Cache,
+) -> Result<Option<String>, ToolError> {
     let key = CacheKey::builder("cells")
         .field("version", toolchain.find(Tool::Yosys)?.identity())
         .field("file", LIBRARY)
@@ -45,7 +48,11 @@ pub(crate) fn reduced_cell_library(toolchain: &Toolchain, cache: &Cache) -> Resu
             Err(ToolError::Io { .. }) => String::new(),
             found => found?,
         };
-        source_files::write_file(dir, REDUCED_FILE, used_part(&library).unwrap_or_default().as_bytes())
+        source_files::write_file(
+            dir,
+            REDUCED_FILE,
+            used_part(&library).unwrap_or_default().as_bytes(),
+        )
     })?;
     let text = fs::read_to_string(kept.path()).map_err(ToolError::io("read", kept.path()))?;
     Ok((!text.is_empty()).then_some(text))
@@ -54,7 +61,10 @@ pub(crate) fn reduced_cell_library(toolchain: &Toolchain, cache: &Cache) -> Resu
 /// Returns the names of the whole file, as attributes of a module without content, and the cells
 /// that the rules use.
 fn used_part(library: &str) -> Option<String> {
-    let made = USED_CELLS.iter().map(|name| yosys::module_text(library, name)).collect::<Option<String>>()?;
+    let made = USED_CELLS
+        .iter()
+        .map(|name| yosys::module_text(library, name))
+        .collect::<Option<String>>()?;
     Some(format!("(* {} *)\nmodule names;\nendmodule\n{made}", names(library).join(", ")))
 }
 

@@ -10,9 +10,9 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::cache::Cache;
+use crate::cache_key::CacheKey;
 use crate::error::ToolError;
 use crate::source_files::{self, Source, log_excerpt};
-use crate::cache_key::CacheKey;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 

@@ -8,13 +8,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, s
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use foveate_design::{DesignConfig, Design};
-use foveate_emit::{RegisterField, FieldKind, Register, register_table};
+use foveate_design::{Design, DesignConfig};
+use foveate_emit::{FieldKind, Register, RegisterField, register_table};
 use foveate_simulator::{RegisterCommand, RegisterPacket as Answer};
 use serde_json::{Value, json};
 
 use crate::ViewError;
-use crate::shared_stream::{SharedStream, RegisterReading};
+use crate::shared_stream::{RegisterReading, SharedStream};
 
 /// The time to wait for an answer. It is longer than the pause after which a board takes the next
 /// byte for the first byte of a command.
@@ -111,14 +111,22 @@ impl BoardRegisters {
         let narrow = u16::try_from(own.address).ok().zip(u32::try_from(value).ok());
         let (address, value) = narrow.ok_or("a register has 32 bits")?;
         let (done, answer) = channel();
-        let sent = self.writes.get().and_then(|to| to.send(RegisterWrite { address, value, result: done }).ok());
+        let sent = self
+            .writes
+            .get()
+            .and_then(|to| to.send(RegisterWrite { address, value, result: done }).ok());
         match sent.and_then(|()| answer.recv_timeout(WRITE_LIMIT).ok()) {
             Some(true) => Ok(()),
             Some(false) | None => Err("the board does not answer; it may have been set".to_owned()),
         }
     }
 
-    fn run(&self, live: &SharedStream, writes: &Receiver<RegisterWrite>, answers: &Receiver<Answer>) {
+    fn run(
+        &self,
+        live: &SharedStream,
+        writes: &Receiver<RegisterWrite>,
+        answers: &Receiver<Answer>,
+    ) {
         let table = self.table.get().map_or(&[][..], Vec::as_slice);
         while !live.is_over() {
             let mut readings = Vec::with_capacity(table.len());
@@ -131,8 +139,11 @@ impl BoardRegisters {
                 let address = u16::try_from(own.address).unwrap_or(u16::MAX);
                 // If the first register of a round has no answer, the others are not asked for
                 // until the next round.
-                let value =
-                    if is_silent { None } else { self.ask(RegisterCommand::read(address), answers) };
+                let value = if is_silent {
+                    None
+                } else {
+                    self.ask(RegisterCommand::read(address), answers)
+                };
                 readings.push(RegisterReading { address: own.address, value });
             }
             live.set_registers(readings);
@@ -199,14 +210,20 @@ fn read_registers(design: &Design) -> Option<Vec<Register>> {
 /// Returns true if a field may read as another value later.
 fn may_change(field: &RegisterField) -> bool {
     match field.kind {
-        FieldKind::Status | FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => true,
+        FieldKind::Status
+        | FieldKind::Control { .. }
+        | FieldKind::Threshold { .. }
+        | FieldKind::Event => true,
         FieldKind::Constant(_) | FieldKind::Command => false,
     }
 }
 
 fn may_be_written(field: &RegisterField) -> bool {
     match field.kind {
-        FieldKind::Threshold { .. } | FieldKind::Control { .. } | FieldKind::Command | FieldKind::Event => true,
+        FieldKind::Threshold { .. }
+        | FieldKind::Control { .. }
+        | FieldKind::Command
+        | FieldKind::Event => true,
         FieldKind::Constant(_) | FieldKind::Status => false,
     }
 }

@@ -63,7 +63,8 @@ impl ConnectionTable {
         let number = state.next;
         state.next += 1;
         let (stream, since) = (Arc::clone(stream), Instant::now());
-        let connection = Connection { stream, is_admitted: false, last_request: since, is_closed: false };
+        let connection =
+            Connection { stream, is_admitted: false, last_request: since, is_closed: false };
         state.open.insert(number, connection);
         Some(ConnectionPlace { table: Arc::clone(self), number })
     }

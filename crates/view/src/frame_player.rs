@@ -8,8 +8,8 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{FootageError, InputOptions, FrameSource, is_camera, is_read_once, open};
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_footage::{FootageError, FrameSource, InputOptions, is_camera, is_read_once, open};
+use foveate_frame::{ByteFrame, FramePixels};
 use serde_json::json;
 
 /// The status of the input.
@@ -141,10 +141,11 @@ impl FramePlayer {
                 Some(source) => Ok(source),
                 None => open(&self.inputs, &byte_camera(), &self.options),
             };
-            let (status, problem) = match opened.and_then(|mut source| self.read_frames(&mut *source)) {
-                Ok(problem) => (InputStatus::Ended, problem),
-                Err(error) => (InputStatus::Failed, Some(error.to_string())),
-            };
+            let (status, problem) =
+                match opened.and_then(|mut source| self.read_frames(&mut *source)) {
+                    Ok(problem) => (InputStatus::Ended, problem),
+                    Err(error) => (InputStatus::Failed, Some(error.to_string())),
+                };
             let mut state = self.lock();
             if !state.restart_requested {
                 state.messages.extend(problem.clone());
@@ -180,7 +181,8 @@ impl FramePlayer {
             if Self::is_stopped(&state) {
                 return Ok(None);
             }
-            let shot = NumberedFrame { number: state.next, time_us: read.time_us, frame: read.frame };
+            let shot =
+                NumberedFrame { number: state.next, time_us: read.time_us, frame: read.frame };
             state.newest = Some(shot);
             state.next += 1;
             self.changed.notify_all();
@@ -208,7 +210,8 @@ impl FramePlayer {
         // At most the next frame is asked for, whatever number a page gives.
         state.largest_requested = state.largest_requested.max(first.min(state.next));
         self.changed.notify_all();
-        let is_new = |state: &PlayerState| state.newest.as_ref().is_some_and(|shot| shot.number >= first);
+        let is_new =
+            |state: &PlayerState| state.newest.as_ref().is_some_and(|shot| shot.number >= first);
         while !is_new(&state) && state.status == InputStatus::Running && !state.is_over {
             let Some(left) = until.checked_duration_since(Instant::now()) else { break };
             let waited = self.changed.wait_timeout(state, left);
@@ -245,7 +248,8 @@ impl FramePlayer {
                 return Err("standard input comes once; start `foveate live` again".to_owned());
             }
             (FrameDelivery::Camera, InputStatus::Running) => return Ok(()),
-            (FrameDelivery::Camera, InputStatus::Ended | InputStatus::Failed) | (FrameDelivery::Clip, _) => {}
+            (FrameDelivery::Camera, InputStatus::Ended | InputStatus::Failed)
+            | (FrameDelivery::Clip, _) => {}
         }
         state.restart_requested = true;
         (state.status, state.text) = (InputStatus::Running, self.name.clone());
@@ -293,14 +297,16 @@ mod tests {
     #[test]
     fn a_camera_that_has_broken_off_is_opened_again_and_one_that_sends_goes_on() {
         let options = InputOptions { frames: Some(3), ..InputOptions::default() };
-        let (mut reel, source) = FramePlayer::open(vec!["scene:street".to_owned()], options).unwrap();
+        let (mut reel, source) =
+            FramePlayer::open(vec!["scene:street".to_owned()], options).unwrap();
         // The scene behaves as a camera, which does not wait.
         reel.kind = FrameDelivery::Camera;
         reel.restart().unwrap();
         assert!(!reel.lock().restart_requested);
         // The status changes at once, before the reader has noticed the request.
         for status in [InputStatus::Ended, InputStatus::Failed] {
-            *reel.lock() = PlayerState { status, restart_requested: false, ..PlayerState::new(String::new()) };
+            *reel.lock() =
+                PlayerState { status, restart_requested: false, ..PlayerState::new(String::new()) };
             reel.restart().unwrap();
             let state = reel.lock();
             assert!(state.restart_requested && state.status == InputStatus::Running);

@@ -12,15 +12,15 @@ mod board;
 mod camera_page;
 mod connections;
 mod error;
+mod frame_player;
 mod http;
 mod input;
-mod shared_stream;
 mod page;
 mod picture;
 mod player;
 mod reader;
-mod frame_player;
 mod server;
+mod shared_stream;
 mod site;
 mod timed_stream;
 
@@ -36,9 +36,9 @@ pub use player::{Player, PlayerOptions};
 
 use board::BoardRegisters;
 use input::Input;
-use shared_stream::SharedStream;
 use reader::StreamReader;
 use server::PageServer;
+use shared_stream::SharedStream;
 use site::StreamSite;
 
 /// The times at which the frames of a stream are shown.

@@ -13,8 +13,8 @@ use foveate_footage::InputOptions;
 use serde_json::Value;
 
 use crate::camera_page::camera_page;
-use crate::http::HttpAnswer;
 use crate::frame_player::FramePlayer;
+use crate::http::HttpAnswer;
 use crate::server::{PageServer, PageSite};
 use crate::{ViewError, start_thread};
 

@@ -8,7 +8,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use foveate_design::DesignConfig;
-use foveate_simulator::{StreamItem, RegisterPacket, ShownFrame, PacketStream};
+use foveate_simulator::{PacketStream, RegisterPacket, ShownFrame, StreamItem};
 
 use crate::PlayMode;
 use crate::board::BoardRegisters;
@@ -168,7 +168,8 @@ impl PlaybackClock {
             }
             self.cut_time = self.cut_time.saturating_add(more);
         }
-        let due = Duration::from_micros(time_us.saturating_sub(start_us)).saturating_sub(self.cut_time);
+        let due =
+            Duration::from_micros(time_us.saturating_sub(start_us)).saturating_sub(self.cut_time);
         let left = || due.saturating_sub(start.elapsed());
         if left() > REPORTED_WAIT {
             live.note_wait(frame.number, left());

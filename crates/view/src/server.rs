@@ -109,7 +109,11 @@ fn accept_connections(listener: &TcpListener, shared: &Arc<ServerContext<impl Pa
 }
 
 impl<S: PageSite> ServerContext<S> {
-    fn answer_requests(&self, stream: Arc<TcpStream>, place: &ConnectionPlace) -> std::io::Result<()> {
+    fn answer_requests(
+        &self,
+        stream: Arc<TcpStream>,
+        place: &ConnectionPlace,
+    ) -> std::io::Result<()> {
         stream.set_nodelay(true)?;
         let mut dialogue = RequestStream::new(stream);
         while let Some(request) = dialogue.next()? {

@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use foveate_design::Design;
-use foveate_simulator::{StreamLoss, ShownFrame};
+use foveate_simulator::{ShownFrame, StreamLoss};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -233,7 +233,13 @@ impl SharedStream {
         state.frames += 1;
         state.bytes += bytes;
         state.history.truncate(HISTORY_LENGTH - 1);
-        state.history.push_front(FrameFigures { change: at, number: frame.number, active, bytes, shown_ms });
+        state.history.push_front(FrameFigures {
+            change: at,
+            number: frame.number,
+            active,
+            bytes,
+            shown_ms,
+        });
     }
 
     /// Notes the values of a round of reads of all registers.
@@ -256,7 +262,8 @@ impl SharedStream {
         }
         let (changed, picture) = &state.picture;
         let picture: &[u8] = if *changed > after { picture } else { &[] };
-        let history: Vec<&FrameFigures> = state.history.iter().take_while(|own| own.change > after).collect();
+        let history: Vec<&FrameFigures> =
+            state.history.iter().take_while(|own| own.change > after).collect();
         let registers = (state.registers.0 > after).then_some(&state.registers.1);
         let text = json!({
             "change": state.change,
@@ -280,7 +287,8 @@ impl SharedStream {
     /// Locks the state. If nothing has come for too long, this is noted in it.
     fn lock_noting_silence(&self) -> MutexGuard<'_, StreamState> {
         let mut state = self.lock();
-        let comes = matches!(state.status, StreamStatus::Waiting | StreamStatus::Running) && self.is_live;
+        let comes =
+            matches!(state.status, StreamStatus::Waiting | StreamStatus::Running) && self.is_live;
         if comes && !state.is_silent && state.last_byte.elapsed() > SILENCE_LIMIT {
             state.is_silent = true;
             let seconds = SILENCE_LIMIT.as_secs();

@@ -8,9 +8,9 @@ use serde_json::Value;
 
 use crate::board::BoardRegisters;
 use crate::http::HttpAnswer;
-use crate::shared_stream::SharedStream;
 use crate::page;
 use crate::server::PageSite;
+use crate::shared_stream::SharedStream;
 
 /// The time that a browser waits for a change.
 const CHANGE_WAIT: Duration = Duration::from_secs(1);

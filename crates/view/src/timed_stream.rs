@@ -68,7 +68,11 @@ mod tests {
 
     /// Calls `act` on the other end every 20 ms until `work` has ended. Returns the time that
     /// `work` took.
-    fn run_disturbed(mut peer: TcpStream, act: fn(&mut TcpStream), work: impl FnOnce()) -> Duration {
+    fn run_disturbed(
+        mut peer: TcpStream,
+        act: fn(&mut TcpStream),
+        work: impl FnOnce(),
+    ) -> Duration {
         let start = Instant::now();
         let (ended, end) = std::sync::mpsc::channel::<()>();
         std::thread::scope(|scope| {

@@ -5,7 +5,7 @@
 
 use foveate_camera::toml_text::TomlConfig as _;
 use foveate_camera::{
-    CameraConfig, ConfigError, FeatureKind, IrrelevantRendering, ConfigKey, SpatialConfig, Takes,
+    CameraConfig, ConfigError, ConfigKey, FeatureKind, IrrelevantRendering, SpatialConfig, Takes,
 };
 use foveate_design::{DesignConfig, PRESETS};
 use foveate_scenes::Scene;

@@ -16,7 +16,7 @@ use std::cell::RefCell;
 use foveate_frame::FramePixels;
 
 use crate::limits::{MAX_NETWORK_FILE, MAX_PIXELS};
-use crate::{PageCameras, LiveCamera, PageNetwork, FrameSummary, WebError};
+use crate::{FrameSummary, LiveCamera, PageCameras, PageNetwork, WebError};
 
 /// The largest input in bytes: the file of a network, which is larger than a frame in colour.
 const MAX_INPUT: usize = MAX_NETWORK_FILE;
@@ -76,7 +76,8 @@ impl PageState {
         handle: u32,
         seen: impl FnOnce(&LiveCamera) -> Result<&[T], WebError>,
     ) -> i32 {
-        let found = self.desk.camera(handle).and_then(|camera| Ok(address_and_length(seen(camera)?)));
+        let found =
+            self.desk.camera(handle).and_then(|camera| Ok(address_and_length(seen(camera)?)));
         let found = found.map(|place| {
             self.answer_place = place;
             0
@@ -85,7 +86,11 @@ impl PageState {
     }
 
     /// Makes pixels of a camera the answer.
-    fn answer_pixels(&mut self, handle: u32, of: impl FnOnce(&LiveCamera) -> FramePixels<'_>) -> i32 {
+    fn answer_pixels(
+        &mut self,
+        handle: u32,
+        of: impl FnOnce(&LiveCamera) -> FramePixels<'_>,
+    ) -> i32 {
         let found = self.desk.camera(handle).map(|camera| match of(camera) {
             FramePixels::Bytes(pixels) => address_and_length(pixels),
             FramePixels::Words(pixels) => address_and_length(pixels),
@@ -260,7 +265,9 @@ pub extern "C" fn foveate_explain(handle: u32, x: u32, y: u32) -> i32 {
         let name = String::from_utf8_lossy(input);
         let told = desk.camera(handle).and_then(|camera| camera.explain((x, y), &name));
         let told = told.map(|told| {
-            counter.set_answer(serde_json::json!({ "text": told.to_string(), "json": told }).to_string());
+            counter.set_answer(
+                serde_json::json!({ "text": told.to_string(), "json": told }).to_string(),
+            );
             0
         });
         counter.answer_number(told)
@@ -293,7 +300,8 @@ pub extern "C" fn foveate_free(handle: u32) -> i32 {
 pub extern "C" fn foveate_scene(width: u32, height: u32, region_size: u32, number: u32) -> i32 {
     with_page_state(|counter| {
         let PageState { desk, input, .. } = &mut *counter;
-        let frame = desk.scene_frame(input, (width, height), region_size, number).map(address_and_length);
+        let frame =
+            desk.scene_frame(input, (width, height), region_size, number).map(address_and_length);
         let frame = frame.map(|place| {
             counter.answer_place = place;
             0

@@ -12,19 +12,19 @@
 //! bytes of a recording, a network.
 
 mod describe;
-mod page_cameras;
 mod error;
 pub mod exports;
 mod facts;
 mod limits;
 mod live_camera;
 mod network;
+mod page_cameras;
 mod pixels;
 mod recording;
 
-pub use page_cameras::PageCameras;
 pub use error::WebError;
 pub use limits::{MAX_CAMERAS, MAX_NETWORK_BYTES, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
-pub use live_camera::{ActionCounts, LiveCamera, FrameSummary};
-pub use network::{NetworkComparison, PageNetwork, FrameDetection, NetworkSettings};
+pub use live_camera::{ActionCounts, FrameSummary, LiveCamera};
+pub use network::{FrameDetection, NetworkComparison, NetworkSettings, PageNetwork};
+pub use page_cameras::PageCameras;
 pub use recording::RecordingState;

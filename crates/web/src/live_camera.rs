@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One camera of a page: it takes frames and holds the results of the last one.
 
-use foveate_design::{RegionAction, Design};
-use foveate_engine::{RegionStateBefore, Engine, EventTable, EventFrame};
+use foveate_design::{Design, RegionAction};
+use foveate_engine::{Engine, EventFrame, EventTable, RegionStateBefore};
 use foveate_frame::{Frame, FramePixels, append_luma_of_rgba};
 use foveate_model::explanation::{self, RegionExplanation};
 use foveate_model::{FunctionalCamera, RegionMemory};
@@ -10,8 +10,8 @@ use serde::Serialize;
 
 use crate::WebError;
 use crate::limits::MAX_RECORDING;
-use crate::pixels::{DepthConversion, CameraPixels};
-use crate::recording::{RecordingState, Recording};
+use crate::pixels::{CameraPixels, DepthConversion};
+use crate::recording::{Recording, RecordingState};
 
 /// A camera that is shown frames.
 #[derive(Debug)]
@@ -124,7 +124,11 @@ impl LiveCamera {
     ///
     /// # Errors
     /// Fails if the frame does not have the camera's size. Nothing has changed then.
-    pub fn step_grey(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<FrameSummary, WebError> {
+    pub fn step_grey(
+        &mut self,
+        frame: &[u8],
+        time_us: Option<u64>,
+    ) -> Result<FrameSummary, WebError> {
         self.check_length(frame, 1)?;
         self.grey.clear();
         self.grey.extend_from_slice(frame);
@@ -135,7 +139,11 @@ impl LiveCamera {
     ///
     /// # Errors
     /// Fails if the frame does not have the camera's size. Nothing has changed then.
-    pub fn step_rgba(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<FrameSummary, WebError> {
+    pub fn step_rgba(
+        &mut self,
+        frame: &[u8],
+        time_us: Option<u64>,
+    ) -> Result<FrameSummary, WebError> {
         self.check_length(frame, 4)?;
         self.grey.clear();
         append_luma_of_rgba(frame, &mut self.grey);
@@ -205,14 +213,19 @@ impl LiveCamera {
                 .expect("what an engine holds are frames of its camera")
         };
         let remembered = |region| {
-            let RegionStateBefore { reference, summary } = self.engine.region_state_before(region).unwrap_or_default();
+            let RegionStateBefore { reference, summary } =
+                self.engine.region_state_before(region).unwrap_or_default();
             RegionMemory { reference, summary }
         };
         let region = y * columns + x;
         let mut model = FunctionalCamera::resume(design, &frame(shown.to_words()), remembered)?;
         let before = model.region_memory(region);
         let outcome = model.step(&frame(self.pixels.plane().to_words()))?;
-        let moment = explanation::FrameIdentification { number: self.frames - 1, name, t_us: self.last_time_us };
+        let moment = explanation::FrameIdentification {
+            number: self.frames - 1,
+            name,
+            t_us: self.last_time_us,
+        };
         Ok(RegionExplanation::from_outcome(design, moment, region, before, outcome))
     }
 

@@ -7,15 +7,16 @@ use std::path::Path;
 use foveate_frame::FramePixels;
 use foveate_network::Network;
 use foveate_network::vision::{
-    ClassAgreement, Detection, Detector, DetectionCounts, FrameFormat, PixelMapping, DetectionPairs, AgreementSums, NetworkDefaults, VisionOptions, VisionNetwork,
-    index_of_largest, parse_detector, parse_framing, parse_mean, parse_scale,
+    AgreementSums, ClassAgreement, Detection, DetectionCounts, DetectionPairs, Detector,
+    FrameFormat, NetworkDefaults, PixelMapping, VisionNetwork, VisionOptions, index_of_largest,
+    parse_detector, parse_framing, parse_mean, parse_scale,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::WebError;
-use crate::page_cameras::check_size;
 use crate::limits::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
+use crate::page_cameras::check_size;
 
 /// The side of the regions in which a frame is converted. The network computes all of it anyway.
 const REGION_SIDE: u32 = 16;
@@ -168,7 +169,8 @@ impl OpenNetwork {
         told["options"] = json!(command_options(&framing.to_string(), mean, scale, detector));
         (told["framing"], told["mean"], told["scale"]) =
             (json!(framing), json!(mean), json!(scale));
-        let frames = FrameFormat { width, height, pixel_max: (1 << bits) - 1, region_side: REGION_SIDE };
+        let frames =
+            FrameFormat { width, height, pixel_max: (1 << bits) - 1, region_side: REGION_SIDE };
         Ok((Self { witness, frames, bits }, told))
     }
 
@@ -215,7 +217,9 @@ impl OpenNetwork {
             whole: of_whole.into_iter().map(frame_detection).collect(),
             seen: of_seen.into_iter().map(frame_detection).collect(),
             classes: sums.class_agreement(),
-            class: class.map(|(whole, seen)| [index_of_largest(&whole.values), index_of_largest(&seen.values)]),
+            class: class.map(|(whole, seen)| {
+                [index_of_largest(&whole.values), index_of_largest(&seen.values)]
+            }),
             same_places: sums.position_share(),
         })
     }

@@ -26,7 +26,11 @@ impl DepthConversion {
 
     /// Returns an empty buffer of the type that the depth needs.
     pub(crate) fn empty_pixels(&self) -> CameraPixels {
-        if self.bits <= 8 { CameraPixels::Bytes(Vec::new()) } else { CameraPixels::Words(Vec::new()) }
+        if self.bits <= 8 {
+            CameraPixels::Bytes(Vec::new())
+        } else {
+            CameraPixels::Words(Vec::new())
+        }
     }
 
     /// Converts 8-bit grey to pixels of the camera.

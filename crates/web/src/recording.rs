@@ -2,7 +2,7 @@
 //! The events of a camera as `foveate simulate` writes them to `events.csv`, kept until they are
 //! fetched.
 
-use foveate_engine::{EventTable, EventFrame};
+use foveate_engine::{EventFrame, EventTable};
 use serde::Serialize;
 
 /// A recording of frames.

@@ -2,7 +2,7 @@
 //! The convolutions of AlexNet and VGG-16, and the measurements on Eyeriss by Chen et al., JSSC
 //! 2017.
 
-use foveate_accelerator::{AcceleratorError, Layer, TensorShape, KernelWindow};
+use foveate_accelerator::{AcceleratorError, KernelWindow, Layer, TensorShape};
 
 /// A network and the measurements of its convolutions.
 pub(crate) struct PublishedNetwork {

@@ -2,7 +2,7 @@
 //! The tables on Eyeriss in `docs/accelerators.md`, in Markdown.
 
 use super::networks::{PublishedNetwork, alexnet, vgg16};
-use foveate_accelerator::{Accelerator, LayerCost, Dataflow, MappingObjective};
+use foveate_accelerator::{Accelerator, Dataflow, LayerCost, MappingObjective};
 use std::fmt::Write;
 
 type TableError = Box<dyn std::error::Error>;
@@ -61,11 +61,20 @@ fn network_figures(network: &PublishedNetwork) -> Result<[NetworkFigure; 3], Tab
         let accelerator = with_mapping(mapping)?;
         let cost: LayerCost = costs(&accelerator, network)?.into_iter().sum();
         let milliwatts = 1e-9 * cost.energy.chip() / accelerator.seconds(cost.cycles);
-        models.push([images_per_second(&accelerator, network, &cost), accesses_per_mac(&cost), milliwatts]);
+        models.push([
+            images_per_second(&accelerator, network, &cost),
+            accesses_per_mac(&cost),
+            milliwatts,
+        ]);
     }
     let model = |figure: usize| [models[0][figure], models[1][figure]];
     Ok([
-        NetworkFigure { name: "frames/s", digits: 2, chip: network.frames_per_second, model: model(0) },
+        NetworkFigure {
+            name: "frames/s",
+            digits: 2,
+            chip: network.frames_per_second,
+            model: model(0),
+        },
         NetworkFigure {
             name: "DRAM accesses per MAC",
             digits: 4,
@@ -90,13 +99,20 @@ fn with_mapping(mapping: MappingObjective) -> Result<Accelerator, TableError> {
     Ok(accelerator)
 }
 
-fn costs(accelerator: &Accelerator, network: &PublishedNetwork) -> Result<Vec<LayerCost>, TableError> {
+fn costs(
+    accelerator: &Accelerator,
+    network: &PublishedNetwork,
+) -> Result<Vec<LayerCost>, TableError> {
     let layers = network.layers.iter();
     layers.map(|(_, layer)| Ok(accelerator.plan(layer.clone())?.whole_cost())).collect()
 }
 
 #[allow(clippy::cast_precision_loss, reason = "a mean")]
-fn images_per_second(accelerator: &Accelerator, network: &PublishedNetwork, cost: &LayerCost) -> f64 {
+fn images_per_second(
+    accelerator: &Accelerator,
+    network: &PublishedNetwork,
+    cost: &LayerCost,
+) -> f64 {
     network.images as f64 / accelerator.seconds(cost.cycles)
 }
 

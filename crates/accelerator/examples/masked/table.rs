@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The table on masks to which `docs/accelerators.md` links, in Markdown.
 
-use foveate_accelerator::{Accelerator, LayerCost, Layer, PRESETS, TensorShape, KernelWindow};
+use foveate_accelerator::{Accelerator, KernelWindow, Layer, LayerCost, PRESETS, TensorShape};
 use std::fmt::Write;
 
 /// Three layers of ResNet-18 for 224 x 224 pixels: name, channels in and out, and side.
@@ -28,8 +28,9 @@ pub(crate) fn shares_table() -> Result<String, Box<dyn std::error::Error>> {
                 // The square is in the middle of the layer.
                 let (from, to) = ((7 - sevenths) / 2 * side / 7, (7 + sevenths) / 2 * side / 7);
                 let square = from..to;
-                let part = plan
-                    .masked_cost(|x, y| square.contains(&(x as u64)) && square.contains(&(y as u64)));
+                let part = plan.masked_cost(|x, y| {
+                    square.contains(&(x as u64)) && square.contains(&(y as u64))
+                });
                 let shares =
                     percentages(&part, &whole).map(|share| format!("{share:.1}")).join(" | ");
                 let needed = 100 * sevenths * sevenths / 49;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Chooses the part of a layer that runs at once in a row-stationary array.
 
-use super::{MappingCuts, ComputedStrip, count_strips};
+use super::{ComputedStrip, MappingCuts, count_strips};
 use crate::accelerator::{Accelerator, MappingObjective, RowStationaryArray};
 use crate::computed_positions::ComputedPositions;
 use crate::cost::LayerCounts;
-use crate::layer::{Layer, ChannelGroups};
+use crate::layer::{ChannelGroups, Layer};
 use crate::{AcceleratorError, LayerCost};
 
 /// The part of a layer that runs at once, and the values that the buffer keeps.
@@ -48,7 +48,12 @@ impl KernelParts {
 
 impl PassMapping {
     /// Returns the parts into which this mapping cuts a group.
-    pub(crate) fn cuts(&self, array: &RowStationaryArray, layer: &Layer, products: &ChannelGroups) -> MappingCuts {
+    pub(crate) fn cuts(
+        &self,
+        array: &RowStationaryArray,
+        layer: &Layer,
+        products: &ChannelGroups,
+    ) -> MappingCuts {
         let parts = KernelParts::of(array, layer);
         let (filters, channels) =
             (self.filters * self.filter_sets, self.channels * self.channel_sets);
@@ -98,9 +103,15 @@ pub(crate) fn best_mapping(
 
 /// Returns the quantity to minimize; the second number decides between equal first ones.
 #[allow(clippy::cast_precision_loss, reason = "compared, not counted")]
-fn objective_values(accelerator: &Accelerator, objective: MappingObjective, counts: &LayerCounts) -> [f64; 2] {
+fn objective_values(
+    accelerator: &Accelerator,
+    objective: MappingObjective,
+    counts: &LayerCounts,
+) -> [f64; 2] {
     match objective {
-        MappingObjective::LeastDram => [counts.dram.access_count() as f64, counts.array_cycles as f64],
+        MappingObjective::LeastDram => {
+            [counts.dram.access_count() as f64, counts.array_cycles as f64]
+        }
         MappingObjective::LeastEnergyDelay => {
             let cost = LayerCost::from_counts(counts, accelerator);
             [cost.energy.total() * cost.cycles as f64, cost.cycles as f64]
@@ -110,7 +121,11 @@ fn objective_values(accelerator: &Accelerator, objective: MappingObjective, coun
 
 /// Returns the heights of strips that can run at once: of those that need the same number of
 /// strips, the lowest.
-fn strip_heights(height: u64, array: &RowStationaryArray, parts: KernelParts) -> impl Iterator<Item = u64> {
+fn strip_heights(
+    height: u64,
+    array: &RowStationaryArray,
+    parts: KernelParts,
+) -> impl Iterator<Item = u64> {
     let most = (array.rows / parts.rows * array.columns).min(height);
     (1..=most).filter(move |&strip| strip == height.div_ceil(height.div_ceil(strip)))
 }
@@ -175,7 +190,11 @@ struct BufferCapacity<'a> {
 }
 
 impl<'a> BufferCapacity<'a> {
-    fn of(accelerator: &'a Accelerator, array: &RowStationaryArray, strips: &[ComputedStrip]) -> Self {
+    fn of(
+        accelerator: &'a Accelerator,
+        array: &RowStationaryArray,
+        strips: &[ComputedStrip],
+    ) -> Self {
         let most = |of: fn(&ComputedStrip) -> u64| strips.iter().map(of).max().unwrap_or_default();
         Self {
             accelerator,
@@ -197,7 +216,8 @@ impl<'a> BufferCapacity<'a> {
     fn with_most_kept(&self, pass: PassMapping, products: &ChannelGroups) -> Option<PassMapping> {
         let at_once = pass.filters * pass.filter_sets;
         let channels = pass.channels * pass.channel_sets;
-        let fits = |passes: u64| self.needed_bytes(channels, passes * at_once, pass.images) <= self.bytes;
+        let fits =
+            |passes: u64| self.needed_bytes(channels, passes * at_once, pass.images) <= self.bytes;
         let all = products.outputs.div_ceil(at_once);
         let inputs = self.needed_bytes(channels, 0, pass.images);
         let one = self.needed_bytes(0, at_once, pass.images);

@@ -2,7 +2,8 @@
 //! Costs that are computed by hand.
 
 use foveate_accelerator::{
-    Accelerator, LayerCost, Dataflow, Layer, MappingObjective, RowStationaryArray, TensorShape, SystolicArray, MemoryAccesses, KernelWindow,
+    Accelerator, Dataflow, KernelWindow, Layer, LayerCost, MappingObjective, MemoryAccesses,
+    RowStationaryArray, SystolicArray, TensorShape,
 };
 
 const EVERYTHING: u64 = 1 << 30;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Accelerators as files: presets are valid, and every mistake has a message of one clear line.
 
-use foveate_accelerator::{Accelerator, AcceleratorError, Layer, PRESETS, TensorShape, KernelWindow};
+use foveate_accelerator::{
+    Accelerator, AcceleratorError, KernelWindow, Layer, PRESETS, TensorShape,
+};
 
 #[test]
 fn every_preset_is_valid_and_found_by_its_name() {

@@ -3,9 +3,9 @@
 //! and masks.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod by_hand;
 mod eyeriss;
 mod files;
-mod by_hand;
 mod masked;
 mod oracle;
 mod properties;

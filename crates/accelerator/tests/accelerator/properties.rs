@@ -2,9 +2,11 @@
 //! Properties that hold for every layer, accelerator and mask.
 
 use crate::by_hand;
-use crate::oracle::{SimulatedCounts, inputs_seen, output_stationary, round_up_to_tiles, weight_stationary};
+use crate::oracle::{
+    SimulatedCounts, inputs_seen, output_stationary, round_up_to_tiles, weight_stationary,
+};
 use crate::random::{LayerCase, accelerator, layer_case, masks};
-use foveate_accelerator::{Accelerator, LayerCost, Dataflow, MemoryAccesses};
+use foveate_accelerator::{Accelerator, Dataflow, LayerCost, MemoryAccesses};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 

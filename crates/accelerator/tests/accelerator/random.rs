@@ -4,7 +4,8 @@
 use crate::by_hand;
 use crate::oracle::AxisWindow;
 use foveate_accelerator::{
-    Accelerator, Dataflow, Layer, MappingObjective, RowStationaryArray, TensorShape, SystolicArray, KernelWindow,
+    Accelerator, Dataflow, KernelWindow, Layer, MappingObjective, RowStationaryArray,
+    SystolicArray, TensorShape,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -90,7 +91,8 @@ fn row_stationary() -> impl Strategy<Value = RowStationaryArray> {
     let sides = [1..6_u64, 1..6_u64];
     let element = [1..7_u64, 7..20_u64, 1..5_u64];
     let rates = [1..4_u64, 1..4_u64, 1..4_u64];
-    let objective = prop_oneof![Just(MappingObjective::LeastDram), Just(MappingObjective::LeastEnergyDelay)];
+    let objective =
+        prop_oneof![Just(MappingObjective::LeastDram), Just(MappingObjective::LeastEnergyDelay)];
     (sides, 1000..3000_u64, element, rates, objective).prop_map(
         |([rows, columns], buffer_bytes, element, rates, mapping)| RowStationaryArray {
             rows,

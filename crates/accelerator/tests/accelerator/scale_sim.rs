@@ -2,7 +2,7 @@
 //! Cycles that SCALE-Sim has printed.
 
 use crate::by_hand::{accelerator, systolic};
-use foveate_accelerator::{Dataflow, Layer, TensorShape, KernelWindow};
+use foveate_accelerator::{Dataflow, KernelWindow, Layer, TensorShape};
 
 /// The first layer of AlexNet on 32 x 32 has 36 folds of 3,119 cycles. The last of them has number
 /// 112,283 in SCALE-Sim's trace.

@@ -9,11 +9,11 @@ use std::sync::OnceLock;
 
 use crate::common::{array_on, compile, verilog};
 use foveate_boards::{Board, BoardProject};
-use foveate_design::{RegionAction, Camera, IrrelevantRendering, ReferencePolicy};
+use foveate_design::{Camera, IrrelevantRendering, ReferencePolicy, RegionAction};
 use foveate_emit::{Register, array_table};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_packets::{RegisterCommand, StreamItem, Packet, PacketSplitter};
+use foveate_packets::{Packet, PacketSplitter, RegisterCommand, StreamItem};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Source, Tool};
 
@@ -161,7 +161,8 @@ impl ArrayBench {
 
     /// Returns the commands by which a host captures the results of a region in a frame.
     fn capture(&self, (column, row): (u32, u32), frame: u32, camera: &Camera) -> Vec<HostCommand> {
-        let wait = HostCommand { until: true, command: RegisterCommand::read(self.address("capture")) };
+        let wait =
+            HostCommand { until: true, command: RegisterCommand::read(self.address("capture")) };
         let mut host = vec![
             self.write("capture_region", row << 16 | column),
             self.write("capture_frame", frame),
@@ -173,7 +174,10 @@ impl ArrayBench {
         let rest = self.table.iter().filter(|register| (0x54..0x100).contains(&register.address));
         host.extend(rest.map(|register| self.read(&register.name)));
         let words = u16::try_from(camera.region_pixels().div_ceil(4)).unwrap();
-        let value = |word| HostCommand { until: false, command: RegisterCommand::read(VALUES_ADDRESS + 4 * word) };
+        let value = |word| HostCommand {
+            until: false,
+            command: RegisterCommand::read(VALUES_ADDRESS + 4 * word),
+        };
         host.extend((0..words).map(value));
         host
     }
@@ -207,7 +211,9 @@ fn answers(path: &Path) -> Vec<u32> {
     let mut values = Vec::new();
     loop {
         match splitter.next(None) {
-            StreamItem::Packet { packet: Packet::Register(answer), .. } => values.push(answer.value),
+            StreamItem::Packet { packet: Packet::Register(answer), .. } => {
+                values.push(answer.value)
+            }
             StreamItem::Pending => return values,
             _ => panic!("no answer"),
         }
@@ -246,11 +252,20 @@ impl RegionResult {
     }
 
     /// Returns the model's results.
-    fn from_outcome(outcome: &FunctionalOutcome, camera: &Camera, frame: u32, place: (u32, u32)) -> Self {
+    fn from_outcome(
+        outcome: &FunctionalOutcome,
+        camera: &Camera,
+        frame: u32,
+        place: (u32, u32),
+    ) -> Self {
         let at = (place.1 * camera.columns() + place.0) as usize;
         let action = outcome.actions[at];
-        let bits =
-            [outcome.srs[at], outcome.trs[at], action == RegionAction::Summarize, outcome.active[at]];
+        let bits = [
+            outcome.srs[at],
+            outcome.trs[at],
+            action == RegionAction::Summarize,
+            outcome.active[at],
+        ];
         let count = u64::from(outcome.temporal_count[at]);
         let scores = outcome.scores.iter().map(|scores| scores[at]);
         let values = match action {
@@ -340,7 +355,9 @@ fn model_with_change(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Reg
             match camera.temporal().reference {
                 ReferencePolicy::Previous => *reference = Some(seen),
                 ReferencePolicy::LastSent if active => *reference = Some(seen),
-                ReferencePolicy::LastSent if !srs && camera.irrelevant() == IrrelevantRendering::Zero => {
+                ReferencePolicy::LastSent
+                    if !srs && camera.irrelevant() == IrrelevantRendering::Zero =>
+                {
                     *reference = None;
                 }
                 ReferencePolicy::LastSent => {}
@@ -365,12 +382,17 @@ fn frame_sums(camera: &Camera, frames: &[Vec<RegionResult>]) -> Vec<u32> {
 }
 
 /// Makes a host capture these regions of these frames.
-fn captures(bench: &ArrayBench, camera: &Camera, wanted: &[((u32, u32), u32)]) -> (ArrayRun, Vec<RegionResult>) {
+fn captures(
+    bench: &ArrayBench,
+    camera: &Camera,
+    wanted: &[((u32, u32), u32)],
+) -> (ArrayRun, Vec<RegionResult>) {
     let each = wanted.iter().map(|(place, frame)| bench.capture(*place, *frame, camera));
     let host: Vec<Vec<HostCommand>> = each.collect();
     let length = host[0].len();
     let run = bench.play(&host.into_iter().flatten().collect::<Vec<_>>());
-    let captured = run.answers.chunks(length).map(|part| RegionResult::from_answers(part, camera)).collect();
+    let captured =
+        run.answers.chunks(length).map(|part| RegionResult::from_answers(part, camera)).collect();
     (run, captured)
 }
 
@@ -382,7 +404,8 @@ fn an_array_on_a_board_says_what_the_model_says() {
     for (keys, thresholds) in [(SMALL, SMALL_THRESHOLDS), (LARGE, LARGE_THRESHOLDS), (DEEP, &[])] {
         let project = fast_array(keys);
         let camera = project.design.camera();
-        let bench = if keys == SMALL { small_bench().clone() } else { ArrayBench::new(&project, &[]) };
+        let bench =
+            if keys == SMALL { small_bench().clone() } else { ArrayBench::new(&project, &[]) };
         // The captured frames have a square and none. Small regions have many more frames in the
         // same time.
         let (right, low) = (camera.columns() - 1, camera.rows() - 1);
@@ -412,7 +435,11 @@ fn an_array_on_a_board_says_what_the_model_says() {
 
 /// Makes a host write a threshold. Returns the fault, if the frames around the write are not each
 /// computed with all thresholds of one set.
-fn write_fault(bench: &ArrayBench, keys: &[&str], (name, value, key): (&str, u32, &str)) -> Option<String> {
+fn write_fault(
+    bench: &ArrayBench,
+    keys: &[&str],
+    (name, value, key): (&str, u32, &str),
+) -> Option<String> {
     let (project, other) = (fast_array(keys), fast_array(&[keys, &[key]].concat()));
     let cameras = [project.design.camera(), other.design.camera()];
     // Reads of another register let time pass.
@@ -434,7 +461,8 @@ fn write_fault(bench: &ArrayBench, keys: &[&str], (name, value, key): (&str, u32
 
 const LEVEL: (&str, u32, &str) =
     ("edge_level", 0, "spatial=[{feature='edge',level=0,min_score=3}]");
-const MINIMUM: (&str, u32, &str) = ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
+const MINIMUM: (&str, u32, &str) =
+    ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
 
 /// Thresholds that a host writes, and the same values as keys.
 const SMALL_THRESHOLDS: &[(&str, u32, &str)] = &[
@@ -493,7 +521,12 @@ const TURN_FAULTS: &[SwitchedFault] = &[
 /// share its program.
 fn small_bench() -> &'static ArrayBench {
     static BENCH: OnceLock<ArrayBench> = OnceLock::new();
-    BENCH.get_or_init(|| ArrayBench::new(&fast_array(SMALL), &[SIGNATURE_FAULTS, CAPTURE_FAULTS, TURN_FAULTS].concat()))
+    BENCH.get_or_init(|| {
+        ArrayBench::new(
+            &fast_array(SMALL),
+            &[SIGNATURE_FAULTS, CAPTURE_FAULTS, TURN_FAULTS].concat(),
+        )
+    })
 }
 
 #[test]

@@ -96,7 +96,8 @@ pub(crate) fn compile_with_sensor(project: &BoardProject, fault: PlantedFault<'_
     let (sensor, _) = project.board.sensor_with_pins().unwrap().unwrap();
     let bench = format!("`define DATA {}\n{BENCH}", sensor.format.data_lines());
     sources.push(Source::from(("board_bench.v".to_owned(), bench)));
-    let constants = format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET_CLOCKS}\n");
+    let constants =
+        format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET_CLOCKS}\n");
     compile(sources, "board_bench", &constants, SENSOR)
 }
 

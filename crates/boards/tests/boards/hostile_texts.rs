@@ -128,7 +128,12 @@ impl TextPlaces<'_> {
         root.as_table().unwrap().clone()
     }
 
-    fn search(&self, value: &Value, above: &mut Vec<PathStep>, places: &mut BTreeSet<Vec<PathStep>>) {
+    fn search(
+        &self,
+        value: &Value,
+        above: &mut Vec<PathStep>,
+        places: &mut BTreeSet<Vec<PathStep>>,
+    ) {
         match value {
             Value::String(_) => drop(places.insert(above.clone())),
             Value::Array(values) => {
@@ -144,7 +149,9 @@ impl TextPlaces<'_> {
                     self.search(value, above, places);
                     above.pop();
                 }
-                for key in self.accepted_keys(above).into_iter().filter(|key| !table.contains_key(key)) {
+                for key in
+                    self.accepted_keys(above).into_iter().filter(|key| !table.contains_key(key))
+                {
                     above.push(PathStep::Key(key));
                     self.search_unused(above, places);
                     above.pop();
@@ -158,7 +165,8 @@ impl TextPlaces<'_> {
     fn accepted_keys(&self, table: &[PathStep]) -> Vec<String> {
         let mut place = table.to_vec();
         place.push(PathStep::Key("zzz".to_owned()));
-        let said = (self.complaint)(&self.with_value(&place, Value::Integer(1))).unwrap_or_default();
+        let said =
+            (self.complaint)(&self.with_value(&place, Value::Integer(1))).unwrap_or_default();
         let Some((_, expected)) = said.rsplit_once("expected") else { return Vec::new() };
         expected.split('`').skip(1).step_by(2).map(str::to_owned).collect()
     }

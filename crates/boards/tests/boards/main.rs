@@ -5,9 +5,9 @@
 mod array;
 mod common;
 mod cores;
-mod sensor_signals;
 mod hostile_texts;
 mod pattern;
 mod projects;
+mod sensor_signals;
 mod simulation;
 mod user_texts;

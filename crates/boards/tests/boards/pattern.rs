@@ -8,7 +8,7 @@ use std::process::Command as Process;
 use crate::common::{PlantedFault, compile, verilog};
 use foveate_boards::{Board, BoardProject};
 use foveate_design::DesignConfig;
-use foveate_packets::{RegisterCommand, StreamItem, PacketLayout, Packet, PacketSplitter};
+use foveate_packets::{Packet, PacketLayout, PacketSplitter, RegisterCommand, StreamItem};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
@@ -28,7 +28,9 @@ fn vcu118(keys: &[&str]) -> BoardProject {
 
 /// Returns the LEDs of a run, and the bytes that came after that.
 fn play(project: &BoardProject, fault: PlantedFault<'_>, host: &[u8]) -> (String, Vec<u8>) {
-    let constants = format!("#define DIVISOR 136\n#define AFTER {SERIAL_CLOCKS}\n#define LIMIT {CLOCK_LIMIT}\n");
+    let constants = format!(
+        "#define DIVISOR 136\n#define AFTER {SERIAL_CLOCKS}\n#define LIMIT {CLOCK_LIMIT}\n"
+    );
     let program = compile(verilog(project, fault), "board", &constants, BENCH);
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("host"), host).unwrap();

@@ -221,7 +221,8 @@ fn designs_that_fit_no_board_are_refused() {
     }
     // No sensor sends a pixel of each region at a time.
     let design = array(&[]).unwrap().design;
-    let error = BoardProject::new(Board::find("icebreaker").unwrap(), design).unwrap_err().to_string();
+    let error =
+        BoardProject::new(Board::find("icebreaker").unwrap(), design).unwrap_err().to_string();
     assert!(error.contains("vcu118") && error.contains("hardware.interface='axi'"), "{error}");
 }
 

@@ -2,7 +2,7 @@
 //! The signals of a sensor for some frames, with damage, and the frames that a core must see. Both
 //! are written from `docs/boards.md` and `docs/axi.md`.
 
-use foveate_boards::{PixelFormat, LogicLevel, Sensor};
+use foveate_boards::{LogicLevel, PixelFormat, Sensor};
 use foveate_frame::Frame;
 
 /// The damage of the second frame.

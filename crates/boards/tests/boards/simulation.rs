@@ -2,16 +2,19 @@
 //! Tests that the serial line of a board sends what the model computes from the frames before its
 //! sensor.
 
-use crate::common::{CORE_MHZ, SerialRun, run_board, project, compile_with_sensor};
-use crate::sensor_signals::{Damage, SensorWires, frames, expected_frames};
+use crate::common::{CORE_MHZ, SerialRun, compile_with_sensor, project, run_board};
+use crate::sensor_signals::{Damage, SensorWires, expected_frames, frames};
 use foveate_boards::{BoardProject, Sensor};
 use foveate_design::Design;
 use foveate_emit::axi_registers;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
-use foveate_packets::{RegisterCommand, StreamItem, PacketLayout, Packet, RegionPacket, RegisterPacket, RowPacket, PacketSplitter};
+use foveate_packets::{
+    Packet, PacketLayout, PacketSplitter, RegionPacket, RegisterCommand, RegisterPacket, RowPacket,
+    StreamItem,
+};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{sampling_step, require_tools};
+use foveate_toolchain::testing::{require_tools, sampling_step};
 use std::path::Path;
 
 /// The period of the pixel clock in picoseconds at which all regions of a frame can leave.
@@ -39,7 +42,9 @@ fn receive(design: &Design, bytes: &[u8]) -> Result<ReceivedFrames, String> {
     loop {
         match splitter.next(Some(&layout)) {
             StreamItem::Pending => return Ok(received),
-            StreamItem::Skipped { bytes, .. } => return Err(format!("{bytes} bytes are no packet")),
+            StreamItem::Skipped { bytes, .. } => {
+                return Err(format!("{bytes} bytes are no packet"));
+            }
             StreamItem::Packet { packet, .. } => match packet {
                 Packet::Region(region) => draw_region(design, &mut screen, &region),
                 Packet::Row(row) => rows.push(row),
@@ -110,14 +115,21 @@ fn compare(design: &Design, received: &ReceivedFrames, film: &[Frame]) -> Result
     Ok(())
 }
 
-fn check_board(project: &BoardProject, program: &Path, damage: Damage) -> Result<SerialRun, String> {
+fn check_board(
+    project: &BoardProject,
+    program: &Path,
+    damage: Damage,
+) -> Result<SerialRun, String> {
     let film = frames(64, 48, 4);
     let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, damage, 600);
     let place = address(project, "frame");
     // Answers come between packets, whenever a command is sent.
-    let host =
-        timed_bytes(&(1..=30).map(|turn| (700 * turn, RegisterCommand::read(place).bytes())).collect::<Vec<_>>());
+    let host = timed_bytes(
+        &(1..=30)
+            .map(|turn| (700 * turn, RegisterCommand::read(place).bytes()))
+            .collect::<Vec<_>>(),
+    );
     let heard = run_board(program, &wires, &host, SLOW_PS, 0);
     let received = receive(&project.design, &heard.bytes)?;
     let answer = RegisterPacket { address: place, is_write: false, value: 48 << 16 | 64 };
@@ -277,7 +289,10 @@ fn a_sensor_is_set_up() {
             assert_eq!(lines, expected, "{nacks} bytes were not acknowledged");
             let received = receive(&project.design, &heard.bytes).unwrap();
             let value = 1 | u32::from(failed) << 1;
-            assert_eq!(received.answers, [RegisterPacket { address: 0x1000, is_write: false, value }]);
+            assert_eq!(
+                received.answers,
+                [RegisterPacket { address: 0x1000, is_write: false, value }]
+            );
         }
     }
 }

@@ -15,7 +15,7 @@ use foveate_toolchain::testing::require_tools;
 use toml::{Table, Value};
 
 use crate::common::has_tclsh;
-use crate::hostile_texts::{CANARY, TextPlaces, PathStep, key_name, texts};
+use crate::hostile_texts::{CANARY, PathStep, TextPlaces, key_name, texts};
 use crate::projects::STUBS;
 
 const SHIPPED: &str = env!("CARGO_MANIFEST_DIR");
@@ -141,7 +141,11 @@ impl WrittenProjects {
 
 /// Checks that a project and one whose file has a hostile text differ only in comments and in the
 /// page of the project.
-fn assert_differs_in_comments_only(project: &BoardProject, benign: &BTreeMap<String, String>, data: &str) {
+fn assert_differs_in_comments_only(
+    project: &BoardProject,
+    benign: &BTreeMap<String, String>,
+    data: &str,
+) {
     let files = files(project);
     assert!(files.keys().eq(benign.keys()));
     for (path, contents) in &files {

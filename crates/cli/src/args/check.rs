@@ -53,7 +53,10 @@ impl ClockFrequency {
         let (number, unit) = text.split_at(split);
         let unit = match unit {
             "" => Some(1),
-            unit => FREQUENCY_UNITS.iter().find(|(name, _)| unit.eq_ignore_ascii_case(name)).map(|u| u.1),
+            unit => FREQUENCY_UNITS
+                .iter()
+                .find(|(name, _)| unit.eq_ignore_ascii_case(name))
+                .map(|u| u.1),
         };
         let hertz = unit.and_then(|unit| Some(parse_decimal_or_none(number)?.ceil_times(unit)));
         hertz
@@ -66,7 +69,8 @@ impl ClockFrequency {
 
 impl fmt::Display for ClockFrequency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (name, unit) = FREQUENCY_UNITS.iter().find(|(_, unit)| self.0 >= *unit).unwrap_or(&("Hz", 1));
+        let (name, unit) =
+            FREQUENCY_UNITS.iter().find(|(_, unit)| self.0 >= *unit).unwrap_or(&("Hz", 1));
         let fraction = format!("{:09}", self.0 % unit * (1_000_000_000 / unit));
         let fraction = fraction.trim_end_matches('0');
         let point = if fraction.is_empty() { "" } else { "." };
@@ -145,7 +149,8 @@ mod tests {
 
     #[test]
     fn a_rate_allows_whole_clocks() {
-        let clocks = |rate| FramesPerSecond::parse(rate).unwrap().max_clocks(ClockFrequency(250_000_000));
+        let clocks =
+            |rate| FramesPerSecond::parse(rate).unwrap().max_clocks(ClockFrequency(250_000_000));
         assert_eq!(
             (clocks("1000"), clocks("3"), clocks("29.97")),
             (250_000, 83_333_333, 8_341_675)

@@ -4,13 +4,13 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_explore::{CostObjective, Constraints, NetworkGoal};
+use foveate_explore::{Constraints, CostObjective, NetworkGoal};
 use foveate_inference::VisionOptions;
 
 use super::check::{ClockFrequency, FramesPerSecond};
 use super::input::InputArgs;
-use super::threads::ThreadArgs;
 use super::network_framing::NetworkFramingArgs;
+use super::threads::ThreadArgs;
 use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips

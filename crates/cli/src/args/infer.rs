@@ -7,14 +7,15 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use foveate_accelerator::Accelerator;
 use foveate_inference::{
-    Computation, TuningGoal, NOISE_LEVELS, RecordOptions, parse_goal, parse_mode, parse_noise, read_accelerator,
+    Computation, NOISE_LEVELS, RecordOptions, TuningGoal, parse_goal, parse_mode, parse_noise,
+    read_accelerator,
 };
 use foveate_network::ExecutionMode;
 
 use super::DesignArgs;
 use super::input::InputArgs;
-use super::threads::ThreadArgs;
 use super::network_framing::NetworkFramingArgs;
+use super::threads::ThreadArgs;
 use crate::error::CliError;
 
 /// Run a network on what a camera sends, and count what its masks save, layer by layer

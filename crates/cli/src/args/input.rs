@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foveate_footage::{
-    CropRect, FrameRate, ImageRelation, InputOptions, MAX_SIDE, FrameSelection, input_warnings, parse_time,
+    CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions, MAX_SIDE, input_warnings,
+    parse_time,
 };
 
 use super::at_least_one;
@@ -66,7 +67,11 @@ impl InputArgs {
         InputOptions {
             frames: self.max_frames,
             frame_rate: self.rate,
-            selection: FrameSelection { start_us: self.start, end_us: self.end, rate: self.input_fps },
+            selection: FrameSelection {
+                start_us: self.start,
+                end_us: self.end,
+                rate: self.input_fps,
+            },
             crop: self.crop,
             resize: self.resize,
             images: match self.images {

@@ -4,7 +4,8 @@
 
 use clap::Args;
 use foveate_inference::{
-    Detector, Framing, PixelMapping, VisionOptions, parse_detector, parse_framing, parse_mean, parse_scale,
+    Detector, Framing, PixelMapping, VisionOptions, parse_detector, parse_framing, parse_mean,
+    parse_scale,
 };
 
 /// The options that say how a network is shown frames and how its outputs are read.

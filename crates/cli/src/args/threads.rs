@@ -29,7 +29,9 @@ impl ThreadArgs {
     /// # Errors
     /// Fails if the variable has no valid number, or if the system starts no threads.
     pub(crate) fn start(&self) -> Result<(), CliError> {
-        let Some(threads) = self.threads.map_or_else(threads_from_environment, |threads| Ok(Some(threads)))? else {
+        let Some(threads) =
+            self.threads.map_or_else(threads_from_environment, |threads| Ok(Some(threads)))?
+        else {
             return Ok(());
         };
         let threads = match threads {
@@ -79,7 +81,8 @@ fn threads_from_environment() -> Result<Option<usize>, CliError> {
     let Some(text) = env::var_os(THREADS_VARIABLE).filter(|text| !text.is_empty()) else {
         return Ok(None);
     };
-    let wrong = |right| CliError::Usage(format!("{THREADS_VARIABLE} is `{}`: {right}", text.display()));
+    let wrong =
+        |right| CliError::Usage(format!("{THREADS_VARIABLE} is `{}`: {right}", text.display()));
     parse_threads(&text.to_string_lossy()).map(Some).map_err(wrong)
 }
 

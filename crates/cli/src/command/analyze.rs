@@ -3,7 +3,7 @@
 
 use foveate_footage::ImageRelation;
 use foveate_staging::StagedFolder;
-use foveate_studies::{StudyRequest, STUDY_FOLDER, Study, StudyReport, analyze};
+use foveate_studies::{STUDY_FOLDER, Study, StudyReport, StudyRequest, analyze};
 
 use super::simulate::ClipTerminal;
 use crate::args::{AnalyzeArgs, warn_about_inputs};

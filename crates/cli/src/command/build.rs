@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_boards::{Board, BuildResult, PROJECT_FOLDER, BoardProject, build, write_project};
+use foveate_boards::{Board, BoardProject, BuildResult, PROJECT_FOLDER, build, write_project};
 use foveate_design::{DesignConfig, Preset};
 use foveate_staging::StagedFolder;
 use serde::Serialize;
@@ -45,8 +45,11 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let design = configuration(&board, args)?.validate()?;
     let project = BoardProject::new(board, design)?;
     let files = write_project(&project, folder, args.force)?;
-    let built =
-        if args.project || !project.is_open() { None } else { Some(build_bitstream(&project, folder, args)?) };
+    let built = if args.project || !project.is_open() {
+        None
+    } else {
+        Some(build_bitstream(&project, folder, args)?)
+    };
     let complaint = built.as_ref().filter(|built| !built.is_fast_enough()).map(|built| {
         format!(
             "too slow: `{}` may not work; try more --seeds",
@@ -72,16 +75,19 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
 /// `--set`.
 fn configuration(board: &Board, args: &BuildArgs) -> Result<DesignConfig, CliError> {
     let text = match (&args.config, &args.preset) {
-        (Some(file), _) => {
-            foveate_reading::read_settings(file).map_err(CliError::io("read the configuration", file))?
-        }
+        (Some(file), _) => foveate_reading::read_settings(file)
+            .map_err(CliError::io("read the configuration", file))?,
         (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
         (None, None) => board.config()?.to_toml(),
     };
     Ok(DesignConfig::from_toml_with(&text, &args.overrides)?)
 }
 
-fn build_bitstream(project: &BoardProject, folder: &Path, args: &BuildArgs) -> Result<BuildResult, CliError> {
+fn build_bitstream(
+    project: &BoardProject,
+    folder: &Path,
+    args: &BuildArgs,
+) -> Result<BuildResult, CliError> {
     let toolchain = interrupt::toolchain()?;
     let progress = Progress::new(args.quiet);
     progress.report_work("synthesizing, placing and packing");
@@ -90,7 +96,12 @@ fn build_bitstream(project: &BoardProject, folder: &Path, args: &BuildArgs) -> R
     Ok(built?)
 }
 
-fn text(project: &BoardProject, folder: &Path, files: usize, built: Option<&BuildResult>) -> String {
+fn text(
+    project: &BoardProject,
+    folder: &Path,
+    files: usize,
+    built: Option<&BuildResult>,
+) -> String {
     let (board, design) = (&project.board, &project.design);
     let mut text = format!(
         "{}: {files} files for {}, {} x {} pixels, design {}; start with README.md\n",

@@ -6,8 +6,9 @@ mod plan;
 mod text;
 
 use foveate_cosim::{
-    CosimError, CosimReport, UnreachedVerilog, CosimLevel, CosimProgress, REPLAY, Simulator, CosimSummary, CosimVerdict,
-    junit_error, junit_xml, unelaborated_variants, unsimulated_modules,
+    CosimError, CosimLevel, CosimProgress, CosimReport, CosimSummary, CosimVerdict, REPLAY,
+    Simulator, UnreachedVerilog, junit_error, junit_xml, unelaborated_variants,
+    unsimulated_modules,
 };
 use foveate_emit::AXI_TOP;
 use foveate_staging::{StagedFolder, check_file, write_file};
@@ -18,7 +19,7 @@ use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, notice, output};
-use end_to_end::{EndToEndReport, EndToEndFolder};
+use end_to_end::{EndToEndFolder, EndToEndReport};
 use plan::{CosimPlan, PlannedCosim};
 
 /// All results that the command prints.
@@ -81,8 +82,10 @@ fn incompleteness_message(summary: &CosimSummary) -> String {
             missing.join("; ")
         );
     }
-    let mut text =
-        format!("no mismatch, but not all of the Verilog was simulated: {}.", summary.describe_unreached());
+    let mut text = format!(
+        "no mismatch, but not all of the Verilog was simulated: {}.",
+        summary.describe_unreached()
+    );
     if !summary.not_simulated.is_empty() {
         text.push_str(
             " Foveate simulates `rpu`, `rcm` and, in Verilator, `rcm_axi` with the modules that they instantiate; remove \
@@ -123,7 +126,13 @@ fn run_all(
     let agree = reports.iter().all(CosimReport::passed);
     let left_out = left_out_parts(args, &plan, (&levels, has_axi), agree, toolchain);
     let left_out = report_error_to_ci(args, "what is left out", left_out)?;
-    Ok(CosimSummary::new(plan.design.fingerprint(), reports, names, left_out, plan::is_whole_folder(args)))
+    Ok(CosimSummary::new(
+        plan.design.fingerprint(),
+        reports,
+        names,
+        left_out,
+        plan::is_whole_folder(args),
+    ))
 }
 
 /// Returns the levels at which arrays are simulated, and true if the core on AXI is simulated.

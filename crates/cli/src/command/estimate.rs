@@ -3,8 +3,8 @@
 //! a placed design.
 
 mod compare;
-mod synthesis;
 mod route;
+mod synthesis;
 
 use foveate_estimate::{render_markdown, render_text};
 use foveate_toolchain::Cache;

@@ -14,5 +14,9 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let source = open(&args.inputs, &config.camera, &options)?;
     warn_about_inputs(&args.inputs, &options);
     let explanation = explain_region(&config, source, args.frame, args.region)?;
-    if args.json { output::print_json(&explanation) } else { output::print_text(&explanation.to_string()) }
+    if args.json {
+        output::print_json(&explanation)
+    } else {
+        output::print_text(&explanation.to_string())
+    }
 }

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_explore::{
-    BUILT_IN_SPACES, Exploration, ExploreError, ExploreHooks, ExploreProgress, ExploreRequest, DesignSpace, Synthesizer,
-    check_folder, explore,
+    BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreHooks, ExploreProgress,
+    ExploreRequest, Synthesizer, check_folder, explore,
 };
 use foveate_footage::ImageRelation;
 use foveate_toolchain::{Cache, Toolchain};
@@ -66,7 +66,11 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     Err(CliError::Failed(format!("`{place}` is not complete: {}", found.problems.join("; "))))
 }
 
-fn print_exploration(args: &ExploreArgs, folder: &Path, found: &Exploration) -> Result<(), CliError> {
+fn print_exploration(
+    args: &ExploreArgs,
+    folder: &Path,
+    found: &Exploration,
+) -> Result<(), CliError> {
     if args.json {
         output::print_json(found)
     } else if args.markdown {
@@ -128,9 +132,13 @@ impl ExploreHooks for ExploreTerminal {
                 return self.progress.report_frames(frames, None, "reading the clips");
             }
             ExploreProgress::RunningNetwork { cameras } => {
-                return self.progress.report_work(&format!("the network looks at cameras, {cameras} so far"));
+                return self
+                    .progress
+                    .report_work(&format!("the network looks at cameras, {cameras} so far"));
             }
-            ExploreProgress::Measuring { done_pairs: done, all } => ("designs over clips", done, all),
+            ExploreProgress::Measuring { done_pairs: done, all } => {
+                ("designs over clips", done, all)
+            }
             ExploreProgress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
         };
         self.progress.report_steps(what, done as u64, all as u64);

@@ -5,14 +5,15 @@ use std::fmt::Write as _;
 
 use foveate_estimate::ramb36;
 use foveate_explore::{
-    AgreementEstimate, ExploreError, FidelityFigures, FitResult, FitRequest, FittedDesign, FittedNetwork, ConstraintCheck, fit,
+    AgreementEstimate, ConstraintCheck, ExploreError, FidelityFigures, FitRequest, FitResult,
+    FittedDesign, FittedNetwork, fit,
 };
 use foveate_footage::ImageRelation;
 use foveate_inference::NoiseAgreement;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::ExploreTerminal;
-use crate::agreement_text::{interval_text, grey_levels, noise_text};
+use crate::agreement_text::{grey_levels, interval_text, noise_text};
 use crate::args::{FitArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;

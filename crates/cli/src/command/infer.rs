@@ -9,13 +9,14 @@ use std::path::Path;
 
 use foveate_footage::{ImageRelation, input_without_secrets};
 use foveate_inference::{
-    ClipSummary, DetectionCounts, INFERENCE_FOLDER, Inference, InferenceOptions, WholeFrameAgreement, InferenceSummary, TuningSummary, is_array,
+    ClipSummary, DetectionCounts, INFERENCE_FOLDER, Inference, InferenceOptions, InferenceSummary,
+    TuningSummary, WholeFrameAgreement, is_array,
 };
 use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
 use super::simulate::ClipTerminal;
-use crate::agreement_text::{interval_text, grey_levels, noise_text};
+use crate::agreement_text::{grey_levels, interval_text, noise_text};
 use crate::args::{InferArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::{notice, output};
@@ -246,8 +247,9 @@ fn loss_lines(sight: &WholeFrameAgreement) -> String {
     if let Some(kept) = &sight.detections {
         let DetectionCounts { whole, kept: same, seen, added } = kept.all;
         let sizes = [("small", kept.small), ("medium", kept.medium), ("large", kept.large)];
-        let size =
-            |(name, found): &(&str, DetectionCounts)| format!("{name} {} of {}", found.kept, found.whole);
+        let size = |(name, found): &(&str, DetectionCounts)| {
+            format!("{name} {} of {}", found.kept, found.whole)
+        };
         let sizes = sizes.iter().filter(|(_, found)| found.whole > 0).map(size);
         let _ = writeln!(
             text,

@@ -30,7 +30,11 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
         let mut config = own.validate()?.complete_config();
         (config.camera.frame.width, config.camera.frame.height) =
             (own.camera.frame.width, own.camera.frame.height);
-        return if args.json { output::print_json(&config) } else { output::print_text(&preset_file(name, &config)) };
+        return if args.json {
+            output::print_json(&config)
+        } else {
+            output::print_text(&preset_file(name, &config))
+        };
     }
     let entries: Vec<CatalogEntry> = if args.scenes {
         Scene::ALL.iter().map(|s| CatalogEntry { name: s.name(), summary: s.summary() }).collect()

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foveate_design::DesignConfig;
 use foveate_footage::{ClipPlan, ImageRelation, InputOptions, open, plan};
 use foveate_simulator::{
-    BandwidthComparison, BatchHooks, BatchProgress, BatchSummary, DataSetPaths, RunHooks, RunProgress, RunOptions,
-    SIMULATION_FOLDER, Simulation, RunSummary, CameraTraffic, run_batch,
+    BandwidthComparison, BatchHooks, BatchProgress, BatchSummary, CameraTraffic, DataSetPaths,
+    RunHooks, RunOptions, RunProgress, RunSummary, SIMULATION_FOLDER, Simulation, run_batch,
 };
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
@@ -95,7 +95,11 @@ impl ClipTerminal {
     }
 
     /// Fails if there is a result that is not complete. The error sets the exit code.
-    pub(super) fn check_complete(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
+    pub(super) fn check_complete(
+        &self,
+        folder: &Path,
+        problem: Option<String>,
+    ) -> Result<(), CliError> {
         let Some(problem) = problem else { return Ok(()) };
         if self.interrupted.load(Ordering::Relaxed) {
             return Err(CliError::Interrupted { path: folder.to_owned() });

@@ -154,7 +154,10 @@ mod tests {
         let mut stage = ProgressStage::new(start);
         stage.enter(Frames, "", amount(0, u64::MAX), start);
         stage.enter(Frames, "", amount(1, u64::MAX), start);
-        assert_eq!(stage.remaining_time(start + 60 * SECOND), Some(RemainingTime::MoreThan(LONGEST_REMAINING)));
+        assert_eq!(
+            stage.remaining_time(start + 60 * SECOND),
+            Some(RemainingTime::MoreThan(LONGEST_REMAINING))
+        );
     }
 
     #[test]
@@ -167,10 +170,16 @@ mod tests {
         stage.enter(Steps, "slow", amount(4, 10), then);
         assert_eq!(stage.remaining_time(then + 50 * SECOND), None);
         stage.enter(Steps, "slow", amount(5, 10), then + 50 * SECOND);
-        assert_eq!(stage.remaining_time(then + 50 * SECOND), Some(RemainingTime::About(250 * SECOND)));
+        assert_eq!(
+            stage.remaining_time(then + 50 * SECOND),
+            Some(RemainingTime::About(250 * SECOND))
+        );
         stage.enter(Frames, "1/2 clips", amount(0, 60), then);
         stage.enter(Frames, "2/2 clips", amount(50, 60), then + 50 * SECOND);
-        assert_eq!(stage.remaining_time(then + 50 * SECOND), Some(RemainingTime::About(10 * SECOND)));
+        assert_eq!(
+            stage.remaining_time(then + 50 * SECOND),
+            Some(RemainingTime::About(10 * SECOND))
+        );
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanCount, HumanDuration};
 use textwrap::core::display_width;
 
-use super::stage::{RemainingTime, ProgressStage, StageAmount, StageUnit};
+use super::stage::{ProgressStage, RemainingTime, StageAmount, StageUnit};
 
 /// Returns the state of a command for a log; `None` until the command has reported a stage. `start`
 /// is the time at which the command began.
@@ -32,7 +32,12 @@ pub(super) fn log_line(stage: &ProgressStage, start: Instant, now: Instant) -> O
 /// Returns the state of a command in at most `columns` columns of a terminal. The count is always
 /// shown. The time that is left, the rate, the elapsed time and the note follow as there is room,
 /// in this order.
-pub(super) fn terminal_line(stage: &ProgressStage, elapsed: Duration, now: Instant, columns: usize) -> String {
+pub(super) fn terminal_line(
+    stage: &ProgressStage,
+    elapsed: Duration,
+    now: Instant,
+    columns: usize,
+) -> String {
     let Some(counted) = stage.unit else { return String::new() };
     let elapsed = format!("{:#}", HumanDuration(elapsed));
     let rate = stage.rate(now).map(|rate| rate_text(rate, counted));
@@ -106,7 +111,12 @@ mod tests {
     const SECOND: Duration = Duration::from_secs(1);
 
     /// Returns a stage at 66 seconds after its start, when `first` was done.
-    fn stage(counted: StageUnit, what: &str, first: u64, amount: StageAmount) -> (ProgressStage, Instant) {
+    fn stage(
+        counted: StageUnit,
+        what: &str,
+        first: u64,
+        amount: StageAmount,
+    ) -> (ProgressStage, Instant) {
         let start = Instant::now();
         let mut stage = ProgressStage::new(start);
         stage.enter(counted, what, StageAmount::new(first, amount.total), start);
@@ -167,8 +177,9 @@ mod tests {
         let steps = |columns| told(StageUnit::Steps, "synthesizing", amount(12, 40), columns);
         assert_eq!(steps(80), "synthesizing 12/40 [66s, 11/min, 3m left]");
         assert_eq!(steps(20), "12/40 [3m left]");
-        let work =
-            |columns| told(StageUnit::Uncounted, "placing and routing", StageAmount::default(), columns);
+        let work = |columns| {
+            told(StageUnit::Uncounted, "placing and routing", StageAmount::default(), columns)
+        };
         assert_eq!((&*work(40), &*work(19)), ("placing and routing [66s]", "placing and routing"));
         assert_eq!(work(7), "placing");
         assert_eq!(told(StageUnit::Frames, "", amount(0, 0), 40), "0 frames [66s]");

@@ -91,7 +91,12 @@ fn what_is_wrong_with_a_board_or_its_design_is_said() {
         (&["--board", "vcu118", "--preset", "serial"], "stands on no board"),
         (&["--board", "ulx3s", "--config", "none.toml"], "none.toml"),
     ] {
-        expect_failure(dir.path(), 2, &[&["build", "-o", "out", "--project"], args].concat(), &[said]);
+        expect_failure(
+            dir.path(),
+            2,
+            &[&["build", "-o", "out", "--project"], args].concat(),
+            &[said],
+        );
     }
     assert!(!dir.path().join("out").exists());
 }

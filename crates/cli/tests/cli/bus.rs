@@ -33,7 +33,8 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
     core(dir.path());
     let cosim = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl"];
     let clip = ["scene:street", "--frames", "5"];
-    let text = run_successfully(dir.path(), &[&cosim[..], &clip, &["--end-to-end", "out"]].concat());
+    let text =
+        run_successfully(dir.path(), &[&cosim[..], &clip, &["--end-to-end", "out"]].concat());
     assert!(
         text.contains("axi verilator:") && text.matches("values compared").count() == 3,
         "{text}"
@@ -42,7 +43,10 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
     assert!(text.contains("end to end: 5 frames, 9 files"), "{text}");
 
     let design = ["--config", "core/design.toml"];
-    run_successfully(dir.path(), &[&["decode", "out/packets.bin", "-o", "seen"][..], &design].concat());
+    run_successfully(
+        dir.path(),
+        &[&["decode", "out/packets.bin", "-o", "seen"][..], &design].concat(),
+    );
     let simulate = [&["simulate", "-o", "sim"][..], &clip, &design].concat();
     run_successfully(dir.path(), &simulate);
     let names = ["active.npy", "srs.npy", "trs.npy"].map(str::to_owned);

@@ -31,7 +31,8 @@ fn idx_files_become_data_sets() {
     assert_eq!(fs::read(dir.path().join("out/train-images")).unwrap().len(), 16 + 512);
     assert!(names(&dir.path().join("out")).iter().all(|name| !name.ends_with(".png")));
     expect_failure(dir.path(), 2, &args, &["out", "not empty"]);
-    let json = run_successfully(dir.path(), &[&args[..], &["--force", "--json", "--quiet"]].concat());
+    let json =
+        run_successfully(dir.path(), &[&args[..], &["--force", "--json", "--quiet"]].concat());
     let summary: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(summary["data_set"]["labels"], "train-labels");
     let both = ["dataset", "train-images", "test-images", "-o", "both", "--max-frames", "1"];
@@ -55,8 +56,18 @@ fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
     assert!(text.contains("data set in out/images, 2 classes"), "{text}");
     assert_eq!(names(&dir.path().join("out/images")), ["cat/1.png", "cat/2.png", "dog/1.png"]);
     let clip = ["dataset", "pets/cat", "-o", "no", "--images", "clip"];
-    expect_failure(dir.path(), 2, &clip, &["pets/cat is a clip", "--images set", "foveate simulate"]);
-    expect_failure(dir.path(), 2, &["dataset", "scene:street", "-o", "no"], &["scene:street is a clip"]);
+    expect_failure(
+        dir.path(),
+        2,
+        &clip,
+        &["pets/cat is a clip", "--images set", "foveate simulate"],
+    );
+    expect_failure(
+        dir.path(),
+        2,
+        &["dataset", "scene:street", "-o", "no"],
+        &["scene:street is a clip"],
+    );
     fs::create_dir(dir.path().join("clips")).unwrap();
     fs::write(dir.path().join("clips/a.y4m"), "").unwrap();
     let clips = ["`clips` holds clips but no images", "foveate simulate"];

@@ -209,7 +209,8 @@ fn every_preset_is_a_file_that_check_takes() {
         serde_json::from_str(&run_successfully(dir.path(), &["presets", "--json"])).unwrap();
     for preset in list["entries"].as_array().unwrap() {
         let name = preset["name"].as_str().unwrap();
-        fs::write(dir.path().join("p.toml"), run_successfully(dir.path(), &["presets", name])).unwrap();
+        fs::write(dir.path().join("p.toml"), run_successfully(dir.path(), &["presets", name]))
+            .unwrap();
         let from_file = run_successfully(dir.path(), &["check", "p.toml"]);
         assert_eq!(from_file, run_successfully(dir.path(), &["check", "--preset", name]), "{name}");
     }
@@ -329,7 +330,12 @@ fn generated_folders_are_whole_or_absent() {
     fs::write(dir.path().join("mine/thesis.tex"), "years of work").unwrap();
     expect_failure(dir.path(), 2, &["generate", "-o", "mine", "--force"], &["`mine`"]);
     assert_eq!(files_below(&dir.path().join("mine")).len(), 1);
-    expect_failure(dir.path(), 2, &["generate", "-o", "mine/thesis.tex/core"], &["mine/thesis.tex"]);
+    expect_failure(
+        dir.path(),
+        2,
+        &["generate", "-o", "mine/thesis.tex/core"],
+        &["mine/thesis.tex"],
+    );
     let left: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(left.len(), 3, "nothing half-written is left: {left:?}");
 }

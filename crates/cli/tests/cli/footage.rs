@@ -65,7 +65,12 @@ fn what_is_no_video_is_not_to_be_played() {
         assert!(!outcome.stderr.contains("secret"), "{}", outcome.stderr);
     }
     // An input that claims to be a video may be a damaged one.
-    expect_failure(dir.path(), 2, &["simulate", "broken.mp4", "-o", "out"], &["broken.mp4", "play it"]);
+    expect_failure(
+        dir.path(),
+        2,
+        &["simulate", "broken.mp4", "-o", "out"],
+        &["broken.mp4", "play it"],
+    );
 }
 
 #[test]
@@ -96,7 +101,12 @@ fn images_and_videos_side_by_side_are_a_question() {
     for command in ["simulate", "analyze temporal"] {
         let command: Vec<&str> = command.split(' ').collect();
         let args = [&command[..], &["mixed", "-o", "out"]].concat();
-        expect_failure(dir.path(), 2, &args, &[&parts[..], &["`mixed` holds images and videos"]].concat());
+        expect_failure(
+            dir.path(),
+            2,
+            &args,
+            &[&parts[..], &["`mixed` holds images and videos"]].concat(),
+        );
     }
     let pattern = [&parts[..], &["`mixed/*` holds images and videos"]].concat();
     expect_failure(dir.path(), 2, &["simulate", "mixed/*", "-o", "out"], &pattern);

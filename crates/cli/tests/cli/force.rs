@@ -28,7 +28,12 @@ fn a_folder_with_files_of_others_is_not_replaced() {
             fs::write(out.join(name), "mine").unwrap();
         }
         let before = files_below(&out);
-        expect_failure(dir.path(), 2, &again, &["`out`", "notes.txt, rendered/cover.png", "move them"]);
+        expect_failure(
+            dir.path(),
+            2,
+            &again,
+            &["`out`", "notes.txt, rendered/cover.png", "move them"],
+        );
         assert_eq!(files_below(&out), before, "{command:?}");
         for name in ["notes.txt", "rendered/cover.png", ".foveate"] {
             fs::remove_file(out.join(name)).unwrap();

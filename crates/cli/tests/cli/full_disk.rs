@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 use crate::common::files_below;
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, report_skip};
+use foveate_toolchain::testing::{report_skip, require_tools};
 use serde_json::Value;
 
 /// Runs a command on a file system of `kib` KiB, and copies the files that are left to the returned
@@ -242,7 +242,9 @@ fn a_file_for_which_there_is_no_room_stays_as_it_was() {
         foveate = assert_cmd::cargo::cargo_bin("foveate").display(),
     );
     let ran = Command::new("unshare").args(["-m", "sh", "-c", &script]).output();
-    let Ok(ran) = ran.inspect_err(|_| report_skip("no file system can be mounted here")) else { return };
+    let Ok(ran) = ran.inspect_err(|_| report_skip("no file system can be mounted here")) else {
+        return;
+    };
     let said = String::from_utf8_lossy(&ran.stderr).into_owned();
     if ran.status.code() == Some(99) || said.starts_with("unshare:") {
         return report_skip("no file system can be mounted here");

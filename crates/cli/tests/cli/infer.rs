@@ -171,7 +171,8 @@ fn tuned_limits_keep_the_goal_where_they_were_chosen_and_save_more() {
 fn goals_that_say_nothing_are_named() {
     let dir = tempfile::tempdir().unwrap();
     let args = ["infer", DENOISER, "scene:zero", "-o", "out", "--tune"];
-    let text = run_successfully(dir.path(), &[&args[..], &["cosine=0.9", "--max-frames", "4"]].concat());
+    let text =
+        run_successfully(dir.path(), &[&args[..], &["cosine=0.9", "--max-frames", "4"]].concat());
     assert!(
         text.contains("outputs that never change after the first frame reach it as well"),
         "{text}"
@@ -252,8 +253,9 @@ fn accelerators_count_what_the_masks_save() {
         assert_eq!(&dense["accelerator"]["whole"], whole, "{name}");
     }
     let args = ["infer", DENOISER, "scene:street", "-o", "out", "--force", "--accelerator"];
-    let infer =
-        |name: &str, parts: &[&str]| expect_failure(dir.path(), 2, &[&args[..], &[name]].concat(), parts);
+    let infer = |name: &str, parts: &[&str]| {
+        expect_failure(dir.path(), 2, &[&args[..], &[name]].concat(), parts)
+    };
     infer("tpu", &["unknown accelerator `tpu`", "eyeriss"]);
     infer("none.toml", &["cannot read `none.toml`"]);
     fs::write(dir.path().join("odd.toml"), "clock_mhz = 0").unwrap();

@@ -80,7 +80,8 @@ fn a_network_that_can_be_run_is_described() {
     ] {
         assert!(text.contains(line), "{line} in {text}");
     }
-    let json = run_successfully(dir.path(), &["infer", DENOISER, "--check", "--json", "--resize", "8x6"]);
+    let json =
+        run_successfully(dir.path(), &["infer", DENOISER, "--check", "--json", "--resize", "8x6"]);
     let json: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["network"]["input"], serde_json::json!([1, 1, 6, 8]));
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is written");

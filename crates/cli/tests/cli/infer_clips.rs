@@ -70,7 +70,12 @@ fn clips_that_cannot_be_combined_are_refused_with_advice() {
     fs::write(dir.path().join("a.y4m"), stream(64, 48, 3)).unwrap();
     fs::write(dir.path().join("b.y4m"), stream(48, 48, 3)).unwrap();
     let infer = |inputs: &[&str], parts: &[&str]| {
-        expect_failure(dir.path(), 2, &[&["infer", DENOISER], inputs, &["-o", "out"]].concat(), parts);
+        expect_failure(
+            dir.path(),
+            2,
+            &[&["infer", DENOISER], inputs, &["-o", "out"]].concat(),
+            parts,
+        );
     };
     infer(&["a.y4m", "b.y4m"], &["`a` has 64x48", "`b` has 48x48", "--resize", "--crop"]);
     infer(&["a.y4m", "-"], &["`-` can be read only once, so it must be the only input"]);

@@ -122,7 +122,8 @@ fn a_fit_reports_noise_on_the_second_half() {
         assert!(text.replace("\n  ", " ").contains(part), "{part} in {text}");
     }
     let found: Value =
-        serde_json::from_str(&run_successfully(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
+        serde_json::from_str(&run_successfully(dir.path(), &[&args[..], &["--json"]].concat()))
+            .unwrap();
     let levels = shares(&found["network"]["noise"]);
     assert_eq!(levels.iter().map(|level| level.0).collect::<Vec<_>>(), [1.0, 2.0, 4.0]);
     assert!(levels.is_sorted_by(|one, next| one.1 > next.1), "{levels:?}");

@@ -150,7 +150,8 @@ fn explain_says_why_in_text_and_json() {
     let args = [&args[..], &["--set", "frame={width=64,height=48}"]].concat();
     let text = run_successfully(dir.path(), &args);
     let told: Value =
-        serde_json::from_str(&run_successfully(dir.path(), &[&args[..], &["--json"]].concat())).unwrap();
+        serde_json::from_str(&run_successfully(dir.path(), &[&args[..], &["--json"]].concat()))
+            .unwrap();
     assert_eq!((&told["frame"], &told["region"]["x0"]), (&2.into(), &24.into()));
     assert_eq!(told["raw"].as_array().unwrap().len(), 8);
     let rule = told["rule"].as_str().unwrap().split(": ").next().unwrap().to_owned();

@@ -68,7 +68,12 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
     fail(&["missing.png"], &["missing.png", "does not exist"]);
     fail(&["scene:stret"], &["stret", "street"]);
     fail(&["scene:street", "small.pgm"], &["scene:street"]);
-    expect_failure(dir.path(), 2, &["simulate", "small.pgm", "-o", "small.pgm/out"], &["small.pgm"]);
+    expect_failure(
+        dir.path(),
+        2,
+        &["simulate", "small.pgm", "-o", "small.pgm/out"],
+        &["small.pgm"],
+    );
 }
 
 /// An interrupt ends a long run soon, with a message, and leaves the results so far.

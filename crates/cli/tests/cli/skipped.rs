@@ -128,7 +128,10 @@ fn every_command_says_what_it_leaves_out_of_a_folder() {
                     .map(|t| (format!("FOVEATE_{t}"), "gone")),
             )
             .output();
-        assert_warnings(&warnings_in(&String::from_utf8_lossy(&bare.unwrap().stderr)), &MIXED_FOLDER_WARNINGS);
+        assert_warnings(
+            &warnings_in(&String::from_utf8_lossy(&bare.unwrap().stderr)),
+            &MIXED_FOLDER_WARNINGS,
+        );
     }
     let summary = |args: &[&str]| -> Value {
         serde_json::from_str(&run_in(dir.path(), args).stdout).unwrap()

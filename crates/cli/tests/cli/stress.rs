@@ -8,7 +8,8 @@ use serde_json::Value;
 fn the_short_form_prints_a_row_for_every_case() {
     let dir = tempfile::tempdir().unwrap();
     let json: Value =
-        serde_json::from_str(&run_successfully(dir.path(), &["stress", "--short", "--json"])).unwrap();
+        serde_json::from_str(&run_successfully(dir.path(), &["stress", "--short", "--json"]))
+            .unwrap();
     assert_eq!(json["holds"], true);
     let rows = json["rows"].as_array().unwrap();
     for case in ["largest score reached", "variance, single-pass f32 (not used)", "flicker"] {

@@ -50,8 +50,10 @@ fn recall_prints_objects_and_writes_everything() {
     // The number of objects stands below the bars of their shares.
     let chart = std::fs::read_to_string(dir.path().join("out/recall-size.svg")).unwrap();
     assert!(chart.contains("\nsmall (n = 4)\n"), "{chart}");
-    let json =
-        run_successfully(dir.path(), &analyze("recall", &[&boxes[..], &["--json", "--force"]].concat()));
+    let json = run_successfully(
+        dir.path(),
+        &analyze("recall", &[&boxes[..], &["--json", "--force"]].concat()),
+    );
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["columns"][6], "objects");
     assert_eq!(json["rows"][0][6], "3");

@@ -53,13 +53,16 @@ fn the_scripts_of_a_core_give_the_clock_of_the_estimate() {
     ] {
         let estimate =
             ["estimate", "--level", "rcm", "--place-and-route", device, "--seeds", seeds, "--json"];
-        let report: Value =
-            serde_json::from_str(&run_successfully(dir.path(), &[&estimate[..], &settings].concat()))
-                .unwrap();
+        let report: Value = serde_json::from_str(&run_successfully(
+            dir.path(),
+            &[&estimate[..], &settings].concat(),
+        ))
+        .unwrap();
         let fmax = &report["devices"][0]["placed"]["fmax"];
         let reached = fmax["seeds_mhz"].as_array().unwrap_or_else(|| panic!("{report}"));
         let expected = reached.iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
-        let found = slowest_clock(&dir.path().join("core"), script, &["rcm", device, seeds], nextpnr);
+        let found =
+            slowest_clock(&dir.path().join("core"), script, &["rcm", device, seeds], nextpnr);
         assert!((found / expected - 1.0).abs() < TOLERANCE, "{device}: {found} and {expected} MHz");
     }
     for (words, part) in [

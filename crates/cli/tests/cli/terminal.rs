@@ -97,7 +97,10 @@ fn a_stream_shows_its_count_and_a_true_rate() {
 #[test]
 fn no_line_is_wider_than_the_terminal() {
     for columns in [20, 40, 80] {
-        let runs = [drawn_lines(columns, STREAM, write_slowly), drawn_lines(columns, &["stress", "--short"], drop)];
+        let runs = [
+            drawn_lines(columns, STREAM, write_slowly),
+            drawn_lines(columns, &["stress", "--short"], drop),
+        ];
         for line in runs.iter().flatten() {
             assert!(line.chars().count() <= columns.into(), "{columns} columns: {line}");
         }
@@ -127,5 +130,8 @@ fn progress_never_shows_zero_of_zero() {
 
 #[test]
 fn a_quiet_command_draws_nothing() {
-    assert_eq!(drawn_lines(80, &[STREAM, &["--quiet"]].concat(), write_slowly), Vec::<String>::new());
+    assert_eq!(
+        drawn_lines(80, &[STREAM, &["--quiet"]].concat(), write_slowly),
+        Vec::<String>::new()
+    );
 }

@@ -139,7 +139,12 @@ fn workers_that_are_killed_lose_only_what_they_were_at() {
     let units = planned(dir.path());
     let start = |unit: &Value| -> Child {
         let args = explore(&["--only", text(&unit["unit"]), "--quiet"]);
-        foveate_with_signals().args(args).current_dir(dir.path()).stdout(Stdio::null()).spawn().unwrap()
+        foveate_with_signals()
+            .args(args)
+            .current_dir(dir.path())
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap()
     };
     succeed(dir.path(), &["--only", text(&units[0]["unit"])]);
     let before = files_below(&dir.path().join("out"));

@@ -168,7 +168,12 @@ fn a_board_whose_file_has_a_hostile_name_is_refused() {
     ] {
         let file = format!("./{name}.toml");
         fs::write(dir.path().join(&file), &board).unwrap();
-        expect_failure(dir.path(), 2, &["build", "--board", &file, "-o", "out"], &["rename the file"]);
+        expect_failure(
+            dir.path(),
+            2,
+            &["build", "--board", &file, "-o", "out"],
+            &["rename the file"],
+        );
     }
     let texts = [
         ("part = \"up5k\"", "part = \"up5k; touch canary; :\"", "device.part"),

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The comparison of packets and registers with what the model says of the frames that came.
 
-use super::lossy_model::LossyModel;
-use super::port_record::{SessionRecord, RecordedPacket, BusRecord, InterruptCount};
-use super::thresholds::StaleThreshold;
-use super::traffic::{ExpectedRead, FrameFate, ExpectedEventCount, ExpectedFrame, BusSession};
 use super::bus_mismatch::BusMismatch;
+use super::lossy_model::LossyModel;
+use super::port_record::{BusRecord, InterruptCount, RecordedPacket, SessionRecord};
+use super::thresholds::StaleThreshold;
+use super::traffic::{BusSession, ExpectedEventCount, ExpectedFrame, ExpectedRead, FrameFate};
 use crate::situations::{BusSituationCounts, EVENTS};
-use foveate_design::{RegionAction, Camera, RasterDesign, RasterTiming};
+use foveate_design::{Camera, RasterDesign, RasterTiming, RegionAction};
 use foveate_emit::Register;
 use foveate_model::FunctionalOutcome;
 use foveate_packets::{
-    RegionDecision, EndPacket, StreamItem, FrameInfo, PacketLayout, Packet, RegionPacket, RowPacket, PacketSplitter, packet_writer,
+    EndPacket, FrameInfo, Packet, PacketLayout, PacketSplitter, RegionDecision, RegionPacket,
+    RowPacket, StreamItem, packet_writer,
 };
 use std::ops::AddAssign;
 
@@ -74,10 +75,14 @@ impl<'a> BusChecker<'a> {
         let end = record.clocks.unwrap_or_default();
         for (number, session) in sessions.iter().enumerate() {
             let Some(heard) = record.sessions.get(number) else {
-                let missing = BusMismatch { clock: end, ..BusMismatch::from_presence("the run ended early", false) };
+                let missing = BusMismatch {
+                    clock: end,
+                    ..BusMismatch::from_presence("the run ended early", false)
+                };
                 return Err(first_breach.unwrap_or(missing));
             };
-            let found = SessionChecker::new(self, session, heard.start, facts).check_session(heard, end);
+            let found =
+                SessionChecker::new(self, session, heard.start, facts).check_session(heard, end);
             let found = found.map_err(|wrong| match &first_breach {
                 Some(breach) if breach.clock <= wrong.clock => breach.clone(),
                 _ => wrong,
@@ -164,10 +169,19 @@ impl<'a> SessionChecker<'a> {
         }
     }
 
-    fn check_session(mut self, heard: &SessionRecord, end: u64) -> Result<BusAgreement, BusMismatch> {
+    fn check_session(
+        mut self,
+        heard: &SessionRecord,
+        end: u64,
+    ) -> Result<BusAgreement, BusMismatch> {
         for parcel in &heard.packets {
-            let frame = self.open.as_ref().map_or(self.next_frame as u64, |open| open.number.into());
-            self.check_packet(parcel).map_err(|wrong| BusMismatch { clock: parcel.last_clock, frame, ..wrong })?;
+            let frame =
+                self.open.as_ref().map_or(self.next_frame as u64, |open| open.number.into());
+            self.check_packet(parcel).map_err(|wrong| BusMismatch {
+                clock: parcel.last_clock,
+                frame,
+                ..wrong
+            })?;
         }
         let wrong = |wrong: BusMismatch| BusMismatch { clock: end, ..wrong };
         if let Some(open) = self.open.take().filter(|open| !open.is_cut) {
@@ -225,7 +239,11 @@ impl<'a> SessionChecker<'a> {
         }
         let at = number as usize;
         if at < self.next_frame {
-            return Err(BusMismatch::from_numbers("the number of a frame", self.next_frame, number));
+            return Err(BusMismatch::from_numbers(
+                "the number of a frame",
+                self.next_frame,
+                number,
+            ));
         }
         let sent = self.expected_frame(at)?;
         self.pass_missing_frames(at)?;
@@ -297,7 +315,11 @@ impl<'a> SessionChecker<'a> {
     fn check_time(&mut self, time: u64, left: u64) -> Result<(), BusMismatch> {
         let latest = left - self.start;
         if time < self.earliest_time {
-            return Err(BusMismatch::from_numbers("the time of a frame, at least", self.earliest_time, time));
+            return Err(BusMismatch::from_numbers(
+                "the time of a frame, at least",
+                self.earliest_time,
+                time,
+            ));
         }
         if time >= latest {
             return Err(BusMismatch::from_numbers("the time of a frame, below", latest, time));
@@ -308,7 +330,8 @@ impl<'a> SessionChecker<'a> {
 
     fn expected_frame(&self, at: usize) -> Result<&'a ExpectedFrame, BusMismatch> {
         let all = &self.session.frames;
-        all.get(at).ok_or_else(|| BusMismatch::from_numbers("the number of a frame, below", all.len(), at))
+        all.get(at)
+            .ok_or_else(|| BusMismatch::from_numbers("the number of a frame, below", all.len(), at))
     }
 
     /// Passes over the expected frames up to `at`, which have not arrived. Fails if one of them had
@@ -325,7 +348,8 @@ impl<'a> SessionChecker<'a> {
                 FrameFate::LeftOut => self.facts.left_out += 1,
                 FrameFate::CutByReset => {}
                 FrameFate::Taken => {
-                    let missing = BusMismatch::from_presence(format!("the packets of frame {number}"), true);
+                    let missing =
+                        BusMismatch::from_presence(format!("the packets of frame {number}"), true);
                     return Err(BusMismatch { frame: number as u64, ..missing });
                 }
             }
@@ -360,12 +384,15 @@ impl<'a> SessionChecker<'a> {
             let expected = open.outcome.decision(at);
             if decision != expected {
                 let what = "srs, trs and summary, from the lowest bit on";
-                return Err(BusMismatch::from_numbers(what, code(expected), code(decision)).with_region(region));
+                return Err(BusMismatch::from_numbers(what, code(expected), code(decision))
+                    .with_region(region));
             }
             if open.has_arrived[at] && !sends_values(decision) {
-                return Err(
-                    BusMismatch::from_presence("pixels of a region that sends none", false).with_region(region)
-                );
+                return Err(BusMismatch::from_presence(
+                    "pixels of a region that sends none",
+                    false,
+                )
+                .with_region(region));
             }
             open.decisions[at] = Some(decision);
         }
@@ -385,10 +412,16 @@ impl<'a> SessionChecker<'a> {
         }
         let decision = open.outcome.decision(at);
         if !sends_values(decision) {
-            return Err(wrong(BusMismatch::from_presence("pixels of a region that sends none", false)));
+            return Err(wrong(BusMismatch::from_presence(
+                "pixels of a region that sends none",
+                false,
+            )));
         }
         if decision.summary != region.flags.summary {
-            return Err(wrong(BusMismatch::from_presence("the flag `summary`", !region.flags.summary)));
+            return Err(wrong(BusMismatch::from_presence(
+                "the flag `summary`",
+                !region.flags.summary,
+            )));
         }
         if raw != region.flags.raw {
             return Err(wrong(BusMismatch::from_presence("the flag `raw`", raw)));
@@ -420,13 +453,22 @@ impl<'a> SessionChecker<'a> {
         let open = self.open_frame(number)?;
         let sent: u32 = open.has_arrived.iter().map(|&came| u32::from(came)).sum();
         if end.regions_sent != sent {
-            return Err(BusMismatch::from_numbers("REGION packets that END counts", sent, end.regions_sent));
+            return Err(BusMismatch::from_numbers(
+                "REGION packets that END counts",
+                sent,
+                end.regions_sent,
+            ));
         }
         let lost_rows = rows - open.rows;
         if end.rows_dropped != lost_rows {
-            return Err(BusMismatch::from_numbers("dropped rows that END counts", lost_rows, end.rows_dropped));
+            return Err(BusMismatch::from_numbers(
+                "dropped rows that END counts",
+                lost_rows,
+                end.rows_dropped,
+            ));
         }
-        let is_lost = |at: &usize| !open.has_arrived[*at] && sends_values(open.outcome.decision(*at));
+        let is_lost =
+            |at: &usize| !open.has_arrived[*at] && sends_values(open.outcome.decision(*at));
         let lost = (0..open.has_arrived.len()).filter(is_lost);
         let lost: Vec<u32> = lost.map(|at| u32::try_from(at).unwrap_or(u32::MAX)).collect();
         let dropped = u32::try_from(lost.len()).unwrap_or(u32::MAX);
@@ -467,7 +509,8 @@ impl<'a> SessionChecker<'a> {
             }
             self.agreement.comparisons += 1;
             if name == "events" {
-                for event in EVENTS.into_iter().filter(|name| value & self.checker.event_mask(name) != 0)
+                for event in
+                    EVENTS.into_iter().filter(|name| value & self.checker.event_mask(name) != 0)
                 {
                     *self.facts.event_reads.entry(event).or_default() += 1;
                 }
@@ -482,7 +525,10 @@ impl<'a> SessionChecker<'a> {
         for &(event, raised) in &self.session.event_counts {
             let port = "interrupt_o".to_owned();
             let Some(&InterruptCount { clock, count, met_clears: met }) = counts.next() else {
-                return Err(BusMismatch { port, ..BusMismatch::from_presence(format!("a count of {event}"), true) });
+                return Err(BusMismatch {
+                    port,
+                    ..BusMismatch::from_presence(format!("a count of {event}"), true)
+                });
             };
             let (least, most) = match raised {
                 ExpectedEventCount::Exactly(times) => (times, times),
@@ -493,7 +539,11 @@ impl<'a> SessionChecker<'a> {
             let bound = if count < least.into() { least } else { most };
             if !(u64::from(least)..=u64::from(most)).contains(&count) {
                 let at = format!("how often {event} is seen while it is cleared");
-                return Err(BusMismatch { clock, port, ..BusMismatch::from_numbers(at, bound, count) });
+                return Err(BusMismatch {
+                    clock,
+                    port,
+                    ..BusMismatch::from_numbers(at, bound, count)
+                });
             }
             *self.facts.met_clears.entry(event).or_default() += met;
             self.agreement.comparisons += 1;
@@ -527,9 +577,17 @@ fn encode_packet(layout: &PacketLayout, frame: u32, packet: &Packet) -> Vec<u8> 
             packet_writer::append_frame(&mut bytes, layout, frame, (info.time, info.first));
             Ok(())
         }
-        Packet::Row(row) => packet_writer::append_row(&mut bytes, layout, frame, row.row, &row.decisions),
+        Packet::Row(row) => {
+            packet_writer::append_row(&mut bytes, layout, frame, row.row, &row.decisions)
+        }
         Packet::Region(RegionPacket { row, column, flags, values }) => {
-            packet_writer::append_region(&mut bytes, layout, frame, (*row, *column), (*flags, values))
+            packet_writer::append_region(
+                &mut bytes,
+                layout,
+                frame,
+                (*row, *column),
+                (*flags, values),
+            )
         }
         Packet::End(end) => packet_writer::append_end(&mut bytes, frame, *end),
         // A core sends neither; the caller reports them.

@@ -7,7 +7,7 @@
 
 use super::frame_source::largest_pixel;
 use super::scenes::{SceneBuilder, taken_frame};
-use super::traffic::{FrameFate, ExpectedEventCount, ExpectedFrame, Traffic};
+use super::traffic::{ExpectedEventCount, ExpectedFrame, FrameFate, Traffic};
 use crate::situations::{can_drop_regions, can_drop_rows};
 use foveate_frame::Frame;
 
@@ -49,7 +49,12 @@ impl<'a> SceneBuilder<'a> {
 
     /// Waits until all packets have left, and expects that the event was seen as often as `raised`
     /// says.
-    fn end_clearing(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: ExpectedEventCount) {
+    fn end_clearing(
+        &mut self,
+        traffic: &mut Traffic<'a>,
+        event: &'static str,
+        raised: ExpectedEventCount,
+    ) {
         traffic.drain();
         traffic.expect_event_count(event, raised);
         traffic.expect_interrupt(false);
@@ -145,15 +150,23 @@ impl<'a> SceneBuilder<'a> {
 
     /// Stops the sink from the last line of the first row of regions until the next frame is decided. The FRAME packet has
     /// left by then, so the next frame begins while all rows of this one wait.
-    fn stopped_sinks(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: ExpectedEventCount) {
+    fn stopped_sinks(
+        &mut self,
+        traffic: &mut Traffic<'a>,
+        event: &'static str,
+        raised: ExpectedEventCount,
+    ) {
         self.begin_clearing(traffic, event, true);
         let hold = 4 * self.design().timing().clocks_per_frame() + 2000;
         let line = self.design().region_size() - 1;
         // All attempts send the same frames, so they differ in the parity of the clock alone.
-        let [first, second] = [self.frame_source().noise_frame(), self.frame_source().noise_frame()];
+        let [first, second] =
+            [self.frame_source().noise_frame(), self.frame_source().noise_frame()];
         for parity in 0..ATTEMPTS_PER_EVENT {
             self.align_traffic(traffic, parity);
-            traffic.send_frame_around(taken_frame(first.clone()), line, |traffic| traffic.hold_sink(hold));
+            traffic.send_frame_around(taken_frame(first.clone()), line, |traffic| {
+                traffic.hold_sink(hold)
+            });
             traffic.send_frame(taken_frame(second.clone()));
             traffic.drain();
         }
@@ -176,7 +189,11 @@ impl<'a> SceneBuilder<'a> {
             traffic.hold_sink(0);
             traffic.drain();
         }
-        self.end_clearing(traffic, "frame_done", ExpectedEventCount::Exactly(ATTEMPTS_PER_EVENT + 1));
+        self.end_clearing(
+            traffic,
+            "frame_done",
+            ExpectedEventCount::Exactly(ATTEMPTS_PER_EVENT + 1),
+        );
     }
 
     /// Waits until the effects of the earlier traffic have ended, and then for a clock of this

@@ -91,7 +91,10 @@ impl BusFrameSource {
     fn draw_frame(&mut self, is_noise: bool) -> Frame {
         let (width, height) = self.size;
         let (across, down) = (MOVING_SIDE.min(width), MOVING_SIDE.min(height));
-        let from = (self.frame_number * 5 % (width - across + 1), self.frame_number * 3 % (height - down + 1));
+        let from = (
+            self.frame_number * 5 % (width - across + 1),
+            self.frame_number * 3 % (height - down + 1),
+        );
         self.frame_number += 1;
         self.drift_tiles();
         let mut pixels = Vec::new();
@@ -100,7 +103,9 @@ impl BusFrameSource {
                 let inside = x.wrapping_sub(from.0) < across && y.wrapping_sub(from.1) < down;
                 pixels.push(match inside || is_noise {
                     true => self.random.pixel(largest_pixel(self.bits)),
-                    false => self.background_pixel(x, y).saturating_add(self.random.pixel(self.flicker)),
+                    false => {
+                        self.background_pixel(x, y).saturating_add(self.random.pixel(self.flicker))
+                    }
                 });
             }
         }

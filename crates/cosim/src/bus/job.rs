@@ -6,7 +6,7 @@ use super::port_record::BusRecord;
 use super::program::program;
 use super::replay::BusReplay;
 use super::scenes::{BusScene, SceneBuilder, cameras};
-use super::thresholds::{StaleThreshold, threshold_sweep, other_threshold_designs};
+use super::thresholds::{StaleThreshold, other_threshold_designs, threshold_sweep};
 use super::traffic::Traffic;
 use crate::error::CosimError;
 use crate::job::CosimProgress;
@@ -142,7 +142,8 @@ impl BusJob {
         let cameras = cameras(&self.design, &others);
         let all: Vec<Design> = std::iter::once(&self.design).chain(&others).cloned().collect();
         let missed = StaleThreshold::all_of(&all);
-        let others: Vec<_> = others.iter().filter_map(Design::as_raster).map(axi_registers).collect();
+        let others: Vec<_> =
+            others.iter().filter_map(Design::as_raster).map(axi_registers).collect();
         let registers = axi_registers(design);
         let scenes = self.scenes(design, &registers, &others);
         let vectors = start.elapsed();
@@ -220,9 +221,11 @@ impl BusJob {
                 .size_and_depth();
         match self.frames.iter().position(|frame| frame.size_and_depth() != wanted) {
             None => Ok(()),
-            Some(index) => {
-                Err(CosimError::FrameShape { index, found: self.frames[index].size_and_depth(), wanted })
-            }
+            Some(index) => Err(CosimError::FrameShape {
+                index,
+                found: self.frames[index].size_and_depth(),
+                wanted,
+            }),
         }
     }
 

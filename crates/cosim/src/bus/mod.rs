@@ -7,18 +7,18 @@
 //! leaves is not compared, because no contract defines it. Each packet must leave whole, in order
 //! and once.
 
+mod bus_mismatch;
 mod checker;
 mod event_clears;
-mod video_damage;
 mod frame_source;
+mod job;
 mod lossy_model;
 mod port_record;
-mod job;
 mod program;
 mod replay;
 mod scenes;
 mod thresholds;
 mod traffic;
-mod bus_mismatch;
+mod video_damage;
 
 pub use job::BusJob;

@@ -87,7 +87,11 @@ impl BusRecord {
             "rises" => {
                 let (count, met) = rest.split_once(' ')?;
                 let (count, met) = (count.parse().ok()?, met.parse().ok()?);
-                self.sessions.last_mut()?.interrupt_counts.push(InterruptCount { clock, count, met_clears: met });
+                self.sessions.last_mut()?.interrupt_counts.push(InterruptCount {
+                    clock,
+                    count,
+                    met_clears: met,
+                });
                 Some(())
             }
             "wrong" => {
@@ -108,7 +112,12 @@ impl BusRecord {
         let (word, last) = rest.split_once(' ')?;
         let parcels = &mut self.sessions.last_mut()?.packets;
         if parcels.last().is_none_or(|parcel| parcel.is_whole) {
-            parcels.push(RecordedPacket { first_clock: clock, last_clock: clock, bytes: Vec::new(), is_whole: false });
+            parcels.push(RecordedPacket {
+                first_clock: clock,
+                last_clock: clock,
+                bytes: Vec::new(),
+                is_whole: false,
+            });
         }
         let parcel = parcels.last_mut()?;
         parcel.bytes.extend(u64::from_str_radix(word, 16).ok()?.to_le_bytes());
@@ -129,11 +138,17 @@ mod tests {
         let record = BusRecord::read(text.as_bytes()).unwrap();
         let [first, second] = record.sessions.as_slice() else { panic!("{record:?}") };
         let bytes = [250, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0].to_vec();
-        assert_eq!(first.packets[0], RecordedPacket { first_clock: 9, last_clock: 11, bytes, is_whole: true });
+        assert_eq!(
+            first.packets[0],
+            RecordedPacket { first_clock: 9, last_clock: 11, bytes, is_whole: true }
+        );
         assert_eq!((first.start, second.start), (4, 20));
         assert!(first.packets.len() == 2 && !first.packets[1].is_whole);
         assert_eq!(second.reads, [(25, 0x1c, 100_000_000)]);
-        assert_eq!(second.interrupt_counts, [InterruptCount { clock: 27, count: 4, met_clears: 1 }]);
+        assert_eq!(
+            second.interrupt_counts,
+            [InterruptCount { clock: 27, count: 4, met_clears: 1 }]
+        );
         assert_eq!((record.violations.len(), record.clocks), (1, Some(40)));
         assert!(BusRecord::read("hello\n".as_bytes()).is_err());
     }

@@ -4,7 +4,9 @@
 use crate::error::CosimError;
 use crate::harness::render;
 use crate::mismatch::Mismatch;
-use crate::replay::{README, REPLAY, SCRIPT, TRAFFIC_FILE, copy_waves, make_executable, write_file};
+use crate::replay::{
+    README, REPLAY, SCRIPT, TRAFFIC_FILE, copy_waves, make_executable, write_file,
+};
 use askama::Template;
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Source;
@@ -64,7 +66,11 @@ impl BusReplay<'_> {
         write_file(dir, "axi.cpp", self.program)?;
         write_file(dir, TRAFFIC_FILE, self.traffic)?;
         write_file(dir, SCRIPT, &render(&BusReplayScript { top, seed, files }))?;
-        write_file(dir, README, &render(&BusReplayReadme { top, mismatch, version, seed, fingerprint }))?;
+        write_file(
+            dir,
+            README,
+            &render(&BusReplayReadme { top, mismatch, version, seed, fingerprint }),
+        )?;
         make_executable(&dir.join(SCRIPT))?;
         let to = dir.join("heard_then.txt");
         fs::copy(self.record_file, &to).map_err(CosimError::io("write", &to))?;

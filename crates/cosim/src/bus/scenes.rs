@@ -2,9 +2,9 @@
 //! The directed scenes on the buses of a core. Every scene is played in a run of its own.
 
 use super::checker::TICK_RATE;
-use super::video_damage::VideoDamage;
 use super::frame_source::BusFrameSource;
-use super::traffic::{ExpectedRead, FrameFate, ExpectedFrame, Traffic};
+use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, Traffic};
+use super::video_damage::VideoDamage;
 use crate::stimulus::Random;
 use foveate_design::{Camera, Design, RasterDesign};
 use foveate_emit::{FieldKind, Register};
@@ -115,7 +115,10 @@ impl<'a> SceneBuilder<'a> {
             traffic.set_stalls(stalls);
             for gaps in [0, 10] {
                 traffic.set_gaps(gaps);
-                traffic.send_frame(ExpectedFrame { fate: FrameFate::MaybeSkipped, ..taken_frame(self.frame_source.next()) });
+                traffic.send_frame(ExpectedFrame {
+                    fate: FrameFate::MaybeSkipped,
+                    ..taken_frame(self.frame_source.next())
+                });
             }
         }
         self.end_session(&mut traffic, 0);
@@ -180,7 +183,8 @@ impl<'a> SceneBuilder<'a> {
         // A restart forgets the references, and the counters go on.
         traffic.drain();
         traffic.write(self.address("control"), self.control_bits(&["enable", "wait", "restart"]));
-        traffic.send_frame(ExpectedFrame { is_first: true, ..taken_frame(self.frame_source.next()) });
+        traffic
+            .send_frame(ExpectedFrame { is_first: true, ..taken_frame(self.frame_source.next()) });
         self.end_session(&mut traffic, 0);
         self.hold_two_rows(&mut traffic);
         traffic
@@ -197,7 +201,11 @@ impl<'a> SceneBuilder<'a> {
         traffic.allow_region_drops();
         traffic.set_gaps(0);
         let hold = u64::from(side + 3) * line;
-        traffic.send_frame_around(taken_frame(self.frame_source.quiet_frame()), 2 * side - 1, |traffic| traffic.hold_sink(hold));
+        traffic.send_frame_around(
+            taken_frame(self.frame_source.quiet_frame()),
+            2 * side - 1,
+            |traffic| traffic.hold_sink(hold),
+        );
         self.end_session(traffic, 0);
     }
 
@@ -209,7 +217,10 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame(taken_frame(self.frame_source.quiet_frame()));
         self.write_passing_thresholds(&mut traffic);
         let camera = self.switch_thresholds(&mut traffic, middle, 0, 1);
-        let next = |film: &mut BusFrameSource| ExpectedFrame { camera_index: camera, ..taken_frame(film.next()) };
+        let next = |film: &mut BusFrameSource| ExpectedFrame {
+            camera_index: camera,
+            ..taken_frame(film.next())
+        };
         traffic.send_frame(next(&mut self.frame_source));
         traffic.send_frame(next(&mut self.frame_source));
         // A restart that is written within a frame waits for the end of the frame.
@@ -227,7 +238,10 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame_around(next(&mut self.frame_source), middle, |traffic| {
             traffic.write(control, disabled);
         });
-        let left_out = |film: &mut BusFrameSource| ExpectedFrame { fate: FrameFate::LeftOut, ..taken_frame(film.next()) };
+        let left_out = |film: &mut BusFrameSource| ExpectedFrame {
+            fate: FrameFate::LeftOut,
+            ..taken_frame(film.next())
+        };
         traffic.send_frame(left_out(&mut self.frame_source));
         let enabled = self.control_bits(&["enable", "wait"]);
         traffic.send_frame_around(left_out(&mut self.frame_source), middle, |traffic| {
@@ -240,13 +254,19 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame(next(&mut self.frame_source));
         let camera = self.switch_thresholds(&mut traffic, middle, camera, 0);
         for _ in 0..2 {
-            traffic.send_frame(ExpectedFrame { camera_index: camera, ..taken_frame(self.frame_source.next()) });
+            traffic.send_frame(ExpectedFrame {
+                camera_index: camera,
+                ..taken_frame(self.frame_source.next())
+            });
         }
         // Every pixel changes by less than the highest bit of the level, and many change by more
         // than the other levels.
         let camera = self.switch_thresholds(&mut traffic, middle, camera, 2);
         for _ in 0..2 {
-            traffic.send_frame(ExpectedFrame { camera_index: camera, ..taken_frame(self.frame_source.flickering_frame()) });
+            traffic.send_frame(ExpectedFrame {
+                camera_index: camera,
+                ..taken_frame(self.frame_source.flickering_frame())
+            });
         }
         self.end_session(&mut traffic, 0);
         // The register also counts the frames that were left out.
@@ -261,10 +281,14 @@ impl<'a> SceneBuilder<'a> {
         let own: Vec<(u32, u32)> = self.registers.iter().filter_map(threshold_register).collect();
         let lines = [1, (self.design.region_size() + 3).min(self.design.height())];
         let mut others = [u32::MAX, 0].into_iter();
-        traffic.send_frame_around_each(taken_frame(self.frame_source.quiet_frame()), lines, |traffic| {
-            let other = others.next().unwrap_or_default();
-            own.iter().for_each(|&(address, value)| traffic.write(address, value ^ other));
-        });
+        traffic.send_frame_around_each(
+            taken_frame(self.frame_source.quiet_frame()),
+            lines,
+            |traffic| {
+                let other = others.next().unwrap_or_default();
+                own.iter().for_each(|&(address, value)| traffic.write(address, value ^ other));
+            },
+        );
     }
 
     /// Sends frames of noise, and within each frame writes the thresholds of the next.
@@ -272,8 +296,12 @@ impl<'a> SceneBuilder<'a> {
         let mut traffic = self.waiting_traffic();
         let middle = self.design.height() / 2;
         for camera in 0..=self.other_registers.len() {
-            let sent = ExpectedFrame { camera_index: camera, ..taken_frame(self.frame_source.noise_frame()) };
-            let next = self.other_registers.get(camera).map(Vec::as_slice).unwrap_or(self.registers);
+            let sent = ExpectedFrame {
+                camera_index: camera,
+                ..taken_frame(self.frame_source.noise_frame())
+            };
+            let next =
+                self.other_registers.get(camera).map(Vec::as_slice).unwrap_or(self.registers);
             let written: Vec<(u32, u32)> = next.iter().filter_map(threshold_register).collect();
             traffic.send_frame_around(sent, middle, |traffic| {
                 written.iter().for_each(|&(address, value)| traffic.write(address, value));
@@ -296,7 +324,8 @@ impl<'a> SceneBuilder<'a> {
         let Some(others) = self.other_registers.get(to.max(1) - 1) else { return from };
         let registers = if to == 0 { self.registers } else { others };
         let written: Vec<(u32, u32)> = registers.iter().filter_map(threshold_register).collect();
-        let frame = ExpectedFrame { camera_index: from, ..taken_frame(self.frame_source.quiet_frame()) };
+        let frame =
+            ExpectedFrame { camera_index: from, ..taken_frame(self.frame_source.quiet_frame()) };
         traffic.send_frame_around(frame, middle, |traffic| {
             written.iter().for_each(|&(address, value)| traffic.write(address, value));
         });
@@ -317,7 +346,10 @@ impl<'a> SceneBuilder<'a> {
             traffic.allow_drops();
             traffic.hold_sink(hold);
             let lines = decided + self.random.up_to_u32(height - decided);
-            let cut = ExpectedFrame { fate: FrameFate::CutByReset, ..taken_frame(self.frame_source.noise_frame()) };
+            let cut = ExpectedFrame {
+                fate: FrameFate::CutByReset,
+                ..taken_frame(self.frame_source.noise_frame())
+            };
             traffic.send_torn_frame(cut, lines.min(height));
             if is_within {
                 traffic.hold_sink(0);
@@ -383,7 +415,15 @@ impl<'a> SceneBuilder<'a> {
     fn check_strobes(&mut self, traffic: &mut Traffic<'a>) {
         for register in self.registers {
             let mut value = reset_value(register);
-            for strobes in [ALL_BYTES, NO_BYTES, LOWEST_BYTE, 0b1010, 0b0110, self.random.up_to_u32(ALL_BYTES), ALL_BYTES] {
+            for strobes in [
+                ALL_BYTES,
+                NO_BYTES,
+                LOWEST_BYTE,
+                0b1010,
+                0b0110,
+                self.random.up_to_u32(ALL_BYTES),
+                ALL_BYTES,
+            ] {
                 let data = self.random.up_to_u32(u32::MAX);
                 let bytes = (0..4).filter(|byte| strobes >> byte & 1 == 1);
                 let bytes = bytes.fold(0_u32, |mask, byte| mask | 0xFF << (8 * byte));
@@ -493,7 +533,10 @@ impl<'a> SceneBuilder<'a> {
         traffic.drain();
         traffic.read(self.address("skipped"), ExpectedRead::SkippedFrames);
         traffic.read(self.address("dropped"), ExpectedRead::DroppedRegions);
-        traffic.read(self.address("events"), ExpectedRead::Events(events | self.event_mask("frame_done")));
+        traffic.read(
+            self.address("events"),
+            ExpectedRead::Events(events | self.event_mask("frame_done")),
+        );
         traffic.wait_for_accesses();
     }
 
@@ -565,9 +608,9 @@ fn field_mask(register: &Register, names: &[&str]) -> u32 {
 fn reset_value(register: &Register) -> u32 {
     register.fields.iter().fold(0, |value, field| {
         let own = match field.kind {
-            FieldKind::Constant(own) | FieldKind::Control { reset: own } | FieldKind::Threshold { reset: own } => {
-                own
-            }
+            FieldKind::Constant(own)
+            | FieldKind::Control { reset: own }
+            | FieldKind::Threshold { reset: own } => own,
             FieldKind::Status if register.name == "tick_rate" => TICK_RATE,
             FieldKind::Status | FieldKind::Command | FieldKind::Event => 0,
         };

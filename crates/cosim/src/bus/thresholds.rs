@@ -2,7 +2,9 @@
 //! Thresholds that are written while frames come: other values for each of them, and sequences in
 //! which each decides.
 
-use foveate_design::{Camera, VoteCombination, DesignConfig, Decimal, Design, FeatureKind, ThresholdSource};
+use foveate_design::{
+    Camera, Decimal, Design, DesignConfig, FeatureKind, ThresholdSource, VoteCombination,
+};
 
 /// One threshold of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +87,8 @@ fn with_level(design: &Design, level: u32) -> Design {
     for feature in &mut camera.spatial {
         feature.level = feature.level.map(other_level);
         let min = feature.min_score.and_then(|min| u64::try_from(min.ceil_times(1)).ok());
-        feature.min_score = min.map(|min| Decimal::from_whole(if min > 1 { min / 2 } else { min + 1 }));
+        feature.min_score =
+            min.map(|min| Decimal::from_whole(if min > 1 { min / 2 } else { min + 1 }));
     }
     let keys = ThresholdKey::all_of(design);
     keys.into_iter().fold(design.clone(), |design, key| {
@@ -112,7 +115,8 @@ pub(super) fn threshold_sweep(design: &Design) -> Vec<Design> {
     configs.extend(temporal_sweep(design, &all_active));
     if design.periphery().is_some() {
         let mut irrelevant = all_active;
-        (0..design.features().len()).for_each(|place| disable_feature(design, &mut irrelevant, place));
+        (0..design.features().len())
+            .for_each(|place| disable_feature(design, &mut irrelevant, place));
         let mut restless = irrelevant.clone();
         restless.camera.periphery.level = Some(0);
         configs.extend([irrelevant, restless]);

@@ -245,7 +245,12 @@ impl<'a> Traffic<'a> {
     }
 
     /// Sends a whole frame, and calls `inside` before the line `at`.
-    pub(super) fn send_frame_around(&mut self, sent: ExpectedFrame, at: u32, inside: impl FnMut(&mut Self)) {
+    pub(super) fn send_frame_around(
+        &mut self,
+        sent: ExpectedFrame,
+        at: u32,
+        inside: impl FnMut(&mut Self),
+    ) {
         self.send_frame_around_each(sent, [at], inside);
     }
 
@@ -282,7 +287,10 @@ impl<'a> Traffic<'a> {
     }
 
     /// Returns the pixels of a line, transfer by transfer.
-    pub(super) fn split_line<'r>(&self, row: &'r [u16]) -> impl Iterator<Item = &'r [u16]> + use<'r> {
+    pub(super) fn split_line<'r>(
+        &self,
+        row: &'r [u16],
+    ) -> impl Iterator<Item = &'r [u16]> + use<'r> {
         row.chunks(self.design.pixels_per_clock() as usize)
     }
 

@@ -35,7 +35,12 @@ pub(super) fn draw_svg(wave: &WaveDiagram) -> String {
     }
     let gaps = wave.signal.first().map_or("", |row| row.wave.as_str());
     for (column, _) in gaps.char_indices().filter(|&(_, shown)| shown == '|') {
-        draw_gap(&mut svg, left + column * COLUMN_WIDTH, TOP_MARGIN, TOP_MARGIN + wave.signal.len() * ROW_HEIGHT - 4);
+        draw_gap(
+            &mut svg,
+            left + column * COLUMN_WIDTH,
+            TOP_MARGIN,
+            TOP_MARGIN + wave.signal.len() * ROW_HEIGHT - 4,
+        );
     }
     // Writing to a string cannot fail.
     let _ = write!(

@@ -5,7 +5,7 @@ use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::shipped_bench::{ClockRecord, CoreSimulation, TestPattern};
 use crate::stimulus::Random;
-use foveate_design::{ArrayStructure, Design, PortDirection, CoreInterface, Port, CoreStream};
+use foveate_design::{ArrayStructure, CoreInterface, CoreStream, Design, Port, PortDirection};
 use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, ThresholdInputs};
@@ -198,7 +198,8 @@ impl<'a> TraceRecorder<'a> {
 /// always ready.
 fn is_shown(interface: &CoreInterface, port: &Port) -> bool {
     let brings = |stream: &CoreStream| stream.direction == PortDirection::Input;
-    port.direction == PortDirection::Output || interface.stream_with_port(port.role).is_some_and(brings)
+    port.direction == PortDirection::Output
+        || interface.stream_with_port(port.role).is_some_and(brings)
 }
 
 fn diagram_signal(port: &Port) -> DiagramSignal {

@@ -26,12 +26,15 @@ impl PortConnection {
         let number = |text: &str| u64::from_str_radix(text, 16).ok();
         match tokens {
             [ConnectionToken::Signal(name)] => Self::WholeSignal(name.clone()),
-            [ConnectionToken::Select, ConnectionToken::Signal(name), ConnectionToken::Number(from), ConnectionToken::Number(width)] => {
-                match (number(from), number(width)) {
-                    (Some(from), Some(width)) => Self::Bits { signal: name.clone(), from, width },
-                    _ => Self::Other,
-                }
-            }
+            [
+                ConnectionToken::Select,
+                ConnectionToken::Signal(name),
+                ConnectionToken::Number(from),
+                ConnectionToken::Number(width),
+            ] => match (number(from), number(width)) {
+                (Some(from), Some(width)) => Self::Bits { signal: name.clone(), from, width },
+                _ => Self::Other,
+            },
             [ConnectionToken::Number(value)] => number(value).map_or(Self::Other, Self::Constant),
             _ => Self::Other,
         }

@@ -14,14 +14,14 @@ mod xml_reader;
 
 use crate::error::CosimError;
 use crate::level::CosimLevel;
+pub(crate) use array_instance::ArrayInstance;
 use foveate_design::{ArrayStructure, ConfigError, Design};
 use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_toolchain::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
 use std::io::BufReader;
-pub(crate) use array_instance::ArrayInstance;
-pub use variant::UnelaboratedVariant;
 pub(crate) use variant::ModuleVariant;
+pub use variant::UnelaboratedVariant;
 
 /// The elaborated hierarchy below a top.
 #[derive(Debug, Default)]
@@ -66,7 +66,8 @@ pub fn unelaborated_variants(
     let open: Vec<Top> = [Top::Rpu, Top::Rcm]
         .into_iter()
         .filter(|top| {
-            crate::hierarchy::declares(sources, &prefix.prefixed_name(top.module())) && !is_simulated(*top)
+            crate::hierarchy::declares(sources, &prefix.prefixed_name(top.module()))
+                && !is_simulated(*top)
         })
         .collect();
     if open.is_empty() {
@@ -75,7 +76,12 @@ pub fn unelaborated_variants(
     let named: Vec<Source> =
         sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
     let elaborate = |top: Top, part: &Design| {
-        Elaboration::elaborate(&named, &prefix.prefixed_name(top.module()), &top.parameters(part), toolchain)
+        Elaboration::elaborate(
+            &named,
+            &prefix.prefixed_name(top.module()),
+            &top.parameters(part),
+            toolchain,
+        )
     };
     let mut seen = BTreeSet::new();
     for (top, part) in &simulated {
@@ -85,9 +91,11 @@ pub fn unelaborated_variants(
     for top in open {
         let whole = elaborate(top, design)?;
         let is_wired = match design.unit().array {
-            ArrayStructure::RpuCopies => {
-                wiring_check::is_wired_correctly(design, &whole.instances, &prefix.prefixed_name(Top::Rpu.module()))
-            }
+            ArrayStructure::RpuCopies => wiring_check::is_wired_correctly(
+                design,
+                &whole.instances,
+                &prefix.prefixed_name(Top::Rpu.module()),
+            ),
             ArrayStructure::SharedLogic => false,
         };
         let is_own = |variant: &ModuleVariant| variant.module == prefix.prefixed_name(top.module());

@@ -60,7 +60,10 @@ mod tests {
 
     fn variant(module: &str, parameters: &[(&str, &str)]) -> ModuleVariant {
         let pair = |&(name, value): &(&str, &str)| (name.to_owned(), value.to_owned());
-        ModuleVariant { module: module.to_owned(), parameters: parameters.iter().map(pair).collect() }
+        ModuleVariant {
+            module: module.to_owned(),
+            parameters: parameters.iter().map(pair).collect(),
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! A reader of the hierarchy that Verilator writes as XML: modules, parameters, and the connections
 //! in the top.
 
-use super::array_instance::{PortConnection, ArrayInstance, ConnectionToken};
+use super::array_instance::{ArrayInstance, ConnectionToken, PortConnection};
 use super::{Elaboration, ModuleVariant};
 use crate::error::CosimError;
 use quick_xml::Reader;
@@ -51,7 +51,9 @@ impl XmlReaderState {
                 self.is_top = module == top && attribute_value(tag, "topModule").is_some();
                 self.module = Some(ModuleVariant { module, ..ModuleVariant::default() });
             }
-            b"var" if attribute_value(tag, "param").is_some() => self.parameter = attribute_value(tag, "name"),
+            b"var" if attribute_value(tag, "param").is_some() => {
+                self.parameter = attribute_value(tag, "name")
+            }
             b"const" => {
                 let number = attribute_value(tag, "name").unwrap_or_default();
                 if let (Some(module), Some(name)) = (&mut self.module, self.parameter.take()) {
@@ -68,7 +70,8 @@ impl XmlReaderState {
                 self.port = attribute_value(tag, "name").map(|name| (name, Vec::new()));
             }
             b"sel" => self.connect(ConnectionToken::Select),
-            b"varref" => self.connect(ConnectionToken::Signal(attribute_value(tag, "name").unwrap_or_default())),
+            b"varref" => self
+                .connect(ConnectionToken::Signal(attribute_value(tag, "name").unwrap_or_default())),
             _ => self.connect(ConnectionToken::Other),
         }
     }

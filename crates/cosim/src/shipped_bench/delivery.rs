@@ -28,7 +28,11 @@ impl BenchDelivery {
         [Self::Stray, Self::Whole, Self::Short, Self::Whole, Self::Long, Self::Whole];
 
     /// Returns the beats to deliver, each with its start-of-frame mark.
-    pub(super) fn delivered_beats<'a>(self, beats: &'a [Vec<u16>], stray: &'a [u16]) -> Vec<(bool, &'a [u16])> {
+    pub(super) fn delivered_beats<'a>(
+        self,
+        beats: &'a [Vec<u16>],
+        stray: &'a [u16],
+    ) -> Vec<(bool, &'a [u16])> {
         let count = beats.len();
         let (from, to) = match self {
             Self::Stray => (count.saturating_sub(1), count),

@@ -19,7 +19,9 @@ const MANY_SLOTS: u32 = 1024;
 pub(super) fn bench_design(design: &Design, top: Top) -> Result<Design, CosimError> {
     match top {
         Top::Rpu => match design.unit().array {
-            ArrayStructure::RpuCopies => Ok(CosimLevel::Rcm { columns: 1, rows: 1 }.design(design)?),
+            ArrayStructure::RpuCopies => {
+                Ok(CosimLevel::Rcm { columns: 1, rows: 1 }.design(design)?)
+            }
             ArrayStructure::SharedLogic => Ok(design.lone_unit()),
         },
         Top::Rcm if CosimLevel::is_whole_affordable(design) => Ok(design.clone()),

@@ -7,27 +7,27 @@
 //! of the design. The [`tally`] counts what the vectors contain, and a bench whose vectors miss
 //! something never prints `PASS`.
 
+mod core_simulation;
 mod delivery;
 mod grid;
-mod test_pattern;
-mod player;
-mod core_simulation;
-mod script;
 mod picture_scorer;
+mod player;
+mod script;
 mod surroundings;
 mod tally;
+mod test_pattern;
 mod vector_recorder;
 
 use crate::error::CosimError;
-use crate::harness::{bench_file, annotated_bench};
+use crate::harness::{annotated_bench, bench_file};
 use crate::level::CosimLevel;
+pub(crate) use core_simulation::{ClockRecord, CoreSimulation};
 use foveate_design::{ArrayStructure, Design, Port, StreamRole};
 use foveate_emit::{Prefix, SourceFile, Top};
-pub(crate) use test_pattern::TestPattern;
 use player::ScriptPlayer;
-pub(crate) use core_simulation::{ClockRecord, CoreSimulation};
-use script::{MIN_FRAMES_PER_SCRIPT, BenchScript};
+use script::{BenchScript, MIN_FRAMES_PER_SCRIPT};
 use std::sync::atomic::AtomicBool;
+pub(crate) use test_pattern::TestPattern;
 use vector_recorder::VectorRecorder;
 
 pub use tally::{RegionLosses, VectorTally};

@@ -2,7 +2,7 @@
 //! The scores of test pictures of one region under the thresholds of the design, and the
 //! differences between two of them.
 
-use foveate_design::{VoteCombination, Design};
+use foveate_design::{Design, VoteCombination};
 use foveate_model::{RegionScorer, ThresholdInputs};
 
 /// The border mask of a region that is alone in its frame: it touches all four sides.

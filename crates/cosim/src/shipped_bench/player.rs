@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The player of a script: it drives the cycle-level model clock by clock, and records the result.
 
-use super::delivery::BenchDelivery;
 use super::core_simulation::CoreSimulation;
-use super::script::{BenchSequenceEnd, BenchScript, BenchFrame, BenchSequence, BenchSinkMode};
+use super::delivery::BenchDelivery;
+use super::script::{BenchFrame, BenchScript, BenchSequence, BenchSequenceEnd, BenchSinkMode};
 use super::vector_recorder::VectorRecorder;
 use crate::error::CosimError;
 use foveate_design::Design;
@@ -129,8 +129,14 @@ impl<'a> ScriptPlayer<'a> {
         }
         match (before, sequence.ending) {
             (Some(last), BenchSequenceEnd::Drained) => self.drain(last),
-            (Some(last), BenchSequenceEnd::MeanLeaving) if self.simulation.distinguishes_means() => self.wait_until_leaving(last, true),
-            (Some(last), BenchSequenceEnd::MeanLeaving | BenchSequenceEnd::Leaving) => self.drain(last),
+            (Some(last), BenchSequenceEnd::MeanLeaving)
+                if self.simulation.distinguishes_means() =>
+            {
+                self.wait_until_leaving(last, true)
+            }
+            (Some(last), BenchSequenceEnd::MeanLeaving | BenchSequenceEnd::Leaving) => {
+                self.drain(last)
+            }
             (None, _) => Ok(()),
         }
     }
@@ -160,7 +166,11 @@ impl<'a> ScriptPlayer<'a> {
         }
         let mut left = (0..frames).flat_map(|_| beats.iter().enumerate());
         for _ in 0..MAX_WAIT_CLOCKS {
-            if if is_mean { self.simulation.is_sending_mean() } else { self.simulation.is_sending() } {
+            if if is_mean {
+                self.simulation.is_sending_mean()
+            } else {
+                self.simulation.is_sending()
+            } {
                 break;
             }
             match (left.next(), self.simulation.quiet_clocks()) {
@@ -172,8 +182,13 @@ impl<'a> ScriptPlayer<'a> {
         Ok(())
     }
 
-    fn send_frame(&mut self, beats: &[Vec<u16>], thresholds: &ThresholdInputs) -> Result<(), CosimError> {
-        let every = if beats.len() < LONG_FRAME_BEATS { PAUSE_PERIOD } else { LONG_FRAME_PAUSE_PERIOD };
+    fn send_frame(
+        &mut self,
+        beats: &[Vec<u16>],
+        thresholds: &ThresholdInputs,
+    ) -> Result<(), CosimError> {
+        let every =
+            if beats.len() < LONG_FRAME_BEATS { PAUSE_PERIOD } else { LONG_FRAME_PAUSE_PERIOD };
         let every = every.min(beats.len());
         for (number, pixels) in beats.iter().enumerate() {
             if number % every == every - 1 {
@@ -197,7 +212,11 @@ impl<'a> ScriptPlayer<'a> {
 
     /// Plays the time between two frames. Pixels that are offered while the core is busy are
     /// refused. With `is_long` everything is decided before the next frame.
-    fn settle_between_frames(&mut self, thresholds: &ThresholdInputs, is_long: bool) -> Result<(), CosimError> {
+    fn settle_between_frames(
+        &mut self,
+        thresholds: &ThresholdInputs,
+        is_long: bool,
+    ) -> Result<(), CosimError> {
         if self.frames_wait_for_sink && self.sink == BenchSinkMode::Stalling {
             self.sink = BenchSinkMode::AlwaysReady;
         }
@@ -269,7 +288,11 @@ impl<'a> ScriptPlayer<'a> {
         takes
     }
 
-    fn skip_quiet_clocks(&mut self, clocks: u64, thresholds: &ThresholdInputs) -> Result<(), CosimError> {
+    fn skip_quiet_clocks(
+        &mut self,
+        clocks: u64,
+        thresholds: &ThresholdInputs,
+    ) -> Result<(), CosimError> {
         let applied = CoreInput::idle(&self.garbage, thresholds);
         self.simulation.skip_quiet_clocks(&applied, &mut self.recorder.record);
         self.recorder.push(clocks)

@@ -4,10 +4,10 @@
 
 use super::delivery::DELIVERED_FRAMES;
 use super::has_sink;
+use super::picture_scorer::{PictureScorer, PictureScores};
 use super::test_pattern::{STRUCTURED_PATTERNS, TestPattern};
-use super::picture_scorer::{PictureScores, PictureScorer};
-use crate::stimulus::{PatternGenerator, StimulusPattern, Random};
-use foveate_design::{VoteCombination, Design, Neighborhood, ThresholdSource as Mode};
+use crate::stimulus::{PatternGenerator, Random, StimulusPattern};
+use foveate_design::{Design, Neighborhood, ThresholdSource as Mode, VoteCombination};
 use foveate_frame::Frame;
 use foveate_model::ThresholdInputs;
 use std::ops::RangeInclusive;
@@ -21,7 +21,8 @@ const MAX_DRAWN_PIXELS: u32 = 16_384;
 const FEW_PIXELS: usize = 4_096;
 const FEW_CLOCKS: u64 = 20_000;
 /// The patterns of the frames near the thresholds.
-const NEAR_THRESHOLD_PATTERNS: [StimulusPattern; 4] = [StimulusPattern::Bump, StimulusPattern::Noise, StimulusPattern::Smooth, StimulusPattern::Bump];
+const NEAR_THRESHOLD_PATTERNS: [StimulusPattern; 4] =
+    [StimulusPattern::Bump, StimulusPattern::Noise, StimulusPattern::Smooth, StimulusPattern::Bump];
 /// The number of frames whose shapes cross the borders of regions.
 const WIDE_FRAMES: u32 = 8;
 /// The number of regions from which on a frame has a varying ground. A word that is stored or read
@@ -100,7 +101,12 @@ struct DrawnRegion {
 impl DrawnRegion {
     /// Returns minima that `other` meets exactly (`more` is 0), or misses by `more` if the ports
     /// are wide enough.
-    fn exact_thresholds(&self, part: &Design, usual: &ThresholdInputs, more: u32) -> ThresholdInputs {
+    fn exact_thresholds(
+        &self,
+        part: &Design,
+        usual: &ThresholdInputs,
+        more: u32,
+    ) -> ThresholdInputs {
         let mut exact = *usual;
         let scores = self.scores.iter().zip(part.features());
         for (minimum, (&score, feature)) in exact.min_score.iter_mut().zip(scores) {
@@ -127,7 +133,11 @@ impl BenchScript {
         let flat = TestPattern::Flat.draw(stage.side, stage.max, false, &mut random);
         let shot = |turn, thresholds, square: &dyn Fn(usize, &DrawnRegion) -> Vec<u16>| {
             let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
-            BenchFrame { frame: stage.frame(&squares, turn), thresholds, sink: BenchSinkMode::AlwaysReady }
+            BenchFrame {
+                frame: stage.frame(&squares, turn),
+                thresholds,
+                sink: BenchSinkMode::AlwaysReady,
+            }
         };
         let mixed = |number: usize, actor: &DrawnRegion| match number % 3 {
             0 => actor.other.clone(),
@@ -195,10 +205,12 @@ impl BenchScript {
             ];
             with_means.push(BenchSequence { frames: shots, ending: BenchSequenceEnd::MeanLeaving });
         }
-        let mut sequences: Vec<BenchSequence> = sequences.into_iter().map(drained_sequence).collect();
+        let mut sequences: Vec<BenchSequence> =
+            sequences.into_iter().map(drained_sequence).collect();
         sequences.extend(with_means);
         // This sequence comes first, so that a reset follows it.
-        let pictures = [|actor: &DrawnRegion| actor.first.clone(), |actor: &DrawnRegion| actor.other.clone()];
+        let pictures =
+            [|actor: &DrawnRegion| actor.first.clone(), |actor: &DrawnRegion| actor.other.clone()];
         let stalled = (0..stalled_frames(part)).map(|number| {
             let usual =
                 || shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor));
@@ -210,14 +222,19 @@ impl BenchScript {
                 thresholds: pair.usual,
                 sink: BenchSinkMode::AlwaysReady,
             };
-            BenchFrame { sink: BenchSinkMode::Stalling, ..if stage.has_ground() { wide() } else { usual() } }
+            BenchFrame {
+                sink: BenchSinkMode::Stalling,
+                ..if stage.has_ground() { wide() } else { usual() }
+            }
         });
         let stalled: Vec<BenchFrame> = stalled.collect();
         if !stalled.is_empty() {
             let last = shot(1, pair.usual, &|_, actor| actor.last.clone());
             // Summaries are lost, and sent again.
-            let means =
-                || BenchFrame { sink: BenchSinkMode::Stalling, ..shot(2, pair.blank, &|_, _| flat.clone()) };
+            let means = || BenchFrame {
+                sink: BenchSinkMode::Stalling,
+                ..shot(2, pair.blank, &|_, _| flat.clone())
+            };
             let means = part.periphery().map(|_| [means(), means()]).into_iter().flatten();
             let lossy = stalled.into_iter().chain(means).chain([last]).collect();
             sequences.insert(0, drained_sequence(lossy));
@@ -225,8 +242,10 @@ impl BenchScript {
         let drawn = cast.len() * stage.side * stage.side;
         let is_small = drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS;
         if is_small {
-            let mut artists: Vec<PatternGenerator> =
-                cast.iter().map(|_| PatternGenerator::new(part, part.region_size(), random.fork())).collect();
+            let mut artists: Vec<PatternGenerator> = cast
+                .iter()
+                .map(|_| PatternGenerator::new(part, part.region_size(), random.fork()))
+                .collect();
             let near = NEAR_THRESHOLD_PATTERNS.iter().map(|&motif| {
                 artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
                 let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
@@ -251,7 +270,11 @@ impl BenchScript {
             let of = |turn| (stage.wide_frame(turn), pair.usual);
             let shots = (0..WIDE_FRAMES).map(of);
             shots
-                .map(|(frame, thresholds)| BenchFrame { frame, thresholds, sink: BenchSinkMode::AlwaysReady })
+                .map(|(frame, thresholds)| BenchFrame {
+                    frame,
+                    thresholds,
+                    sink: BenchSinkMode::AlwaysReady,
+                })
                 .collect()
         };
         if is_wide {
@@ -265,7 +288,9 @@ impl BenchScript {
         // No region has a reference, and yet none has changed, because the minimum is above all
         // counts.
         let never = match part.threshold_source() {
-            Mode::Runtime => ThresholdInputs { temporal_min_count: largest_minimum(part), ..pair.usual },
+            Mode::Runtime => {
+                ThresholdInputs { temporal_min_count: largest_minimum(part), ..pair.usual }
+            }
             Mode::Constant => pair.usual,
         };
         let again = [never, never, pair.usual];
@@ -423,7 +448,11 @@ fn separates_regions(
 
 /// Returns thresholds with levels of 0 and minima of 1. A feature that never finds anything
 /// (corners in 2x2 pixels behind a median filter) gets a minimum of 0 if its vote is needed.
-fn smallest_thresholds(part: &Design, studio: &mut PictureScorer, random: &mut Random) -> ThresholdPair {
+fn smallest_thresholds(
+    part: &Design,
+    studio: &mut PictureScorer,
+    random: &mut Random,
+) -> ThresholdPair {
     let (side, max) = region_shape(part);
     let mut blank = ThresholdInputs::from_camera(part);
     (blank.temporal_level, blank.temporal_min_count) = (0, 1);
@@ -459,7 +488,8 @@ fn draw_region(
     let least = thresholds.temporal_min_count;
     let mut pick = |from: usize, before: &PictureScores, wanted: RangeInclusive<u32>| {
         for step in 0..2 * TRIALS_PER_PATTERN * STRUCTURED_PATTERNS.len() {
-            let texture = STRUCTURED_PATTERNS[(from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len()];
+            let texture = STRUCTURED_PATTERNS
+                [(from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len()];
             let picture = texture.draw(side, max, step % 2 == 1, random);
             let look = studio.score_picture(&picture, Some(before), thresholds);
             let changes = look.changed_pixels_from(before, thresholds);

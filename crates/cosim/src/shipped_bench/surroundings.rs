@@ -71,7 +71,8 @@ impl ExternalStore {
             queue: StoreQueue::default(),
             idle_word: vec![0; part.pixels_per_clock() as usize],
             taken_words: 0,
-            withheld_word: (MIN_FRAMES_PER_SCRIPT - 1) * RasterTiming::from_design(part).words() - 1,
+            withheld_word: (MIN_FRAMES_PER_SCRIPT - 1) * RasterTiming::from_design(part).words()
+                - 1,
         })
     }
 

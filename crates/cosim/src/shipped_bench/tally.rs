@@ -4,7 +4,7 @@
 use super::has_sink;
 use crate::layout::RecordLayout;
 use crate::situations::Occurrences;
-use foveate_design::{VoteCombination, Design, PortRole, ThresholdSource};
+use foveate_design::{Design, PortRole, ThresholdSource, VoteCombination};
 use foveate_emit::Top;
 
 /// The smallest number of frames that vectors must contain.
@@ -81,7 +81,11 @@ impl TallyCounter {
             tally: VectorTally::default(),
             lost: 0,
             last_aborted: None,
-            zero_lanes: outputs.fields().iter().map(|field| (0..field.port.lanes).collect()).collect(),
+            zero_lanes: outputs
+                .fields()
+                .iter()
+                .map(|field| (0..field.port.lanes).collect())
+                .collect(),
         }
     }
 
@@ -201,7 +205,12 @@ impl VectorTally {
     }
 
     /// Returns a summary of the vectors, as lines of a comment.
-    pub(super) fn description_lines(&self, design: &Design, part: &Design, top: Top) -> Vec<String> {
+    pub(super) fn description_lines(
+        &self,
+        design: &Design,
+        part: &Design,
+        top: Top,
+    ) -> Vec<String> {
         let grid = |design: &Design| format!("{} x {}", design.columns(), design.rows());
         let of = match top {
             Top::Rcm if grid(part) != grid(design) => {

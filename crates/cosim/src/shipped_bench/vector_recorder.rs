@@ -4,8 +4,8 @@
 use super::core_simulation::ClockRecord;
 use super::tally::{TallyCounter, VectorTally};
 use crate::error::CosimError;
-use crate::vector_packer::VectorPacker;
 use crate::situations::SituationMonitor;
+use crate::vector_packer::VectorPacker;
 use foveate_design::{Design, Port, PortRole};
 use foveate_emit::Top;
 use std::path::Path;

@@ -7,12 +7,12 @@
 //! not depend on how stimuli are made.
 
 mod bus_situations;
+mod monitor;
 mod occurrence;
 mod places;
 mod port_situations;
 mod region_traces;
-mod monitor;
 
 pub(crate) use bus_situations::{BusSituationCounts, EVENTS, can_drop_regions, can_drop_rows};
-pub use occurrence::{Occurrence, Occurrences};
 pub(crate) use monitor::SituationMonitor;
+pub use occurrence::{Occurrence, Occurrences};

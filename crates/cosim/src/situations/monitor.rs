@@ -4,7 +4,7 @@
 use super::occurrence::Occurrences;
 use super::places::has_pixel;
 use super::port_situations::{PortSituationCounts, flushed_windows};
-use super::region_traces::{ShownDecision, RegionTraces};
+use super::region_traces::{RegionTraces, ShownDecision};
 use crate::field::RecordField;
 use crate::layout::RecordLayout;
 use foveate_design::{ArrayStructure, Design, PortRole};
@@ -39,7 +39,8 @@ struct WatchedClock<'a> {
 
 impl WatchedClock<'_> {
     fn field(&self, role: PortRole) -> Option<(&RecordField, &[u8])> {
-        let find = |fields: &'_ [RecordField]| fields.iter().position(|field| field.port.role == role);
+        let find =
+            |fields: &'_ [RecordField]| fields.iter().position(|field| field.port.role == role);
         match find(&self.ports.outputs) {
             Some(at) => Some((&self.ports.outputs[at], self.output)),
             None => find(&self.ports.inputs).map(|at| (&self.ports.inputs[at], self.input)),
@@ -51,7 +52,8 @@ impl WatchedClock<'_> {
     }
 
     fn is_high(&self, role: PortRole) -> bool {
-        self.field(role).is_some_and(|(field, record)| field.bytes_in(record).iter().any(|&b| b != 0))
+        self.field(role)
+            .is_some_and(|(field, record)| field.bytes_in(record).iter().any(|&b| b != 0))
     }
 
     fn bit(&self, role: PortRole, lane: u32) -> bool {
@@ -115,10 +117,18 @@ pub(crate) struct SituationMonitor {
 
 impl SituationMonitor {
     /// Creates a monitor for the simulated part; `design` is the design at the level of the run.
-    pub(crate) fn new(design: &Design, top: Top, inputs: &RecordLayout, outputs: &RecordLayout) -> Self {
+    pub(crate) fn new(
+        design: &Design,
+        top: Top,
+        inputs: &RecordLayout,
+        outputs: &RecordLayout,
+    ) -> Self {
         let regions = match (top, design.unit().array) {
             (Top::Rpu, ArrayStructure::RpuCopies) => 1,
-            (Top::Rpu, ArrayStructure::SharedLogic) | (Top::Rcm, ArrayStructure::RpuCopies | ArrayStructure::SharedLogic) => design.regions(),
+            (Top::Rpu, ArrayStructure::SharedLogic)
+            | (Top::Rcm, ArrayStructure::RpuCopies | ArrayStructure::SharedLogic) => {
+                design.regions()
+            }
         };
         let pick = |layout: &RecordLayout| {
             let fields = layout.fields().iter();
@@ -159,7 +169,8 @@ impl SituationMonitor {
 
     /// Adds `clocks` clocks with the same inputs and outputs.
     pub(crate) fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) {
-        let ports = std::mem::replace(&mut self.ports, WatchedPorts { inputs: vec![], outputs: vec![] });
+        let ports =
+            std::mem::replace(&mut self.ports, WatchedPorts { inputs: vec![], outputs: vec![] });
         let clock = WatchedClock { ports: &ports, input, output };
         if clock.is_high(PortRole::Reset) {
             self.reset();
@@ -215,7 +226,8 @@ impl SituationMonitor {
             self.intake.is_in_step = false;
         } else if syncs && !sof && !is_within {
             let was_in_step = self.intake.is_in_step;
-            self.facts.too_many += u64::from(was_in_step && self.intake.beats == self.beats_per_frame);
+            self.facts.too_many +=
+                u64::from(was_in_step && self.intake.beats == self.beats_per_frame);
             self.facts.no_start += u64::from(self.intake.beats == 0 || !was_in_step);
         } else if !syncs || sof || is_within {
             self.beat(clock, is_within);
@@ -344,7 +356,8 @@ impl SituationMonitor {
                 None => self.sent_again.extend(again),
             }
         }
-        let decided = ShownDecision { srs: bit(PortRole::Srs), trs: bit(PortRole::Trs), summary, count };
+        let decided =
+            ShownDecision { srs: bit(PortRole::Srs), trs: bit(PortRole::Trs), summary, count };
         self.regions.decide(region, frame, decided, &mut self.facts);
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The places of the pixel port that carry a pixel of the frame.
 
-use foveate_design::{Design, PixelFeed, Hardware};
+use foveate_design::{Design, Hardware, PixelFeed};
 
 /// Returns whether a lane of the pixel port carries a pixel of the frame at a beat, counted from the first beat of the
 /// frame. A lane of a serial array has none in the slots that no region uses, and the last word of a row of a raster core

@@ -3,8 +3,8 @@
 
 use super::occurrence::Occurrences;
 use foveate_design::{
-    VoteCombination, Design, FeatureKind, DenoiseFilter, Hardware, Neighborhood, RasterTiming, ReferencePolicy,
-    ThresholdSource,
+    DenoiseFilter, Design, FeatureKind, Hardware, Neighborhood, RasterTiming, ReferencePolicy,
+    ThresholdSource, VoteCombination,
 };
 use foveate_emit::Top;
 
@@ -196,7 +196,9 @@ const SITUATIONS: &[PortSituation] = &[
     situation("a frame has too few pixels", has_frame_sync, |facts| facts.too_few),
     situation("a frame has too many pixels", has_frame_sync, |facts| facts.too_many),
     situation("a frame has no start", has_frame_sync, |facts| facts.no_start),
-    situation("a frame is decided behind a damaged one", has_frame_sync, |facts| facts.whole_behind_error),
+    situation("a frame is decided behind a damaged one", has_frame_sync, |facts| {
+        facts.whole_behind_error
+    }),
     situation(
         "a reference is missing",
         |design, _| is_stored_outside(design),
@@ -304,7 +306,9 @@ fn has_flush(design: &Design) -> bool {
 fn forwards_pixels(design: &Design) -> bool {
     match design.hardware() {
         Hardware::Pipelined(_) | Hardware::Serial(_) => true,
-        Hardware::Raster(own) => RasterTiming::from_design(design.with_hardware(own)).has_forwarding,
+        Hardware::Raster(own) => {
+            RasterTiming::from_design(design.with_hardware(own)).has_forwarding
+        }
     }
 }
 

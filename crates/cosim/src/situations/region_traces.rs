@@ -143,11 +143,13 @@ impl RegionTrace {
         self.active_after_summary |= self.summary_frame.is_some();
         self.last_decision = LastDecision::Active;
         self.has_reference = true;
-        (self.active_then_irrelevant, self.held_with_summary, self.summary_frame) = (false, false, None);
+        (self.active_then_irrelevant, self.held_with_summary, self.summary_frame) =
+            (false, false, None);
     }
 
     fn summarize(&mut self, is_sent: bool, frame: usize, facts: &mut PortSituationCounts) {
-        facts.summary_held_irrelevant += u64::from(self.held_with_summary && self.summary_frame.is_some());
+        facts.summary_held_irrelevant +=
+            u64::from(self.held_with_summary && self.summary_frame.is_some());
         self.held_with_summary = false;
         facts.summary_kept += u64::from(!is_sent && self.summary_frame.is_some());
         if is_sent {

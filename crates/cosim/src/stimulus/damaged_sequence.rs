@@ -2,8 +2,8 @@
 //! Damaged streams of frames for designs with `sync`: the damage of each frame, and the state in
 //! which the next reset finds the core.
 
-use self::FrameDelivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};
 use self::BeatCount::{AllButOne, One, Some as Many};
+use self::FrameDelivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};
 use super::random::Random;
 
 /// The damage of a frame.
@@ -72,7 +72,10 @@ pub(super) fn directed_sequences<Sequence: Copy>(
     usual.chain(damaged.iter().map(DirectedSequence::Damaged)).collect()
 }
 
-const fn drained_sequence(name: &'static str, deliveries: &'static [FrameDelivery]) -> DamagedSequence {
+const fn drained_sequence(
+    name: &'static str,
+    deliveries: &'static [FrameDelivery],
+) -> DamagedSequence {
     DamagedSequence { name, deliveries, end: DamagedSequenceEnd::Drained }
 }
 
@@ -91,16 +94,38 @@ const DAMAGED_SEQUENCES: &[DamagedSequence] = &[
     },
     drained_sequence("the first frame damaged", &[Short(Many), Whole, Whole, Whole]),
     // The sequence after this reset begins with a beat that would be an error without the reset.
-    DamagedSequence { name: "reset before a start", deliveries: &[Whole, Whole], end: DamagedSequenceEnd::AfterLastBeat },
-    drained_sequence("beats before the first frame", &[Strays, Whole, Whole, Short(Many), Whole, Whole]),
-    DamagedSequence { name: "reset in a frame", deliveries: &[Whole, Short(Many)], end: DamagedSequenceEnd::AfterLastBeat },
+    DamagedSequence {
+        name: "reset before a start",
+        deliveries: &[Whole, Whole],
+        end: DamagedSequenceEnd::AfterLastBeat,
+    },
+    drained_sequence(
+        "beats before the first frame",
+        &[Strays, Whole, Whole, Short(Many), Whole, Whole],
+    ),
+    DamagedSequence {
+        name: "reset in a frame",
+        deliveries: &[Whole, Short(Many)],
+        end: DamagedSequenceEnd::AfterLastBeat,
+    },
     drained_sequence("beats too many", &[Whole, Long(One), Whole, Long(Many), Whole]),
-    DamagedSequence { name: "reset while it seeks", deliveries: &[Whole, Strays], end: DamagedSequenceEnd::AfterLastBeat },
+    DamagedSequence {
+        name: "reset while it seeks",
+        deliveries: &[Whole, Strays],
+        end: DamagedSequenceEnd::AfterLastBeat,
+    },
     drained_sequence("begun twice", &[Twice, Whole, Restarted, Whole, Whole]),
     drained_sequence("all but one lost", &[Whole, Short(AllButOne), Whole, Whole]),
-    DamagedSequence { name: "reset after a frame", deliveries: &[Whole], end: DamagedSequenceEnd::AfterLastBeat },
+    DamagedSequence {
+        name: "reset after a frame",
+        deliveries: &[Whole],
+        end: DamagedSequenceEnd::AfterLastBeat,
+    },
     drained_sequence("no mark", &[Unmarked, Whole, Unmarked, Whole, Unmarked, Strays, Whole]),
-    drained_sequence("damaged again and again", &[Short(One), Short(Many), Short(Many), Whole, Whole]),
+    drained_sequence(
+        "damaged again and again",
+        &[Short(One), Short(Many), Short(Many), Whole, Whole],
+    ),
 ];
 
 impl FrameDelivery {

@@ -26,7 +26,12 @@ impl DecisionPredictor {
         };
         let sync = if finds_frames { FrameSync::new(design) } else { FrameSync::without_sync() };
         let summary_level = design.periphery().map(|_| design.pixel_max());
-        Some(Self { rpu: PipelinedRpu::new(own), sync, kinds: design.feature_kinds(), summary_level })
+        Some(Self {
+            rpu: PipelinedRpu::new(own),
+            sync,
+            kinds: design.feature_kinds(),
+            summary_level,
+        })
     }
 
     /// Steps by one edge, and returns true if it makes a decision. Every edge of a sequence with

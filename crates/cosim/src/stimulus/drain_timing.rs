@@ -21,10 +21,18 @@ impl DrainTiming {
             Hardware::Pipelined(own) => {
                 let design = design.with_hardware(own);
                 let frames_behind = PipelinedTiming::from_design(design).forward_frames;
-                Self { settling_clocks: Some(settling_clocks(design)), frames_behind, trailing_clocks: 0 }
+                Self {
+                    settling_clocks: Some(settling_clocks(design)),
+                    frames_behind,
+                    trailing_clocks: 0,
+                }
             }
-            Hardware::Serial(_) => Self { settling_clocks: None, frames_behind: 0, trailing_clocks: 5 },
-            Hardware::Raster(_) => Self { settling_clocks: None, frames_behind: 0, trailing_clocks: 8 },
+            Hardware::Serial(_) => {
+                Self { settling_clocks: None, frames_behind: 0, trailing_clocks: 5 }
+            }
+            Hardware::Raster(_) => {
+                Self { settling_clocks: None, frames_behind: 0, trailing_clocks: 8 }
+            }
         }
     }
 }

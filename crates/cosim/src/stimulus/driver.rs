@@ -2,15 +2,15 @@
 //! The driver of the model of a core: it offers frames clock by clock, simulates what surrounds the
 //! core, and records the inputs and outputs.
 
-use super::threshold_aimer::{ThresholdAimer, ThresholdAim};
 use super::damaged_sequence::FrameDelivery;
+use super::decision_predictor::DecisionPredictor;
+use super::faulty_store::{FaultyStore, StoreFault};
 use super::frame_feed::FrameFeed;
 use super::idle_input::IdleInputPolicy;
-use super::faulty_store::{StoreFault, FaultyStore};
 use super::random::Random;
-use super::decision_predictor::DecisionPredictor;
 use super::sequences::GapPattern;
 use super::sink::StimulusSink;
+use super::threshold_aimer::{ThresholdAim, ThresholdAimer};
 use crate::codec::RecordCodec;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
@@ -248,7 +248,11 @@ impl<'a> ModelDriver<'a> {
     }
 
     /// Offers a frame that pushes the earlier ones out, without a change of the thresholds.
-    pub(super) fn push_out(&mut self, beats: &[Vec<u16>], gaps: GapPattern) -> Result<(), CosimError> {
+    pub(super) fn push_out(
+        &mut self,
+        beats: &[Vec<u16>],
+        gaps: GapPattern,
+    ) -> Result<(), CosimError> {
         for (place, pixels) in beats.iter().enumerate() {
             self.send_beat(Some(pixels), place == 0, gaps)?;
         }
@@ -267,7 +271,12 @@ impl<'a> ModelDriver<'a> {
     }
 
     /// Offers a beat as soon as the core is ready and its gap is over.
-    fn send_beat(&mut self, pixels: Option<&[u16]>, sof: bool, gaps: GapPattern) -> Result<(), CosimError> {
+    fn send_beat(
+        &mut self,
+        pixels: Option<&[u16]>,
+        sof: bool,
+        gaps: GapPattern,
+    ) -> Result<(), CosimError> {
         self.wait_until_ready(pixels)?;
         let pause = gaps.before_pixel(&mut self.random);
         self.idle(pause)?;
@@ -309,7 +318,8 @@ impl<'a> ModelDriver<'a> {
         region_stream(self.design, frame, region, &mut stream);
         let (reference, shown) = (self.core.reference(region), self.core.summary(region));
         let random = &mut self.random;
-        self.thresholds = self.aimer.near_region(region, &stream, reference, shown, largest, random);
+        self.thresholds =
+            self.aimer.near_region(region, &stream, reference, shown, largest, random);
     }
 
     /// Returns the first square of a frame: its first region, or the whole of a region with its
@@ -393,7 +403,8 @@ impl<'a> ModelDriver<'a> {
         }
         let sof = sof.unwrap_or_else(|| self.has_frame_sync && self.random.one_in(2));
         let sink = self.sink.as_mut();
-        let forward_ready = sink.is_none_or(|sink| sink.is_ready_next(&*self.core, &mut self.random));
+        let forward_ready =
+            sink.is_none_or(|sink| sink.is_ready_next(&*self.core, &mut self.random));
         let (reference_valid, reference) = match &mut self.external_store {
             Some(memory) => memory.output_word(&*self.core),
             None => (false, Vec::new()),

@@ -2,8 +2,8 @@
 //! An external frame store that sometimes lacks the word that the core asks for, or returns a wrong
 //! one.
 
-use super::store_queue::StoreQueue;
 use super::random::Random;
+use super::store_queue::StoreQueue;
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
@@ -87,7 +87,9 @@ impl FaultyStore {
                 self.queue.pop();
                 return (false, self.garbage());
             }
-            StoreFault::None | StoreFault::Late | StoreFault::Missing | StoreFault::Wrong => self.queue.pop(),
+            StoreFault::None | StoreFault::Late | StoreFault::Missing | StoreFault::Wrong => {
+                self.queue.pop()
+            }
         }
         let is_wrong = self.fault == StoreFault::Wrong && self.random.one_in(WRONG_WORD_PERIOD);
         (true, if is_wrong { self.garbage() } else { word })

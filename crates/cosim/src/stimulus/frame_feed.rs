@@ -2,7 +2,7 @@
 //! The order in which the pixel port takes a frame.
 
 use crate::level::CosimLevel;
-use foveate_design::{Design, PixelFeed, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
+use foveate_design::{Design, Hardware, PipelinedDesign, PixelFeed, RasterDesign, SerialDesign};
 use foveate_frame::Frame;
 use foveate_model::region_stream;
 

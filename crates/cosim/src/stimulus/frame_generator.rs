@@ -2,8 +2,8 @@
 //! Whole frames of patterns, with one drawing state for every region.
 
 use super::frame_feed::FrameFeed;
-use super::stimulus_pattern::{PatternGenerator, StimulusPattern};
 use super::random::Random;
+use super::stimulus_pattern::{PatternGenerator, StimulusPattern};
 use crate::error::CosimError;
 use foveate_frame::Frame;
 
@@ -23,7 +23,8 @@ impl FrameGenerator {
     pub(super) fn new(feed: &FrameFeed<'_>, random: &mut Random) -> Self {
         let (design, side, size) = (feed.design(), feed.square_side(), feed.size());
         let squares = size.0.div_ceil(side) * size.1.div_ceil(side);
-        let artists = (0..squares).map(|_| PatternGenerator::new(design, side, random.fork())).collect();
+        let artists =
+            (0..squares).map(|_| PatternGenerator::new(design, side, random.fork())).collect();
         Self { generators: artists, side, size, bits: design.pixel_bits() }
     }
 

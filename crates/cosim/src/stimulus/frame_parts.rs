@@ -51,7 +51,9 @@ impl FramePart {
     ) -> Vec<Self> {
         match level {
             _ if frames == 0 => Vec::new(),
-            CosimLevel::Rcm { .. } | CosimLevel::Full => vec![Self::new("frames", None, PartPosition::UpperLeft)],
+            CosimLevel::Rcm { .. } | CosimLevel::Full => {
+                vec![Self::new("frames", None, PartPosition::UpperLeft)]
+            }
             CosimLevel::Rpu => {
                 let clocks = frames as u64 * simulated.timing().clocks_per_frame();
                 Self::unit_parts(whole, simulated, MAX_CLOCKS / clocks.max(1))
@@ -77,7 +79,9 @@ impl FramePart {
             Hardware::Serial(own) => {
                 let fold = whole.with_hardware(own).fold();
                 spread(whole.with_hardware(own).lanes())
-                    .map(|lane| Self::new("frames", Some(lane * fold), PartPosition::Lane(lane * fold)))
+                    .map(|lane| {
+                        Self::new("frames", Some(lane * fold), PartPosition::Lane(lane * fold))
+                    })
                     .collect()
             }
             Hardware::Raster(_) => {

@@ -7,41 +7,41 @@
 //! within a flush, so that each reset finds the core in another state. The vectors follow from the
 //! design, the seed and the frames alone.
 
-mod threshold_aimer;
-mod threshold_ranges;
-mod pattern_drawing;
 mod damaged_sequence;
+mod decision_predictor;
+mod drain_timing;
 mod driver;
+mod faulty_store;
 mod frame_feed;
 mod frame_generator;
-mod pattern_scorer;
-mod idle_input;
-mod faulty_store;
-mod stimulus_pattern;
-mod drain_timing;
 mod frame_parts;
-mod store_queue;
+mod idle_input;
+mod pattern_drawing;
+mod pattern_scorer;
 mod random;
-mod decision_predictor;
+mod sequence_schedule;
 mod sequences;
 mod session;
 mod sink;
-mod sequence_schedule;
+mod stimulus_pattern;
+mod store_queue;
+mod threshold_aimer;
+mod threshold_ranges;
 
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::{Recorder, Recording};
-pub(crate) use frame_feed::FrameFeed;
+pub(crate) use drain_timing::settling_clocks;
 use foveate_design::Design;
 use foveate_frame::Frame;
-pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern};
-pub(crate) use drain_timing::settling_clocks;
-pub(crate) use store_queue::StoreQueue;
+pub(crate) use frame_feed::FrameFeed;
 pub(crate) use random::Random;
+use sequence_schedule::SequenceLimits;
 use session::StimulusSession;
 pub(crate) use sink::is_region_end_leaving;
 use std::sync::atomic::AtomicBool;
-use sequence_schedule::SequenceLimits;
+pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern};
+pub(crate) use store_queue::StoreQueue;
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;
@@ -75,7 +75,13 @@ const FRAMES_OF_A_SEQUENCE: u64 = 6;
 
 impl Default for Stimulus {
     fn default() -> Self {
-        Self { level: CosimLevel::Rpu, seed: 1, rounds: 3, frames: Vec::new(), sufficient_clocks: None }
+        Self {
+            level: CosimLevel::Rpu,
+            seed: 1,
+            rounds: 3,
+            frames: Vec::new(),
+            sufficient_clocks: None,
+        }
     }
 }
 
@@ -133,7 +139,8 @@ impl Stimulus {
     fn extent(&self, simulated: &Design) -> SequenceLimits {
         let sequence = FRAMES_OF_A_SEQUENCE * simulated.timing().clocks_per_frame().max(1);
         let fit = |clocks: u64| usize::try_from(clocks / sequence).unwrap_or(usize::MAX);
-        let most = self.sufficient_clocks.map_or(usize::MAX, |clocks| fit(clocks).max(MIN_SEQUENCES));
+        let most =
+            self.sufficient_clocks.map_or(usize::MAX, |clocks| fit(clocks).max(MIN_SEQUENCES));
         SequenceLimits { rounds: self.rounds, max_sequences: most }
     }
 
@@ -183,7 +190,8 @@ mod tests {
         let design = DesignConfig::from_toml(&toml).unwrap().validate().unwrap();
         let stimulus = Stimulus { level: CosimLevel::Full, rounds: 1, ..Stimulus::default() };
         let cancel = AtomicBool::new(false);
-        let found = stimulus.record_without_sequences(&design, is_left_out, &cancel, &mut |_, _| {});
+        let found =
+            stimulus.record_without_sequences(&design, is_left_out, &cancel, &mut |_, _| {});
         let found = found.unwrap();
         found.situations().missing().into_iter().map(str::to_owned).collect()
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The drawing of patterns, with differences and counts near the design's thresholds.
 
-use super::stimulus_pattern::{PatternGenerator, shift_pixel};
 use super::random::Random;
+use super::stimulus_pattern::{PatternGenerator, shift_pixel};
 
 impl PatternGenerator {
     /// Returns a square whose pixels are a function of the largest pixel and the place.
@@ -204,7 +204,10 @@ impl PatternGenerator {
 
     pub(super) fn moving_pixel(&mut self, mut pixels: Vec<u16>) -> Vec<u16> {
         let amount = self.random_change();
-        let (from, to) = (self.random_coordinate() * self.side + self.random_coordinate(), self.random_coordinate());
+        let (from, to) = (
+            self.random_coordinate() * self.side + self.random_coordinate(),
+            self.random_coordinate(),
+        );
         let background = pixels[to];
         pixels[from] = background;
         let to = self.random_coordinate() * self.side + to;

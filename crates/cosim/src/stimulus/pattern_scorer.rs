@@ -3,7 +3,7 @@
 //! minimum exactly. They only affect the choice of vectors; the expected outputs come from the
 //! model.
 
-use foveate_design::{Design, DenoiseFilter, SpatialFeature};
+use foveate_design::{DenoiseFilter, Design, SpatialFeature};
 use foveate_model::denoising::median;
 use foveate_model::feature::score;
 use foveate_model::window::PixelWindow;

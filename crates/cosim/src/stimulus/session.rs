@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state of a recording: it draws the frames of each sequence and offers them to the core.
 
-use super::threshold_aimer::ThresholdAim;
-use super::damaged_sequence::{DamagedSequence, FrameDelivery, DirectedSequence, DamagedSequenceEnd, directed_sequences};
-use super::driver::{ModelDriver, FrameLimit};
+use super::damaged_sequence::{
+    DamagedSequence, DamagedSequenceEnd, DirectedSequence, FrameDelivery, directed_sequences,
+};
+use super::drain_timing::DrainTiming;
+use super::driver::{FrameLimit, ModelDriver};
+use super::faulty_store::StoreFault;
 use super::frame_feed::FrameFeed;
 use super::frame_generator::FrameGenerator;
-use super::faulty_store::StoreFault;
-use super::stimulus_pattern::VARYING_PATTERNS;
-use super::drain_timing::DrainTiming;
 use super::frame_parts::FramePart;
 use super::random::Random;
-use super::sequences::{SequenceEnd, GapPattern, FrameSequence, sequences};
 use super::sequence_schedule::{SequenceLimits, SequenceSchedule};
+use super::sequences::{FrameSequence, GapPattern, SequenceEnd, sequences};
+use super::stimulus_pattern::VARYING_PATTERNS;
+use super::threshold_aimer::ThresholdAim;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::Recorder;
@@ -69,13 +71,17 @@ impl<'a> StimulusSession<'a> {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let parts = FramePart::all_of(self.whole, self.design, self.level, frames.len());
-        let given = |session: &mut Self, number, part: FramePart| session.play_caller_part(number, &part, frames);
+        let given = |session: &mut Self, number, part: FramePart| {
+            session.play_caller_part(number, &part, frames)
+        };
         let mut sequences = sequences(self.design);
         sequences.retain(|sequence| !(self.is_left_out)(sequence.name));
         let directed = &directed_sequences(&sequences, self.driver.has_frame_sync());
         let turns = SequenceSchedule { extent: self.extent, directed, caller_parts: parts };
-        let play = |session: &mut Self, sequence: &DirectedSequence<FrameSequence>, round, number| match sequence
-        {
+        let play = |session: &mut Self,
+                    sequence: &DirectedSequence<FrameSequence>,
+                    round,
+                    number| match sequence {
             DirectedSequence::Usual(sequence) => session.play_directed(sequence, round, number),
             DirectedSequence::Damaged(sequence) => session.play_damaged(sequence, round, number),
         };
@@ -143,7 +149,13 @@ impl<'a> StimulusSession<'a> {
                     self.driver.idle(pause)?;
                 }
             }
-            self.frame_generator.draw(VARYING_PATTERNS, frame + round, true, true, &mut self.random);
+            self.frame_generator.draw(
+                VARYING_PATTERNS,
+                frame + round,
+                true,
+                true,
+                &mut self.random,
+            );
             self.send_damaged_frame(delivery, gaps)?;
         }
         match sequence.end {
@@ -158,10 +170,20 @@ impl<'a> StimulusSession<'a> {
     }
 
     /// Plays a part of the caller's frames, back to back as far as the gaps allow.
-    fn play_caller_part(&mut self, number: usize, part: &FramePart, frames: &[Frame]) -> Result<(), CosimError> {
+    fn play_caller_part(
+        &mut self,
+        number: usize,
+        part: &FramePart,
+        frames: &[Frame],
+    ) -> Result<(), CosimError> {
         let gaps = GapPattern::ALL[number % GapPattern::ALL.len()];
         self.driver.name_clocks(&part.name, 0, part.region);
-        self.driver.begin_sequence(ThresholdAim::Configured, (false, number), StoreFault::None, part.border)?;
+        self.driver.begin_sequence(
+            ThresholdAim::Configured,
+            (false, number),
+            StoreFault::None,
+            part.border,
+        )?;
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {
                 self.driver.name_clocks(&part.name, number, part.region);
@@ -179,13 +201,22 @@ impl<'a> StimulusSession<'a> {
         Ok(())
     }
 
-    fn send_frame(&mut self, frame: &Frame, until: FrameLimit, gaps: GapPattern) -> Result<(), CosimError> {
+    fn send_frame(
+        &mut self,
+        frame: &Frame,
+        until: FrameLimit,
+        gaps: GapPattern,
+    ) -> Result<(), CosimError> {
         let beats = self.beats_of(frame);
         self.driver.send_frame(frame, &beats, until, gaps)
     }
 
     /// Offers the drawn frame, with the damage of `delivery`.
-    fn send_damaged_frame(&mut self, delivery: FrameDelivery, gaps: GapPattern) -> Result<(), CosimError> {
+    fn send_damaged_frame(
+        &mut self,
+        delivery: FrameDelivery,
+        gaps: GapPattern,
+    ) -> Result<(), CosimError> {
         let frame = self.frame_generator.frame()?;
         let beats = self.beats_of(&frame);
         self.driver.send_damaged_frame(&beats, delivery, gaps)
@@ -271,8 +302,9 @@ impl<'a> StimulusSession<'a> {
                 }
                 // Pixels in the windows are not pending, but the core is not ready while there are
                 // some.
-                let is_under_way =
-                    |driver: &ModelDriver<'_>| driver.model().is_pending() || !driver.model().is_ready();
+                let is_under_way = |driver: &ModelDriver<'_>| {
+                    driver.model().is_pending() || !driver.model().is_ready()
+                };
                 while !is_leaving(&self.driver) && is_under_way(&self.driver) {
                     self.driver.clock_without_intake(None)?;
                 }

@@ -56,7 +56,14 @@ impl StimulusSink {
         let long = (u64::from(timing.buffer_rows) + 2) * row;
         let first = if is_brief { LOSSY_TURN_OFFSET } else { 0 };
         let mood = ReadyPattern::Always;
-        timing.has_forwarding.then_some(Self { pattern: mood, is_ready: false, clocks_left: 0, row_clocks: row, longest_stall: long, turn_offset: first })
+        timing.has_forwarding.then_some(Self {
+            pattern: mood,
+            is_ready: false,
+            clocks_left: 0,
+            row_clocks: row,
+            longest_stall: long,
+            turn_offset: first,
+        })
     }
 
     /// Begins a sequence. A sink that stalls does so for up to two rows of regions more than the

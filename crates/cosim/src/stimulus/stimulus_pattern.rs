@@ -58,8 +58,14 @@ pub(crate) enum StimulusPattern {
 }
 
 /// The patterns with which every frame differs from the last one in some regions and not in others.
-pub(super) const VARYING_PATTERNS: &[StimulusPattern] =
-    &[StimulusPattern::Smooth, StimulusPattern::Bump, StimulusPattern::Noise, StimulusPattern::Same, StimulusPattern::Step, StimulusPattern::Ring];
+pub(super) const VARYING_PATTERNS: &[StimulusPattern] = &[
+    StimulusPattern::Smooth,
+    StimulusPattern::Bump,
+    StimulusPattern::Noise,
+    StimulusPattern::Same,
+    StimulusPattern::Step,
+    StimulusPattern::Ring,
+];
 
 /// The number of squares that are tried to meet a minimum.
 const MAX_TRIALS: usize = 64;
@@ -158,16 +164,23 @@ impl PatternGenerator {
             StimulusPattern::Noise => self.map_pixels(before, |random, max, _| random.pixel(max)),
             StimulusPattern::Binary => {
                 let rarity = self.random.up_to(4) + 2;
-                self.map_pixels(before, |random, max, _| if random.one_in(rarity) { max } else { 0 })
+                self.map_pixels(
+                    before,
+                    |random, max, _| if random.one_in(rarity) { max } else { 0 },
+                )
             }
             StimulusPattern::Smooth => self.smooth(),
             StimulusPattern::Same => before,
-            StimulusPattern::Flicker => self.map_pixels(before, |random, max, pixel| match random.up_to(3) {
-                0 => pixel.saturating_sub(1),
-                1 => pixel.saturating_add(1).min(max),
-                _ => pixel,
-            }),
-            StimulusPattern::Fade => self.map_pixels(before, |_, max, pixel| pixel.saturating_add(1).min(max)),
+            StimulusPattern::Flicker => {
+                self.map_pixels(before, |random, max, pixel| match random.up_to(3) {
+                    0 => pixel.saturating_sub(1),
+                    1 => pixel.saturating_add(1).min(max),
+                    _ => pixel,
+                })
+            }
+            StimulusPattern::Fade => {
+                self.map_pixels(before, |_, max, pixel| pixel.saturating_add(1).min(max))
+            }
             StimulusPattern::LightStep => {
                 let (amount, up) = (self.random_change(), self.random.one_in(2));
                 self.map_pixels(before, |_, max, pixel| shift_pixel(pixel, amount, up, max))
@@ -191,7 +204,9 @@ impl PatternGenerator {
         let offset = self.random.index(step);
         let mixed = |kept: usize| -> Vec<u16> {
             let pairs = drawn.iter().zip(&before).enumerate();
-            pairs.map(|(at, (&new, &old))| if self.pixel_index(at) < kept { new } else { old }).collect()
+            pairs
+                .map(|(at, (&new, &old))| if self.pixel_index(at) < kept { new } else { old })
+                .collect()
         };
         let trials = (0..=self.count / step).map(|trial| mixed(offset + trial * step));
         let following = self.scorer.followers_of(&before);
@@ -246,7 +261,8 @@ mod tests {
                 config.camera.spatial[0].level = Some(1);
                 config.camera.temporal.level = Some(u32::from(bits > 1));
                 let design = config.validate().unwrap();
-                let mut artist = PatternGenerator::new(&design, side, Random::new(u64::from(bits * side)));
+                let mut artist =
+                    PatternGenerator::new(&design, side, Random::new(u64::from(bits * side)));
                 for round in 0..60 {
                     artist.draw(ALL[round % ALL.len()]);
                     let count = (side * side) as usize;

@@ -2,8 +2,8 @@
 //! Thresholds that are aimed at data: at a frame that is to come and the scores that one of its
 //! regions will have, or at scores that are decided at this clock.
 
-use super::threshold_ranges::ThresholdRanges;
 use super::random::Random;
+use super::threshold_ranges::ThresholdRanges;
 use foveate_design::{Design, FeatureKind};
 use foveate_model::{RegionScorer, ThresholdInputs, region_border};
 

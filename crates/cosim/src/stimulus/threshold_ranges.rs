@@ -3,7 +3,7 @@
 
 use super::pattern_scorer::{median_filtered, window_at};
 use super::random::Random;
-use foveate_design::{Design, FeatureKind, DenoiseFilter, SpatialFeature};
+use foveate_design::{DenoiseFilter, Design, FeatureKind, SpatialFeature};
 use foveate_model::ThresholdInputs;
 use foveate_model::feature::decisive_level;
 use foveate_model::window::PixelWindow;
@@ -36,7 +36,11 @@ impl ThresholdRanges {
             kinds: design.feature_kinds(),
             level,
             min_score,
-            largest_reached_level: design.features().iter().map(SpatialFeature::level_max).collect(),
+            largest_reached_level: design
+                .features()
+                .iter()
+                .map(SpatialFeature::level_max)
+                .collect(),
             temporal_level: design.pixel_max(),
             temporal_min_count: top_u32(design.count_bits()),
             summary_level: design.periphery().map(|_| design.pixel_max()),
@@ -71,11 +75,20 @@ impl ThresholdRanges {
         random: &mut Random,
     ) {
         let at = random_place(square, random);
-        let window = if self.denoise { window_at(&median_filtered(square), at) } else { window_at(square, at) };
+        let window = if self.denoise {
+            window_at(&median_filtered(square), at)
+        } else {
+            window_at(square, at)
+        };
         self.aim_at_window(&window, thresholds, random);
     }
 
-    fn aim_at_window(&self, window: &PixelWindow, thresholds: &mut ThresholdInputs, random: &mut Random) {
+    fn aim_at_window(
+        &self,
+        window: &PixelWindow,
+        thresholds: &mut ThresholdInputs,
+        random: &mut Random,
+    ) {
         for (index, &kind) in self.kinds.iter().enumerate() {
             if !kind.has_window() {
                 continue;

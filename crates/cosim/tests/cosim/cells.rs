@@ -5,10 +5,11 @@
 
 use crate::common::in_parallel;
 use foveate_cosim::{
-    CosimError, PortDifference, DesignUnderTest, Recorder, Recording, SimulationRun, Simulator, cell_models, has_miswired_block_ram,
+    CosimError, DesignUnderTest, PortDifference, Recorder, Recording, SimulationRun, Simulator,
+    cell_models, has_miswired_block_ram,
 };
-use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
-use foveate_toolchain::testing::{sampling_step, require_tools};
+use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
+use foveate_toolchain::testing::{require_tools, sampling_step};
 use foveate_toolchain::verilator::OptimizationLevel;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
@@ -79,7 +80,11 @@ fn random(state: &mut u64) -> u64 {
 
 /// Returns a memory of `words` words, and a recording that uses few addresses, so that each is used
 /// often.
-fn memory_with_recording(ports: MemoryPorts, width: u32, words: u32) -> (DesignUnderTest, Recording) {
+fn memory_with_recording(
+    ports: MemoryPorts,
+    width: u32,
+    words: u32,
+) -> (DesignUnderTest, Recording) {
     use PortDirection::{Input, Output};
     let bits = words.ilog2();
     let mut list = vec![
@@ -227,7 +232,10 @@ fn synthesize_all(duts: &[&DesignUnderTest]) -> Vec<(DesignUnderTest, BTreeSet<S
     outputs.iter().enumerate().map(of).collect()
 }
 
-fn run_in_icarus(dut: &DesignUnderTest, recording: &Recording) -> Result<Vec<PortDifference>, CosimError> {
+fn run_in_icarus(
+    dut: &DesignUnderTest,
+    recording: &Recording,
+) -> Result<Vec<PortDifference>, CosimError> {
     let (toolchain, cache) = (&Toolchain::system(), &Cache::from_env().unwrap());
     let (simulator, limit) = (Simulator::Iverilog, Duration::from_secs(120));
     let (seed, trace, optimize) = (1, false, OptimizationLevel::FastBuild);
@@ -255,10 +263,13 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
     let one = [&shapes[..], &larger].concat().into_iter().step_by(sampling_step(2));
     let one = one.map(|shape| (MemoryPorts::One, shape));
-    let two = [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (MemoryPorts::Two, shape));
+    let two =
+        [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (MemoryPorts::Two, shape));
     let shapes: Vec<(MemoryPorts, (u32, u32))> = one.chain(two).collect();
-    let memories: Vec<(DesignUnderTest, Recording)> =
-        shapes.iter().map(|&(ports, (width, words))| memory_with_recording(ports, width, words)).collect();
+    let memories: Vec<(DesignUnderTest, Recording)> = shapes
+        .iter()
+        .map(|&(ports, (width, words))| memory_with_recording(ports, width, words))
+        .collect();
     let netlists = synthesize_all(&memories.iter().map(|(rtl, _)| rtl).collect::<Vec<_>>());
     let all: Vec<_> = shapes.iter().zip(memories.iter().zip(&netlists)).collect();
     let failures = in_parallel(&all, |&(&(ports, (width, words)), ((rtl, recording), netlist))| {
@@ -304,7 +315,11 @@ fn a_product_is_that_of_the_rtl() {
         let found = run_in_icarus(&with_edit(&netlist, 0, from, to), &recording).unwrap();
         assert!(!found.is_empty(), "not found: {to}");
     }
-    assert_refused(&with_edit(&netlist, 1, ".PREG(32'sd0)", ".PREG(32'sd1)"), &recording, "registers");
+    assert_refused(
+        &with_edit(&netlist, 1, ".PREG(32'sd0)", ".PREG(32'sd1)"),
+        &recording,
+        "registers",
+    );
     assert_refused(&with_edit(&netlist, 1, ".PREG(", ".RND(48'd1), .PREG("), &recording, "RND");
     let other = with_edit(&netlist, 1, "\"ONE48\"", "\"TWO24\"");
     assert_refused(&other, &recording, "only_multiplies");
@@ -326,7 +341,8 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
         (MemoryPorts::Two, 8, 1 << 11, "RAMB18E2"),
         (MemoryPorts::Two, 36, 1 << 9, "RAMB18E2"),
     ];
-    let memories = shapes.map(|(ports, width, words, _)| memory_with_recording(ports, width, words));
+    let memories =
+        shapes.map(|(ports, width, words, _)| memory_with_recording(ports, width, words));
     let netlists = synthesize_all(&memories.each_ref().map(|(rtl, _)| rtl));
     for ((ports, width, _, cell), ((_, recording), (netlist, cells))) in
         shapes.into_iter().zip(memories.iter().zip(&netlists))
@@ -334,7 +350,10 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
         assert!(cells.contains(cell), "{cells:?}");
         let shape = format!("{ports:?} {width} bits");
         let write_first = with_edit(&with_edit(netlist, 0, wires, there), 0, word, through);
-        assert!(!run_in_icarus(&write_first, recording).unwrap().is_empty(), "{shape}: writes first");
+        assert!(
+            !run_in_icarus(&write_first, recording).unwrap().is_empty(),
+            "{shape}: writes first"
+        );
         // A byte without its enable bit is written, also while its content is unknown.
         let always = with_edit(netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
         assert_eq!(run_in_icarus(&always, recording).unwrap(), [], "{shape}");

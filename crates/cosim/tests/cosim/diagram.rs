@@ -3,7 +3,7 @@
 //! and the models.
 
 use foveate_cosim::timing_diagram;
-use foveate_design::{DesignConfig, Design, PipelinedTiming, SerialTiming};
+use foveate_design::{Design, DesignConfig, PipelinedTiming, SerialTiming};
 use foveate_model::{PipelinedRpu, RpuInput, ThresholdInputs};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -142,7 +142,11 @@ fn a_serial_array_is_ready_and_shows_scores_when_the_timing_says() {
             .sum();
         let scores = diagram.rising_edges("score_valid_o");
         assert_eq!(scores.first(), Some(&(start + timing.edges_to_step(before))), "{toml}");
-        assert_eq!(diagram.rising_edges("active_o").len(), 1, "the first region is active alone: {toml}");
+        assert_eq!(
+            diagram.rising_edges("active_o").len(),
+            1,
+            "the first region is active alone: {toml}"
+        );
         for (name, values) in &diagram.signals {
             if name.starts_with("score_o") || name.starts_with("region_o") {
                 let valid = diagram.signals["score_valid_o"].iter();

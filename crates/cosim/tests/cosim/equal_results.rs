@@ -9,8 +9,9 @@ use crate::common::vectors::{clock_records, port_value};
 use crate::common::{feature, in_parallel, in_turn};
 use foveate_cosim::{CosimJob, CosimLevel, Recording, Simulator, Stimulus};
 use foveate_design::{
-    RegionAction, DesignConfig, Decimal, Design, FeatureKind, PixelFeed, DenoiseFilter, IrrelevantRendering, Neighborhood,
-    Organization, Payload, Pipelining, PortRole, ReferencePolicy, FrameStoreKind,
+    Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, IrrelevantRendering,
+    Neighborhood, Organization, Payload, Pipelining, PixelFeed, PortRole, ReferencePolicy,
+    RegionAction,
 };
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
@@ -156,11 +157,16 @@ fn serial_results(design: &Design, recording: &Recording) -> FrameResults {
         for lane in (0..valid.port.lanes).filter(|&lane| valid.get(&output, lane) == 1) {
             let region = match design.as_serial().unwrap().feed() {
                 PixelFeed::Raster => says(PortRole::ForwardRegion),
-                PixelFeed::Parallel => u64::from(lane * design.slots()) + says(PortRole::ForwardSlot),
+                PixelFeed::Parallel => {
+                    u64::from(lane * design.slots()) + says(PortRole::ForwardSlot)
+                }
             };
             let word = field(PortRole::ForwardPixel).get(&output, lane);
             let result = &mut results.last_mut().unwrap()[usize::try_from(region).unwrap()];
-            assert_eq!(result.next_position(design, BlockPixel::Last), says(PortRole::ForwardPosition));
+            assert_eq!(
+                result.next_position(design, BlockPixel::Last),
+                says(PortRole::ForwardPosition)
+            );
             result.sent.push(word);
         }
     }
@@ -194,7 +200,10 @@ fn raster_results(design: &Design, recording: &Recording) -> FrameResults {
         if says(PortRole::ForwardValid) == 1 {
             let region = number(PortRole::ForwardRegion);
             let result = &mut results[decided[region] - 1][region];
-            assert_eq!(result.next_position(design, BlockPixel::First), says(PortRole::ForwardPosition));
+            assert_eq!(
+                result.next_position(design, BlockPixel::First),
+                says(PortRole::ForwardPosition)
+            );
             let is_first = result.sent.is_empty();
             let words = common::vectors::field_of_role(outputs, PortRole::ForwardPixel);
             let words: Vec<u64> = words.lane_pixels(&output, word).collect();
@@ -216,7 +225,11 @@ fn raster_results(design: &Design, recording: &Recording) -> FrameResults {
 
 /// Simulates the RTL of the pipelined and serial organizations on the frames, and compares both
 /// results with the functional model.
-fn compare_organizations(config: &DesignConfig, frames: &[Frame], what: &str) -> Result<(), String> {
+fn compare_organizations(
+    config: &DesignConfig,
+    frames: &[Frame],
+    what: &str,
+) -> Result<(), String> {
     let design = |organization, feed, fold| {
         let mut config = config.clone();
         config.hardware.organization = organization;
@@ -247,7 +260,9 @@ fn compare_organizations(config: &DesignConfig, frames: &[Frame], what: &str) ->
             return Err(format!("{what}, {organization}: {report}"));
         }
         let got = match organization {
-            Organization::Pipelined => pipelined_results(&design, &recording, stimulus.frames.len()),
+            Organization::Pipelined => {
+                pipelined_results(&design, &recording, stimulus.frames.len())
+            }
             Organization::Serial => serial_results(&design, &recording),
             Organization::Raster => raster_results(&design, &recording),
         };
@@ -337,7 +352,10 @@ fn the_vectors_of_a_raster_core_have_the_functional_results() {
             sufficient_clocks: None,
         };
         let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
-        assert!(raster_results(&design, &recording) == functional_results(&design, &frames), "{config:?}");
+        assert!(
+            raster_results(&design, &recording) == functional_results(&design, &frames),
+            "{config:?}"
+        );
     }
 }
 
@@ -355,7 +373,11 @@ fn the_vectors_of_a_raster_core_have_the_functional_results_with_every_store() {
         config.hardware.pipelining = Some(in_turn(Pipelining::ALL, turn));
         // Summaries need forwarding.
         let may_keep = config.camera.render.irrelevant != IrrelevantRendering::Mean;
-        let stores = [(FrameStoreKind::SinglePort, true), (FrameStoreKind::External, true), (FrameStoreKind::External, false)];
+        let stores = [
+            (FrameStoreKind::SinglePort, true),
+            (FrameStoreKind::External, true),
+            (FrameStoreKind::External, false),
+        ];
         for (store, forward) in stores.into_iter().filter(|&(_, forward)| forward || may_keep) {
             config.hardware.store = Some(store);
             config.hardware.forward = Some(forward);

@@ -2,7 +2,7 @@
 //! The files that a run leaves on disk, and the files that it must not touch.
 
 use crate::common::{cosimulate, design, directed_stimulus};
-use foveate_cosim::{CosimError, CosimReport, CosimJob, CosimLevel, CosimProgress, Simulator};
+use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimProgress, CosimReport, Simulator};
 use foveate_design::DesignConfig;
 use foveate_staging::StagingError;
 use foveate_toolchain::testing::require_tools;
@@ -18,7 +18,13 @@ const SIMULATOR: Simulator = Simulator::Iverilog;
 fn run(output: &Path, edit: impl FnOnce(&mut CosimJob)) -> Result<CosimReport, CosimError> {
     let mut config = DesignConfig::default();
     config.camera.region.size = 4;
-    cosimulate(&design(&config, (1, 1)), SIMULATOR, directed_stimulus(CosimLevel::Rpu, 1), output, edit)
+    cosimulate(
+        &design(&config, (1, 1)),
+        SIMULATOR,
+        directed_stimulus(CosimLevel::Rpu, 1),
+        output,
+        edit,
+    )
 }
 
 fn plant_fault(job: &mut CosimJob) {
@@ -47,7 +53,10 @@ fn a_run_without_mismatch_leaves_nothing_but_waves_that_were_asked_for() {
     let report = run(&output, |job| job.trace = true).unwrap();
     assert_eq!(report.waves.as_deref(), Some(output.join("waves.fst").as_path()));
     assert_eq!(file_names(&output), [".foveate", "waves.fst"]);
-    assert!(run(&output, plant_fault).unwrap().replay.is_some(), "a replay takes the place of waves");
+    assert!(
+        run(&output, plant_fault).unwrap().replay.is_some(),
+        "a replay takes the place of waves"
+    );
 }
 
 #[test]
@@ -143,7 +152,9 @@ fn an_interrupt_ends_the_simulation_and_leaves_nothing() {
     let toolchain = Toolchain::system().with_cancel_flag(Arc::clone(&flag));
     let cache = Cache::in_folder(&dir.path().join("cache")).unwrap();
     let design = design(&DesignConfig::default(), (1, 1));
-    let job = CosimJob::new(&design, directed_stimulus(CosimLevel::Rpu, 1), &dir.path().join("out")).unwrap();
+    let job =
+        CosimJob::new(&design, directed_stimulus(CosimLevel::Rpu, 1), &dir.path().join("out"))
+            .unwrap();
     let result = job.run(&toolchain, &cache, &mut |progress| {
         flag.store(matches!(progress, CosimProgress::Simulation { .. }), Ordering::Relaxed);
     });

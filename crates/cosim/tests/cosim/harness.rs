@@ -3,10 +3,10 @@
 //! and the values that it must have.
 
 use foveate_cosim::{
-    CosimError, DesignUnderTest, SimulationOutcome, Recorder, Recording, SimulationRun, Simulator, bench_name, replay_bench,
-    vectors_hex,
+    CosimError, DesignUnderTest, Recorder, Recording, SimulationOutcome, SimulationRun, Simulator,
+    bench_name, replay_bench, vectors_hex,
 };
-use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
+use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::verilator::OptimizationLevel;
 use foveate_toolchain::{Cache, Invocation, Tool, Toolchain};
@@ -97,7 +97,15 @@ fn run(
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let limit = Duration::from_secs(60);
     let (toolchain, cache) = (&toolchain, &cache);
-    let run = SimulationRun { simulator, seed: 3, trace, toolchain, cache, limit, optimize: OptimizationLevel::FastBuild };
+    let run = SimulationRun {
+        simulator,
+        seed: 3,
+        trace,
+        toolchain,
+        cache,
+        limit,
+        optimize: OptimizationLevel::FastBuild,
+    };
     run.run(&dut(verilog), recording)
 }
 
@@ -154,7 +162,8 @@ fn differences_are_reported_until_the_sequence_ends() {
     for (simulator, trace) in Simulator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]) {
         if require_tools(simulator.tools()) {
             let found = |frames| -> Vec<(String, u64)> {
-                let outcome = run(simulator, &faulty, &recording_in_sequences(200, frames), trace).unwrap();
+                let outcome =
+                    run(simulator, &faulty, &recording_in_sequences(200, frames), trace).unwrap();
                 outcome.differences.into_iter().map(|found| (found.port, found.clock)).collect()
             };
             let all = [("b_o".to_owned(), 60), ("c_o".to_owned(), 110), ("d_o".to_owned(), 160)];
@@ -170,7 +179,8 @@ fn a_register_that_reset_forgets_is_found() {
     let forgetful = with_edit("count <= 12'd0;", "");
     for simulator in Simulator::ALL {
         if require_tools(simulator.tools()) {
-            let outcome = run(simulator, &forgetful, &single_sequence_recording(100), false).unwrap();
+            let outcome =
+                run(simulator, &forgetful, &single_sequence_recording(100), false).unwrap();
             let found = outcome.differences[0].clone();
             assert_eq!(found.clock, 0, "{simulator}");
             assert_eq!(simulator == Simulator::Iverilog, found.got.contains('x'), "{simulator}");
@@ -198,12 +208,14 @@ fn waves_are_written_when_asked_for() {
 fn a_simulation_that_ends_early_is_an_error() {
     let early = with_edit("// here", "if (count == 12'd60) $finish;");
     if require_tools(Simulator::Iverilog.tools()) {
-        let error = run(Simulator::Iverilog, &early, &single_sequence_recording(2000), false).unwrap_err();
+        let error =
+            run(Simulator::Iverilog, &early, &single_sequence_recording(2000), false).unwrap_err();
         assert!(matches!(error, CosimError::EndedEarly { clocks: 2000, .. }), "{error}");
     }
     let early = with_edit("// here", "if (count == 12'd60) $stop;");
     if require_tools(Simulator::Verilator.tools()) {
-        let error = run(Simulator::Verilator, &early, &single_sequence_recording(2000), false).unwrap_err();
+        let error =
+            run(Simulator::Verilator, &early, &single_sequence_recording(2000), false).unwrap_err();
         assert!(matches!(error, CosimError::EndedEarly { clocks: 2000, .. }), "{error}");
     }
 }
@@ -220,7 +232,8 @@ fn sources_without_the_module_or_port_are_refused_by_name() {
     let error = run(Simulator::Iverilog, &other, &single_sequence_recording(1), false).unwrap_err();
     assert!(error.to_string().starts_with("module `tiny` has no port `b_i`"), "{error}");
     let broken = with_edit("endmodule", "end");
-    let error = run(Simulator::Iverilog, &broken, &single_sequence_recording(1), false).unwrap_err();
+    let error =
+        run(Simulator::Iverilog, &broken, &single_sequence_recording(1), false).unwrap_err();
     assert!(matches!(error, CosimError::Tool(_)), "{error}");
 }
 
@@ -240,7 +253,8 @@ fn ports_of_another_width_are_refused() {
             continue;
         }
         for (from, to, name, bits, of_design) in edits {
-            let error = run(simulator, &with_edit(from, to), &single_sequence_recording(1), false).unwrap_err();
+            let error = run(simulator, &with_edit(from, to), &single_sequence_recording(1), false)
+                .unwrap_err();
             let CosimError::PortWidth { top, port, found, wanted } = &error else {
                 panic!("{simulator} {to}: {error}");
             };
@@ -251,7 +265,10 @@ fn ports_of_another_width_are_refused() {
         let other = TINY_MODULE
             .replace("input  wire [7:0]   a_i,", "")
             .replace("    reg [11:0] count;", "    wire a_i = 1'b0; reg [11:0] count;");
-        assert!(run(simulator, &other, &single_sequence_recording(1), false).is_err(), "{simulator}");
+        assert!(
+            run(simulator, &other, &single_sequence_recording(1), false).is_err(),
+            "{simulator}"
+        );
     }
 }
 

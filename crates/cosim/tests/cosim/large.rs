@@ -3,9 +3,11 @@
 //! its size. The default runs and the bench of a core must reach all of them, and faults there must
 //! be found.
 
-use crate::common::{cosimulate, in_parallel, has_simulators};
-use foveate_cosim::{CosimJob, CosimLevel, ShippedBench, Simulator, Stimulus, unelaborated_variants};
-use foveate_design::{DesignConfig, Design, PRESETS};
+use crate::common::{cosimulate, has_simulators, in_parallel};
+use foveate_cosim::{
+    CosimJob, CosimLevel, ShippedBench, Simulator, Stimulus, unelaborated_variants,
+};
+use foveate_design::{Design, DesignConfig, PRESETS};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
@@ -77,7 +79,10 @@ const FAULTS: &[LargeFrameFault] = &[
 ];
 
 fn design(toml: &str) -> Design {
-    DesignConfig::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
+    DesignConfig::from_toml(toml)
+        .unwrap()
+        .validate()
+        .unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
 /// Returns the sources of a core, with those of all of its tops.
@@ -94,7 +99,12 @@ fn is_found_by_cosim(
     (level, simulator): (CosimLevel, Simulator),
     output: &Path,
 ) -> bool {
-    let stimulus = Stimulus { level, rounds: 1, sufficient_clocks: Some(SUFFICIENT_CLOCKS), ..Stimulus::default() };
+    let stimulus = Stimulus {
+        level,
+        rounds: 1,
+        sufficient_clocks: Some(SUFFICIENT_CLOCKS),
+        ..Stimulus::default()
+    };
     let edit = |job: &mut CosimJob| job.sources = files.to_vec();
     !cosimulate(design, simulator, stimulus, output, edit).unwrap().passed()
 }
@@ -156,8 +166,10 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
         let folder = output.path().join(what.replace(' ', "-"));
         // The whole frame is quicker in Verilator, in which no unknown value shows the fault; the
         // bench runs in Icarus.
-        let (small, whole) =
-            ((CosimLevel::small_array(&design), Simulator::Iverilog), (CosimLevel::Full, Simulator::Verilator));
+        let (small, whole) = (
+            (CosimLevel::small_array(&design), Simulator::Iverilog),
+            (CosimLevel::Full, Simulator::Verilator),
+        );
         if is_found_by_cosim(&design, &files, small, &folder) {
             return Err(format!("{what}: the small grid finds it, so it shows nothing here"));
         }
@@ -283,11 +295,13 @@ fn nothing_of_a_generated_core_is_left_out() {
     let failures = in_parallel(&listed_designs(), |(name, design)| {
         let sources = core_sources(design);
         let bench = ShippedBench::levels(design).map_err(|error| error.to_string())?;
-        for (what, levels) in
-            [("cosim", CosimLevel::for_sources(design, &sources, &Prefix::default())), ("bench", bench)]
-        {
-            let left = unelaborated_variants(design, &sources, &Prefix::default(), &levels, &toolchain)
-                .map_err(|error| format!("{name}: {error}"))?;
+        for (what, levels) in [
+            ("cosim", CosimLevel::for_sources(design, &sources, &Prefix::default())),
+            ("bench", bench),
+        ] {
+            let left =
+                unelaborated_variants(design, &sources, &Prefix::default(), &levels, &toolchain)
+                    .map_err(|error| format!("{name}: {error}"))?;
             if !left.is_empty() {
                 let left: Vec<String> = left.iter().map(ToString::to_string).collect();
                 return Err(format!("{name}, {what}: {}", left.join("; ")));

@@ -2,7 +2,7 @@
 //! The synthesized netlist agrees with the model, and a netlist with a fault does not.
 
 use crate::common::{design, directed_stimulus, in_parallel};
-use foveate_cosim::{CosimReport, CosimJob, CosimLevel, Netlist, Simulator};
+use foveate_cosim::{CosimJob, CosimLevel, CosimReport, Netlist, Simulator};
 use foveate_design::DesignConfig;
 use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Tool, Toolchain};

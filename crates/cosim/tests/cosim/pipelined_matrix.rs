@@ -5,12 +5,13 @@
 use std::collections::BTreeSet;
 
 use crate::common::{
-    check_agreement, design, directed_stimulus, feature, in_parallel, in_turn, pairwise_part, config_name, axis_positions, has_simulators,
+    axis_positions, check_agreement, config_name, design, directed_stimulus, feature,
+    has_simulators, in_parallel, in_turn, pairwise_part,
 };
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
-    CameraConfig, VoteCombination, DesignConfig, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload,
-    Pipelining, ReferencePolicy, ThresholdSource,
+    CameraConfig, Decimal, DenoiseFilter, DesignConfig, FeatureKind, IrrelevantRendering,
+    Neighborhood, Payload, Pipelining, ReferencePolicy, ThresholdSource, VoteCombination,
 };
 use foveate_toolchain::testing::sampling_step;
 
@@ -151,7 +152,8 @@ fn in_a_part_of_a_matrix_every_two_values_meet() {
     for (axes, share) in [(&AXIS_LENGTHS[..], 4), (&[4, 2, 2, 2], 4), (&[2, 2, 2, 2], 2)] {
         let all: Vec<usize> = (0..axes.iter().product()).collect();
         let part = all.len() / sampling_step(share);
-        let taken: Vec<_> = pairwise_part(all, axes).iter().map(|&at| axis_positions(at, axes)).collect();
+        let taken: Vec<_> =
+            pairwise_part(all, axes).iter().map(|&at| axis_positions(at, axes)).collect();
         assert_eq!(taken.len(), part);
         for first in 0..axes.len() {
             for second in 0..first {
@@ -181,7 +183,8 @@ fn designs_outside_the_matrix_agree() {
     for (turn, kinds) in sets.iter().enumerate() {
         for &combine in VoteCombination::ALL {
             let spatial = kinds.iter().map(|&kind| feature(kind, 2)).collect();
-            let mut config = DesignConfig::from(CameraConfig { spatial, ..CameraConfig::default() });
+            let mut config =
+                DesignConfig::from(CameraConfig { spatial, ..CameraConfig::default() });
             config.camera.region.size = [8, 5, 4][turn % 3];
             config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn);
             config.camera.decision.combine = combine;

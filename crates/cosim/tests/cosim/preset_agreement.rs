@@ -4,7 +4,7 @@
 
 use crate::common::{cosimulate, design};
 use foveate_cosim::{CosimLevel, Simulator, Stimulus};
-use foveate_design::{DesignConfig, Design, Organization, PRESETS};
+use foveate_design::{Design, DesignConfig, Organization, PRESETS};
 use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::testing::require_tools;
 

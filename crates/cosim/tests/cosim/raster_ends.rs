@@ -8,8 +8,8 @@ use crate::common::vectors::{clock_records, port_value};
 use crate::common::{check_agreement, design, directed_stimulus, feature, has_simulators};
 use foveate_cosim::{CosimLevel, Recording, Simulator, Stimulus};
 use foveate_design::{
-    CameraConfig, DesignConfig, Decimal, Design, FeatureKind, DenoiseFilter, IrrelevantRendering, Organization, Payload,
-    Pipelining, PortRole, ReferencePolicy,
+    CameraConfig, Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering,
+    Organization, Payload, Pipelining, PortRole, ReferencePolicy,
 };
 use foveate_frame::Frame;
 
@@ -149,7 +149,13 @@ impl<'a> PortReceiver<'a> {
     }
 
     /// Records a word that is taken.
-    fn take_word(&mut self, name: FrameRegion, position: u64, [first, last, abort]: [bool; 3], summary: bool) {
+    fn take_word(
+        &mut self,
+        name: FrameRegion,
+        position: u64,
+        [first, last, abort]: [bool; 3],
+        summary: bool,
+    ) {
         assert_eq!(first, self.open.is_none(), "{name:?}");
         if first {
             // The regions before this one were lost as a whole.
@@ -256,7 +262,8 @@ fn every_region_is_whole_or_ends_early_or_is_named_as_lost() {
     for design in designs() {
         let mut receiver = PortReceiver::new(&design);
         receiver.check_recording(&record(&design));
-        let PortReceiver { fates, losses_within: ways, taken_aborts: taken, summaries, .. } = &receiver;
+        let PortReceiver { fates, losses_within: ways, taken_aborts: taken, summaries, .. } =
+            &receiver;
         let fate = |fate| fates.get(&fate).copied().unwrap_or_default();
         let told = format!("{fates:?} {ways:?} {taken:?}, {:?}", design.config());
         assert!(fate(RegionFate::Whole) > 200 && fate(RegionFate::Aborted) > 20, "{told}");
@@ -282,7 +289,8 @@ fn frame_numbers_wrap_around_after_256() {
         Frame::from_fn(width, height, design.pixel_bits(), pixel).unwrap()
     };
     let frames = (0..260).map(frame).collect();
-    let stimulus = Stimulus { level: CosimLevel::Full, seed: 1, rounds: 0, frames, sufficient_clocks: None };
+    let stimulus =
+        Stimulus { level: CosimLevel::Full, seed: 1, rounds: 0, frames, sufficient_clocks: None };
     let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
     let seen: Vec<u64> = clock_records(&recording)
         .iter()

@@ -8,8 +8,8 @@ use crate::common::vectors::{clock_records, port_value};
 use crate::common::{design, directed_stimulus, feature};
 use foveate_cosim::{CosimLevel, Recording, Stimulus};
 use foveate_design::{
-    CameraConfig, DesignConfig, Design, FeatureKind, DenoiseFilter, Neighborhood, Organization, PortRole,
-    RasterTiming, ReferencePolicy,
+    CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, Neighborhood, Organization,
+    PortRole, RasterTiming, ReferencePolicy,
 };
 use foveate_frame::Frame;
 
@@ -151,7 +151,8 @@ fn regions_are_lost_and_small_frames_wait() {
         };
         let clocks = clock_records(&recording);
         let longest = clocks.split(takes).map(<[_]>::len).max().unwrap();
-        let row = RasterTiming::from_design(design.as_raster().unwrap()).words() / u64::from(design.rows());
+        let row = RasterTiming::from_design(design.as_raster().unwrap()).words()
+            / u64::from(design.rows());
         assert!(longest as u64 > 2 * row, "{longest} clocks");
     }
     let recording = record(&small, 2);
@@ -176,8 +177,9 @@ fn resets_come_everywhere() {
         let story = clocks_of(&design, &recording);
         // The first reset is at power-up.
         let resets: Vec<&RasterClock> = story.iter().skip(1).filter(|clock| clock.reset).collect();
-        let count =
-            |which: &dyn Fn(&RasterClock) -> bool| resets.iter().filter(|clock| which(clock)).count();
+        let count = |which: &dyn Fn(&RasterClock) -> bool| {
+            resets.iter().filter(|clock| which(clock)).count()
+        };
         assert!(count(&|clock| clock.loading) > 2, "loading");
         assert!(count(&|clock| !shows(PortRole::Ready, clock)) > 2, "flushing");
         assert!(count(&|clock| shows(PortRole::ForwardValid, clock)) > 2, "leaving");
@@ -198,7 +200,8 @@ fn frames_of_the_caller_go_through_the_lone_core_tile_by_tile() {
     assert_eq!((recording.sequences(), recording.frames()), (2, 4));
     let last = recording.span(recording.clocks()).unwrap();
     assert_eq!((last.sequence.as_str(), last.frame), ("frames from x 16, y 0 on", 1));
-    let taken = clocks_of(&design.lone_unit(), &recording).into_iter().filter(|clock| clock.is_taken);
+    let taken =
+        clocks_of(&design.lone_unit(), &recording).into_iter().filter(|clock| clock.is_taken);
     let words: Vec<u64> = taken.map(|clock| clock.word).collect();
     assert_eq!(words.len(), 4 * 16 * 12);
     assert_eq!(words[14..18], [14, 15, 16, 17]);

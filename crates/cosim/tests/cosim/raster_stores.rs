@@ -5,11 +5,14 @@
 use std::collections::VecDeque;
 
 use crate::common::vectors::{clock_records, field_of_role, port_value};
-use crate::common::{check_agreement, design, directed_stimulus, feature, in_parallel, in_turn, config_name, has_simulators};
+use crate::common::{
+    check_agreement, config_name, design, directed_stimulus, feature, has_simulators, in_parallel,
+    in_turn,
+};
 use foveate_cosim::{CosimLevel, Recording, Simulator};
 use foveate_design::{
-    CameraConfig, DesignConfig, Design, FeatureKind, DenoiseFilter, Neighborhood, Organization, Payload,
-    Pipelining, PortRole, RasterTiming, FrameStoreKind, ThresholdSource,
+    CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, Neighborhood,
+    Organization, Payload, Pipelining, PortRole, RasterTiming, ThresholdSource,
 };
 use foveate_toolchain::testing::takes_whole_lists;
 
@@ -195,7 +198,8 @@ fn without_forwarding_there_are_no_forward_columns() {
         assert!(names.iter().all(|name| !name.contains(part)), "{names:?}");
     }
     let active = field_of_role(recording.outputs(), PortRole::Active);
-    let seen = clock_records(&recording).iter().filter(|(_, output)| active.get(output, 0) == 1).count();
+    let seen =
+        clock_records(&recording).iter().filter(|(_, output)| active.get(output, 0) == 1).count();
     assert!(seen > 100, "{seen} active regions");
 }
 
@@ -219,7 +223,8 @@ fn matrix(store: FrameStoreKind, forward: bool) -> Vec<Design> {
             config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
             config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
             config.hardware.thresholds =
-                [ThresholdSource::Runtime, ThresholdSource::Runtime, ThresholdSource::Constant][turn % 3];
+                [ThresholdSource::Runtime, ThresholdSource::Runtime, ThresholdSource::Constant]
+                    [turn % 3];
             let columns = (16 * pixels).div_ceil(size).max(4);
             // Every second frame does not fill its last column and row of regions.
             let odd = u32::try_from(turn % 2).unwrap();
@@ -249,7 +254,8 @@ fn check_all(store: FrameStoreKind, forward: bool) {
         let is_narrow = design.config().hardware.pixels_per_clock == Some(1);
         let simulator = if is_narrow { Simulator::Iverilog } else { Simulator::Verilator };
         let folder = output.path().join(design.fingerprint());
-        let what = format!("{} {}", config_name(&design.config()), design.config().hardware.description());
+        let what =
+            format!("{} {}", config_name(&design.config()), design.config().hardware.description());
         check_agreement(&what, design, simulator, directed_stimulus(CosimLevel::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));

@@ -5,9 +5,9 @@
 use std::collections::BTreeMap;
 
 use crate::common::vectors::{clock_records, pairs_of_decisions, port_value};
-use crate::common::{check_agreement, directed_stimulus, in_parallel, in_turn, has_simulators};
+use crate::common::{check_agreement, directed_stimulus, has_simulators, in_parallel, in_turn};
 use foveate_cosim::{CosimLevel, Simulator};
-use foveate_design::{DesignConfig, Design, PortRole, ThresholdSource};
+use foveate_design::{Design, DesignConfig, PortRole, ThresholdSource};
 
 fn design(keys: &[&str]) -> Design {
     let own = ["hardware.organization='raster'", "render.irrelevant='mean'"];
@@ -99,7 +99,8 @@ fn summaries_are_sent_and_stay_after_every_last_output() {
         LostSummary,
     }
     for design in designs() {
-        let recording = directed_stimulus(CosimLevel::Full, 1).record(&design, &mut |_, _| {}).unwrap();
+        let recording =
+            directed_stimulus(CosimLevel::Full, 1).record(&design, &mut |_, _| {}).unwrap();
         let (inputs, outputs) = (recording.inputs(), recording.outputs());
         let mut last = BTreeMap::new();
         let mut seen = BTreeMap::<(LastOutput, bool), u64>::new();
@@ -131,7 +132,10 @@ fn summaries_are_sent_and_stay_after_every_last_output() {
         }
         let told = format!("{seen:?}\n{}", design.config().to_toml());
         let count = |before, sends| seen.get(&(before, sends)).copied().unwrap_or_default();
-        assert!(count(LastOutput::Summary, true) > 10 && count(LastOutput::Summary, false) > 10, "{told}");
+        assert!(
+            count(LastOutput::Summary, true) > 10 && count(LastOutput::Summary, false) > 10,
+            "{told}"
+        );
         for before in [LastOutput::Nothing, LastOutput::Pixels] {
             assert!(count(before, true) > 10 && count(before, false) == 0, "{told}");
         }
@@ -153,7 +157,8 @@ fn summaries_stay_while_their_regions_are_held() {
             ThresholdSource::Constant => continue,
             ThresholdSource::Runtime => {}
         }
-        let recording = directed_stimulus(CosimLevel::Full, 1).record(&design, &mut |_, _| {}).unwrap();
+        let recording =
+            directed_stimulus(CosimLevel::Full, 1).record(&design, &mut |_, _| {}).unwrap();
         let pairs = pairs_of_decisions(&recording);
         for pair in [("sent", "held"), ("kept", "held"), ("held", "kept"), ("held", "sent")] {
             assert!(pairs.contains(&pair), "{pair:?}: {pairs:?}\n{}", design.config().to_toml());

@@ -2,8 +2,8 @@
 //! Reports as text, JSON and JUnit XML.
 
 use foveate_cosim::{
-    CosimReport, UnreachedVerilog, CosimLevel, Mismatch, UnelaboratedVariant, UnsimulatedModules, Occurrences, PortMismatch,
-    StepSeconds, Simulator, CosimSummary, CosimVerdict, junit_xml,
+    CosimLevel, CosimReport, CosimSummary, CosimVerdict, Mismatch, Occurrences, PortMismatch,
+    Simulator, StepSeconds, UnelaboratedVariant, UnreachedVerilog, UnsimulatedModules, junit_xml,
 };
 
 fn report(mismatch: Option<Mismatch>) -> CosimReport {
@@ -78,7 +78,11 @@ fn summary_of_runs(runs: Vec<CosimReport>, spare: bool, whole: bool) -> CosimSum
     summary_with_unreached(runs, UnreachedVerilog { modules, variants: Vec::new() }, whole)
 }
 
-fn summary_with_unreached(runs: Vec<CosimReport>, left: UnreachedVerilog, whole: bool) -> CosimSummary {
+fn summary_with_unreached(
+    runs: Vec<CosimReport>,
+    left: UnreachedVerilog,
+    whole: bool,
+) -> CosimSummary {
     CosimSummary::new("0123456789abcdef".to_owned(), runs, Vec::new(), left, whole)
 }
 
@@ -97,7 +101,10 @@ fn a_parameter_value_that_was_not_elaborated_is_no_pass() {
     assert_eq!(json["not_elaborated"][0]["parameters"][0], "WORDS = 4b000");
     let xml = junit_xml(&whole);
     assert!(xml.contains("failures=\"1\"") && xml.contains("store with WORDS = 4b000"), "{xml}");
-    assert_eq!(summary_with_unreached(vec![report(None)], left(), false).verdict(), CosimVerdict::Passed);
+    assert_eq!(
+        summary_with_unreached(vec![report(None)], left(), false).verdict(),
+        CosimVerdict::Passed
+    );
 }
 
 #[test]
@@ -165,7 +172,8 @@ fn a_situation_that_did_not_occur_is_no_pass() {
         CosimReport { situations, ..report(None) }
     };
     let verdict = |runs| {
-        CosimSummary::new("design".to_owned(), runs, Vec::new(), UnreachedVerilog::default(), false).verdict()
+        CosimSummary::new("design".to_owned(), runs, Vec::new(), UnreachedVerilog::default(), false)
+            .verdict()
     };
     assert_eq!(verdict(vec![counted(0)]), CosimVerdict::Incomplete);
     assert_eq!(verdict(vec![counted(3)]), CosimVerdict::Passed);

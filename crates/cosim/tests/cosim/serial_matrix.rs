@@ -3,11 +3,15 @@
 //! of clocks, so the keys are not crossed. They take turns, each with its own period.
 
 use crate::common::serial::{serial_config, serial_config_name};
-use crate::common::{check_agreement, design, directed_stimulus, feature, in_parallel, in_turn, pairwise_part, has_simulators};
+use crate::common::{
+    check_agreement, design, directed_stimulus, feature, has_simulators, in_parallel, in_turn,
+    pairwise_part,
+};
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
-    VoteCombination, DesignConfig, Decimal, Design, FeatureKind, PixelFeed, DenoiseFilter, IrrelevantRendering, LaneMemoryKind,
-    Neighborhood, Payload, Pipelining, ReferencePolicy, ThresholdSource,
+    Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, LaneMemoryKind,
+    Neighborhood, Payload, Pipelining, PixelFeed, ReferencePolicy, ThresholdSource,
+    VoteCombination,
 };
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
@@ -65,7 +69,8 @@ fn check_all(cases: &[SerialCase]) {
 
 /// Sets the keys that are no axis of a test, in turn.
 fn with_keys_in_turn(mut config: DesignConfig, turn: usize) -> DesignConfig {
-    config.camera.render.irrelevant = IrrelevantRendering::ALL[turn / 2 % IrrelevantRendering::ALL.len()];
+    config.camera.render.irrelevant =
+        IrrelevantRendering::ALL[turn / 2 % IrrelevantRendering::ALL.len()];
     config.camera.render.payload = in_turn(Payload::ALL, turn / 3);
     config.camera.decision.combine = in_turn(VoteCombination::ALL, turn / 5);
     config
@@ -82,7 +87,8 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
                 for &reference in ReferencePolicy::ALL {
                     let turn = cases.len();
                     let fraction = u32::try_from(turn % 5).unwrap();
-                    let mut config = with_keys_in_turn(serial_config(&[feature(kind, fraction)]), turn);
+                    let mut config =
+                        with_keys_in_turn(serial_config(&[feature(kind, fraction)]), turn);
                     config.camera.denoise.filter = filter;
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.temporal.reference = reference;
@@ -166,7 +172,8 @@ fn depths_sizes_memories_and_constants_agree() {
         [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2)].into_iter().enumerate()
     {
         let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn % 3];
-        let mut config = with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
+        let mut config =
+            with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
         config.hardware.fold = fold;
         config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn));
@@ -277,11 +284,13 @@ fn a_configured_memory_kind_agrees() {
         for &reference in ReferencePolicy::ALL {
             for &feed in PixelFeed::ALL {
                 let turn = cases.len();
-                for (memory, size, fold) in
-                    [(LaneMemoryKind::Block, [4, 5][turn % 2], 2), (LaneMemoryKind::Distributed, 8, 9)]
-                {
+                for (memory, size, fold) in [
+                    (LaneMemoryKind::Block, [4, 5][turn % 2], 2),
+                    (LaneMemoryKind::Distributed, 8, 9),
+                ] {
                     let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn / 2 % 3];
-                    let mut config = with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
+                    let mut config =
+                        with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
                     config.hardware.feed = Some(feed);

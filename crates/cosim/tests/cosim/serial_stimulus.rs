@@ -6,10 +6,10 @@ use crate::common;
 use crate::common::serial::serial_config;
 use crate::common::vectors::{clock_records, pairs_of_decisions, port_value};
 use crate::common::{design, directed_stimulus, feature};
-use foveate_cosim::{RecordLayout, CosimLevel, Recording, Stimulus};
+use foveate_cosim::{CosimLevel, RecordLayout, Recording, Stimulus};
 use foveate_design::{
-    DesignConfig, Design, FeatureKind, PixelFeed, DenoiseFilter, IrrelevantRendering, Neighborhood, PortRole, ReferencePolicy,
-    SerialTiming,
+    DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, Neighborhood, PixelFeed,
+    PortRole, ReferencePolicy, SerialTiming,
 };
 use foveate_frame::Frame;
 use std::collections::BTreeSet;
@@ -126,7 +126,8 @@ fn pixels_are_offered_while_none_is_taken_and_frames_follow_at_once() {
     for design in designs() {
         let recording = record(&design, &directed_stimulus(LEVEL, 1));
         let story = clocks_of(&design, &recording);
-        let pixel = |clock: &SerialClock| port_value(recording.inputs(), PortRole::Pixel, &clock.input);
+        let pixel =
+            |clock: &SerialClock| port_value(recording.inputs(), PortRole::Pixel, &clock.input);
         let refused: Vec<_> = story.iter().filter(|c| c.valid && !c.is_taken && !c.reset).collect();
         let garbage: BTreeSet<u64> = refused.iter().map(|clock| pixel(clock)).collect();
         assert!(refused.len() > 1000 && garbage.len() > 100, "{} refused", refused.len());

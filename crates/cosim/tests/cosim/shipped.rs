@@ -3,7 +3,7 @@
 //! wrong.
 
 use foveate_cosim::{Occurrences, ShippedBench, VectorTally};
-use foveate_design::{ArrayStructure, DesignConfig, Design, FeatureKind, Organization};
+use foveate_design::{ArrayStructure, Design, DesignConfig, FeatureKind, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
@@ -14,7 +14,10 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 fn design(toml: &str) -> Design {
-    DesignConfig::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
+    DesignConfig::from_toml(toml)
+        .unwrap()
+        .validate()
+        .unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
 pub(crate) fn bench(design: &Design, top: Top) -> ShippedBench {
@@ -529,7 +532,10 @@ fn every_tied_output_fails() {
     // These take five to fifteen seconds in Icarus, and less than three in Verilator.
     let long = [
         pipelined_or_serial_toml(8, Some((3, "raster"))),
-        format!("render.irrelevant = 'mean'\n{}", pipelined_or_serial_toml(4, Some((7, "parallel")))),
+        format!(
+            "render.irrelevant = 'mean'\n{}",
+            pipelined_or_serial_toml(4, Some((7, "parallel")))
+        ),
         format!("hardware.sync = true\n{}", raster_toml(8, 1)),
     ];
     quick.iter().for_each(|toml| assert_tied_outputs_fail(toml, BenchSimulator::Icarus));
@@ -570,7 +576,8 @@ fn matrix() -> Vec<(String, BenchSimulator)> {
                 }
             }
             let divides = |word: &u32| size.is_multiple_of(*word);
-            designs.extend([1, 2, 4].into_iter().filter(divides).map(|word| raster_toml(size, word)));
+            designs
+                .extend([1, 2, 4].into_iter().filter(divides).map(|word| raster_toml(size, word)));
         }
         let player = if size <= 8 { BenchSimulator::Icarus } else { BenchSimulator::Verilator };
         for toml in designs {

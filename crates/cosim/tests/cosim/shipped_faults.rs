@@ -5,7 +5,7 @@
 
 use crate::common::in_parallel;
 use crate::shipped::{BenchSimulator, bench};
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_emit::{SourceFile, Top, verilog};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;

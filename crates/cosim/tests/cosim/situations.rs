@@ -4,7 +4,7 @@
 
 use crate::common::in_parallel;
 use foveate_cosim::{CosimLevel, Occurrences, ShippedBench, Stimulus};
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_emit::{Prefix, Top};
 use std::sync::atomic::AtomicBool;
 
@@ -133,7 +133,9 @@ fn drawn_designs(count: usize) -> Vec<(Vec<&'static str>, Design)> {
         if UNREACHABLE.iter().all(|key| keys.contains(key)) {
             continue;
         }
-        if let Ok(design) = DesignConfig::from_toml_with("", &keys).and_then(|config| config.validate()) {
+        if let Ok(design) =
+            DesignConfig::from_toml_with("", &keys).and_then(|config| config.validate())
+        {
             designs.push((keys, design));
         }
     }

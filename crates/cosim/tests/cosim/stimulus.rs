@@ -4,7 +4,7 @@
 use crate::common::vectors::{clock_records, field_of_role, pairs_of_decisions};
 use crate::common::{design, directed_stimulus};
 use foveate_cosim::{CosimLevel, Recording, Stimulus, vectors_hex};
-use foveate_design::{DesignConfig, Design, FeatureKind, PortRole};
+use foveate_design::{Design, DesignConfig, FeatureKind, PortRole};
 use foveate_frame::Frame;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -64,7 +64,8 @@ fn summaries_are_due_and_not_due() {
                  irrelevant = \"mean\"\n[hardware]\nthresholds = \"{thresholds}\"\n"
             );
             let design = design(&config(&toml), (1, 1));
-            let found = pairs_of_decisions(&record(&design, &directed_stimulus(CosimLevel::Rpu, 2)));
+            let found =
+                pairs_of_decisions(&record(&design, &directed_stimulus(CosimLevel::Rpu, 2)));
             // The screen shows no summary of an active region, unless its minima change after the
             // decision.
             let is_odd = thresholds == "constant" && found.contains(&("active", "kept"));
@@ -107,8 +108,10 @@ fn the_largest_gradient_meets_its_level() {
         let mut found = BTreeSet::new();
         for (input, output) in clock_records(&recording) {
             if field_of_role(outputs, PortRole::DecisionValid).get(&output, 0) == 1 {
-                let level = field_of_role(inputs, PortRole::Level(FeatureKind::Edge)).get(&input, 0);
-                let score = field_of_role(outputs, PortRole::Score(FeatureKind::Edge)).get(&output, 0);
+                let level =
+                    field_of_role(inputs, PortRole::Level(FeatureKind::Edge)).get(&input, 0);
+                let score =
+                    field_of_role(outputs, PortRole::Score(FeatureKind::Edge)).get(&output, 0);
                 found.insert((level, score > 0));
             }
         }
@@ -154,7 +157,8 @@ fn frames_of_the_caller_are_streamed_region_by_region() {
     let last = recording.span(recording.clocks()).unwrap();
     assert_eq!((last.region, last.frame), (Some(5), 1));
     let border = field_of_role(recording.inputs(), PortRole::Border);
-    let borders: BTreeSet<u64> = clock_records(&recording).iter().map(|(i, _)| border.get(i, 0)).collect();
+    let borders: BTreeSet<u64> =
+        clock_records(&recording).iter().map(|(i, _)| border.get(i, 0)).collect();
     assert_eq!(borders, BTreeSet::from([0b0101, 0b0100, 0b0110, 0b1001, 0b1000, 0b1010]));
 
     let array = Stimulus { level: CosimLevel::Rcm { columns: 2, rows: 1 }, ..stimulus };
@@ -173,7 +177,8 @@ fn nothing_to_simulate_is_refused() {
 fn arrays_beyond_memory_are_refused_before_they_are_made() {
     let design = design(&config(""), (1, 1));
     let level = CosimLevel::Rcm { columns: 300, rows: 300 };
-    let error = directed_stimulus(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
+    let error =
+        directed_stimulus(level, 1).record(&design, &mut |_, _| {}).unwrap_err().to_string();
     assert!(error.starts_with("an array of 90000 regions, which take 5760000 pixels"), "{error}");
     assert!(error.contains("the limits are 65536 regions and 67108864 pixels"), "{error}");
 }
@@ -183,10 +188,11 @@ fn an_interrupt_stops_the_model() {
     let design = design(&config(""), (1, 1));
     let cancel = AtomicBool::new(false);
     let mut heard = 0;
-    let result = directed_stimulus(CosimLevel::Rpu, 3).record_until(&design, &cancel, &mut |done, _| {
-        heard = done;
-        cancel.store(done == 2, Ordering::Relaxed);
-    });
+    let result =
+        directed_stimulus(CosimLevel::Rpu, 3).record_until(&design, &cancel, &mut |done, _| {
+            heard = done;
+            cancel.store(done == 2, Ordering::Relaxed);
+        });
     assert!(result.unwrap_err().is_interrupted());
     assert_eq!(heard, 2);
 }

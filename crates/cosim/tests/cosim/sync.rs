@@ -2,9 +2,9 @@
 //! Designs with `sync`: the contents of their vectors, and the agreement of model and RTL.
 
 use crate::common::vectors::{clock_records, port_value};
-use crate::common::{check_agreement, directed_stimulus, in_parallel, in_turn, has_simulators};
+use crate::common::{check_agreement, directed_stimulus, has_simulators, in_parallel, in_turn};
 use foveate_cosim::{CosimLevel, Recording, Simulator};
-use foveate_design::{DesignConfig, Design, PortRole};
+use foveate_design::{Design, DesignConfig, PortRole};
 use std::collections::BTreeMap;
 
 /// Designs of every organization, in small frames. Every second one is simulated in Icarus, which
@@ -81,7 +81,10 @@ const DESIGNS: &[&[&str]] = &[
 
 fn design(keys: &[&str]) -> Design {
     let config = DesignConfig::from_toml_with("", keys).unwrap();
-    DesignConfig::from_toml_with(&config.to_toml(), &["hardware.sync=true"]).unwrap().validate().unwrap()
+    DesignConfig::from_toml_with(&config.to_toml(), &["hardware.sync=true"])
+        .unwrap()
+        .validate()
+        .unwrap()
 }
 
 #[test]
@@ -126,7 +129,8 @@ fn count_sync_events(design: &Design, recording: &Recording) -> SyncCounts {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let beats = design.timing().pixels_per_frame();
     let has_ready = outputs.fields().iter().any(|field| field.port.role == PortRole::Ready);
-    let (mut story, mut state, mut had, mut ready) = (SyncCounts::default(), SyncState::Seek, 0, true);
+    let (mut story, mut state, mut had, mut ready) =
+        (SyncCounts::default(), SyncState::Seek, 0, true);
     let mut was_reset = true;
     for (input, output) in clock_records(recording) {
         let given = |role| port_value(inputs, role, &input) == 1;
@@ -170,7 +174,8 @@ fn count_sync_events(design: &Design, recording: &Recording) -> SyncCounts {
 fn the_vectors_damage_streams_in_every_state() {
     for keys in DESIGNS {
         let design = design(keys);
-        let recording = directed_stimulus(CosimLevel::Full, 3).record(&design, &mut |_, _| {}).unwrap();
+        let recording =
+            directed_stimulus(CosimLevel::Full, 3).record(&design, &mut |_, _| {}).unwrap();
         let story = count_sync_events(&design, &recording);
         assert!(story.errors >= 36 && story.decisions > 100, "{keys:?} {story:?}");
         for state in [SyncState::Seek, SyncState::Start, SyncState::Inside, SyncState::Fill] {
@@ -189,8 +194,9 @@ fn without_sync_the_vectors_have_no_damaged_sequences() {
         let mut config = with.config();
         config.hardware.sync = None;
         let without = config.validate().unwrap();
-        let record =
-            |design: &Design| directed_stimulus(CosimLevel::Full, 1).record(design, &mut |_, _| {}).unwrap();
+        let record = |design: &Design| {
+            directed_stimulus(CosimLevel::Full, 1).record(design, &mut |_, _| {}).unwrap()
+        };
         let (with, without) = (record(&with), record(&without));
         assert_eq!(with.sequences(), without.sequences() + 14, "{keys:?}");
         let names = without.inputs().fields().iter().chain(without.outputs().fields());

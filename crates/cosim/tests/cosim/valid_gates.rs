@@ -2,8 +2,10 @@
 //! Outputs that are valid only with a valid bit, of the same lane or of any lane. Without the bit
 //! their value must not matter, and with it it must.
 
-use foveate_cosim::{PortDifference, DesignUnderTest, Recorder, Recording, SimulationRun, Simulator};
-use foveate_design::{PortDirection, Port, PortRole, OutputQualifier};
+use foveate_cosim::{
+    DesignUnderTest, PortDifference, Recorder, Recording, SimulationRun, Simulator,
+};
+use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::verilator::OptimizationLevel;
 use foveate_toolchain::{Cache, Toolchain};
@@ -23,7 +25,8 @@ fn ports() -> Vec<Port> {
         qualifier,
         doc: String::new(),
     };
-    let (always, with) = (OutputQualifier::Always, OutputQualifier::WhileSet(PortRole::ForwardValid));
+    let (always, with) =
+        (OutputQualifier::Always, OutputQualifier::WhileSet(PortRole::ForwardValid));
     vec![
         port("clk_i", Input, PortRole::Clock, 1, 1, always),
         port("rst_i", Input, PortRole::Reset, 1, 1, always),
@@ -95,7 +98,11 @@ fn run(simulator: Simulator, verilog: String, recording: &Recording) -> Option<P
 fn outputs_without_their_valid_bit_are_ignored() {
     for simulator in Simulator::ALL {
         if require_tools(simulator.tools()) {
-            assert_eq!(run(simulator, GATED_MODULE.to_owned(), &recording(2000)), None, "{simulator}");
+            assert_eq!(
+                run(simulator, GATED_MODULE.to_owned(), &recording(2000)),
+                None,
+                "{simulator}"
+            );
         }
     }
 }

@@ -29,7 +29,9 @@ impl Takes for PipelinedHardware {
 
     fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
         match irrelevant {
-            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => true,
+            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => {
+                true
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
-use crate::{Design, PortDirection, Port, PortRole};
+use crate::{Design, Port, PortDirection, PortRole};
 
 /// Returns the interface of one RPU.
 pub(crate) fn rpu_interface(design: &Design) -> CoreInterface {
@@ -78,8 +78,10 @@ pub(crate) fn rcm_interface(design: &Design) -> CoreInterface {
                     Some(_) => "a pixel of every active region, or a mean of every summary",
                 };
             }
-            StreamRole::References | StreamRole::StoredWords | StreamRole::Scores | StreamRole::LostRegions => {
-            }
+            StreamRole::References
+            | StreamRole::StoredWords
+            | StreamRole::Scores
+            | StreamRole::LostRegions => {}
         }
     }
     interface.change_stream_ports(|port| {

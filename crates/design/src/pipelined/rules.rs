@@ -2,8 +2,8 @@
 //! The implementation of [`crate::organization`] for pipelined designs.
 
 use super::{PipelinedTiming, ports};
-use crate::rules::{ArrayStructure, OrganizationRules, ArrayUnit};
-use crate::{Design, CoreInterface, Organization, PipelinedDesign, DesignTiming};
+use crate::rules::{ArrayStructure, ArrayUnit, OrganizationRules};
+use crate::{CoreInterface, Design, DesignTiming, Organization, PipelinedDesign};
 
 impl OrganizationRules for PipelinedDesign<'_> {
     fn unit(&self) -> ArrayUnit {

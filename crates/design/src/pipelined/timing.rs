@@ -3,7 +3,7 @@
 
 use super::feature::score_latency;
 use crate::timing::DepartureTiming;
-use crate::{DenoiseFilter, Neighborhood, PipelinedDesign, Pipelining, DesignTiming};
+use crate::{DenoiseFilter, DesignTiming, Neighborhood, PipelinedDesign, Pipelining};
 
 /// Registers between a median window and the stream behind it in a plain design: window, result.
 const MEDIAN_REGISTERS: u32 = 2;

@@ -2,7 +2,9 @@
 //! The properties of a raster core, and the frames and keys that it supports.
 
 use crate::takes::Takes;
-use crate::{InterfaceKind, HardwareConfig, Organization, Pipelining, FrameStoreKind, ThresholdSource};
+use crate::{
+    FrameStoreKind, HardwareConfig, InterfaceKind, Organization, Pipelining, ThresholdSource,
+};
 use foveate_camera::{
     Camera, ConfigError, FeatureKind, IrrelevantRendering, Periphery, ReferencePolicy, check_range,
 };
@@ -48,7 +50,9 @@ impl Takes for RasterHardware {
 
     fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
         match irrelevant {
-            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => true,
+            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => {
+                true
+            }
         }
     }
 
@@ -94,7 +98,11 @@ impl Takes for RasterHardware {
                  {pixels} pixels; use frames of at least {} pixels, or smaller regions",
                 (columns - 1) * size + 1
             );
-            return Err(asked.combination_error("frame.width", camera.width().to_string(), &remedy));
+            return Err(asked.combination_error(
+                "frame.width",
+                camera.width().to_string(),
+                &remedy,
+            ));
         }
         Ok(Self {
             pixels_per_clock: pixels,

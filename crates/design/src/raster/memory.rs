@@ -5,8 +5,8 @@
 use super::RasterTiming;
 use super::feature::FeatureAccumulation;
 use crate::{
-    Design, DenoiseFilter, Periphery, RasterDesign, ReferencePolicy, SpatialFeature, FrameStoreKind, ReferenceWriteTime, bits_for,
-    index_bits,
+    DenoiseFilter, Design, FrameStoreKind, Periphery, RasterDesign, ReferencePolicy,
+    ReferenceWriteTime, SpatialFeature, bits_for, index_bits,
 };
 
 /// Bits of the number of a row of regions in a queue, modulo 8.
@@ -116,7 +116,11 @@ impl MemorySizes {
 
     /// Returns the buffers of rows of pixels in front of the windows.
     fn rows(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
-        let row = |holds, bits| RasterMemory { contents: holds, words: self.timing.row_words.into(), bits };
+        let row = |holds, bits| RasterMemory {
+            contents: holds,
+            words: self.timing.row_words.into(),
+            bits,
+        };
         let mut list = Vec::new();
         if design.filter() != DenoiseFilter::None {
             list.push(row("two rows of pixels, for the median", 2 * self.word));
@@ -124,7 +128,10 @@ impl MemorySizes {
         if design.has_feature_window() {
             list.push(row("two rows of pixels, for the features", 2 * self.word));
         }
-        if design.has_feature_window() && design.has_separate_raw_pixels() && design.has_forwarding() {
+        if design.has_feature_window()
+            && design.has_separate_raw_pixels()
+            && design.has_forwarding()
+        {
             list.push(row("a row of raw pixels", self.word));
         }
         if self.timing.windows == 0 && self.timing.rows > self.timing.taken_rows {
@@ -139,13 +146,17 @@ impl MemorySizes {
         let column = |holds, bits| RasterMemory { contents: holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
         let sums = column("sums of pixels", design.pixel_sum_bits());
-        let of_pixels = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+        let of_pixels = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
+        {
             FeatureAccumulation::Hits => None,
             FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => Some(sums),
         };
-        let of_squares = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+        let of_squares = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
+        {
             FeatureAccumulation::Hits | FeatureAccumulation::Deviations(_) => None,
-            FeatureAccumulation::Squares(widths) => Some(column("sums of squares", widths.square_sum_bits)),
+            FeatureAccumulation::Squares(widths) => {
+                Some(column("sums of squares", widths.square_sum_bits))
+            }
         };
         list.extend(design.features().iter().find_map(of_pixels));
         list.extend(design.features().iter().find_map(of_squares));
@@ -219,16 +230,19 @@ impl MemorySizes {
         };
         let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let judged = judged + 2 * u32::from(design.periphery().is_some());
-        list.extend(design.features().iter().filter_map(|feature| match FeatureAccumulation::from_feature(feature) {
-            FeatureAccumulation::Hits | FeatureAccumulation::Squares(_) => None,
-            FeatureAccumulation::Deviations(mean) => Some(queue(
-                "regions that wait for the second pass",
-                mean.mean_bits + start + judged,
-            )),
+        list.extend(design.features().iter().filter_map(|feature| {
+            match FeatureAccumulation::from_feature(feature) {
+                FeatureAccumulation::Hits | FeatureAccumulation::Squares(_) => None,
+                FeatureAccumulation::Deviations(mean) => Some(queue(
+                    "regions that wait for the second pass",
+                    mean.mean_bits + start + judged,
+                )),
+            }
         }));
         let bits = self.reference.bits_per_region();
         if bits > 0 {
-            let mut all = |holds| list.push(RasterMemory { contents: holds, words: self.regions, bits });
+            let mut all =
+                |holds| list.push(RasterMemory { contents: holds, words: self.regions, bits });
             all("which regions have a reference, by decisions");
             if self.reference.is_lost_with_its_region() {
                 all("which regions have a reference, by losses");

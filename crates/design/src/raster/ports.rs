@@ -4,7 +4,7 @@
 
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
-use crate::{Design, PortDirection, Port, PortRole, RasterDesign};
+use crate::{Design, Port, PortDirection, PortRole, RasterDesign};
 
 /// Bits of `lost_count_o`, which stays at its largest value once it has reached it.
 const LOST_COUNT_BITS: u32 = 16;

@@ -3,8 +3,11 @@
 
 use super::hardware::min_columns;
 use super::{RasterTiming, ports::interface};
-use crate::rules::{ArrayStructure, OrganizationRules, ArrayUnit};
-use crate::{Design, CoreInterface, Organization, RasterDesign, ReferencePolicy, FrameStoreKind, DesignTiming};
+use crate::rules::{ArrayStructure, ArrayUnit, OrganizationRules};
+use crate::{
+    CoreInterface, Design, DesignTiming, FrameStoreKind, Organization, RasterDesign,
+    ReferencePolicy,
+};
 
 /// Rows of regions of the lone core.
 const LONE_ROWS: u32 = 3;
@@ -27,7 +30,9 @@ impl RasterDesign<'_> {
     #[must_use]
     pub fn has_external_store(&self) -> bool {
         match (self.store(), self.temporal().reference) {
-            (FrameStoreKind::Block | FrameStoreKind::Ultra | FrameStoreKind::SinglePort, _) => false,
+            (FrameStoreKind::Block | FrameStoreKind::Ultra | FrameStoreKind::SinglePort, _) => {
+                false
+            }
             (FrameStoreKind::External, ReferencePolicy::Previous) => true,
             (FrameStoreKind::External, ReferencePolicy::LastSent) => {
                 unreachable!("such a store is refused with this reference")

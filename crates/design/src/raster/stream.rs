@@ -9,7 +9,7 @@
 //! the sensor need not be synchronous to the clock. A word that comes between two edges is taken
 //! when it comes; the delay until the next edge, less than one clock, is neglected.
 
-use crate::{RegionAction, RasterTiming};
+use crate::{RasterTiming, RegionAction};
 
 /// The state of a raster core from frame to frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,7 +80,14 @@ impl RasterStreamTiming {
     /// takes no time.
     #[must_use]
     pub fn new(timing: RasterTiming, clock: u128) -> Self {
-        Self { timing, clock, ready_time: 0, second_pass_end: 0, next_hold_time: 0, last_fetch_time: 0 }
+        Self {
+            timing,
+            clock,
+            ready_time: 0,
+            second_pass_end: 0,
+            next_hold_time: 0,
+            last_fetch_time: 0,
+        }
     }
 
     /// Computes the next frame, and returns the times of every row of regions. `read` returns the
@@ -107,9 +114,11 @@ impl RasterStreamTiming {
                 let mut departure = RowDeparture { last_decision: 0, last_word: None };
                 for (&action, number) in actions.iter().zip(1_u64..) {
                     let last = last_row + number * u64::from(timing.region_row_words) - 1;
-                    departure.last_decision = self.decision_time(edges.advance_time(last + timing.tail_delay()));
+                    departure.last_decision =
+                        self.decision_time(edges.advance_time(last + timing.tail_delay()));
                     if let Some(words) = timing.words_sent(action) {
-                        departure.last_word = Some(self.departure_time(departure.last_decision, words));
+                        departure.last_word =
+                            Some(self.departure_time(departure.last_decision, words));
                     }
                 }
                 departure
@@ -128,7 +137,8 @@ impl RasterStreamTiming {
 
     fn advance_times<R: Fn(u32) -> (u128, u128)>(&self, read: R) -> AdvanceTimes<R> {
         let Self { timing, clock, ready_time: ready, .. } = *self;
-        let mut edges = AdvanceTimes { timing, clock, row_times: read, previous_advance: vec![ready] };
+        let mut edges =
+            AdvanceTimes { timing, clock, row_times: read, previous_advance: vec![ready] };
         for row in 0..timing.rows + timing.windows {
             edges.previous_advance.push(edges.word_time(row, timing.row_words - 1));
         }

@@ -7,7 +7,10 @@ mod stores;
 mod summaries;
 
 use super::*;
-use crate::{ArrayStructure, DesignConfig, Design, PortDirection, Pipelining, PortRole, OutputQualifier, FrameStoreKind};
+use crate::{
+    ArrayStructure, Design, DesignConfig, FrameStoreKind, OutputQualifier, Pipelining,
+    PortDirection, PortRole,
+};
 
 fn config(overrides: &[&str]) -> DesignConfig {
     DesignConfig::from_toml_with("[hardware]\norganization = \"raster\"\n", overrides).unwrap()
@@ -96,8 +99,9 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
 /// six rows of 28 clocks. A sink may stall for less than a row.
 #[test]
 fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row() {
-    let full_hd =
-        RasterTiming::from_design(design(&["frame.width=1920", "frame.height=1080"]).as_raster().unwrap());
+    let full_hd = RasterTiming::from_design(
+        design(&["frame.width=1920", "frame.height=1080"]).as_raster().unwrap(),
+    );
     assert_eq!((full_hd.blank_rows(), full_hd.max_stall_clocks()), (3, 1920 - 8 - 4 - 3));
     assert_eq!(full_hd.clocks_to_decision(), 3_842 + 11);
     let ragged = RasterTiming::from_design(
@@ -114,7 +118,8 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
     let mad = |more: &[&str]| {
         let features = "spatial=[{feature=\"mad\"},{feature=\"variance\"}]";
         let frame = ["frame.width=64", "frame.height=32", features];
-        RasterTiming::from_design(design(&[&frame, more].concat()).as_raster().unwrap()).max_stall_clocks()
+        RasterTiming::from_design(design(&[&frame, more].concat()).as_raster().unwrap())
+            .max_stall_clocks()
     };
     assert_eq!(mad(&[]), 9 * 64 - 72 - 17);
     assert_eq!(mad(&["hardware.pipelining=deep"]), 9 * 64 - 72 - 21);
@@ -126,7 +131,8 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
 fn memories_of_the_paper_on_a_small_frame() {
     let of = |more: &[&str]| {
         let frame = ["frame.width=64", "frame.height=64"];
-        let memories = RasterMemory::all_memories(design(&[&frame, more].concat()).as_raster().unwrap());
+        let memories =
+            RasterMemory::all_memories(design(&[&frame, more].concat()).as_raster().unwrap());
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
     // A queue entry has 3 bits of the row of regions, 6 of the region number, 10 of the address in
@@ -144,11 +150,12 @@ fn memories_of_the_paper_on_a_small_frame() {
         );
         assert_eq!(low.last().map(|memory| memory.bits), Some(bits), "{height}");
     }
-    let total: u64 =
-        RasterMemory::all_memories(design(&["frame.width=64", "frame.height=64"]).as_raster().unwrap())
-            .iter()
-            .map(RasterMemory::total_bits)
-            .sum();
+    let total: u64 = RasterMemory::all_memories(
+        design(&["frame.width=64", "frame.height=64"]).as_raster().unwrap(),
+    )
+    .iter()
+    .map(RasterMemory::total_bits)
+    .sum();
     assert_eq!(total, 32_768 + 8_192 + 2 * 1_024 + 96 + 320);
 }
 
@@ -353,7 +360,9 @@ fn ports_stand_in_the_order_of_the_page() {
                 OutputQualifier::WhileSet(PortRole::DecisionValid)
             }
             "forward_ready_i" | "forward_valid_o" => OutputQualifier::Always,
-            name if name.starts_with("forward_") => OutputQualifier::WhileSet(PortRole::ForwardValid),
+            name if name.starts_with("forward_") => {
+                OutputQualifier::WhileSet(PortRole::ForwardValid)
+            }
             "lost_region_o" | "lost_frame_o" => OutputQualifier::WhileSet(PortRole::LostValid),
             _ => OutputQualifier::Always,
         };

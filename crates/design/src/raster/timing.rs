@@ -3,7 +3,10 @@
 
 use super::feature::FeatureAccumulation;
 use crate::timing::DepartureTiming;
-use crate::{RegionAction, DenoiseFilter, Periphery, Pipelining, RasterDesign, DesignTiming, ReferenceWriteTime};
+use crate::{
+    DenoiseFilter, DesignTiming, Periphery, Pipelining, RasterDesign, ReferenceWriteTime,
+    RegionAction,
+};
 
 /// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
 /// the queue, without a second pass.
@@ -73,7 +76,8 @@ impl RasterTiming {
             Pipelining::Plain => (2 + 4 * median + feature, 4, 1, 2),
             Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2, 3),
         };
-        let latencies = design.features().iter().map(|f| FeatureAccumulation::from_feature(f).score_latency());
+        let latencies =
+            design.features().iter().map(|f| FeatureAccumulation::from_feature(f).score_latency());
         let score_latency = latencies.max().unwrap_or_default();
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
             Pipelining::Plain => (8, 4),
@@ -244,7 +248,8 @@ impl RasterTiming {
         if let Some(words) = self.summary_words {
             figures.push(("summary_words", words.into()));
         }
-        let mut decision = format!("{} clocks after its region's last word", self.clocks_to_decision());
+        let mut decision =
+            format!("{} clocks after its region's last word", self.clocks_to_decision());
         if let Some(pass) = self.second_pass {
             figures.push(("second_pass_words", self.region_words.into()));
             figures.push(("second_pass_latency", pass.decision_latency.into()));
@@ -302,7 +307,8 @@ impl RasterTiming {
             None => self.edges_to_ready(),
             Some(pass) => {
                 // The passes of the regions of a row follow each other without a gap.
-                let first = self.clocks_to_last_region_row() + u64::from(self.clocks_through_second_pass(pass));
+                let first = self.clocks_to_last_region_row()
+                    + u64::from(self.clocks_through_second_pass(pass));
                 first + self.words_per_region_row()
                     - u64::from(self.region_words)
                     - u64::from(self.row_words)
@@ -331,7 +337,8 @@ impl RasterTiming {
                     - u64::from(self.row_words)
             }
             Some(_) => {
-                self.last_decision() + self.clocks_to_first_word() + u64::from(self.region_words) - 1
+                self.last_decision() + self.clocks_to_first_word() + u64::from(self.region_words)
+                    - 1
             }
         }
     }

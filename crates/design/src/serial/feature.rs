@@ -43,11 +43,17 @@ pub(super) struct FeatureRegisterWidths {
 
 /// Returns the widths of the registers of a feature, in an array whose ring of lanes has words of
 /// `chain` bits.
-pub(super) fn feature_register_widths(design: &Design, feature: &SpatialFeature, chain: u32) -> FeatureRegisterWidths {
+pub(super) fn feature_register_widths(
+    design: &Design,
+    feature: &SpatialFeature,
+    chain: u32,
+) -> FeatureRegisterWidths {
     let pixel = design.pixel_bits();
     match feature.kind() {
         // The accumulator holds the sum of three pixels minus that of three others.
-        FeatureKind::Edge => FeatureRegisterWidths { accumulator: pixel + 3, ..FeatureRegisterWidths::default() },
+        FeatureKind::Edge => {
+            FeatureRegisterWidths { accumulator: pixel + 3, ..FeatureRegisterWidths::default() }
+        }
         FeatureKind::Corner => FeatureRegisterWidths::default(),
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");

@@ -84,8 +84,10 @@ fn least_steps((phase, steps): &(SerialPhase, u64)) -> u64 {
         | SerialPhase::RotateScore(_)
         | SerialPhase::UnloadPixels
         | SerialPhase::UnloadMeans => 0,
-        SerialPhase::DenoiseAndCompare | SerialPhase::RepeatBorder | SerialPhase::CompareRaw | SerialPhase::FeaturePass(_) | SerialPhase::CopyReference => {
-            *steps
-        }
+        SerialPhase::DenoiseAndCompare
+        | SerialPhase::RepeatBorder
+        | SerialPhase::CompareRaw
+        | SerialPhase::FeaturePass(_)
+        | SerialPhase::CopyReference => *steps,
     }
 }

@@ -2,8 +2,10 @@
 //! The properties of a serial array, and the configurations that it supports.
 
 use crate::takes::Takes;
-use crate::{PixelFeed, HardwareConfig, LaneMemoryKind, Organization, Pipelining, ThresholdSource};
-use foveate_camera::{Camera, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy, check_range};
+use crate::{HardwareConfig, LaneMemoryKind, Organization, Pipelining, PixelFeed, ThresholdSource};
+use foveate_camera::{
+    Camera, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy, check_range,
+};
 
 /// Smallest side of a region in pixels.
 const MIN_SIDE: u32 = 4;
@@ -38,7 +40,9 @@ impl Takes for SerialHardware {
 
     fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
         match irrelevant {
-            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => true,
+            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => {
+                true
+            }
         }
     }
 

@@ -39,6 +39,10 @@ impl SerialDesign<'_> {
     pub fn block_mean_division(&self) -> Option<BlockMeanDivision> {
         let periphery = self.periphery()?;
         let takes_all = self.features().iter().any(feature::has_computed_operand);
-        Some(BlockMeanDivision::from_reciprocal(periphery.sum_bits, periphery.reciprocal, takes_all))
+        Some(BlockMeanDivision::from_reciprocal(
+            periphery.sum_bits,
+            periphery.reciprocal,
+            takes_all,
+        ))
     }
 }

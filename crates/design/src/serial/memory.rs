@@ -135,7 +135,16 @@ impl LaneMemory {
             }
             None => (LaneMemoryKind::Block, MemoryChoice::LutLimit(MAX_MEMORY_LUTS)),
         };
-        Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, blocks, kind, choice: why }
+        Self {
+            areas,
+            slot_words,
+            depth,
+            address_bits: index_bits(depth),
+            luts,
+            blocks,
+            kind,
+            choice: why,
+        }
     }
 
     /// Returns the numbers of memory LUTs and of RAMB18 for the kind of memory that the lane has.

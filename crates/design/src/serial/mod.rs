@@ -15,7 +15,7 @@ mod widths;
 
 pub use hardware::SerialHardware;
 pub use means::BlockMeanDivision;
-pub use memory::{SlotArea, SlotAreaKind, LaneMemory, MemoryChoice};
+pub use memory::{LaneMemory, MemoryChoice, SlotArea, SlotAreaKind};
 pub use timing::{SerialPhase, SerialTiming};
 pub use widths::LaneWidths;
 

@@ -3,7 +3,7 @@
 
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
-use crate::{PortDirection, PixelFeed, Port, PortRole, SerialDesign};
+use crate::{PixelFeed, Port, PortDirection, PortRole, SerialDesign};
 
 /// Returns the interface of the array.
 pub(crate) fn interface(design: SerialDesign<'_>) -> CoreInterface {
@@ -71,7 +71,9 @@ fn forward_beat_docs(design: SerialDesign<'_>) -> (&'static str, &'static str) {
         (PixelFeed::Parallel, Some(_)) => {
             ("a pixel of the active regions of one slot, or a mean of its summaries", either)
         }
-        (PixelFeed::Raster, Some(_)) => ("a pixel of an active region, or a mean of a summary", either),
+        (PixelFeed::Raster, Some(_)) => {
+            ("a pixel of an active region, or a mean of a summary", either)
+        }
     }
 }
 

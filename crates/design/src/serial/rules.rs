@@ -2,8 +2,8 @@
 //! The implementation of [`crate::organization`] for serial designs.
 
 use super::{SerialTiming, ports::interface};
-use crate::rules::{ArrayStructure, OrganizationRules, ArrayUnit};
-use crate::{Design, CoreInterface, Organization, SerialDesign, DesignTiming};
+use crate::rules::{ArrayStructure, ArrayUnit, OrganizationRules};
+use crate::{CoreInterface, Design, DesignTiming, Organization, SerialDesign};
 
 impl OrganizationRules for SerialDesign<'_> {
     fn unit(&self) -> ArrayUnit {

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::{DesignConfig, FeatureKind, PixelFeed, LaneMemoryKind, Neighborhood, OutputQualifier};
+use crate::{DesignConfig, FeatureKind, LaneMemoryKind, Neighborhood, OutputQualifier, PixelFeed};
 use SerialPhase::{
-    RepeatBorder, CopyReference, DenoiseAndCompare, ComputeMeans, FeaturePass, RotateCount, RotateScore, CompareRaw as Compare,
-    UnloadPixels, UnloadMeans,
+    CompareRaw as Compare, ComputeMeans, CopyReference, DenoiseAndCompare, FeaturePass,
+    RepeatBorder, RotateCount, RotateScore, UnloadMeans, UnloadPixels,
 };
 
 fn design(overrides: &[&str]) -> Design {
@@ -100,7 +100,10 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     let rotation = (RotateScore(FeatureKind::Edge), 10);
     let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=1");
     assert_eq!(phases, [(Compare, 192), (RotateCount, 10), edge, rotation, (UnloadPixels, 64)]);
-    assert_eq!((memory.slot_words, memory.luts, memory.kind), (128, 16, LaneMemoryKind::Distributed));
+    assert_eq!(
+        (memory.slot_words, memory.luts, memory.kind),
+        (128, 16, LaneMemoryKind::Distributed)
+    );
     let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=1");
     assert_eq!((phases[0], phases[4]), ((Compare, 192), (CopyReference, 128)));
     // Eight slots of 128 words take 128 LUTs, and nine take 144.
@@ -145,7 +148,18 @@ fn means_pass_the_ports_once_and_leave_once() {
         let phases: Vec<_> = timing.phases().iter().map(|&(phase, _)| phase).collect();
         let edge = FeatureKind::Edge;
         let (count, score) = (RotateCount, RotateScore(edge));
-        assert_eq!(phases, [DenoiseAndCompare, count, ComputeMeans, FeaturePass(edge), score, UnloadPixels, UnloadMeans]);
+        assert_eq!(
+            phases,
+            [
+                DenoiseAndCompare,
+                count,
+                ComputeMeans,
+                FeaturePass(edge),
+                score,
+                UnloadPixels,
+                UnloadMeans
+            ]
+        );
         (timing.phases()[2].1, timing.phases()[6].1, timing)
     };
     let (means, unload, four) = own(&[]);
@@ -176,14 +190,20 @@ fn what_a_lane_drops_of_a_sum_need_not_pass() {
         (sums, (widths.accumulator, widths.chain))
     };
     let (four, widths) = own(&[]);
-    assert_eq!(four, BlockMeanDivision { sum_bits: 12, dropped_bits: 4, passing_bits: 8, factor: 1, shift: 0 });
+    assert_eq!(
+        four,
+        BlockMeanDivision { sum_bits: 12, dropped_bits: 4, passing_bits: 8, factor: 1, shift: 0 }
+    );
     assert_eq!(widths, (12, 8));
     let (one, widths) = own(&["periphery.blocks=1"]);
     assert_eq!((one.sum_bits, one.dropped_bits, one.passing_bits), (14, 6, 8));
     assert_eq!(widths, (14, 8));
     // With `mad` the lane moves whole sums for a score, so it drops no bits.
     let (all, widths) = own(&["spatial=[{feature=\"mad\"}]"]);
-    assert_eq!(all, BlockMeanDivision { sum_bits: 12, dropped_bits: 0, passing_bits: 12, factor: 1, shift: 4 });
+    assert_eq!(
+        all,
+        BlockMeanDivision { sum_bits: 12, dropped_bits: 0, passing_bits: 12, factor: 1, shift: 4 }
+    );
     let none = design(&["spatial=[{feature=\"mad\"}]"]).as_serial().unwrap().lane_widths();
     assert_eq!(widths, (none.accumulator, none.chain));
     // 25 pixels are not a power of two, so a multiplication is needed.
@@ -202,7 +222,10 @@ fn the_configuration_may_name_the_memory() {
         (design.as_serial().unwrap().lane_memory(), timing(&design))
     };
     let (ruled, plain) = of(&[]);
-    assert_eq!((ruled.kind, ruled.choice), (LaneMemoryKind::Distributed, MemoryChoice::LutLimit(128)));
+    assert_eq!(
+        (ruled.kind, ruled.choice),
+        (LaneMemoryKind::Distributed, MemoryChoice::LutLimit(128))
+    );
     let (same, steps) = of(&["hardware.memory=distributed"]);
     assert_eq!((same.kind, same.choice), (LaneMemoryKind::Distributed, MemoryChoice::Configured));
     assert_eq!(steps, plain);
@@ -416,7 +439,8 @@ fn frugal_folds_have_fewer_lanes_or_fewer_block_rams() {
     assert_eq!(single.pareto_folds(clocks(784)), [784, 8]);
     assert_eq!(single.pareto_folds(clocks(1)), [1]);
     assert!(single.pareto_folds(clocks(1) - 1).is_empty());
-    let blocks = |fold: u32| single.with_fold(fold).unwrap().as_serial().unwrap().lane_memory().blocks;
+    let blocks =
+        |fold: u32| single.with_fold(fold).unwrap().as_serial().unwrap().lane_memory().blocks;
     assert_eq!([16, 17, 32, 33, 392, 784].map(blocks), [1, 2, 2, 3, 25, 49]);
     // Words of 4 bits are twice as many as words of 9 bits. Words of 12 bits take words of 18 bits,
     // or of 9 and 4.

@@ -5,7 +5,10 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::DepartureTiming;
-use crate::{FeatureKind, PixelFeed, DenoiseFilter, Pipelining, ReferencePolicy, SerialDesign, DesignTiming, ReferenceWriteTime};
+use crate::{
+    DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, ReferencePolicy,
+    ReferenceWriteTime, SerialDesign,
+};
 
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -199,7 +202,8 @@ impl SerialTiming {
     /// Returns the number of steps of a slot up to its last decision, which comes with the last
     /// score.
     fn steps_to_decisions(&self) -> u64 {
-        let is_score = |(phase, _): &(SerialPhase, u64)| matches!(phase, SerialPhase::RotateScore(_));
+        let is_score =
+            |(phase, _): &(SerialPhase, u64)| matches!(phase, SerialPhase::RotateScore(_));
         let last = self.phases.iter().rposition(is_score).expect("a design has a feature");
         self.phases[..=last].iter().map(|(_, steps)| steps).sum()
     }
@@ -210,7 +214,9 @@ impl SerialTiming {
 fn read_latency(design: SerialDesign<'_>) -> u32 {
     let word = match design.pipelining() {
         Pipelining::Plain => 0,
-        Pipelining::Deep => 1 + u32::from(design.features().iter().any(feature::has_computed_operand)),
+        Pipelining::Deep => {
+            1 + u32::from(design.features().iter().any(feature::has_computed_operand))
+        }
     };
     design.lane_memory().kind.read_latency() + word
 }
@@ -257,10 +263,16 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     list.push((SerialPhase::RotateCount, rotation));
     if let Some(periphery) = design.periphery() {
         let mean = u64::from(periphery.block_pixels()) + 2;
-        list.push((SerialPhase::ComputeMeans, u64::from(periphery.mean_count()) * (mean + rotation)));
+        list.push((
+            SerialPhase::ComputeMeans,
+            u64::from(periphery.mean_count()) * (mean + rotation),
+        ));
     }
     for feature in design.features() {
-        list.push((SerialPhase::FeaturePass(feature.kind()), feature::pass_steps(&design, feature)));
+        list.push((
+            SerialPhase::FeaturePass(feature.kind()),
+            feature::pass_steps(&design, feature),
+        ));
         list.push((SerialPhase::RotateScore(feature.kind()), rotation));
     }
     match reference.write_time() {

@@ -2,7 +2,7 @@
 //! The widths of the registers of a serial lane and of the sequencer.
 
 use super::feature::feature_register_widths;
-use crate::{PixelFeed, DenoiseFilter, SerialDesign, index_bits};
+use crate::{DenoiseFilter, PixelFeed, SerialDesign, index_bits};
 
 /// The widths of the registers of a serial array, in bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,8 @@ impl LaneWidths {
             PixelFeed::Raster => pixel,
         };
         let sums = design.block_mean_division();
-        let chain = design.max_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing_bits));
+        let chain =
+            design.max_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing_bits));
         // The accumulator holds the difference of two pixels. The scale holds the power of two that
         // the median search starts with.
         let mut widths = Self {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of thresholds in grey levels at different depths of pixels.
 
-use foveate_design::{DesignConfig, Decimal, Design, FeatureKind, PRESETS, Preset, SpatialConfig};
+use foveate_design::{Decimal, Design, DesignConfig, FeatureKind, PRESETS, Preset, SpatialConfig};
 
 fn config_with(text: &str, overrides: &[&str]) -> DesignConfig {
     DesignConfig::from_toml_with(text, overrides).unwrap()
@@ -46,8 +46,10 @@ fn designs_of_8_bits_are_what_they_were() {
         ("feature mad", "a08d32530e3ba710"),
         ("feature variance", "358f63961f2266c8"),
     ];
-    let found: Vec<(String, String)> =
-        base_configs().into_iter().map(|(name, text)| (name, design(&text, &[]).fingerprint())).collect();
+    let found: Vec<(String, String)> = base_configs()
+        .into_iter()
+        .map(|(name, text)| (name, design(&text, &[]).fingerprint()))
+        .collect();
     let expected: Vec<(String, String)> =
         expected.map(|(name, print)| (name.to_owned(), print.to_owned())).into();
     assert_eq!(found, expected);
@@ -133,7 +135,8 @@ fn what_is_written_is_in_levels_of_the_depth_that_it_is_written_with() {
     let six = config_with(scores, &["frame.pixel_bits=6"]);
     assert_eq!(six.camera.spatial[0].min_score, Decimal::from_f64(0.5));
     // An error message shows the value of the file, whatever the depth.
-    let wrong = DesignConfig::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
+    let wrong =
+        DesignConfig::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
     assert!(wrong.unwrap_err().to_string().contains("`temporal.level`: \"high\" is not valid"));
 }
 

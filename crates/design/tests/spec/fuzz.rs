@@ -135,7 +135,10 @@ fn attempt(text: &str, overrides: &[String]) -> bool {
     let result = DesignConfig::from_toml_with(text, overrides).and_then(|config| config.validate());
     match result {
         Ok(design) => {
-            assert_eq!(DesignConfig::from_toml(&design.config().to_toml()).unwrap(), design.config());
+            assert_eq!(
+                DesignConfig::from_toml(&design.config().to_toml()).unwrap(),
+                design.config()
+            );
             assert!(!design.rcm_ports().is_empty() && design.fingerprint().len() == 16);
             assert!(design.timing().clocks_per_frame() > 0);
             true

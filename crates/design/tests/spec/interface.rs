@@ -2,7 +2,8 @@
 //! Tests that the streams and controls of an interface contain every port exactly once.
 
 use foveate_design::{
-    BeatRegion, DesignConfig, Design, PortDirection, CoreInterface, Port, PortRole, OutputQualifier, CoreStream, StreamRole,
+    BeatRegion, CoreInterface, CoreStream, Design, DesignConfig, OutputQualifier, Port,
+    PortDirection, PortRole, StreamRole,
 };
 use std::collections::BTreeSet;
 
@@ -76,7 +77,9 @@ fn payload_means_something_with_its_own_beat() {
             for port in beat_ports(stream) {
                 match port.qualifier {
                     OutputQualifier::Always => {}
-                    OutputQualifier::WhileSet(role) => assert_eq!(role, stream.valid.role, "{hardware}"),
+                    OutputQualifier::WhileSet(role) => {
+                        assert_eq!(role, stream.valid.role, "{hardware}")
+                    }
                 }
             }
             let others = stream.ready.iter().chain(&stream.status);
@@ -98,7 +101,9 @@ fn payload_means_something_with_its_own_beat() {
 /// The streams of each organization, by the contract.
 #[test]
 fn streams_are_those_of_the_organization() {
-    use StreamRole::{Decisions, ForwardedPixels, LostRegions, Pixels, References, Scores, StoredWords};
+    use StreamRole::{
+        Decisions, ForwardedPixels, LostRegions, Pixels, References, Scores, StoredWords,
+    };
     let roles = |hardware: &str| -> Vec<StreamRole> {
         design(hardware).rcm_interface().streams.iter().map(|stream| stream.role).collect()
     };

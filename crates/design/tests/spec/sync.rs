@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of `hardware.sync`: the positions of its ports, and designs without it.
 
-use foveate_design::{ArrayStructure, DesignConfig, Design, PortDirection, PRESETS, Port, PortRole};
+use foveate_design::{
+    ArrayStructure, Design, DesignConfig, PRESETS, Port, PortDirection, PortRole,
+};
 
 const ORGANIZATIONS: [&str; 4] = [
     "organization='pipelined'",
@@ -29,7 +31,10 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
         assert_eq!(place(PortRole::StartOfFrame), place(PortRole::Valid) + 1, "{organization}");
         let (sof, error) =
             (&ports[place(PortRole::StartOfFrame)], &ports[place(PortRole::SyncError)]);
-        assert_eq!((sof.name.as_str(), sof.bits(), sof.direction), ("sof_i", 1, PortDirection::Input));
+        assert_eq!(
+            (sof.name.as_str(), sof.bits(), sof.direction),
+            ("sof_i", 1, PortDirection::Input)
+        );
         assert_eq!((error.name.as_str(), error.bits()), ("sync_error_o", 1));
         assert_eq!(error.direction, PortDirection::Output);
         let first_output = ports.iter().position(|port| port.direction == PortDirection::Output);

@@ -3,7 +3,7 @@
 //! defines.
 
 use foveate_camera::toml_text::TomlConfig;
-use foveate_design::{DesignConfig, ConfigError, Preset};
+use foveate_design::{ConfigError, DesignConfig, Preset};
 use toml::{Table, Value};
 
 use crate::hostile::{TextPlaces, key_name, texts};
@@ -26,8 +26,10 @@ fn no_text_of_a_configuration_is_taken() {
         };
         for (name, _) in DesignConfig::keys() {
             let change = format!("{}={quoted}", name.replace(".N.", ".0."));
-            let said =
-                problem(DesignConfig::from_toml_with(Preset::find("paper").unwrap().toml, &[change]));
+            let said = problem(DesignConfig::from_toml_with(
+                Preset::find("paper").unwrap().toml,
+                &[change],
+            ));
             refused(said, name.rsplit('.').next().unwrap());
         }
         for preset in ["paper", "raster", "serial"] {

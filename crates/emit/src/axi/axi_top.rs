@@ -83,7 +83,8 @@ impl PacketSizes {
     /// Returns the number of packet bits made per clock: 16 if at that rate all regions can leave
     /// in every frame, else 32.
     fn bits_per_clock(&self, design: RasterDesign<'_>) -> u32 {
-        let clocks = |words: u32| u64::from((words + HEAD_AND_TAIL_WORDS) * (PACKET_WORD_BITS / 16) + 1);
+        let clocks =
+            |words: u32| u64::from((words + HEAD_AND_TAIL_WORDS) * (PACKET_WORD_BITS / 16) + 1);
         let frame = u64::from(design.rows())
             * (u64::from(design.columns()) * clocks(self.pixels) + clocks(self.row))
             + clocks(FRAME_WORDS)
@@ -148,7 +149,10 @@ pub(super) fn view(design: RasterDesign<'_>) -> AxiTop {
             .cloned()
             .collect(),
         array_ports_outside: with_final_comma(PortLine::aligned(&outside, |_| None)),
-        connections: ports.iter().map(|port| (port.name.clone(), array_signal(design, port))).collect(),
+        connections: ports
+            .iter()
+            .map(|port| (port.name.clone(), array_signal(design, port)))
+            .collect(),
     }
 }
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Generates a core on AXI: the module `rcm_axi` around the array, and its registers.
 
-mod register_documents;
+mod axi_top;
 mod ports;
+mod register_documents;
+mod register_module;
 mod registers;
 mod rpu_array;
-mod axi_top;
-mod register_module;
 
-pub use registers::{RegisterField, FieldKind, Register, axi_registers};
+pub use registers::{FieldKind, Register, RegisterField, axi_registers};
 pub use rpu_array::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 
-use crate::verilog_text::{module_file, rendered_text};
 use crate::top::AXI_TOP;
+use crate::verilog_text::{module_file, rendered_text};
 use crate::wrapped_port::WrappedPort;
 use crate::{Prefix, SourceFile, Top, banner, leaf, verilog as array};
-use foveate_design::{InterfaceKind, Design, Hardware, RasterDesign};
+use foveate_design::{Design, Hardware, InterfaceKind, RasterDesign};
 
 /// The parts around the array in a core on AXI: the name of each part in reports, and its modules.
 /// Apart from these parts, the top itself has only the time and three counters.
@@ -34,8 +34,11 @@ const REGISTERS: &str = "axi_registers";
 #[must_use]
 pub fn axi_modules(design: &Design) -> Option<Vec<SourceFile>> {
     let around = match (design.interface_kind(), design.hardware()) {
-        (InterfaceKind::Ports, _) | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => return None,
-        (InterfaceKind::Axi, Hardware::Raster(own)) => modules_around_array(design.with_hardware(own)),
+        (InterfaceKind::Ports, _)
+        | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => return None,
+        (InterfaceKind::Axi, Hardware::Raster(own)) => {
+            modules_around_array(design.with_hardware(own))
+        }
     };
     let mut files = array(design, Top::Rcm);
     let is_new = |file: &SourceFile| files.iter().all(|known| known.path != file.path);
@@ -64,7 +67,8 @@ pub fn axi_software(design: &Design) -> Vec<SourceFile> {
 /// a design without a bus.
 pub(crate) fn axi_ports(design: &Design) -> Option<Vec<WrappedPort>> {
     match (design.interface_kind(), design.hardware()) {
-        (InterfaceKind::Ports, _) | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
+        (InterfaceKind::Ports, _)
+        | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
         (InterfaceKind::Axi, Hardware::Raster(own)) => {
             Some(ports::header_ports(&rendered_text(&axi_top::view(design.with_hardware(own)))))
         }
@@ -88,8 +92,11 @@ pub(crate) fn package_ip_script(design: &Design, prefix: &Prefix) -> Option<Sour
 #[must_use]
 pub fn register_table(design: &Design) -> Option<Vec<Register>> {
     match (design.interface_kind(), design.hardware()) {
-        (InterfaceKind::Ports, _) | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
-        (InterfaceKind::Axi, Hardware::Raster(own)) => Some(axi_registers(design.with_hardware(own))),
+        (InterfaceKind::Ports, _)
+        | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
+        (InterfaceKind::Axi, Hardware::Raster(own)) => {
+            Some(axi_registers(design.with_hardware(own)))
+        }
     }
 }
 
@@ -100,7 +107,14 @@ fn modules_around_array(design: RasterDesign<'_>) -> Vec<SourceFile> {
         .map(|leaf| module_file(leaf.name, leaf.contents.to_owned()));
     let registers = axi_registers(design);
     let own = [
-        module_file(REGISTERS, rendered_text(&register_module::register_module(&design, (REGISTERS, false), &registers))),
+        module_file(
+            REGISTERS,
+            rendered_text(&register_module::register_module(
+                &design,
+                (REGISTERS, false),
+                &registers,
+            )),
+        ),
         module_file(AXI_TOP, rendered_text(&axi_top::view(design))),
     ];
     leaves.chain(own).collect()

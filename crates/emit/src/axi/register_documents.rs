@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use super::registers::{RegisterField, FieldKind, Register};
+use super::registers::{FieldKind, Register, RegisterField};
 use crate::SourceFile;
 use crate::verilog_text::rendered_text;
 use askama::Template;

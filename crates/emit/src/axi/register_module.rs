@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `axi_registers.v` from the table of registers.
 
-use super::registers::{RegisterField, FieldKind, REGISTER_BITS, Register, thresholds};
+use super::registers::{FieldKind, REGISTER_BITS, Register, RegisterField, thresholds};
 use crate::banner;
 use askama::Template;
 use foveate_design::Design;
@@ -102,7 +102,9 @@ impl RegisterModule {
         let is_test = register.name == "interrupt_test";
         match field.kind {
             FieldKind::Constant(_) => {}
-            FieldKind::Status => self.add_port("input ", field.width, &format!("{name}_i"), &field.doc),
+            FieldKind::Status => {
+                self.add_port("input ", field.width, &format!("{name}_i"), &field.doc)
+            }
             FieldKind::Control { reset } => {
                 self.add_state(name.clone(), field.width, reset);
                 self.add_writes(register, field, &name);
@@ -139,7 +141,11 @@ impl RegisterModule {
     }
 
     fn add_state(&mut self, name: String, width: u32, reset: u32) {
-        self.state.push(StateRegister { name, range: range(width), reset: format!("{width}'d{reset}") });
+        self.state.push(StateRegister {
+            name,
+            range: range(width),
+            reset: format!("{width}'d{reset}"),
+        });
     }
 
     fn add_output(&mut self, name: &str, field: &RegisterField) {
@@ -196,7 +202,9 @@ fn read_value(register: &Register) -> String {
         parts.push(match field.kind {
             FieldKind::Constant(value) => format!("{}'d{value}", field.width),
             FieldKind::Status => format!("{name}_i"),
-            FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => format!("{name}_q"),
+            FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => {
+                format!("{name}_q")
+            }
             FieldKind::Command => zeros(field.width),
         });
     }

@@ -4,7 +4,7 @@
 
 use crate::thresholds::threshold_value;
 use foveate_camera::{IrrelevantRendering, Payload};
-use foveate_design::{Design, CoreInterface, Port, RasterDesign};
+use foveate_design::{CoreInterface, Design, Port, RasterDesign};
 
 /// The number of bits of a register.
 pub(crate) const REGISTER_BITS: u32 = 32;
@@ -206,7 +206,13 @@ pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
         "what goes on",
         vec![
             field("busy", 0, 1, FieldKind::Status, "a frame is under way"),
-            field("restarting", 1, 1, FieldKind::Status, "a restart waits for the frames under way"),
+            field(
+                "restarting",
+                1,
+                1,
+                FieldKind::Status,
+                "a restart waits for the frames under way",
+            ),
         ],
     );
     let each = |kind: &FieldKind| {
@@ -281,7 +287,11 @@ impl ThresholdInput {
             u32::try_from(self.value >> REGISTER_BITS).expect("a threshold has at most 64 bits");
         vec![
             ThresholdPart { name: format!("{name}_low"), width: REGISTER_BITS, reset: low },
-            ThresholdPart { name: format!("{name}_high"), width: width - REGISTER_BITS, reset: high },
+            ThresholdPart {
+                name: format!("{name}_high"),
+                width: width - REGISTER_BITS,
+                reset: high,
+            },
         ]
     }
 }

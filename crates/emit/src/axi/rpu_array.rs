@@ -3,8 +3,10 @@
 //! AXI, and the files made from it.
 
 use super::register_documents;
-use super::registers::{RegisterField, FieldKind, Register, common_registers, field, threshold_registers};
 use super::register_module;
+use super::registers::{
+    FieldKind, Register, RegisterField, common_registers, field, threshold_registers,
+};
 use crate::verilog_text::{module_file, rendered_text};
 use crate::{SourceFile, banner};
 use foveate_design::{Design, PipelinedDesign, Port, PortRole, bits_for};
@@ -46,10 +48,16 @@ pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
             field("captured", 1, 1, FieldKind::Status, "it is there"),
         ],
     );
-    add(0x04C, "captured_frame", "the frame that is there", status(WORD_BITS, "its number since reset"));
+    add(
+        0x04C,
+        "captured_frame",
+        "the frame that is there",
+        status(WORD_BITS, "its number since reset"),
+    );
     let bits = ["srs", "trs", "summary", "active"].into_iter().zip(0..);
-    let mut decision: Vec<_> =
-        bits.map(|(name, low)| field(name, low, 1, FieldKind::Status, "as the RPU said it")).collect();
+    let mut decision: Vec<_> = bits
+        .map(|(name, low)| field(name, low, 1, FieldKind::Status, "as the RPU said it"))
+        .collect();
     let values = bits_for(design.region_pixels().into());
     decision.push(field("values", 16, values, FieldKind::Status, "how many pixels or means left"));
     add(0x050, "captured_decision", "its decision", decision);
@@ -85,7 +93,8 @@ pub fn array_scores(design: &Design) -> Vec<Port> {
 /// Returns the module with the registers of an array.
 #[must_use]
 pub fn array_registers(design: PipelinedDesign<'_>) -> SourceFile {
-    let view = register_module::register_module(&design, (ARRAY_REGISTERS, true), &array_table(design));
+    let view =
+        register_module::register_module(&design, (ARRAY_REGISTERS, true), &array_table(design));
     module_file(ARRAY_REGISTERS, rendered_text(&view))
 }
 

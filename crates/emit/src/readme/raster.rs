@@ -9,7 +9,8 @@ use crate::verilog_text::rendered_text;
 use crate::{Prefix, Top, banner};
 use askama::Template;
 use foveate_design::{
-    FRAME_NUMBERS, Pipelining, RasterDesign, RasterMemory, RasterTiming, FrameStoreKind, ThresholdSource,
+    FRAME_NUMBERS, FrameStoreKind, Pipelining, RasterDesign, RasterMemory, RasterTiming,
+    ThresholdSource,
 };
 
 #[derive(Template)]
@@ -142,7 +143,11 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Ras
         runtime: design.threshold_source() == ThresholdSource::Runtime,
         streams: stream_rows(&design),
         rcm_ports: port_rows(&design),
-        thresholds: design.rcm_ports().iter().filter_map(|port| threshold_row(&design, port)).collect(),
+        thresholds: design
+            .rcm_ports()
+            .iter()
+            .filter_map(|port| threshold_row(&design, port))
+            .collect(),
         instance: instance(&design, prefix),
         synthesized: crate::top::placed_top(&design),
         sync: sync::sync_section(&design, "word", ""),

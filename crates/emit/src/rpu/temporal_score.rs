@@ -24,7 +24,11 @@ pub(super) fn keeps_second_frame(design: PipelinedDesign<'_>) -> bool {
 /// Returns the stored frames for which changed pixels are counted. With a second pass the decision
 /// of the previous frame comes too late to choose between the previous frame and the pixels sent
 /// before it, so changes against both are counted.
-pub(super) fn reference_candidates(reference: ReferencePolicy, second_pass: bool, deep: bool) -> Vec<ReferenceCandidate> {
+pub(super) fn reference_candidates(
+    reference: ReferencePolicy,
+    second_pass: bool,
+    deep: bool,
+) -> Vec<ReferenceCandidate> {
     let previous = |hit| ReferenceCandidate { name: "previous", hit };
     let sent = |hit| ReferenceCandidate { name: "sent", hit };
     match (reference, second_pass, deep) {
@@ -44,7 +48,11 @@ pub(super) fn reference_candidates(reference: ReferencePolicy, second_pass: bool
 
 /// Returns the values that a pixel is compared with. A deep RPU compares before it is decided
 /// whether the pixel sent last is that of the frame decided last, so it compares with both.
-pub(super) fn compared_values(reference: ReferencePolicy, second_pass: bool, deep: bool) -> Vec<&'static str> {
+pub(super) fn compared_values(
+    reference: ReferencePolicy,
+    second_pass: bool,
+    deep: bool,
+) -> Vec<&'static str> {
     match (reference, second_pass, deep) {
         (ReferencePolicy::Previous, _, _) => vec!["previous"],
         (ReferencePolicy::LastSent, false, false) => vec!["sent"],

@@ -5,10 +5,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
-use crate::common::{design, every_design, every_design_on_a_bus, has_tclsh, covering_pairs};
+use crate::common::{covering_pairs, design, every_design, every_design_on_a_bus, has_tclsh};
 use foveate_design::Hardware;
-use foveate_emit::{AXI_TOP, FieldKind, Prefix, SourceFile, array_table, core_files, axi_modules, axi_registers};
-use foveate_toolchain::testing::{sampling_step, require_tools};
+use foveate_emit::{
+    AXI_TOP, FieldKind, Prefix, SourceFile, array_table, axi_modules, axi_registers, core_files,
+};
+use foveate_toolchain::testing::{require_tools, sampling_step};
 use foveate_toolchain::{Source, Tool, Toolchain, verilator};
 use rayon::prelude::*;
 

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::common::{design, every_design, every_design_on_a_bus, covering_pairs};
+use crate::common::{covering_pairs, design, every_design, every_design_on_a_bus};
 use foveate_design::{Design, Organization};
 use foveate_emit::{AXI_TOP, LEAVES, SourceFile, Top, axi_modules, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{design, every_design_on_a_bus, has_tclsh, covering_pairs};
+use crate::common::{covering_pairs, design, every_design_on_a_bus, has_tclsh};
 use foveate_emit::{Prefix, SourceFile, core_files};
 
 /// Returns a core of each organization and the selected cores on AXI, each with the module that
@@ -16,7 +16,8 @@ fn cores() -> Vec<(String, &'static str, &'static str)> {
         let frame = "frame = { width = 32, height = 24 }";
         (format!("{frame}\nhardware.organization = '{organization}'\n"), "rcm", "clk_i")
     });
-    let buses = covering_pairs(every_design_on_a_bus()).into_iter().map(|toml| (toml, "rcm_axi", "aclk"));
+    let buses =
+        covering_pairs(every_design_on_a_bus()).into_iter().map(|toml| (toml, "rcm_axi", "aclk"));
     ports.into_iter().chain(buses).collect()
 }
 
@@ -57,7 +58,9 @@ impl FuseSocTarget {
         Self {
             top: value("toplevel: ").to_owned(),
             files: own
-                .flat_map(|set| lines_below(sets, &format!("  {set}:")).into_iter().filter_map(file))
+                .flat_map(|set| {
+                    lines_below(sets, &format!("  {set}:")).into_iter().filter_map(file)
+                })
                 .collect(),
             lines: lines.into_iter().map(str::to_owned).collect(),
         }
@@ -80,7 +83,11 @@ fn write(folder: &Path, path: &str, text: &str) {
 }
 
 /// Returns what a target of FuseSoC synthesizes with open tools, after an edit of one file.
-fn fusesoc_synthesis(core: &[SourceFile], name: &str, edit: Option<FileEdit<'_>>) -> Result<String, String> {
+fn fusesoc_synthesis(
+    core: &[SourceFile],
+    name: &str,
+    edit: Option<FileEdit<'_>>,
+) -> Result<String, String> {
     let dir = tempfile::tempdir().unwrap();
     let core: Vec<SourceFile> = core.iter().map(|file| edited(file, edit)).collect();
     let target = FuseSocTarget::of(&core, name);

@@ -10,7 +10,7 @@ use crate::common::{design, every_design};
 use cases::{LimitCase, all_leaves, cases, with_default};
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{sampling_step, require_tools};
+use foveate_toolchain::testing::{require_tools, sampling_step};
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
@@ -111,7 +111,8 @@ fn parameters_out_of_range_are_refused_together() {
         return;
     }
     let cases = cases();
-    let refused = cases.iter().filter_map(|case| case.refusing_limit.as_ref().map(|limit| (case, limit)));
+    let refused =
+        cases.iter().filter_map(|case| case.refusing_limit.as_ref().map(|limit| (case, limit)));
     let named: Vec<(String, &LimitCase, &String)> = refused
         .enumerate()
         .map(|(number, (case, limit))| (format!("case_{number}"), case, limit))
@@ -204,7 +205,8 @@ fn every_limit_has_a_case_and_every_module_with_limits_a_control() {
         let words = leaf.contents.split_whitespace();
         let limits: BTreeSet<&str> = words.filter(|word| word.contains("_must_")).collect();
         let own = || cases.iter().filter(|case| case.module == leaf.name);
-        let tried: BTreeSet<&str> = own().filter_map(|case| case.refusing_limit.as_deref()).collect();
+        let tried: BTreeSet<&str> =
+            own().filter_map(|case| case.refusing_limit.as_deref()).collect();
         assert_eq!(limits, tried, "{}", leaf.name);
         let controls = own().filter(|case| case.refusing_limit.is_none()).count();
         assert_eq!(controls, usize::from(!limits.is_empty()), "{}", leaf.name);

@@ -2,7 +2,9 @@
 //! Emitted Verilog has no warning in Verilator and Yosys, over the matrix of designs.
 //! `elaborated.rs` tests warnings of Icarus.
 
-use crate::common::{EXTRA_RASTER_DESIGNS, design, pipelined_matrix, covering_pairs, raster_matrix, serial_matrix};
+use crate::common::{
+    EXTRA_RASTER_DESIGNS, covering_pairs, design, pipelined_matrix, raster_matrix, serial_matrix,
+};
 use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
@@ -13,7 +15,10 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Runs `check` on the Verilog of every design and reports every failure.
-fn check_each_design(designs: &[String], check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync) {
+fn check_each_design(
+    designs: &[String],
+    check: impl Fn(&[Source]) -> Result<(), ToolError> + Sync,
+) {
     let failures: Vec<String> = designs
         .par_iter()
         .filter_map(|toml| {
@@ -31,8 +36,10 @@ fn verilator_has_no_warning() {
         return;
     }
     let toolchain = Toolchain::system();
-    let (others, more) =
-        (covering_pairs([serial_matrix(), raster_matrix()].concat()), EXTRA_RASTER_DESIGNS.map(str::to_owned));
+    let (others, more) = (
+        covering_pairs([serial_matrix(), raster_matrix()].concat()),
+        EXTRA_RASTER_DESIGNS.map(str::to_owned),
+    );
     let designs = [covering_pairs(pipelined_matrix()), others, more.to_vec()].concat();
     check_each_design(&designs, |sources| verilator::lint(&toolchain, sources, "rcm", None));
 }
@@ -71,7 +78,9 @@ fn yosys_has_no_warning() {
     // still covers every leaf; `scripts/lint.sh` lints more.
     let others = [serial_matrix(), raster_matrix()].concat();
     let more = EXTRA_RASTER_DESIGNS.map(str::to_owned).to_vec();
-    let designs = [covering_pairs(pipelined_matrix()), others.into_iter().step_by(5).collect(), more].concat();
+    let designs =
+        [covering_pairs(pipelined_matrix()), others.into_iter().step_by(5).collect(), more]
+            .concat();
     check_each_design(&designs, |sources| {
         let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
         let script = format!(

@@ -55,7 +55,9 @@ fn top(cores: &[(&Prefix, &Design)]) -> String {
                 (PortDirection::Input, PortRole::Pixel) => {
                     format!("{{{}{{pixels}}}}", port.bits().div_ceil(32))
                 }
-                (PortDirection::Input, PortRole::Valid | PortRole::ForwardReady) => "1'b1".to_owned(),
+                (PortDirection::Input, PortRole::Valid | PortRole::ForwardReady) => {
+                    "1'b1".to_owned()
+                }
                 (PortDirection::Input, _) => format!("{}'d1", port.bits()),
                 (PortDirection::Output, PortRole::DecisionValid) => format!("decided_{number}"),
                 (PortDirection::Output, PortRole::Score(_) | PortRole::AnyScore) => {

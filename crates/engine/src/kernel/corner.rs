@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The feature `corner`: FAST 5/8.
 
-use crate::kernel::{WindowSides, WindowRows, extended_block};
+use crate::kernel::{WindowRows, WindowSides, extended_block};
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
 
 /// Adds one to every lane whose pixel is a corner at `level`.

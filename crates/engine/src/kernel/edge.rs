@@ -4,7 +4,7 @@
 //! `|Gx| + |Gy|` is the larger of `|Gx + Gy|` and `|Gx - Gy|`. Both are even, and half of each is a
 //! sum of three differences of pixels. It is compared with half the level, rounded down.
 
-use crate::kernel::{WindowSides, WindowRows, extended_block};
+use crate::kernel::{WindowRows, WindowSides, extended_block};
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane whose window is an edge. `half` is half of the level, rounded down.

@@ -25,7 +25,11 @@ pub(crate) fn add_above<T: PixelLane>(
 
 /// Adds one to every lane whose pixel is above `mean`.
 #[inline(always)]
-pub(crate) fn count_above<T: PixelLane>(pixels: &[Block<T>], mean: &[Block<T>], hits: &mut [Block<T>]) {
+pub(crate) fn count_above<T: PixelLane>(
+    pixels: &[Block<T>],
+    mean: &[Block<T>],
+    hits: &mut [Block<T>],
+) {
     for ((pixels, mean), hits) in pixels.iter().zip(mean).zip(hits) {
         for i in 0..BLOCK_LANES {
             hits[i] += pixels[i].saturating_minus(mean[i]).min(T::ONE);

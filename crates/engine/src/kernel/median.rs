@@ -43,11 +43,15 @@ pub(crate) fn combine_columns<T: PixelLane>(
         if let Some(ahead) = ahead.get(at) {
             prefetch(ahead);
         }
-        let (low, mid, high) = (extended_block(low, at), extended_block(mid, at), extended_block(high, at));
+        let (low, mid, high) =
+            (extended_block(low, at), extended_block(mid, at), extended_block(high, at));
         let mut medians = [T::default(); BLOCK_LANES];
         for i in 0..BLOCK_LANES {
-            medians[i] =
-                median_of_columns(sides.window_row(low, at, i), sides.window_row(mid, at, i), sides.window_row(high, at, i));
+            medians[i] = median_of_columns(
+                sides.window_row(low, at, i),
+                sides.window_row(mid, at, i),
+                sides.window_row(high, at, i),
+            );
         }
         *out = medians;
     }
@@ -89,7 +93,12 @@ mod tests {
             let rows = rows.each_ref().map(|row| row.as_chunks().0);
             sort_columns(rows, blocks);
             let mut out = [[9; BLOCK_LANES]];
-            combine_columns(sorted.each_ref().map(|row| &row[BLOCK_LANES - 1..]), SharedSides, &[], &mut out);
+            combine_columns(
+                sorted.each_ref().map(|row| &row[BLOCK_LANES - 1..]),
+                SharedSides,
+                &[],
+                &mut out,
+            );
             assert_eq!(out[0][0], u8::from(bits.count_ones() >= 5), "window {bits:09b}");
         }
     }

@@ -27,7 +27,9 @@ pub(crate) fn add_rows<T: PixelLane>(
         // The sums stay in registers over all rows.
         let mut own = [T::ColumnSum::default(); BLOCK_LANES];
         for row in rows.clone() {
-            if let Some(pixels) = plane[row * stride + at * BLOCK_LANES..].first_chunk::<BLOCK_LANES>() {
+            if let Some(pixels) =
+                plane[row * stride + at * BLOCK_LANES..].first_chunk::<BLOCK_LANES>()
+            {
                 for i in 0..BLOCK_LANES {
                     own[i] += T::ColumnSum::from(pixels[i]);
                 }

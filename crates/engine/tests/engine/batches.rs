@@ -3,7 +3,7 @@
 //! into batches, number of threads and instruction set.
 
 use foveate_camera::{Camera, FeatureKind, Neighborhood, ReferencePolicy, SpatialConfig};
-use foveate_engine::{Engine, FrameOutcome, InstructionSet, EngineOptions, BatchScreens};
+use foveate_engine::{BatchScreens, Engine, EngineOptions, FrameOutcome, InstructionSet};
 use foveate_frame::Frame;
 use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
@@ -79,9 +79,16 @@ fn step(
 
 /// Runs a clip through the model frame by frame and through engines call by call. The clip is
 /// repeated until the calls end. Returns how many regions one thread skipped.
-fn check(camera: &Camera, film: &[Frame], calls: &[EngineCall], options: EngineOptions, gap: usize) -> usize {
+fn check(
+    camera: &Camera,
+    film: &[Frame],
+    calls: &[EngineCall],
+    options: EngineOptions,
+    gap: usize,
+) -> usize {
     let mut model = FunctionalCamera::new(camera);
-    let engine = |threads| Engine::with_options(camera, EngineOptions { threads, ..options }).unwrap();
+    let engine =
+        |threads| Engine::with_options(camera, EngineOptions { threads, ..options }).unwrap();
     let mut engines = [1, 2, 3].map(engine);
     let (mut film, mut skipped, mut kept) = (film.iter().cycle(), 0, KeptScreens::default());
     for call in calls {
@@ -184,7 +191,8 @@ fn a_single_batch_is_skipped_where_it_stands_still() {
 #[test]
 fn long_batches_are_one_film() {
     let camera = camera(1500, 1100, 64, |_| {});
-    let script = [FrameChange::Still, FrameChange::Patch(0.3, 0.4), FrameChange::Still, FrameChange::Fade];
+    let script =
+        [FrameChange::Still, FrameChange::Patch(0.3, 0.4), FrameChange::Still, FrameChange::Fade];
     let calls = [batch(7), batch(6)];
     check(&camera, &film(&camera, 11, &script), &calls, EngineOptions::default(), 0);
 }

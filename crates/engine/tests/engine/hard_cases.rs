@@ -2,7 +2,8 @@
 //! Cases that random cameras reach too seldom.
 
 use foveate_camera::{
-    Camera, CameraConfig, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy, SpatialConfig,
+    Camera, CameraConfig, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy,
+    SpatialConfig,
 };
 use foveate_engine::EngineOptions;
 use foveate_frame::Frame;
@@ -85,7 +86,11 @@ fn stillness_is_skipped_and_exact() {
                         config.spatial[0].level = Some(400);
                     });
                     let frames = film(&camera, 77, &script);
-                    let way = |(threads, skip)| EngineOptions { threads, skips_identical_regions: skip, ..EngineOptions::default() };
+                    let way = |(threads, skip)| EngineOptions {
+                        threads,
+                        skips_identical_regions: skip,
+                        ..EngineOptions::default()
+                    };
                     let ways = [(1, true), (1, false), (2, true), (2, false)].map(way);
                     let [alone, alone_all, two, two_all] = check_all(&camera, &frames, ways);
                     assert!(alone > 1000 && two > 1000, "skipped: {alone}, {two}");
@@ -168,8 +173,12 @@ fn what_is_still_after_a_wipe_loses_its_reference() {
 fn regions_that_share_a_block_with_a_change_stay_exact() {
     for side in [3, 5, 6, 7, 12, 48] {
         let camera = camera(300, 3 * side, side, every_feature);
-        let script =
-            [FrameChange::Still, FrameChange::Spot(0.45, 0.5), FrameChange::Still, FrameChange::Spot(0.9, 0.1)];
+        let script = [
+            FrameChange::Still,
+            FrameChange::Spot(0.45, 0.5),
+            FrameChange::Still,
+            FrameChange::Spot(0.9, 0.1),
+        ];
         check(&camera, &film(&camera, 5, &script), EngineOptions::default());
     }
 }

@@ -2,7 +2,7 @@
 //! A model that is resumed from the copied state of an engine continues as one that has seen every
 //! frame.
 
-use foveate_engine::{RegionStateBefore, Engine};
+use foveate_engine::{Engine, RegionStateBefore};
 use foveate_frame::{Frame, FramePixels};
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RegionMemory};
 use proptest::prelude::*;

@@ -3,7 +3,7 @@
 //! and number of threads, with and without skipping.
 
 use foveate_camera::Camera;
-use foveate_engine::{Engine, FrameOutcome, InstructionSet, EngineOptions};
+use foveate_engine::{Engine, EngineOptions, FrameOutcome, InstructionSet};
 use foveate_frame::Frame;
 use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;

@@ -2,8 +2,8 @@
 //! Random cameras, the inputs of the comparison of engine and model.
 
 use foveate_camera::{
-    Camera, CameraConfig, VoteCombination, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload,
-    ReferencePolicy, SpatialConfig,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood,
+    Payload, ReferencePolicy, SpatialConfig, VoteCombination,
 };
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};

@@ -2,7 +2,7 @@
 //! Pixels that are not a frame of the camera are refused by name, and change nothing.
 
 use foveate_camera::{Camera, CameraConfig};
-use foveate_engine::{Engine, EngineError, FrameOutcome, MAX_THREADS, EngineOptions, BatchScreens};
+use foveate_engine::{BatchScreens, Engine, EngineError, EngineOptions, FrameOutcome, MAX_THREADS};
 use foveate_frame::Frame;
 
 fn camera(bits: u32) -> Camera {

@@ -3,8 +3,8 @@
 //! and end.
 
 use super::cell_delays;
-use super::pin_connection::{PinConnection, pin_connections};
 use super::path::PathWeight;
+use super::pin_connection::{PinConnection, pin_connections};
 use super::raw_netlist::{PathBit, PathCell};
 use crate::cells::CellKind;
 
@@ -24,14 +24,16 @@ impl CellTiming {
     /// another block.
     pub(super) fn of(kind: CellKind, cell: &PathCell, chained: impl Fn(u32) -> bool) -> Self {
         let mut timing = Self::default();
-        let outputs: Vec<_> = pin_connections(cell).filter(|joint| is_output(kind, joint.port)).collect();
+        let outputs: Vec<_> =
+            pin_connections(cell).filter(|joint| is_output(kind, joint.port)).collect();
         for input in pin_connections(cell).filter(|joint| !is_output(kind, joint.port)) {
             if is_clock(kind, input.port) {
                 continue;
             }
             for output in &outputs {
                 if let Some(weight) = arc_weight(kind, cell, &input, output, &chained) {
-                    let time = PathWeight::with_wires(cell_delays::arc_delay(kind, cell, &input, output));
+                    let time =
+                        PathWeight::with_wires(cell_delays::arc_delay(kind, cell, &input, output));
                     timing.arcs.push((input.net, output.net, weight.plus(time)));
                 }
             }
@@ -161,9 +163,10 @@ fn is_written(cell: &PathCell, letter: &str) -> bool {
 /// Returns the initial weight of a path that starts at the outputs; `None` if no path starts there.
 fn start_weight(kind: CellKind, cell: &PathCell) -> Option<PathWeight> {
     match kind {
-        CellKind::FlipFlop | CellKind::ShiftRegister16 | CellKind::BlockRam(_) | CellKind::UltraRam => {
-            Some(PathWeight::NONE)
-        }
+        CellKind::FlipFlop
+        | CellKind::ShiftRegister16
+        | CellKind::BlockRam(_)
+        | CellKind::UltraRam => Some(PathWeight::NONE),
         // A written word leaves the memory through the multiplexer that reads it.
         CellKind::Memory(_) if cell.kind.starts_with("SRL") => Some(PathWeight::NONE),
         CellKind::Memory(_) => Some(PathWeight::LEVEL),

@@ -6,8 +6,8 @@
 //! * The models are those of the 7 series. Yosys has none of UltraScale+, and uses these for it.
 //! * Setup times are left out, as those of ECP5 are 0.
 
-use super::pin_connection::PinConnection;
 use super::path::PathWeight;
+use super::pin_connection::PinConnection;
 use super::raw_netlist::PathCell;
 use crate::cells::CellKind;
 
@@ -24,7 +24,12 @@ const MEMORY_START: u32 = 1190;
 const BLOCK_START: [u32; 2] = [2454, 882];
 
 /// Returns the delay from an input of a cell to one of its outputs.
-pub(super) fn arc_delay(kind: CellKind, cell: &PathCell, input: &PinConnection<'_>, output: &PinConnection<'_>) -> u32 {
+pub(super) fn arc_delay(
+    kind: CellKind,
+    cell: &PathCell,
+    input: &PinConnection<'_>,
+    output: &PinConnection<'_>,
+) -> u32 {
     match kind {
         CellKind::Lut(inputs) => lut_delay(inputs.saturating_sub(1 + input_number(input))),
         CellKind::Inverter => LUT_DELAYS[0],

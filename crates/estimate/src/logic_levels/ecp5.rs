@@ -4,8 +4,8 @@
 //! models lack are those of nextpnr 0.11 for speed grade 6.
 
 use super::cell::CellTiming;
-use super::pin_connection::pin_connections;
 use super::path::PathWeight;
+use super::pin_connection::pin_connections;
 use super::raw_netlist::PathCell;
 
 /// The delays from inputs to outputs.
@@ -52,8 +52,11 @@ pub(super) fn timing(cell: &PathCell) -> Option<CellTiming> {
 }
 
 fn combinational_timing(cell: &PathCell, table: DelayTable) -> CellTiming {
-    let net = |port: &str| pin_connections(cell).find(|joint| joint.port == port).map(|joint| joint.net);
-    let arc = |&(from, to, ps): &(&str, &str, u32)| Some((net(from)?, net(to)?, PathWeight::with_wires(ps)));
+    let net =
+        |port: &str| pin_connections(cell).find(|joint| joint.port == port).map(|joint| joint.net);
+    let arc = |&(from, to, ps): &(&str, &str, u32)| {
+        Some((net(from)?, net(to)?, PathWeight::with_wires(ps)))
+    };
     CellTiming { arcs: table.iter().filter_map(arc).collect(), ..CellTiming::default() }
 }
 
@@ -63,7 +66,9 @@ fn registered_timing(cell: &PathCell, output: &str, ps: impl Fn(&str) -> u32) ->
     let mut timing = CellTiming::default();
     for joint in pin_connections(cell).filter(|joint| !joint.port.contains("CLK")) {
         if joint.port.starts_with(output) {
-            timing.starts.push((joint.net, PathWeight::after_clock(ps(joint.port), FLIP_FLOP_START)));
+            timing
+                .starts
+                .push((joint.net, PathWeight::after_clock(ps(joint.port), FLIP_FLOP_START)));
         } else {
             timing.ends.push((joint.net, joint.port.to_owned()));
         }
@@ -81,7 +86,8 @@ fn block_ram_start(cell: &PathCell, output: &str) -> u32 {
 /// Returns the timing of distributed RAM, which is written at the clock and read at any time.
 fn memory_timing(cell: &PathCell) -> CellTiming {
     let mut timing = CellTiming::default();
-    let outputs = || pin_connections(cell).filter(|joint| joint.port == "DO").map(|joint| joint.net);
+    let outputs =
+        || pin_connections(cell).filter(|joint| joint.port == "DO").map(|joint| joint.net);
     for joint in pin_connections(cell) {
         match joint.port {
             "DO" => timing.starts.push((joint.net, PathWeight::with_wires(FLIP_FLOP_START))),
@@ -98,7 +104,8 @@ fn memory_timing(cell: &PathCell) -> CellTiming {
 fn multiplier_timing(cell: &PathCell) -> CellTiming {
     let is_output = |port: &str| port.starts_with('P') || port.starts_with("RO");
     let is_input = |port: &str| port.starts_with('A') || port.starts_with('B');
-    let outputs = || pin_connections(cell).filter(|joint| is_output(joint.port)).map(|joint| joint.net);
+    let outputs =
+        || pin_connections(cell).filter(|joint| is_output(joint.port)).map(|joint| joint.net);
     let inputs = pin_connections(cell).filter(|joint| is_input(joint.port)).map(|joint| joint.net);
     let each = |from| outputs().map(move |to| (from, to, PathWeight::without_wires(MULTIPLIER)));
     CellTiming { arcs: inputs.flat_map(each).collect(), ..CellTiming::default() }

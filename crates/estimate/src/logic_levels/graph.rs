@@ -149,14 +149,19 @@ impl<'a> GraphBuilder<'a> {
             for (net, pin) in &timing.ends {
                 let net = graph.net(instance, nets, *net);
                 let named = output.map_or(net, |output| graph.net(instance, nets, output));
-                graph.ends.push(PathSink { net, pin: Some((*kind, pin.clone())), named_net: named });
+                graph.ends.push(PathSink {
+                    net,
+                    pin: Some((*kind, pin.clone())),
+                    named_net: named,
+                });
             }
         }
         for (name, cell) in &instance.module.cells {
             if self.netlist.modules.contains_key(&cell.kind) {
                 let inner = self.instance(&cell.kind, &nested_name(&instance.path, name))?;
                 let mut bound = NetNumbers::new();
-                let again = connect_ports(graph, (instance, nets), (&inner, &mut bound), &cell.connections);
+                let again =
+                    connect_ports(graph, (instance, nets), (&inner, &mut bound), &cell.connections);
                 self.fill(graph, &inner, &mut bound)?;
                 graph.arcs.extend(again);
             }

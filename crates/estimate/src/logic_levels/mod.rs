@@ -15,16 +15,16 @@ mod cell;
 mod cell_delays;
 mod ecp5;
 mod graph;
-mod pin_connection;
 mod path;
-mod raw_netlist;
 mod path_search;
+mod pin_connection;
+mod raw_netlist;
 
 use crate::error::EstimateError;
 use graph::NetGraph;
 pub use path::LogicPath;
-pub(crate) use path::WIRING_SHARE;
 use path::PathWeight;
+pub(crate) use path::WIRING_SHARE;
 use raw_netlist::PathNetlist;
 
 /// Returns the longest path of each of the `tops`, with all modules inside them.
@@ -36,8 +36,8 @@ pub(crate) fn longest_paths(
     json: &[u8],
     tops: &[&str],
 ) -> Result<Vec<LogicPath>, EstimateError> {
-    let netlist: PathNetlist =
-        serde_json::from_slice(json).map_err(|source| EstimateError::UnreadableFile { file, source })?;
+    let netlist: PathNetlist = serde_json::from_slice(json)
+        .map_err(|source| EstimateError::UnreadableFile { file, source })?;
     let longest = |top: &&str| {
         let graph = NetGraph::of(&netlist, top, CellLibrary::Xilinx)?;
         path_search::longest_path(&graph, PathWeight::by_levels).map(|(path, _)| path)
@@ -55,8 +55,8 @@ pub(crate) fn slowest_path(
     top: &str,
     library: CellLibrary,
 ) -> Result<(LogicPath, u32), EstimateError> {
-    let netlist: PathNetlist =
-        serde_json::from_slice(json).map_err(|source| EstimateError::UnreadableFile { file, source })?;
+    let netlist: PathNetlist = serde_json::from_slice(json)
+        .map_err(|source| EstimateError::UnreadableFile { file, source })?;
     path_search::longest_path(&NetGraph::of(&netlist, top, library)?, PathWeight::by_time)
 }
 

@@ -49,7 +49,8 @@ impl PathWeight {
     /// Makes the initial weight of a path: the delay of a flip-flop with the usual share of wires,
     /// and the additional delay of a slower block without wires.
     pub(super) fn after_clock(clock_to_output: u32, flip_flop: u32) -> Self {
-        Self::with_wires(flip_flop).plus(Self::without_wires(clock_to_output.saturating_sub(flip_flop)))
+        Self::with_wires(flip_flop)
+            .plus(Self::without_wires(clock_to_output.saturating_sub(flip_flop)))
     }
 
     pub(super) fn plus(self, other: Self) -> Self {

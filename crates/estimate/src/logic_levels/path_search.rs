@@ -57,7 +57,10 @@ pub(super) fn longest_path(
     Ok((path, weight.ps))
 }
 
-fn arrivals(graph: &NetGraph<'_>, length: PathLength) -> Result<Vec<Option<SignalArrival>>, EstimateError> {
+fn arrivals(
+    graph: &NetGraph<'_>,
+    length: PathLength,
+) -> Result<Vec<Option<SignalArrival>>, EstimateError> {
     let mut arrivals = vec![None; graph.net_count()];
     for start in &graph.starts {
         let arrival = SignalArrival { weight: start.weight, arc: None };
@@ -91,7 +94,9 @@ fn arrivals(graph: &NetGraph<'_>, length: PathLength) -> Result<Vec<Option<Signa
     }
     match nets.into_iter().find(|&net| waiting[net as usize] > 0) {
         None => Ok(arrivals),
-        Some(net) => Err(EstimateError::CombinationalLoop { nets: combinational_loop(graph, &waiting, net) }),
+        Some(net) => {
+            Err(EstimateError::CombinationalLoop { nets: combinational_loop(graph, &waiting, net) })
+        }
     }
 }
 

@@ -13,7 +13,9 @@ pub(super) struct PinConnection<'a> {
 /// Returns every pin of a cell that is connected to a net, port by port.
 pub(super) fn pin_connections(cell: &PathCell) -> impl Iterator<Item = PinConnection<'_>> {
     cell.connections.iter().flat_map(|(port, bits)| {
-        let joint = move |(index, bit): (usize, &PathBit)| Some(PinConnection { port, index, net: bit.net()? });
+        let joint = move |(index, bit): (usize, &PathBit)| {
+            Some(PinConnection { port, index, net: bit.net()? })
+        };
         bits.iter().enumerate().filter_map(joint)
     })
 }

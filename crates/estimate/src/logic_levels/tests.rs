@@ -218,7 +218,8 @@ fn an_ecp5_has_cells_of_its_own() {
     assert_eq!(slowest(&block("NOREG"), CellLibrary::Ecp5).1, 5305 + with_wires(525));
     assert_eq!(slowest(&block("OUTREG"), CellLibrary::Ecp5).1, 435 + with_wires(525));
     let unknown = json!({ "modules": { "top": module(&json!({}), &json!({ "x": cell("EHXPLLL", &json!({})) })) } });
-    let error = slowest_path("netlist.json", unknown.to_string().as_bytes(), "top", CellLibrary::Ecp5);
+    let error =
+        slowest_path("netlist.json", unknown.to_string().as_bytes(), "top", CellLibrary::Ecp5);
     assert!(error.unwrap_err().to_string().contains("`EHXPLLL`"));
 }
 

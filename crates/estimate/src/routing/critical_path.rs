@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::hierarchy::ModuleHierarchy;
 use super::netlist::{NetlistCell, PlacementNetlist};
+use super::nextpnr_report::{CellPin, TimingPath};
 use super::port_registers::replaced_port;
-use super::nextpnr_report::{TimingPath, CellPin};
 
 /// The longest path between two edges of the clock.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -39,7 +39,14 @@ const fn ecp5(
     flag: &'static str,
     speed: &'static str,
 ) -> RouteDevice {
-    RouteDevice { name, part, package: "CABGA381", speed: Some(speed), family: DeviceFamily::Ecp5, flag }
+    RouteDevice {
+        name,
+        part,
+        package: "CABGA381",
+        speed: Some(speed),
+        family: DeviceFamily::Ecp5,
+        flag,
+    }
 }
 
 const fn ice40(
@@ -58,7 +65,14 @@ const fn gowin(
     flag: &'static str,
     speed: &'static str,
 ) -> RouteDevice {
-    RouteDevice { name, part, package: "QN88", speed: Some(speed), family: DeviceFamily::Gowin, flag }
+    RouteDevice {
+        name,
+        part,
+        package: "QN88",
+        speed: Some(speed),
+        family: DeviceFamily::Gowin,
+        flag,
+    }
 }
 
 /// All devices. An ECP5 without a speed grade in its name has the slowest grade, 6.

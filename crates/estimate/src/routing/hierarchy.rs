@@ -27,7 +27,8 @@ struct HierarchyCell {
 
 impl ModuleHierarchy {
     pub(super) fn parse(file: &'static str, json: &[u8]) -> Result<Self, EstimateError> {
-        serde_json::from_slice(json).map_err(|source| EstimateError::UnreadableFile { file, source })
+        serde_json::from_slice(json)
+            .map_err(|source| EstimateError::UnreadableFile { file, source })
     }
 
     /// Returns the source name of the module in which a name below `top` is declared.

@@ -15,14 +15,16 @@ use super::critical_path::SourceNames;
 use super::device::{DeviceFamily, RouteDevice};
 use super::hierarchy::ModuleHierarchy;
 use super::netlist::PlacementNetlist;
-use super::shortage::resource_shortages;
-use super::port_registers;
-use super::report::{ClockStatistics, PlacementResult, ROUTE_FORMAT_VERSION, RouteReport, DeviceResult, ResourceUse};
 use super::nextpnr_report::NextpnrReport;
+use super::port_registers;
+use super::report::{
+    ClockStatistics, DeviceResult, PlacementResult, ROUTE_FORMAT_VERSION, ResourceUse, RouteReport,
+};
+use super::shortage::resource_shortages;
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::logic_levels::CellLibrary;
-use crate::synthesis::{sources_of_files, sources};
+use crate::synthesis::{sources, sources_of_files};
 use foveate_toolchain::ToolRecord;
 
 const NETLIST: &str = "netlist.json";
@@ -129,7 +131,8 @@ pub fn place_and_route(
     job: &RouteJob,
     devices: &[&'static RouteDevice],
 ) -> Result<RouteReport, EstimateError> {
-    let ready = |&device: &&'static RouteDevice| SynthesizedDesign::new(toolchain, cache, job, device);
+    let ready =
+        |&device: &&'static RouteDevice| SynthesizedDesign::new(toolchain, cache, job, device);
     let ready = devices.iter().map(ready).collect::<Result<Vec<_>, _>>()?;
     let runs: Vec<_> =
         ready.iter().flat_map(|ready| (1..=job.seeds).map(move |seed| (ready, seed))).collect();
@@ -168,7 +171,8 @@ impl SynthesizedDesign {
         let file =
             |name: &str| run.files.get(name).expect("it is one of the wanted files").as_slice();
         let hierarchy = ModuleHierarchy::parse(HIERARCHY, file(HIERARCHY))?;
-        let (netlist, json, port_ff) = placement_netlist(file(NETLIST), &job.top, job.clock, device.family)?;
+        let (netlist, json, port_ff) =
+            placement_netlist(file(NETLIST), &job.top, job.clock, device.family)?;
         Ok(Self { device, netlist, hierarchy, json, clock: job.clock, port_ff })
     }
 
@@ -205,16 +209,25 @@ impl SynthesizedDesign {
         Ok(DeviceResult {
             device: self.device.name.to_owned(),
             part: self.device.full_name(),
-            synthesis: tool("Yosys", synthesizer, self.device.family.synthesis_command().to_owned()),
+            synthesis: tool(
+                "Yosys",
+                synthesizer,
+                self.device.family.synthesis_command().to_owned(),
+            ),
             route: tool("nextpnr", router, self.device.arguments().join(" ")),
             placed: if over_all.is_empty() { Some(self.placed(top, &reports)?) } else { None },
             over: over_all,
         })
     }
 
-    fn placed(&self, top: &str, reports: &[NextpnrReport]) -> Result<PlacementResult, EstimateError> {
+    fn placed(
+        &self,
+        top: &str,
+        reports: &[NextpnrReport],
+    ) -> Result<PlacementResult, EstimateError> {
         let seeds = reports.iter().map(NextpnrReport::fmax_mhz).collect::<Result<Vec<_>, _>>()?;
-        let none = || EstimateError::UnreadableReport { reason: "there is none, for no seed".to_owned() };
+        let none =
+            || EstimateError::UnreadableReport { reason: "there is none, for no seed".to_owned() };
         let (fmax, median) = ClockStatistics::of(seeds).ok_or_else(none)?;
         let report = &reports[median];
         let names = SourceNames { top, netlist: &self.netlist, hierarchy: &self.hierarchy };
@@ -222,7 +235,8 @@ impl SynthesizedDesign {
             let (used, available) = report.utilization_of(place);
             ResourceUse { used, available }
         };
-        let without_ports = |all: ResourceUse| ResourceUse { used: all.used.saturating_sub(self.port_ff), ..all };
+        let without_ports =
+            |all: ResourceUse| ResourceUse { used: all.used.saturating_sub(self.port_ff), ..all };
         let (logic, ff, block_ram, spram, dsp) = match self.device.family {
             DeviceFamily::Ecp5 => (
                 used("TRELLIS_COMB"),
@@ -254,7 +268,9 @@ impl SynthesizedDesign {
             dsp,
             port_ff: self.port_ff,
             estimate: match self.device.family {
-                DeviceFamily::Ecp5 => ClockEstimate::of(NETLIST, &self.json, top, CellLibrary::Ecp5)?,
+                DeviceFamily::Ecp5 => {
+                    ClockEstimate::of(NETLIST, &self.json, top, CellLibrary::Ecp5)?
+                }
                 DeviceFamily::Ice40Up | DeviceFamily::Ice40Hx | DeviceFamily::Gowin => None,
             },
             fmax,

@@ -12,17 +12,19 @@ mod device;
 mod hierarchy;
 mod job;
 mod netlist;
-mod shortage;
+mod nextpnr_report;
 mod port_registers;
 mod render;
 mod report;
-mod nextpnr_report;
+mod shortage;
 #[cfg(test)]
 mod tests;
 
 pub use critical_path::{CriticalPath, PathEnd};
 pub use device::{ROUTE_DEVICES, RouteDevice};
 pub use job::{RouteJob, place_and_route};
-pub use shortage::ResourceShortage;
 pub use render::{render_routes_markdown, render_routes_text};
-pub use report::{ClockStatistics, PlacementResult, ROUTE_FORMAT_VERSION, RouteReport, DeviceResult, ResourceUse};
+pub use report::{
+    ClockStatistics, DeviceResult, PlacementResult, ROUTE_FORMAT_VERSION, ResourceUse, RouteReport,
+};
+pub use shortage::ResourceShortage;

@@ -70,7 +70,12 @@ pub(super) fn replaced_port(cell: &str) -> Option<&str> {
 }
 
 /// Returns a flip-flop without enable and reset.
-fn flip_flop(family: DeviceFamily, clock: NetlistBit, data: NetlistBit, out: NetlistBit) -> NetlistCell {
+fn flip_flop(
+    family: DeviceFamily,
+    clock: NetlistBit,
+    data: NetlistBit,
+    out: NetlistBit,
+) -> NetlistCell {
     match family {
         DeviceFamily::Ecp5 => {
             // A space after a text of digits marks it as text.

@@ -4,7 +4,7 @@
 use foveate_pictures::page::number_text::grouped;
 
 use super::critical_path::{CriticalPath, PathEnd};
-use super::report::{PlacementResult, RouteReport, DeviceResult, ResourceUse};
+use super::report::{DeviceResult, PlacementResult, ResourceUse, RouteReport};
 use crate::table::{ReportTable, header, wrap};
 
 const COLUMNS: [&str; 8] =
@@ -41,7 +41,8 @@ fn row(routed: &DeviceResult) -> Vec<String> {
     let cells = match &routed.placed {
         None => vec!["-".to_owned(); COLUMNS.len()],
         Some(PlacementResult { logic, ff, block_ram, spram, dsp, fmax, .. }) => {
-            let used = [logic, ff, block_ram, spram, dsp].map(|ResourceUse { used, .. }| grouped(*used));
+            let used =
+                [logic, ff, block_ram, spram, dsp].map(|ResourceUse { used, .. }| grouped(*used));
             let clocks = [fmax.median_mhz, fmax.min_mhz, fmax.max_mhz];
             used.into_iter().chain(clocks.map(|mhz| format!("{mhz:.1}"))).collect()
         }

@@ -112,7 +112,8 @@ impl RouteReport {
 
 impl DeviceResult {
     fn shortage_sentence(&self) -> Option<String> {
-        let each = |over: &ResourceShortage| format!("{} {} of {}", over.place, over.used, over.available);
+        let each =
+            |over: &ResourceShortage| format!("{} {} of {}", over.place, over.used, over.available);
         let all = self.over.iter().map(each).collect::<Vec<_>>().join(", ");
         (!self.over.is_empty()).then(|| format!("it does not fit {}: {all}", self.device))
     }

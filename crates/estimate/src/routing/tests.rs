@@ -7,9 +7,9 @@ use super::device::DeviceFamily;
 use super::hierarchy::ModuleHierarchy;
 use super::job::placement_netlist;
 use super::netlist::PlacementNetlist;
-use super::shortage::{ResourceShortage, resource_shortages};
-use super::report::ClockStatistics;
 use super::nextpnr_report::NextpnrReport;
+use super::report::ClockStatistics;
+use super::shortage::{ResourceShortage, resource_shortages};
 use super::{ROUTE_DEVICES, RouteDevice, port_registers};
 use crate::error::EstimateError;
 
@@ -59,7 +59,8 @@ fn what_is_placed_is_what_yosys_wrote_and_registers_at_the_ports() {
         json!({ "ports": ports, "cells": cells, "netnames": {}, "attributes": { "top": "1" } });
     let written = json!({ "creator": "Yosys", "modules": { "rpu": module } });
     let (_, placed, port_ff) =
-        placement_netlist(written.to_string().as_bytes(), "rpu", "clk_i", DeviceFamily::Ecp5).unwrap();
+        placement_netlist(written.to_string().as_bytes(), "rpu", "clk_i", DeviceFamily::Ecp5)
+            .unwrap();
     let mut placed: Value = serde_json::from_slice(&placed).unwrap();
     let at_port = placed["modules"]["rpu"]["cells"].as_object_mut().unwrap().remove("$port$y_o[0]");
     assert_eq!((port_ff, &at_port.unwrap()["type"]), (1, &"TRELLIS_FF".into()));
@@ -131,7 +132,8 @@ fn names_have_the_module_that_they_are_declared_in() {
         r"$paramod\adder\WIDTH=s32'00000000000000000000000000001000": { "cells": {} },
         r"$paramod$0123\magnitude_above": { "cells": {} },
     } });
-    let hierarchy = ModuleHierarchy::parse("hierarchy.json", modules.to_string().as_bytes()).unwrap();
+    let hierarchy =
+        ModuleHierarchy::parse("hierarchy.json", modules.to_string().as_bytes()).unwrap();
     for (name, module) in [
         ("count_q[3]", "rpu"),
         ("u_edge.sum_q", "edge_detector"),
@@ -169,7 +171,10 @@ fn the_longest_path_is_between_clock_edges() {
     let outcome = NextpnrReport::parse(report.to_string().as_bytes()).unwrap();
     assert!((outcome.longest().unwrap().delay() - 3.5).abs() < 1e-9);
     assert!((outcome.fmax_mhz().unwrap() - 285.7).abs() < 1e-9);
-    assert_eq!((outcome.utilization_of("DP16KD"), outcome.utilization_of("SPRAM")), ((3, 208), (0, 0)));
+    assert_eq!(
+        (outcome.utilization_of("DP16KD"), outcome.utilization_of("SPRAM")),
+        ((3, 208), (0, 0))
+    );
     let nothing = r#"{"critical_paths": [], "fmax": {}, "utilization": {}}"#;
     let none = NextpnrReport::parse(nothing.as_bytes()).unwrap().fmax_mhz().unwrap_err();
     assert!(matches!(none, EstimateError::UnreadableReport { .. }), "{none}");
@@ -210,7 +215,8 @@ fn the_scripts_of_a_core_have_the_same_devices() {
         let start = format!("{}) ", device.name);
         let line = script.lines().find(|line| line.starts_with(&start)).unwrap();
         let options = device.arguments().join(" ").replace(" --timing-allow-fail", "");
-        let expected = format!("synthesis='{}' part='{options}' ;;", device.family.synthesis_command());
+        let expected =
+            format!("synthesis='{}' part='{options}' ;;", device.family.synthesis_command());
         assert_eq!(line.strip_prefix(&start), Some(expected.as_str()));
         assert!(script.contains("$part --timing-allow-fail"));
         assert_eq!(script.contains("setattr -unset ram_style */m:*"), ram);

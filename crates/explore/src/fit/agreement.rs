@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The agreement of a network over some frames, and its bound for other frames.
 
-use foveate_inference::{OutputAgreement, ConfidenceIntervals, DetectionCounts, wilson_interval};
+use foveate_inference::{ConfidenceIntervals, DetectionCounts, OutputAgreement, wilson_interval};
 use serde::Serialize;
 
 /// The number of groups of consecutive frames: consecutive frames show the same objects, so they
@@ -9,7 +9,8 @@ use serde::Serialize;
 const FRAME_GROUPS: usize = 8;
 /// The quantiles of Student's t for 1 and more degrees of freedom: 19 of 20 values are above the
 /// negative of them.
-const STUDENT_QUANTILES: [f64; FRAME_GROUPS - 1] = [6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895];
+const STUDENT_QUANTILES: [f64; FRAME_GROUPS - 1] =
+    [6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895];
 /// The quantile of a normal variable: 19 of 20 values are above the negative of it.
 const NORMAL_QUANTILE: f64 = 1.645;
 
@@ -40,7 +41,8 @@ impl AgreementEstimate {
         let all: OutputAgreement = frames.iter().sum();
         let share = all.share();
         let by_groups = (share - shortfall(frames)).max(0.0);
-        let by_count = all.agreement_count().map_or(1.0, |count| least_share_of_others(share, count));
+        let by_count =
+            all.agreement_count().map_or(1.0, |count| least_share_of_others(share, count));
         let expected = by_groups.min(by_count);
         let (frames, detections) = (frames.len() as u64, all.detection_counts());
         let intervals = ConfidenceIntervals::new(share, detections, all.agreement_count());
@@ -113,7 +115,10 @@ mod tests {
         for (share, count) in [(0.976, 251_u32), (1.0, 20), (0.5, 7)] {
             let found = least_share_of_others(share, count.into());
             let error = (found * (1.0 - found) * 2.0 / f64::from(count)).sqrt();
-            assert!((share - found - NORMAL_QUANTILE * error).abs() < 1e-9, "{share} of {count}: {found}");
+            assert!(
+                (share - found - NORMAL_QUANTILE * error).abs() < 1e-9,
+                "{share} of {count}: {found}"
+            );
         }
         assert!(least_share_of_others(0.98, 99) < least_share_of_others(0.98, 990));
         assert_eq!((least_share_of_others(0.0, 9), least_share_of_others(0.9, 0)), (0.0, 0.9));

@@ -4,17 +4,17 @@
 
 use foveate_camera::IrrelevantRendering;
 use foveate_design::{
-    CameraConfig, DesignConfig, Design, FeatureKind, PixelFeed, DenoiseFilter, HardwareConfig, LaneMemoryKind,
-    Neighborhood, Organization, ReferencePolicy,
+    CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, HardwareConfig, LaneMemoryKind,
+    Neighborhood, Organization, PixelFeed, ReferencePolicy,
 };
 use foveate_estimate::{FpgaDevice, FrameRate};
 
 use super::FitRequest;
 use super::constraints::{ConstraintCheck, all_met, total_excess};
-use super::search::{ExaminedCamera, CameraSearch};
 use super::network::CostObjective;
 use super::plan::{expected_cost, max_clocks, slower_designs};
 use super::rough_cost::rough_cost;
+use super::search::{CameraSearch, ExaminedCamera};
 use crate::cost::{DesignArea, SynthesisResult};
 use crate::row::{bytes_per_frame, count_to_f64};
 use crate::{ExploreError, ExploreHooks};
@@ -97,17 +97,23 @@ pub(super) fn build_designs(
         // All designs of a camera send the same bytes.
         Some(CostObjective::Bytes) => fewest_bytes(&holding)?,
     };
-    let bounds =
-        BuildBounds { max_clocks: max_clocks(request), is_planned: request.clock_hz.is_none(), memory };
-    let (mut candidates, mut left_out) = synthesize_in_batches(&looks, bounds, request.max_designs, request, hooks)?;
+    let bounds = BuildBounds {
+        max_clocks: max_clocks(request),
+        is_planned: request.clock_hz.is_none(),
+        memory,
+    };
+    let (mut candidates, mut left_out) =
+        synthesize_in_batches(&looks, bounds, request.max_designs, request, hooks)?;
     add_slower_designs(&mut candidates, request, hooks)?;
     if !candidates.iter().any(SynthesizedDesign::meets_limits) {
         // Nothing meets the limits. The nearest cameras are built, and those that would meet the
         // limits at a lower speed, to find the binding limits.
-        let mut others: Vec<&ExaminedCamera> = search.all().filter(|look| !look.meets_limits()).collect();
+        let mut others: Vec<&ExaminedCamera> =
+            search.all().filter(|look| !look.meets_limits()).collect();
         others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
         others.truncate(MAX_NEAREST_CAMERAS);
-        for (looks, bounds) in [(&others, bounds), (&looks, BuildBounds { max_clocks: None, ..bounds })]
+        for (looks, bounds) in
+            [(&others, bounds), (&looks, BuildBounds { max_clocks: None, ..bounds })]
         {
             let most = request.max_designs.min(BATCH_SIZE);
             let (built, left) = synthesize_in_batches(looks, bounds, most, request, hooks)?;
@@ -140,7 +146,9 @@ fn add_slower_designs(
     let most = request.max_designs.min(candidates.len() + MAX_SLOWER_DESIGNS);
     while candidates.len() < most {
         let holding = || candidates.iter().filter(|candidate| candidate.meets_limits());
-        let Some(least) = holding().map(SynthesizedDesign::cost).min_by(f64::total_cmp) else { break };
+        let Some(least) = holding().map(SynthesizedDesign::cost).min_by(f64::total_cmp) else {
+            break;
+        };
         let is_new = |design: &Design| candidates.iter().all(|tried| tried.design != *design);
         let slower = holding().flat_map(|candidate| {
             let speed = candidate.speed.as_ref();
@@ -162,8 +170,9 @@ fn add_slower_designs(
 
 /// Returns the cameras that send the fewest bytes.
 fn fewest_bytes<'a>(looks: &[&'a ExaminedCamera]) -> Result<Vec<&'a ExaminedCamera>, ExploreError> {
-    let bytes =
-        |look: &&'a ExaminedCamera| Ok((bytes_per_frame(&look.config.validate()?, &look.figures), *look));
+    let bytes = |look: &&'a ExaminedCamera| {
+        Ok((bytes_per_frame(&look.config.validate()?, &look.figures), *look))
+    };
     let sent = looks.iter().map(bytes).collect::<Result<Vec<_>, ExploreError>>()?;
     let least = sent.iter().map(|(bytes, _)| *bytes).fold(f64::INFINITY, f64::min);
     Ok(sent.into_iter().filter(|(bytes, _)| *bytes <= least).map(|(_, look)| look).collect())
@@ -185,8 +194,10 @@ fn simplest_cameras<'a>(looks: &[&'a ExaminedCamera]) -> Vec<&'a ExaminedCamera>
             && one != other
             && one.1.iter().zip(&other.1).all(|(one, other)| one <= other)
     };
-    let beaten = |look: &ExaminedCamera| looks.iter().any(|other| simpler(&other.config, &look.config));
-    let mut kept: Vec<&ExaminedCamera> = looks.iter().copied().filter(|look| !beaten(look)).collect();
+    let beaten =
+        |look: &ExaminedCamera| looks.iter().any(|other| simpler(&other.config, &look.config));
+    let mut kept: Vec<&ExaminedCamera> =
+        looks.iter().copied().filter(|look| !beaten(look)).collect();
     // Thresholds are inputs of the core and cost nothing. Of cameras that differ only in
     // thresholds, the one with the fewest flips is kept.
     kept.sort_by(|one, other| one.figures.action_flips.total_cmp(&other.figures.action_flips));
@@ -202,7 +213,8 @@ fn simplest_cameras<'a>(looks: &[&'a ExaminedCamera]) -> Vec<&'a ExaminedCamera>
 
 /// The complexity of a camera: the settings that cannot be ordered, and those that cost more the
 /// larger they are.
-type CameraComplexity = ((u32, Neighborhood, Vec<FeatureKind>, IrrelevantRendering, Option<u32>), [u32; 4]);
+type CameraComplexity =
+    ((u32, Neighborhood, Vec<FeatureKind>, IrrelevantRendering, Option<u32>), [u32; 4]);
 
 fn complexity(config: &CameraConfig) -> CameraComplexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
@@ -270,17 +282,20 @@ fn synthesize(
 ) -> Result<Vec<SynthesizedDesign>, ExploreError> {
     let designs_alone = designs.iter().map(|(_, design)| design);
     let found = request.synthesizer.synthesize_designs(designs_alone, hooks)?.into_results()?;
-    let candidate = |((look, design), synthesized): (&(&ExaminedCamera, Design), SynthesisResult)| {
-        let SynthesisResult { silicon, speed: estimated } = synthesized;
-        let clocks_per_frame = design.timing().clocks_per_frame();
-        let given = request.clock_hz.map(|hertz| FrameRate::at_given_clock(count_to_f64(hertz) / 1e6, clocks_per_frame));
-        let speed = given.or(estimated);
-        let mut held = look.checks.clone();
-        held.extend(request.constraints.check_speed(speed.as_ref()));
-        held.extend(request.constraints.check_area(&silicon));
-        let (look, design) = ((*look).clone(), design.clone());
-        SynthesizedDesign { look, design, clocks_per_frame, speed, silicon, checks: held }
-    };
+    let candidate =
+        |((look, design), synthesized): (&(&ExaminedCamera, Design), SynthesisResult)| {
+            let SynthesisResult { silicon, speed: estimated } = synthesized;
+            let clocks_per_frame = design.timing().clocks_per_frame();
+            let given = request.clock_hz.map(|hertz| {
+                FrameRate::at_given_clock(count_to_f64(hertz) / 1e6, clocks_per_frame)
+            });
+            let speed = given.or(estimated);
+            let mut held = look.checks.clone();
+            held.extend(request.constraints.check_speed(speed.as_ref()));
+            held.extend(request.constraints.check_area(&silicon));
+            let (look, design) = ((*look).clone(), design.clone());
+            SynthesizedDesign { look, design, clocks_per_frame, speed, silicon, checks: held }
+        };
     Ok(designs.iter().zip(found).map(candidate).collect())
 }
 
@@ -289,7 +304,11 @@ fn synthesize(
 /// shows which one is the cheapest. If no fold is fast enough, the pipelined array is a way, and at
 /// a planned clock also fold 1. A raster core has the fewest pixels per clock that are fast enough;
 /// at a planned clock it has the most, if none is fast enough.
-fn possible_designs(look: &CameraConfig, asked: &HardwareConfig, bounds: BuildBounds) -> Vec<Design> {
+fn possible_designs(
+    look: &CameraConfig,
+    asked: &HardwareConfig,
+    bounds: BuildBounds,
+) -> Vec<Design> {
     let (arrays, is_fast) = serial_arrays(look, asked, bounds);
     let of = |organization| match organization {
         Organization::Serial => arrays.clone(),
@@ -357,7 +376,10 @@ fn folded_arrays(single: &Design, bounds: BuildBounds) -> (Vec<Design>, bool) {
 
 /// Returns the first raster core that is fast enough; `cores` have rising numbers of pixels per
 /// clock.
-fn fewest_pixels_per_clock(cores: Vec<Design>, BuildBounds { max_clocks, is_planned: planned, .. }: BuildBounds) -> Option<Design> {
+fn fewest_pixels_per_clock(
+    cores: Vec<Design>,
+    BuildBounds { max_clocks, is_planned: planned, .. }: BuildBounds,
+) -> Option<Design> {
     let is_fast = |design: &Design| {
         max_clocks.is_none_or(|clocks| design.timing().clocks_per_frame() <= clocks)
     };
@@ -373,7 +395,8 @@ mod tests {
     /// pixels, and whether one way is pipelined.
     fn words(max_clocks: u64, planned: bool) -> (Vec<u32>, bool) {
         let look = DesignConfig::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
-        let bounds = BuildBounds { max_clocks: Some(max_clocks), is_planned: planned, memory: None };
+        let bounds =
+            BuildBounds { max_clocks: Some(max_clocks), is_planned: planned, memory: None };
         let ways = possible_designs(&look.camera, &look.hardware, bounds);
         let of = |organization| ways.iter().filter(move |d| d.organization() == organization);
         let words =
@@ -389,7 +412,8 @@ mod tests {
         let bounds = BuildBounds { max_clocks: Some(210_623), is_planned: true, memory: None };
         let ways = possible_designs(&look.camera, &look.hardware, bounds);
         let arrays = ways.iter().filter_map(Design::as_serial);
-        let folds = arrays.filter(|array| array.feed() == PixelFeed::Raster).map(|array| array.fold());
+        let folds =
+            arrays.filter(|array| array.feed() == PixelFeed::Raster).map(|array| array.fold());
         assert_eq!(folds.collect::<Vec<_>>(), [17, 16, 8, 4, 2, 1]);
     }
 

@@ -62,7 +62,11 @@ pub struct ConstraintCheck {
 
 impl ConstraintCheck {
     fn check_at_most(name: &'static str, value: f64, limit: f64) -> Self {
-        Self { is_minimum: false, holds: value <= limit, ..Self::check_at_least(name, value, limit) }
+        Self {
+            is_minimum: false,
+            holds: value <= limit,
+            ..Self::check_at_least(name, value, limit)
+        }
     }
 
     fn check_at_least(name: &'static str, value: f64, limit: f64) -> Self {
@@ -108,9 +112,15 @@ impl Constraints {
     /// Returns the constraints on the screen and the sent bytes of a camera. `recall` is known if
     /// it is limited.
     #[must_use]
-    pub fn check_figures(&self, camera: &Camera, figures: &FidelityFigures, recall: Option<f64>) -> Vec<ConstraintCheck> {
-        let at_most =
-            |name, limit: Option<f64>, value| limit.map(|l| ConstraintCheck::check_at_most(name, value, l));
+    pub fn check_figures(
+        &self,
+        camera: &Camera,
+        figures: &FidelityFigures,
+        recall: Option<f64>,
+    ) -> Vec<ConstraintCheck> {
+        let at_most = |name, limit: Option<f64>, value| {
+            limit.map(|l| ConstraintCheck::check_at_most(name, value, l))
+        };
         // Identical screens have the best PSNR.
         let psnr = figures.psnr_ideal.unwrap_or(f64::INFINITY);
         [
@@ -123,7 +133,9 @@ impl Constraints {
                 count_to_f64(figures.staleness.longest),
             ),
             at_most("max-bytes", self.max_bytes, bytes_per_frame(camera, figures)),
-            self.min_recall.zip(recall).map(|(limit, r)| ConstraintCheck::check_at_least("min-recall", r, limit)),
+            self.min_recall
+                .zip(recall)
+                .map(|(limit, r)| ConstraintCheck::check_at_least("min-recall", r, limit)),
         ]
         .into_iter()
         .flatten()
@@ -144,7 +156,10 @@ impl Constraints {
     pub fn check_speed(&self, speed: Option<&FrameRate>) -> Vec<ConstraintCheck> {
         let rate = speed.map_or(0.0, |speed| speed.low_frames_per_second);
         let clock_mhz = speed.map(|speed| speed.low_clock_mhz);
-        let held = |limit| ConstraintCheck { clock_mhz, ..ConstraintCheck::check_at_least("min-fps", rate, limit) };
+        let held = |limit| ConstraintCheck {
+            clock_mhz,
+            ..ConstraintCheck::check_at_least("min-fps", rate, limit)
+        };
         self.min_fps.map(held).into_iter().collect()
     }
 
@@ -176,6 +191,8 @@ mod tests {
         assert!((ConstraintCheck::check_at_most("a", 4.0, 2.0).excess() - 1.0).abs() < 1e-12);
         assert!((ConstraintCheck::check_at_least("a", 60.0, 120.0).excess() - 1.0).abs() < 1e-12);
         let of_none = ConstraintCheck::check_at_most("a", 0.5, 0.0).excess();
-        assert!(of_none.is_finite() && of_none > ConstraintCheck::check_at_most("a", 0.5, 0.1).excess());
+        assert!(
+            of_none.is_finite() && of_none > ConstraintCheck::check_at_most("a", 0.5, 0.1).excess()
+        );
     }
 }

@@ -14,16 +14,16 @@
 use std::collections::BTreeMap;
 
 use foveate_camera::{
-    Camera, CameraConfig, FeatureKind, DenoiseFilter, IrrelevantRendering, PeripheryConfig, ReferencePolicy,
-    SUMMARY_BLOCKS, SpatialConfig,
+    Camera, CameraConfig, DenoiseFilter, FeatureKind, IrrelevantRendering, PeripheryConfig,
+    ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 use foveate_design::{HardwareConfig, is_taken};
 
 use super::agreement::AgreementEstimate;
 use super::build::least_rough_cost;
 use super::constraints::ConstraintCheck;
+use super::network::{ClipPart, CostObjective, NetworkAgreement};
 use super::search::CameraSearch;
-use super::network::{CostObjective, NetworkAgreement, ClipPart};
 use super::target::scale_thresholds_by;
 use crate::ExploreError;
 
@@ -73,7 +73,10 @@ impl<'s, 'a> Descent<'s, 'a> {
         }
         let (_, chosen) = best.unwrap_or((f64::INFINITY, all));
         let camera = chosen.validate()?;
-        let expected = self.searched_agreement(&camera, None)?.expected.min(self.confirmed_agreement(&camera, None)?.expected);
+        let expected = self
+            .searched_agreement(&camera, None)?
+            .expected
+            .min(self.confirmed_agreement(&camera, None)?.expected);
         if self.search.get(camera.config()).is_none() {
             self.measure_figures(camera.config(), expected)?;
         }
@@ -124,7 +127,9 @@ impl<'s, 'a> Descent<'s, 'a> {
             }
         }
         let costs = match self.network.goal.cheapest {
-            CostObjective::Bytes => self.network.bytes_per_frame_of(&cameras, self.known.count())?,
+            CostObjective::Bytes => {
+                self.network.bytes_per_frame_of(&cameras, self.known.count())?
+            }
             CostObjective::Area => {
                 let cost = |camera: &Camera| least_rough_cost(camera.config(), self.hardware);
                 cameras.iter().map(cost).collect()
@@ -135,14 +140,22 @@ impl<'s, 'a> Descent<'s, 'a> {
 
     /// Returns the agreement of a camera on the frames of the search; the exact agreement if there
     /// is no `least`.
-    fn searched_agreement(&mut self, camera: &Camera, least: Option<f64>) -> Result<AgreementEstimate, ExploreError> {
+    fn searched_agreement(
+        &mut self,
+        camera: &Camera,
+        least: Option<f64>,
+    ) -> Result<AgreementEstimate, ExploreError> {
         let asked = self.known.count();
         let ask = || self.network.measure_agreement(camera, ClipPart::Search, least, asked);
         known_or_measured(&mut self.known.searched, camera, least, ask)
     }
 
     /// Returns the agreement of a camera on the later frames that confirm.
-    fn confirmed_agreement(&mut self, camera: &Camera, least: Option<f64>) -> Result<AgreementEstimate, ExploreError> {
+    fn confirmed_agreement(
+        &mut self,
+        camera: &Camera,
+        least: Option<f64>,
+    ) -> Result<AgreementEstimate, ExploreError> {
         let asked = self.known.count();
         let ask = || self.network.measure_agreement(camera, ClipPart::Confirmation, least, asked);
         known_or_measured(&mut self.known.confirmed, camera, least, ask)
@@ -150,10 +163,17 @@ impl<'s, 'a> Descent<'s, 'a> {
 
     /// Measures all figures of a camera. Returns whether all limits hold, including the one on the
     /// expected agreement.
-    fn measure_figures(&mut self, config: &CameraConfig, expected: f64) -> Result<bool, ExploreError> {
+    fn measure_figures(
+        &mut self,
+        config: &CameraConfig,
+        expected: f64,
+    ) -> Result<bool, ExploreError> {
         let mut holds = false;
         for mut look in self.search.examine(std::slice::from_ref(config))? {
-            look.checks.push(ConstraintCheck::check_expected_agreement(expected, self.network.goal.min_agreement));
+            look.checks.push(ConstraintCheck::check_expected_agreement(
+                expected,
+                self.network.goal.min_agreement,
+            ));
             holds = look.meets_limits();
             self.search.replace(look);
         }
@@ -224,7 +244,8 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
     let mut found = irrelevant_variants(config);
     for octaves in OCTAVES.map(f64::from) {
         let ways = [(octaves, octaves), (octaves, 0.0), (0.0, octaves)];
-        found.extend(ways.map(|(spatial, temporal)| scale_thresholds_by(config, spatial, temporal)));
+        found
+            .extend(ways.map(|(spatial, temporal)| scale_thresholds_by(config, spatial, temporal)));
     }
     for &kind in FeatureKind::ALL {
         let alone = vec![SpatialConfig::new(kind).with_defaults(bits)];
@@ -232,7 +253,9 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
         found.extend([0.0, 1.0, 2.0].map(|octaves| scale_thresholds_by(&alone, octaves, 0.0)));
     }
     found.extend(SIDES.map(|side| with(&|config| config.region.size = side)));
-    found.extend(DenoiseFilter::ALL.iter().map(|&filter| with(&|config| config.denoise.filter = filter)));
+    found.extend(
+        DenoiseFilter::ALL.iter().map(|&filter| with(&|config| config.denoise.filter = filter)),
+    );
     let references = ReferencePolicy::ALL.iter();
     found.extend(references.map(|&one| with(&|config| config.temporal.reference = one)));
     found.extend(MIN_COUNTS.map(|count| with(&|config| config.temporal.min_count = count)));
@@ -240,7 +263,9 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
         let levels = PERIPHERY_LEVELS.map(|level| periphery_level_at(level, bits));
         found.extend(levels.map(|level| with(&|config| config.periphery.level = level)));
     }
-    found.extend((1..=MAX_FEWER_BITS.min(bits - 1)).map(|fewer| config.scaled_to_depth(bits - fewer)));
+    found.extend(
+        (1..=MAX_FEWER_BITS.min(bits - 1)).map(|fewer| config.scaled_to_depth(bits - fewer)),
+    );
     found
 }
 
@@ -266,7 +291,10 @@ impl KnownAgreements {
     }
 
     /// Returns the exact agreement of a camera, and its agreement on later frames if it is known.
-    pub(super) fn agreements_of(&self, config: &CameraConfig) -> (AgreementEstimate, Option<AgreementEstimate>) {
+    pub(super) fn agreements_of(
+        &self,
+        config: &CameraConfig,
+    ) -> (AgreementEstimate, Option<AgreementEstimate>) {
         let text = config.to_toml();
         (self.searched[&text], self.confirmed.get(&text).copied())
     }
@@ -301,7 +329,8 @@ impl KnownAgreements {
             let bound = if agreed.is_upper_bound { "at most " } else { "" };
             let share = 100.0 * agreed.share;
             let expected = 100.0 * agreed.expected;
-            let elsewhere = (!agreed.is_upper_bound).then(|| format!(", {expected:.1} % elsewhere"));
+            let elsewhere =
+                (!agreed.is_upper_bound).then(|| format!(", {expected:.1} % elsewhere"));
             let elsewhere = elsewhere.unwrap_or_default();
             Some(format!("{setting}: agreement {bound}{share:.1} %{elsewhere}"))
         };

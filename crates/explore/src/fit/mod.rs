@@ -22,14 +22,14 @@ mod build;
 mod constraints;
 mod descent;
 mod halves;
-mod search;
 mod network;
 mod plan;
+mod reasons;
 mod receiver;
 mod report;
 mod rough_cost;
+mod search;
 mod target;
-mod reasons;
 
 use std::path::PathBuf;
 
@@ -40,15 +40,15 @@ use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
 use crate::{ExploreError, ExploreHooks};
 use build::build_designs;
-use descent::{KnownAgreements, Descent};
+use descent::{Descent, KnownAgreements};
 use halves::{ClipHalves, count_halves};
+use network::{ClipPart, NetworkAgreement};
 use search::CameraSearch;
-use network::{NetworkAgreement, ClipPart};
 
 pub use agreement::AgreementEstimate;
-pub use constraints::{Constraints, ConstraintCheck};
+pub use constraints::{ConstraintCheck, Constraints};
 pub use network::{CostObjective, FittedNetwork, NetworkGoal};
-pub use report::{FittedDesign, FitResult, ActivityTarget};
+pub use report::{ActivityTarget, FitResult, FittedDesign};
 
 /// The request of a fit.
 #[derive(Clone, Debug)]
@@ -94,9 +94,11 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResu
     let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };
     let request = &FitRequest { task: &task, input: &input, ..request.clone() };
     let (lengths, boxes, (task, target)) = {
-        let footage = ExplorationFootage::new(request.inputs, request.input, &request.task.camera, hooks)?;
+        let footage =
+            ExplorationFootage::new(request.inputs, request.input, &request.task.camera, hooks)?;
         let footage = footage.with_boxes(request.boxes)?;
-        let least = if request.network.is_some() { ClipPart::MIN_FRAMES } else { halves::MIN_FRAMES };
+        let least =
+            if request.network.is_some() { ClipPart::MIN_FRAMES } else { halves::MIN_FRAMES };
         let lengths = count_halves(&footage, least, hooks)?;
         let aimed = target::task_for_target(request, &footage, &lengths)?;
         (lengths, footage.boxes, aimed)
@@ -104,7 +106,8 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResu
     let mut footage = ExplorationFootage::new(request.inputs, request.input, &task, hooks)?;
     footage.boxes = boxes;
     let mut search = CameraSearch::new(request.constraints, &footage, &lengths, &task)?;
-    let jury = request.network.map(|goal| NetworkAgreement::new(goal, &footage, &lengths, search.task()));
+    let jury =
+        request.network.map(|goal| NetworkAgreement::new(goal, &footage, &lengths, search.task()));
     let jury = jury.transpose()?;
     let asked = match &jury {
         None => {
@@ -119,7 +122,8 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResu
     let least = request.network.map_or(0.0, |goal| goal.min_agreement);
     let steps = (asked.count(), asked.reasons(camera, least));
     let second = search.measure_second_half(&chosen.look)?;
-    let network = jury.map(|jury| jury.fitted_network(camera, asked.agreements_of(camera))).transpose()?;
+    let network =
+        jury.map(|jury| jury.fitted_network(camera, asked.agreements_of(camera))).transpose()?;
     Ok(report::fit_result(request, &search, steps, &built, target, (second, network), &lengths))
 }
 

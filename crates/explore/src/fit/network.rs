@@ -11,8 +11,8 @@ use std::path::Path;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    OutputAgreement, ConfidenceIntervals, InferenceError, NOISE_LEVELS, NoiseAgreement, NoiseComparison,
-    FrameOutcome, VisionOptions, VisionNetwork, frame_format_of, has_class_map,
+    ConfidenceIntervals, FrameOutcome, InferenceError, NOISE_LEVELS, NoiseAgreement,
+    NoiseComparison, OutputAgreement, VisionNetwork, VisionOptions, frame_format_of, has_class_map,
 };
 use rayon::prelude::*;
 use serde::Serialize;
@@ -132,8 +132,8 @@ impl<'a> NetworkAgreement<'a> {
         halves: &'a ClipHalves,
         task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
-        let witness =
-            VisionNetwork::read(goal.path, footage.size, goal.viewing).map_err(InferenceError::from)?;
+        let witness = VisionNetwork::read(goal.path, footage.size, goal.viewing)
+            .map_err(InferenceError::from)?;
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
         let most = (goal.frames / clips).max(1);
@@ -158,7 +158,11 @@ impl<'a> NetworkAgreement<'a> {
                             noise.add_frame((&witness, &mut looking), (&frame, &findings), at);
                         }
                         let best = witness.compare(&whole, &whole);
-                        found.push(WholeFrameSample { number, findings: whole, best_agreement: best });
+                        found.push(WholeFrameSample {
+                            number,
+                            findings: whole,
+                            best_agreement: best,
+                        });
                     }
                 }
                 source.recycle(current);
@@ -183,7 +187,8 @@ impl<'a> NetworkAgreement<'a> {
                 self.footage.report_progress(ExploreProgress::RunningNetwork { cameras: asked })?;
                 let Some(current) = source.next_frame()? else { break };
                 let depths = cameras.iter().map(|camera| camera.pixel_bits());
-                let (shown, kind) = (FrameDepths::from_frame(&current.frame, depths)?, source.kind());
+                let (shown, kind) =
+                    (FrameDepths::from_frame(&current.frame, depths)?, source.kind());
                 engines.par_iter_mut().zip(&mut values).try_for_each(|(engine, values)| {
                     shown.step_engine(engine, kind)?;
                     *values += engine.camera().values_sent_per_frame(&engine.outcome().actions);
@@ -277,8 +282,9 @@ mod tests {
     #[test]
     fn parts_follow_each_other() {
         for all in ClipPart::MIN_FRAMES..200 {
-            let [searched, confirmed, held_out] = [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut]
-                .map(|part| part.frames((all / 2, all)));
+            let [searched, confirmed, held_out] =
+                [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut]
+                    .map(|part| part.frames((all / 2, all)));
             let ends = (searched.start, held_out.end);
             assert_eq!(
                 (ends, searched.end, confirmed.end),

@@ -77,7 +77,8 @@ mod tests {
         let single = DesignConfig::from_toml(text).unwrap().validate().unwrap();
         let speed = |mhz| FrameRate { low_clock_mhz: mhz, ..FrameRate::at_given_clock(1000.0, 1) };
         let (low, fps) = (60.0, 500.0);
-        let fast = |design: &Design| low * 1e6 / count_to_f64(design.timing().clocks_per_frame()) >= fps;
+        let fast =
+            |design: &Design| low * 1e6 / count_to_f64(design.timing().clocks_per_frame()) >= fps;
         let all = slower_designs(&single, &speed(low), fps);
         assert!(all.iter().all(|design| design.slots() > 1 && fast(design)));
         let found = &all[0];
@@ -100,7 +101,10 @@ mod tests {
             single.iter().map(|d| d.as_raster().unwrap().pixels_per_clock()).collect::<Vec<_>>(),
             [1]
         );
-        assert!(slower_designs(&double, &speed, 30_000.0).is_empty(), "one pixel at a clock is too slow");
+        assert!(
+            slower_designs(&double, &speed, 30_000.0).is_empty(),
+            "one pixel at a clock is too slow"
+        );
         assert!(slower_designs(&single[0], &speed, 1.0).is_empty(), "there are no fewer");
     }
 

@@ -3,14 +3,16 @@
 
 use std::iter;
 
-use foveate_camera::{CameraConfig, DenoiseFilter, IrrelevantRendering, Neighborhood, ReferencePolicy};
+use foveate_camera::{
+    CameraConfig, DenoiseFilter, IrrelevantRendering, Neighborhood, ReferencePolicy,
+};
 use foveate_design::{Design, Organization};
 use foveate_estimate::{FrameRate, ramb36};
 
 use super::FitRequest;
-use super::build::{SynthesizedDesigns, SynthesizedDesign};
+use super::build::{SynthesizedDesign, SynthesizedDesigns};
 use super::constraints::ConstraintCheck;
-use super::search::{ExaminedCamera, CameraSearch};
+use super::search::{CameraSearch, ExaminedCamera};
 
 /// Describes a design in a few words.
 pub(super) fn design_text(design: &Design) -> String {
@@ -54,7 +56,8 @@ pub(super) fn reason_lines(
         }
     }
     lines.extend(other_features(search, built, chosen));
-    let next = built.designs().iter().skip(1).find(|other| other.meets_limits() && chosen.meets_limits());
+    let next =
+        built.designs().iter().skip(1).find(|other| other.meets_limits() && chosen.meets_limits());
     let is_next = |design: &Design| next.is_some_and(|next| next.design == *design);
     let others = other_organizations(built, chosen);
     lines.extend(
@@ -77,7 +80,8 @@ pub(super) fn binding_limits(built: &SynthesizedDesigns) -> Vec<&'static str> {
     }
     let mut found: Vec<&'static str> = Vec::new();
     for candidate in built.designs() {
-        let broken: Vec<&ConstraintCheck> = candidate.checks.iter().filter(|held| !held.holds).collect();
+        let broken: Vec<&ConstraintCheck> =
+            candidate.checks.iter().filter(|held| !held.holds).collect();
         if let [one] = broken.as_slice()
             && !found.contains(&one.name)
         {
@@ -114,7 +118,8 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
 
 /// Returns the limits that a camera misses, or its cost if it meets them.
 fn limits_or_cost_text(look: &ExaminedCamera, built: &SynthesizedDesigns) -> String {
-    let broken: Vec<String> = look.checks.iter().filter(|held| !held.holds).map(ConstraintCheck::text).collect();
+    let broken: Vec<String> =
+        look.checks.iter().filter(|held| !held.holds).map(ConstraintCheck::text).collect();
     if !broken.is_empty() {
         return broken.join(", ");
     }
@@ -129,13 +134,18 @@ fn limits_or_cost_text(look: &ExaminedCamera, built: &SynthesizedDesigns) -> Str
 }
 
 /// Returns a line for the best camera of every other set of features and region size.
-fn other_features(search: &CameraSearch<'_>, built: &SynthesizedDesigns, chosen: &SynthesizedDesign) -> Vec<String> {
+fn other_features(
+    search: &CameraSearch<'_>,
+    built: &SynthesizedDesigns,
+    chosen: &SynthesizedDesign,
+) -> Vec<String> {
     let of = |config: &CameraConfig| {
         let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
         (names.join(" and "), config.region.size)
     };
-    let synthesized =
-        |look: &ExaminedCamera| built.designs().iter().any(|candidate| candidate.look.config == look.config);
+    let synthesized = |look: &ExaminedCamera| {
+        built.designs().iter().any(|candidate| candidate.look.config == look.config)
+    };
     let rank = |look: &ExaminedCamera| (look.excess(), !synthesized(look));
     let own = of(&chosen.look.config);
     let mut best: Vec<((String, u32), &ExaminedCamera)> = Vec::new();

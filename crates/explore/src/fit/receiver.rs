@@ -39,7 +39,8 @@ impl<'a> ClipReceiver<'a> {
         while self.next <= number {
             self.footage.report_progress(ExploreProgress::RunningNetwork { cameras: asked })?;
             let Some(current) = self.source.next_frame()? else { return Ok(None) };
-            let frames = FrameDepths::from_frame(&current.frame, [self.engine.camera().pixel_bits()])?;
+            let frames =
+                FrameDepths::from_frame(&current.frame, [self.engine.camera().pixel_bits()])?;
             frames.step_engine(&mut self.engine, self.source.kind())?;
             self.source.recycle(current);
             self.next += 1;

@@ -9,8 +9,8 @@ use serde::Serialize;
 use super::build::SynthesizedDesigns;
 use super::constraints::{ConstraintCheck, all_met};
 use super::halves::ClipHalves;
-use super::search::CameraSearch;
 use super::network::FittedNetwork;
+use super::search::CameraSearch;
 use super::{FitRequest, frames_of_halves, reasons};
 use crate::cost::DesignArea;
 use crate::row::bytes_per_frame;
@@ -94,15 +94,19 @@ pub(super) fn fit_result(
     (asked, mut reasons): (usize, Vec<String>),
     built: &SynthesizedDesigns,
     target: Option<ActivityTarget>,
-    ((held_out, mut held), network): ((FidelityFigures, Vec<ConstraintCheck>), Option<FittedNetwork>),
+    ((held_out, mut held), network): (
+        (FidelityFigures, Vec<ConstraintCheck>),
+        Option<FittedNetwork>,
+    ),
     halves: &ClipHalves,
 ) -> FitResult {
     let chosen = built.chosen();
     reasons.extend(reasons::reason_lines(search, built, chosen, request));
     held.extend(request.constraints.check_speed(chosen.speed.as_ref()));
     held.extend(request.constraints.check_area(&chosen.silicon));
-    let agreement =
-        |network: &FittedNetwork| ConstraintCheck::check_agreement(network.held_out.share, network.min_agreement);
+    let agreement = |network: &FittedNetwork| {
+        ConstraintCheck::check_agreement(network.held_out.share, network.min_agreement)
+    };
     held.extend(network.as_ref().map(agreement));
     let config = chosen.design.config();
     let bytes = |figures: &FidelityFigures| bytes_per_frame(&chosen.design, figures);
@@ -112,7 +116,11 @@ pub(super) fn fit_result(
         task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }.to_toml(),
         target,
         clock_hz: request.clock_hz,
-        considered: (search.all().count().max(asked), built.designs().len(), built.left_out_designs),
+        considered: (
+            search.all().count().max(asked),
+            built.designs().len(),
+            built.left_out_designs,
+        ),
         feasible: chosen.meets_limits(),
         borne_out: all_met(&held),
         binding: reasons::binding_limits(built),

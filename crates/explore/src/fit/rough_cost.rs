@@ -2,7 +2,7 @@
 //! A rough cost of a design before its synthesis, which only orders the designs that are
 //! synthesized. The choice is made with the figures of Yosys.
 
-use foveate_design::{Design, FeatureKind, DenoiseFilter, Hardware, RasterMemory};
+use foveate_design::{DenoiseFilter, Design, FeatureKind, Hardware, RasterMemory};
 use foveate_estimate::FpgaDevice;
 
 use crate::row::count_to_f64;
@@ -53,7 +53,8 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
             let pixels = f64::from(own.pixels_per_clock);
             let logic = 380.0 + pixels * (2.0 + features + if median { 17.0 } else { 0.0 }) * bits;
             let blocks = |memory: &RasterMemory| memory.total_bits().div_ceil(18_432);
-            let blocks: u64 = RasterMemory::all_memories(design.with_hardware(own)).iter().map(blocks).sum();
+            let blocks: u64 =
+                RasterMemory::all_memories(design.with_hardware(own)).iter().map(blocks).sum();
             logic / count_to_f64(device.lut) + count_to_f64(blocks) / count_to_f64(device.bram18)
         }
     }

@@ -4,13 +4,13 @@
 use std::collections::BTreeMap;
 
 use foveate_camera::{
-    CameraConfig, ConfigError, Decimal, FeatureKind, DenoiseFilter, ScoreUnit, Neighborhood, ReferencePolicy,
-    SpatialConfig,
+    CameraConfig, ConfigError, Decimal, DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy,
+    ScoreUnit, SpatialConfig,
 };
 use foveate_design::is_taken;
 use foveate_fidelity::FidelityFigures;
 
-use super::constraints::{Constraints, ConstraintCheck, all_met, total_excess};
+use super::constraints::{ConstraintCheck, Constraints, all_met, total_excess};
 use super::halves::ClipHalves;
 use crate::ExploreError;
 use crate::ExploreProgress;
@@ -181,7 +181,10 @@ impl<'a> CameraSearch<'a> {
 
     /// Examines cameras on the first halves. It leaves out invalid cameras, and cameras that no
     /// organization can build.
-    pub(super) fn examine(&mut self, configs: &[CameraConfig]) -> Result<Vec<ExaminedCamera>, ExploreError> {
+    pub(super) fn examine(
+        &mut self,
+        configs: &[CameraConfig],
+    ) -> Result<Vec<ExaminedCamera>, ExploreError> {
         let taken = configs.iter().filter(|config| is_taken(config));
         let cameras: Vec<_> = taken.filter_map(|config| config.validate().ok()).collect();
         let new: BTreeMap<String, _> = cameras
@@ -190,8 +193,11 @@ impl<'a> CameraSearch<'a> {
             .filter(|(text, _)| !self.examined.contains_key(text))
             .collect();
         let cameras_new: Vec<_> = new.values().cloned().collect();
-        let figures =
-            self.footage.measure_first_halves(&cameras_new, &self.halves.frames, self.examined.len())?;
+        let figures = self.footage.measure_first_halves(
+            &cameras_new,
+            &self.halves.frames,
+            self.examined.len(),
+        )?;
         for ((text, camera), (figures, objects)) in new.iter().zip(figures) {
             let recall = self.recall(objects, "first")?;
             let held = self.constraints.check_figures(camera, &figures, recall);
@@ -204,13 +210,17 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Returns the figures of a camera on the second halves, which influenced no choice.
-    pub(super) fn measure_second_half(&self, look: &ExaminedCamera) -> Result<(FidelityFigures, Vec<ConstraintCheck>), ExploreError> {
+    pub(super) fn measure_second_half(
+        &self,
+        look: &ExaminedCamera,
+    ) -> Result<(FidelityFigures, Vec<ConstraintCheck>), ExploreError> {
         let camera = look.config.validate()?;
         let mut measured = Vec::new();
         for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
             let tell = || ExploreProgress::Measuring { done_pairs: 0, all: 1 };
             let cameras = std::slice::from_ref(&camera);
-            let mut parts = self.footage.measure_parts(clip, cameras, &[0..half, half..all], &tell)?;
+            let mut parts =
+                self.footage.measure_parts(clip, cameras, &[0..half, half..all], &tell)?;
             measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
         }
         let all: Vec<_> = measured.iter().collect();
@@ -224,7 +234,11 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Returns the share of the objects of a half that is sent, if it is limited.
-    fn recall(&self, objects: ObjectCounts, half: &'static str) -> Result<Option<f64>, ExploreError> {
+    fn recall(
+        &self,
+        objects: ObjectCounts,
+        half: &'static str,
+    ) -> Result<Option<f64>, ExploreError> {
         if self.constraints.min_recall.is_none() {
             return Ok(None);
         }

@@ -75,7 +75,11 @@ fn scale_thresholds(task: &CameraConfig, octaves: f64) -> CameraConfig {
 }
 
 /// Multiplies the thresholds of features by `2^spatial` and the temporal level by `2^temporal`.
-pub(super) fn scale_thresholds_by(task: &CameraConfig, spatial: f64, temporal: f64) -> CameraConfig {
+pub(super) fn scale_thresholds_by(
+    task: &CameraConfig,
+    spatial: f64,
+    temporal: f64,
+) -> CameraConfig {
     let scale = |octaves: f64| move |level: u32| round_to_level(f64::from(level) * octaves.exp2());
     let (level, changed) = (scale(spatial), scale(temporal));
     let factor = spatial.exp2();
@@ -143,8 +147,13 @@ mod tests {
                 },
                 max_designs: 1,
             };
-            let footage =
-                ExplorationFootage::new(request.inputs, request.input, &request.task.camera, &SilentHooks).unwrap();
+            let footage = ExplorationFootage::new(
+                request.inputs,
+                request.input,
+                &request.task.camera,
+                &SilentHooks,
+            )
+            .unwrap();
             let halves = ClipHalves { frames: vec![(8, 16)], ..ClipHalves::default() };
             let (task, target) = task_for_target(&request, &footage, &halves).unwrap();
             let target = target.unwrap();

@@ -87,7 +87,8 @@ impl PointCard {
 /// Returns the text of the mark of a point.
 pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
     let figures = &row.figures;
-    let area = row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0))).unwrap_or_default();
+    let area =
+        row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0))).unwrap_or_default();
     format!(
         "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{}, {} bytes/frame{area}",
         row.number,

@@ -41,14 +41,16 @@ pub(crate) fn groupings(settings: &PointSettings, rows: &[&DesignRow]) -> Vec<Po
     };
     let mut all: Vec<PointGrouping> = Vec::new();
     if settings.is_one_at_a_time {
-        let changed = |row: &&DesignRow| axes_set(row).next().map(|axis| settings.names[axis].clone());
+        let changed =
+            |row: &&DesignRow| axes_set(row).next().map(|axis| settings.names[axis].clone());
         let values = rows.iter().map(|row| changed(row).unwrap_or_else(|| "the start".to_owned()));
         let values: Vec<String> = values.collect();
         all.push(PointGrouping::new("what is changed".to_owned(), &values));
     } else {
         all.extend(axes.map(of_axis));
     }
-    let count = |grouping: &PointGrouping| Some(grouping.groups.len()).filter(|count| *count <= MAX_GROUPS);
+    let count =
+        |grouping: &PointGrouping| Some(grouping.groups.len()).filter(|count| *count <= MAX_GROUPS);
     let best = all.iter().filter_map(count).max();
     let first = all.iter().position(|grouping| count(grouping) == best).unwrap_or(0);
     if let Some(grouping) = all.get_mut(first) {
@@ -97,7 +99,8 @@ mod tests {
 
     #[test]
     fn groups_are_in_order_and_the_rest_is_grey() {
-        let grouping = PointGrouping::new("fold".to_owned(), &["16", "4", "", "4"].map(str::to_owned));
+        let grouping =
+            PointGrouping::new("fold".to_owned(), &["16", "4", "", "4"].map(str::to_owned));
         let labels: Vec<&str> = grouping.groups.iter().map(|group| group.label.as_str()).collect();
         assert_eq!(labels, ["16", "4", "as the start"]);
         assert_eq!(grouping.of_row, [0, 1, 2, 1]);

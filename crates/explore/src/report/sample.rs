@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Made-up explorations, for tests of the page.
 
-use foveate_estimate::{Area, ClockEstimate, LogicPath, FrameRate};
+use foveate_estimate::{Area, ClockEstimate, FrameRate, LogicPath};
 use foveate_fidelity::{FidelityFigures, ScoreError, Staleness};
 
 use crate::objective::mark_fronts;
 use crate::row::count_to_f64;
-use crate::{ClipRow, DesignRow, Exploration, FrontMembership, RefusedCombination, DesignArea, DesignSpace};
+use crate::{
+    ClipRow, DesignArea, DesignRow, DesignSpace, Exploration, FrontMembership, RefusedCombination,
+};
 
 fn clock(mhz: f64) -> ClockEstimate {
     let (low_mhz, high_mhz) = (mhz / 1.25, mhz / 0.75);
@@ -90,7 +92,10 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
 }
 
 fn refused_sample() -> RefusedCombination {
-    RefusedCombination { settings: "region.size = 65".to_owned(), reason: "<65> is more than 64".to_owned() }
+    RefusedCombination {
+        settings: "region.size = 65".to_owned(),
+        reason: "<65> is more than 64".to_owned(),
+    }
 }
 
 fn figures(flips: f64, bits: f64, active: f64) -> FidelityFigures {

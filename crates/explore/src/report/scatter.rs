@@ -4,7 +4,10 @@
 
 use std::collections::BTreeMap;
 
-use foveate_pictures::page::{PlotAxis, PlotAxes, PlotLine, PlotMark, PagePlot, group_look, nest_marks, front_path, coordinate_text};
+use foveate_pictures::page::{
+    PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, front_path, group_look,
+    nest_marks,
+};
 
 use super::colour::PointGrouping;
 use crate::objective::{BetterDirection, Objective, speed_objective, unbeaten_rows};
@@ -70,9 +73,10 @@ pub(crate) fn plots(
     groupings: &[PointGrouping],
     titles: &[String],
 ) -> Vec<PagePlot> {
-    use Objective::{Bytes, Error, Ssim, Luts, Stale};
+    use Objective::{Bytes, Error, Luts, Ssim, Stale};
     let scatter = |id, title, x, y| {
-        let [x, y] = [x, y].map(|objective| ObjectiveAxis::from_objective(objective, exploration.clock_mhz));
+        let [x, y] =
+            [x, y].map(|objective| ObjectiveAxis::from_objective(objective, exploration.clock_mhz));
         ScatterPlot { id, title, x, y }
     };
     let mut scatters =
@@ -86,7 +90,12 @@ pub(crate) fn plots(
 }
 
 impl ScatterPlot {
-    fn plot(&self, rows: &[&DesignRow], groupings: &[PointGrouping], titles: &[String]) -> PagePlot {
+    fn plot(
+        &self,
+        rows: &[&DesignRow],
+        groupings: &[PointGrouping],
+        titles: &[String],
+    ) -> PagePlot {
         let field = PlotAxes { x: self.x.axis(rows), y: self.y.axis(rows) };
         let on_front = unbeaten_rows(rows, [self.x.objective, self.y.objective]);
         let mut marks = Vec::new();
@@ -115,7 +124,12 @@ impl ScatterPlot {
             y_title: logarithmic(field.y, &self.y),
             x_ticks: field.x_ticks(),
             y_ticks: field.y_ticks(),
-            lines: vec![PlotLine { path, class: "front".to_owned(), shape: "", label: String::new() }],
+            lines: vec![PlotLine {
+                path,
+                class: "front".to_owned(),
+                shape: "",
+                label: String::new(),
+            }],
             marks,
             by_axis: true,
             ..PagePlot::default()

@@ -35,7 +35,13 @@ impl PointSettings {
         let ideal = with_defaults(&exploration.ideal).parse::<Table>().unwrap_or_default();
         let (start, ideal) = (of(start.unwrap_or_default()), of(ideal));
         let most = exploration.rows.iter().map(|row| axes_set(row).count()).max().unwrap_or(0);
-        Self { is_one_at_a_time: keys.len() > 1 && most == 1, keys, names, start_values: start, ideal_values: ideal }
+        Self {
+            is_one_at_a_time: keys.len() > 1 && most == 1,
+            keys,
+            names,
+            start_values: start,
+            ideal_values: ideal,
+        }
     }
 
     /// Returns the value of an axis for a point: its setting, or the value of the start; empty if

@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 
 use foveate_pictures::page::HeadingFigure;
-use foveate_pictures::page::number_text::{MISSING, grouped, percent, real_number, counted};
+use foveate_pictures::page::number_text::{MISSING, counted, grouped, percent, real_number};
 
 use super::setting::PointSettings;
 use crate::{DesignRow, Exploration, objective};

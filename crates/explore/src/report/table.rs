@@ -7,7 +7,7 @@ use foveate_pictures::page::{TableCell, TableColumn, TableRow};
 
 use super::setting::{PointSettings, axes_set};
 use crate::row::count_to_f64 as number;
-use crate::{DesignRow, DesignArea};
+use crate::{DesignArea, DesignRow};
 
 /// The name, unit and meaning of every figure of the table.
 const FIGURES: [(&str, &str, &str); 8] = [

@@ -257,7 +257,9 @@ fn samples_can_be_looked_at() {
         return;
     };
     let designs = ("designs", sample_exploration(crate::BUILT_IN_SPACES[1].toml, true));
-    for (name, sample) in hard().into_iter().chain([("grid", sample_exploration(GRID, true)), designs]) {
+    for (name, sample) in
+        hard().into_iter().chain([("grid", sample_exploration(GRID, true)), designs])
+    {
         let name = name.replace(' ', "-") + ".html";
         std::fs::write(folder.join(name), render_page(&sample).unwrap()).unwrap();
     }

@@ -4,7 +4,9 @@
 use std::collections::BTreeMap;
 
 use foveate_pictures::page::number_text::percent;
-use foveate_pictures::page::{PlotAxis, PlotAxes, PlotLine, PlotMark, PagePlot, group_look, coordinate_text, line_path};
+use foveate_pictures::page::{
+    PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
+};
 
 use super::scatter::stack_marks;
 use super::setting::{PointSettings, axes_set};
@@ -23,7 +25,11 @@ struct ThresholdLine<'a> {
 }
 
 /// Returns a plot for every axis that is a threshold and has several values.
-pub(crate) fn plots(settings: &PointSettings, rows: &[&DesignRow], titles: &[String]) -> Vec<PagePlot> {
+pub(crate) fn plots(
+    settings: &PointSettings,
+    rows: &[&DesignRow],
+    titles: &[String],
+) -> Vec<PagePlot> {
     let keys = settings.keys.iter().enumerate();
     let thresholds = keys.filter(|(_, key)| {
         let last = key.rsplit('.').next().unwrap_or(key);
@@ -32,7 +38,12 @@ pub(crate) fn plots(settings: &PointSettings, rows: &[&DesignRow], titles: &[Str
     thresholds.filter_map(|(axis, _)| plot(settings, rows, titles, axis)).collect()
 }
 
-fn plot(settings: &PointSettings, rows: &[&DesignRow], titles: &[String], axis: usize) -> Option<PagePlot> {
+fn plot(
+    settings: &PointSettings,
+    rows: &[&DesignRow],
+    titles: &[String],
+    axis: usize,
+) -> Option<PagePlot> {
     let mut sweeps = threshold_lines(settings, rows, axis);
     sweeps.sort_by_key(|sweep| {
         (sweep.distance, sweep.points.iter().map(|(_, row, _)| row.number).min())
@@ -64,9 +75,12 @@ fn plot(settings: &PointSettings, rows: &[&DesignRow], titles: &[String], axis: 
         ..PagePlot::default()
     };
     let label = |ideal: f64| format!("ideal camera, {} %", percent(ideal / 100.0));
-    plot.rules = ideals.iter().take(3).filter_map(|y| field.horizontal_line(*y, label(*y))).collect();
-    plot.posts =
-        threshold.and_then(|x| field.vertical_line(x, format!("{name} of the ideal"))).into_iter().collect();
+    plot.rules =
+        ideals.iter().take(3).filter_map(|y| field.horizontal_line(*y, label(*y))).collect();
+    plot.posts = threshold
+        .and_then(|x| field.vertical_line(x, format!("{name} of the ideal")))
+        .into_iter()
+        .collect();
     if all > MAX_LINES {
         plot.note = format!(
             "{MAX_LINES} of {all} lines are shown: their other settings are nearest to the ideal's."
@@ -91,7 +105,12 @@ fn plot(settings: &PointSettings, rows: &[&DesignRow], titles: &[String], axis: 
             });
         }
         let class = if index % 2 == 1 { class + " dashed" } else { class };
-        plot.lines.push(PlotLine { path: line_path(&places), class, shape, label: sweep.label.clone() });
+        plot.lines.push(PlotLine {
+            path: line_path(&places),
+            class,
+            shape,
+            label: sweep.label.clone(),
+        });
     }
     stack_marks(&mut plot.marks);
     Some(plot)
@@ -102,7 +121,11 @@ fn title(text: &str, axis: PlotAxis) -> String {
 }
 
 /// Returns the lines of an axis, without single points.
-fn threshold_lines<'a>(settings: &PointSettings, rows: &[&'a DesignRow], axis: usize) -> Vec<ThresholdLine<'a>> {
+fn threshold_lines<'a>(
+    settings: &PointSettings,
+    rows: &[&'a DesignRow],
+    axis: usize,
+) -> Vec<ThresholdLine<'a>> {
     let mut groups: BTreeMap<Vec<&str>, ThresholdLine<'_>> = BTreeMap::new();
     for (index, row) in rows.iter().enumerate() {
         let Ok(x) = settings.value(row, axis).parse::<f64>() else { continue };

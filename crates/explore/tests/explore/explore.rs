@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    Exploration, ExploreError, ExploreHooks, ExploreProgress, ExploreRequest, DesignSpace, Synthesizer, explore,
+    DesignSpace, Exploration, ExploreError, ExploreHooks, ExploreProgress, ExploreRequest,
+    Synthesizer, explore,
 };
 use foveate_footage::InputOptions;
 use foveate_toolchain::testing::require_tools;
@@ -68,7 +69,8 @@ fn every_figure_is_in_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let found =
-        run(SPACE, &["scene:street", "scene:shake"], &output, &CountingHooks::new(usize::MAX)).unwrap();
+        run(SPACE, &["scene:street", "scene:shake"], &output, &CountingHooks::new(usize::MAX))
+            .unwrap();
     // The start also has 8 bits and a count of 5, and a serial array computes the same as the
     // start.
     assert_eq!(found.rows.len(), 7);
@@ -117,7 +119,8 @@ fn a_point_has_the_clock_of_its_netlist() {
         let space = &DesignSpace::from_toml(&format!("{clock}{TINY}")).unwrap();
         let output = folder.path().join(name);
         let tools = &synthesizer;
-        let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+        let request =
+            ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
         let found = explore(&request, &output, &CountingHooks::new(usize::MAX)).unwrap();
         let points = lines(&output.join("points.csv"));
         let at = points[0].split(',').position(|column| column == "clock_mhz").unwrap();
@@ -153,8 +156,10 @@ fn a_core_on_axi_is_counted_as_a_whole() {
     let inputs = [PathBuf::from("scene:street")];
     let input = InputOptions { frames: Some(2), ..InputOptions::default() };
     let tools = &synthesizer;
-    let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
-    let found = explore(&request, &folder.path().join("out"), &CountingHooks::new(usize::MAX)).unwrap();
+    let request =
+        ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+    let found =
+        explore(&request, &folder.path().join("out"), &CountingHooks::new(usize::MAX)).unwrap();
     let design = found.rows[0].config.validate().unwrap();
     let job = EstimateJob::for_design(&design, Top::Rcm);
     let report = estimate(&tools.toolchain, &tools.cache, &job).unwrap();
@@ -228,7 +233,8 @@ fn an_interrupted_run_keeps_what_is_finished() {
     assert_eq!((whole.rows.len(), rest.frames.load(Ordering::Relaxed)), (7, 12));
     let fresh = folder.path().join("fresh");
     let at_once =
-        run(SPACE, &["scene:street", "scene:fade"], &fresh, &CountingHooks::new(usize::MAX)).unwrap();
+        run(SPACE, &["scene:street", "scene:fade"], &fresh, &CountingHooks::new(usize::MAX))
+            .unwrap();
     let figures =
         |found: &Exploration| found.rows.iter().map(|row| row.figures.clone()).collect::<Vec<_>>();
     assert_eq!(figures(&whole), figures(&at_once));

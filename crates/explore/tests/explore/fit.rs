@@ -3,13 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_emit::Top;
 use foveate_engine::Engine;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    CostObjective, Constraints, ExploreError, FitResult, FitRequest, ConstraintCheck, ExploreHooks, NetworkGoal, ExploreProgress,
-    Synthesizer, fit,
+    ConstraintCheck, Constraints, CostObjective, ExploreError, ExploreHooks, ExploreProgress,
+    FitRequest, FitResult, NetworkGoal, Synthesizer, fit,
 };
 use foveate_footage::{InputOptions, open};
 use foveate_inference::{Framing, PixelMapping, VisionOptions};
@@ -298,7 +298,9 @@ fn objects_are_counted_and_bind_where_they_are_lost() {
         run_with(&boxes, 8, &constraints, Some(1_000_000), 1, &QuietHooks)
     };
     let found = fitted(rows(1..=8), 0.01).unwrap();
-    let recall = |held: &[ConstraintCheck]| held.iter().find(|held| held.name == "min-recall").unwrap().value;
+    let recall = |held: &[ConstraintCheck]| {
+        held.iter().find(|held| held.name == "min-recall").unwrap().value
+    };
     let design = found.design.config.validate().unwrap();
     assert_eq!(recall(&found.design.fitted_held), counted(&design, 0..4));
     assert_eq!(recall(&found.design.held_out_held), counted(&design, 4..8));

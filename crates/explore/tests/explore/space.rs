@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spaces as files define them.
 
-use foveate_design::{DesignConfig, Decimal};
+use foveate_design::{Decimal, DesignConfig};
 use foveate_explore::{BUILT_IN_SPACES, DesignSpace};
 
 fn points(text: &str) -> (Vec<DesignConfig>, Vec<String>) {

@@ -6,10 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use foveate_explore::{ExploreError, ExploreRequest, DesignSpace, WorkUnit, measure_unit, plan_units};
+use foveate_explore::{
+    DesignSpace, ExploreError, ExploreRequest, WorkUnit, measure_unit, plan_units,
+};
 use foveate_footage::InputOptions;
 
-use crate::explore::{SPACE, CountingHooks, run};
+use crate::explore::{CountingHooks, SPACE, run};
 
 const CLIPS: [&str; 2] = ["scene:street", "scene:shake"];
 
@@ -31,7 +33,10 @@ fn with_request<T>(space: &str, inputs: &[&str], then: impl FnOnce(&ExploreReque
 }
 
 fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<WorkUnit> {
-    with_request(space, inputs, |request| plan_units(request, output, &CountingHooks::new(usize::MAX))).unwrap()
+    with_request(space, inputs, |request| {
+        plan_units(request, output, &CountingHooks::new(usize::MAX))
+    })
+    .unwrap()
 }
 
 fn measure_only(
@@ -108,7 +113,10 @@ fn a_unit_is_done_by_many_at_once_and_again() {
     let output = folder.path().join("out");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
     std::thread::scope(|scope| {
-        let work = || measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(usize::MAX)).unwrap();
+        let work = || {
+            measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(usize::MAX))
+                .unwrap()
+        };
         let all: Vec<_> = (0..8).map(|_| scope.spawn(work)).collect();
         all.into_iter().for_each(|one| drop(one.join().unwrap()));
     });
@@ -144,7 +152,8 @@ fn a_unit_of_another_plan_is_refused() {
     for (space, which) in
         [(other.as_str(), &unit.name), (&other, &line), (SPACE, &beyond), (SPACE, &"{}".to_owned())]
     {
-        let refused = measure_only(space, &CLIPS, which, &output, &CountingHooks::new(0)).unwrap_err();
+        let refused =
+            measure_only(space, &CLIPS, which, &output, &CountingHooks::new(0)).unwrap_err();
         assert!(matches!(refused, ExploreError::NoUnit { .. }), "{refused}");
         assert!(refused.to_string().contains("plan again"), "{refused}");
     }
@@ -163,7 +172,8 @@ fn a_folder_of_something_else_is_refused_also_by_a_plan() {
     fs::create_dir(output.join("units")).unwrap();
     assert_eq!(units(SPACE, &CLIPS, &output)[0], unit);
     fs::write(output.join("notes.txt"), "mine").unwrap();
-    let planned = with_request(SPACE, &CLIPS, |request| plan_units(request, &output, &CountingHooks::new(0)));
+    let planned =
+        with_request(SPACE, &CLIPS, |request| plan_units(request, &output, &CountingHooks::new(0)));
     let done = measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(0));
     for error in [planned.unwrap_err(), done.unwrap_err()] {
         assert!(matches!(error, ExploreError::OtherFolder { .. }), "{error}");

@@ -3,10 +3,10 @@
 
 use foveate_camera::{Camera, CameraConfig, Decimal, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_fidelity::{ErrorTally, Fidelity, FidelityError};
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_frame::{ByteFrame, FramePixels};
 use foveate_scenes::{Scene, SceneParameters};
 
-use crate::results::{blank_outcome, blank_ideal, config, pixels, frame_from_words, run, tally};
+use crate::results::{blank_ideal, blank_outcome, config, frame_from_words, pixels, run, tally};
 
 fn scene(scene: Scene, camera: &Camera, frames: u32) -> Vec<ByteFrame> {
     let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
@@ -140,14 +140,23 @@ fn what_does_not_belong_together_is_refused() {
         fidelity.add(input, &ideal, &candidate, screen).unwrap_err()
     };
     let tall = frame_from_words(&other, vec![0; 144]);
-    assert!(matches!(refused(&tall, FramePixels::Bytes(&black)), FidelityError::FrameFormat { .. }));
-    assert!(matches!(refused(&input, FramePixels::Words(&[0; 128])), FidelityError::PixelType { .. }));
+    assert!(matches!(
+        refused(&tall, FramePixels::Bytes(&black)),
+        FidelityError::FrameFormat { .. }
+    ));
+    assert!(matches!(
+        refused(&input, FramePixels::Words(&[0; 128])),
+        FidelityError::PixelType { .. }
+    ));
     let short = refused(&input, FramePixels::Bytes(&black[1..]));
     assert!(matches!(short, FidelityError::ResultLength { given: 127, expected: 128, .. }));
     let mut less = candidate.clone();
     less.scores[0].pop();
     let error = fidelity.add(&input, &ideal, &less, FramePixels::Bytes(&black)).unwrap_err();
-    assert_eq!(error, FidelityError::ResultLength { what: "candidate, scores", given: 1, expected: 2 });
+    assert_eq!(
+        error,
+        FidelityError::ResultLength { what: "candidate, scores", given: 1, expected: 2 }
+    );
     assert_eq!(fidelity.tally().frames(), 0);
     fidelity.add(&input, &ideal, &candidate, FramePixels::Bytes(&black)).unwrap();
 }

@@ -8,12 +8,12 @@ use std::process::Command;
 
 use foveate_camera::Camera;
 use foveate_fidelity::{Fidelity, FidelityError, FidelityFigures, FrameSimilarity};
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_frame::{ByteFrame, FramePixels};
 use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-use crate::results::{blank_outcome, blank_ideal, config, greys};
+use crate::results::{blank_ideal, blank_outcome, config, greys};
 
 const FRAMES: u32 = 6;
 
@@ -29,7 +29,9 @@ fn write(path: &Path, frames: &[ByteFrame]) {
         .iter()
         .flat_map(|frame| match frame.borrowed_pixels() {
             FramePixels::Bytes(pixels) => pixels.to_vec(),
-            FramePixels::Words(pixels) => pixels.iter().flat_map(|pixel| pixel.to_le_bytes()).collect(),
+            FramePixels::Words(pixels) => {
+                pixels.iter().flat_map(|pixel| pixel.to_le_bytes()).collect()
+            }
         })
         .collect();
     fs::write(path, bytes).unwrap();
@@ -81,7 +83,9 @@ fn assert_ssim(own: f64, theirs: &str, context: &str) {
 fn likeness(camera: &Camera, input: &[ByteFrame], shown: &[ByteFrame]) -> (Option<f64>, f64) {
     let mut likeness = FrameSimilarity::new(camera.width(), camera.height());
     for (input, shown) in input.iter().zip(shown) {
-        let (FramePixels::Bytes(input), FramePixels::Bytes(shown)) = (input.borrowed_pixels(), shown.borrowed_pixels()) else {
+        let (FramePixels::Bytes(input), FramePixels::Bytes(shown)) =
+            (input.borrowed_pixels(), shown.borrowed_pixels())
+        else {
             unreachable!("8 bits are bytes");
         };
         likeness.add(shown, input).unwrap();

@@ -4,8 +4,8 @@
 use foveate_camera::Camera;
 use foveate_fidelity::FidelityFigures;
 
-use crate::results::greys;
 use crate::naive::MadeUpFrame;
+use crate::results::greys;
 
 pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.iter().map(|_| 1.0).sum::<f64>()

@@ -5,7 +5,7 @@
 mod by_hand;
 mod ffmpeg;
 mod likeness;
-mod results;
 mod naive;
 mod planted;
+mod results;
 mod staleness;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every figure against a count pixel by pixel, for made-up results of any two cameras.
 
-use foveate_camera::RegionAction;
 use foveate_camera::Camera;
+use foveate_camera::RegionAction;
 use foveate_engine::FrameOutcome;
 use foveate_fidelity::{Fidelity, FidelityFigures};
 use foveate_frame::{ByteFrame, convert_depth};
@@ -10,7 +10,9 @@ use foveate_ideal::IdealOutcome;
 use proptest::prelude::*;
 
 use crate::likeness::{check_pictures, mean};
-use crate::results::{RandomNumbers, blank_outcome, blank_ideal, config, greys, pixels, frame_from_words};
+use crate::results::{
+    RandomNumbers, blank_ideal, blank_outcome, config, frame_from_words, greys, pixels,
+};
 
 /// The data that is added for one frame.
 pub(crate) struct MadeUpFrame {
@@ -68,7 +70,12 @@ fn share(part: f64, whole: f64, empty: f64) -> f64 {
 }
 
 /// Checks the figures of decisions, pixel by pixel.
-fn check_decisions(figures: &FidelityFigures, frames: &[MadeUpFrame], own: &Camera, other: &Camera) {
+fn check_decisions(
+    figures: &FidelityFigures,
+    frames: &[MadeUpFrame],
+    own: &Camera,
+    other: &Camera,
+) {
     let mut counts = [0.0; 8];
     let [all, srs, trs, action, mine, theirs, both, either] = &mut counts;
     for MadeUpFrame { ideal, candidate, .. } in frames {
@@ -103,7 +110,12 @@ fn check_decisions(figures: &FidelityFigures, frames: &[MadeUpFrame], own: &Came
 }
 
 /// Checks the staleness, pixel by pixel; `shown` are the screens at the depth of the ideal.
-fn check_staleness(figures: &FidelityFigures, frames: &[MadeUpFrame], shown: &[Vec<u16>], own: &Camera) {
+fn check_staleness(
+    figures: &FidelityFigures,
+    frames: &[MadeUpFrame],
+    shown: &[Vec<u16>],
+    own: &Camera,
+) {
     let (mut max, mut sum, mut seen) = (0.0_f64, 0.0, 0.0);
     let (mut relevant, mut stale, mut longest) = (0.0, 0.0, 0);
     let mut runs = vec![0_u64; own.regions() as usize];

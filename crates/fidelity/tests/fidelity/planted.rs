@@ -2,14 +2,14 @@
 //! A candidate that equals the ideal, and then has one fault at a time: the figure for this fault
 //! gets the value that follows from it.
 
-use foveate_camera::RegionAction;
 use foveate_camera::Camera;
+use foveate_camera::RegionAction;
 use foveate_engine::FrameOutcome;
 use foveate_fidelity::{Fidelity, FidelityFigures};
 use foveate_frame::ByteFrame;
 use foveate_ideal::IdealOutcome;
 
-use crate::results::{blank_outcome, blank_ideal, config, greys, pixels, frame_from_words};
+use crate::results::{blank_ideal, blank_outcome, config, frame_from_words, greys, pixels};
 
 struct PlantedResults {
     ideal: IdealOutcome,

@@ -5,7 +5,7 @@ use foveate_camera::{Camera, CameraConfig, Decimal, ReferencePolicy};
 use foveate_fidelity::{Fidelity, Staleness};
 use foveate_frame::ByteFrame;
 
-use crate::results::{blank_outcome, blank_ideal, config, pixels, frame_from_words, tally};
+use crate::results::{blank_ideal, blank_outcome, config, frame_from_words, pixels, tally};
 
 /// Returns a camera in which every region is relevant; a pixel has changed if it differs by more
 /// than 2.

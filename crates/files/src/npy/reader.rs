@@ -68,7 +68,9 @@ fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
         found if found > wanted => {
             Err(format!("its shape {shape:?} has {wanted} bytes, but more follow"))
         }
-        _ if is_fortran => Ok(NpyArray { bytes: to_row_major(&bytes, &shape, width), dtype, shape }),
+        _ if is_fortran => {
+            Ok(NpyArray { bytes: to_row_major(&bytes, &shape, width), dtype, shape })
+        }
         _ => Ok(NpyArray { dtype, shape, bytes }),
     }
 }

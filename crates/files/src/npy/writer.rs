@@ -31,10 +31,20 @@ impl NpyWriter {
     ///
     /// # Errors
     /// Fails if the file cannot be written.
-    pub fn create(path: &Path, element: ElementType, shape: &[usize]) -> Result<Self, StagingError> {
+    pub fn create(
+        path: &Path,
+        element: ElementType,
+        shape: &[usize],
+    ) -> Result<Self, StagingError> {
         let file = GrowingFile::create(path)?;
         let shape = shape.iter().map(|length| format!(" {length}")).collect::<Vec<_>>().join(",");
-        let mut writer = Self { file, element, frame_shape: shape, header_bytes: MIN_HEADER_BYTES, frames: u64::MAX };
+        let mut writer = Self {
+            file,
+            element,
+            frame_shape: shape,
+            header_bytes: MIN_HEADER_BYTES,
+            frames: u64::MAX,
+        };
         let least = PREFIX_BYTES + writer.words().len() + 1;
         writer.header_bytes = least.next_multiple_of(64).max(MIN_HEADER_BYTES);
         writer.frames = 0;

@@ -200,7 +200,13 @@ mod tests {
 
     #[test]
     fn every_kind_of_value_can_be_read_again_from_every_group() {
-        let kinds = [ColumnType::Long, ColumnType::Int, ColumnType::Real, ColumnType::Flag, ColumnType::Text];
+        let kinds = [
+            ColumnType::Long,
+            ColumnType::Int,
+            ColumnType::Real,
+            ColumnType::Flag,
+            ColumnType::Text,
+        ];
         let columns: Vec<Column> =
             (0..).zip(kinds).map(|(at, kind)| column(&format!("c{at}"), kind, true)).collect();
         let full = [
@@ -239,7 +245,10 @@ mod tests {
     #[test]
     fn a_full_disk_is_told_from_other_errors() {
         let cause = io::Error::from(io::ErrorKind::StorageFull);
-        assert_eq!(io_error(ParquetError::External(cause.into())).kind(), io::ErrorKind::StorageFull);
+        assert_eq!(
+            io_error(ParquetError::External(cause.into())).kind(),
+            io::ErrorKind::StorageFull
+        );
         assert_eq!(io_error(ParquetError::General("x".to_owned())).kind(), io::ErrorKind::Other);
     }
 }

@@ -26,7 +26,10 @@ pub struct ClipToLabel<'a> {
 /// # Errors
 /// Fails if the numbers of files and of clips differ, a file does not exist or cannot be read, or
 /// clips would share a file that goes by frame numbers.
-pub fn assign_boxes(files: &[PathBuf], clips: &[ClipToLabel<'_>]) -> Result<Vec<Arc<BoxFile>>, BoxError> {
+pub fn assign_boxes(
+    files: &[PathBuf],
+    clips: &[ClipToLabel<'_>],
+) -> Result<Vec<Arc<BoxFile>>, BoxError> {
     let per_clip: Vec<&PathBuf> = match files {
         [one] => clips.iter().map(|_| one).collect(),
         several if several.len() == clips.len() => several.iter().collect(),

@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::error::BoxError;
-use super::format::{BoxFormat, coco, mot, csv_table, yolo};
-use super::labelled_box::LabelledBox;
+use super::format::{BoxFormat, coco, csv_table, mot, yolo};
 use super::image_name::path_endings;
+use super::labelled_box::LabelledBox;
 use super::view::BoxView;
 use crate::{CropRect, FrameOrigin, SourceFrame};
 use foveate_frame::Rect;
@@ -135,14 +135,18 @@ impl BoxFile {
     ) -> Result<Option<Vec<Rect>>, BoxError> {
         let view = BoxView::from_source_frame(frame, origin, crop);
         let found = self.boxes_of_frame(&FrameKey::from_source_frame(frame, origin))?;
-        Ok(found.map(|found| found.iter().filter_map(|one| view.transform_and_cut(&one.rect)).collect()))
+        Ok(found.map(|found| {
+            found.iter().filter_map(|one| view.transform_and_cut(&one.rect)).collect()
+        }))
     }
 
     /// Returns the error for a clip of which no frame has an entry.
     #[must_use]
     pub fn no_entry_error(&self, clip: &str) -> BoxError {
         let first = match &self.entries {
-            BoxEntries::Numbers(frames) => frames.keys().next().map(|frame| format!("frame {frame}")),
+            BoxEntries::Numbers(frames) => {
+                frames.keys().next().map(|frame| format!("frame {frame}"))
+            }
             BoxEntries::Names(images) => images.keys().min().map(|name| format!("`{name}`")),
             BoxEntries::Folder => None,
         };

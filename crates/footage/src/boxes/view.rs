@@ -22,9 +22,18 @@ pub struct BoxView {
 impl BoxView {
     /// Makes the view of a frame with this origin, which may have been cropped.
     #[must_use]
-    pub fn from_source_frame(frame: &SourceFrame, origin: &FrameOrigin, crop: Option<CropRect>) -> Self {
-        let CropRect { size: part, origin: at } = crop.unwrap_or(CropRect { size: origin.size, origin: (0, 0) });
-        Self { part_origin: at, part_size: part, scaled_size: (frame.frame.width(), frame.frame.height()) }
+    pub fn from_source_frame(
+        frame: &SourceFrame,
+        origin: &FrameOrigin,
+        crop: Option<CropRect>,
+    ) -> Self {
+        let CropRect { size: part, origin: at } =
+            crop.unwrap_or(CropRect { size: origin.size, origin: (0, 0) });
+        Self {
+            part_origin: at,
+            part_size: part,
+            scaled_size: (frame.frame.width(), frame.frame.height()),
+        }
     }
 
     /// Transforms a box into the coordinates of the scaled frame, without cutting it at the
@@ -32,8 +41,10 @@ impl BoxView {
     #[must_use]
     pub fn transform(&self, rect: &Rect) -> Rect {
         let scale = |seen: u32, part: u32| f64::from(seen) / f64::from(part);
-        rect.moved(-f64::from(self.part_origin.0), -f64::from(self.part_origin.1))
-            .scaled(scale(self.scaled_size.0, self.part_size.0), scale(self.scaled_size.1, self.part_size.1))
+        rect.moved(-f64::from(self.part_origin.0), -f64::from(self.part_origin.1)).scaled(
+            scale(self.scaled_size.0, self.part_size.0),
+            scale(self.scaled_size.1, self.part_size.1),
+        )
     }
 
     /// Transforms a box into the coordinates of the scaled frame and cuts it at the borders.
@@ -57,11 +68,21 @@ mod tests {
 
     #[test]
     fn boxes_follow_the_crop_and_the_scale() {
-        let view = BoxView { part_origin: (100, 50), part_size: (200, 100), scaled_size: (100, 100) };
-        assert_eq!(view.transform_and_cut(&rect([110., 60., 130., 80.])), Some(rect([5., 10., 15., 30.])));
+        let view =
+            BoxView { part_origin: (100, 50), part_size: (200, 100), scaled_size: (100, 100) };
+        assert_eq!(
+            view.transform_and_cut(&rect([110., 60., 130., 80.])),
+            Some(rect([5., 10., 15., 30.]))
+        );
         // A half, a quarter, and less than a quarter of the box lie inside.
-        assert_eq!(view.transform_and_cut(&rect([90., 60., 110., 80.])), Some(rect([0., 10., 5., 30.])));
-        assert_eq!(view.transform_and_cut(&rect([85., 60., 105., 80.])), Some(rect([0., 10., 2.5, 30.])));
+        assert_eq!(
+            view.transform_and_cut(&rect([90., 60., 110., 80.])),
+            Some(rect([0., 10., 5., 30.]))
+        );
+        assert_eq!(
+            view.transform_and_cut(&rect([85., 60., 105., 80.])),
+            Some(rect([0., 10., 2.5, 30.]))
+        );
         assert_eq!(view.transform_and_cut(&rect([84., 60., 104., 80.])), None);
         assert_eq!(view.transform_and_cut(&rect([0., 0., 50., 50.])), None);
         assert_eq!(view.transform_and_cut(&rect([110., 60., 110., 80.])), None, "it has no area");

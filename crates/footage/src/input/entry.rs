@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use super::content_kind::{ContentKind, content};
 use super::skip_reason::SkipReason;
 use crate::FootageError;
-use crate::extension::{is_image_name, is_note, is_other_video, is_video_name, unread_image_type_by_name};
+use crate::extension::{
+    is_image_name, is_note, is_other_video, is_video_name, unread_image_type_by_name,
+};
 use crate::natural_order;
 
 /// The kind of an entry of a folder.

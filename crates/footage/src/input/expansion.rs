@@ -4,9 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use super::entry::{EntryKind, entries, entry_kind};
+use super::file_kind::{self, FileKind};
 use super::pattern::{is_pattern, pattern_images};
 use super::skip_reason::SkipReason;
-use super::file_kind::{self, FileKind};
 use crate::address::input_without_secrets;
 use crate::extension::is_image_name;
 use crate::options::ImageRelation;

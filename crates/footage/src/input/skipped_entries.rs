@@ -26,7 +26,11 @@ pub(crate) fn collect_skipped_of_clip(listed: &[PathBuf], found: &mut Vec<Skippe
 }
 
 /// Collects the skipped entries of a set and of its class folders.
-pub(crate) fn collect_skipped_of_set(listed: &[PathBuf], depth: u32, found: &mut Vec<SkippedInput>) {
+pub(crate) fn collect_skipped_of_set(
+    listed: &[PathBuf],
+    depth: u32,
+    found: &mut Vec<SkippedInput>,
+) {
     for path in listed {
         match entry_kind(path) {
             EntryKind::Image => {}

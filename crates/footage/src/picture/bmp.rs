@@ -7,7 +7,9 @@ use super::damage::PictureFault;
 /// Follows the runs of a file whose header the decoder has read. Files without runs have nothing to
 /// check.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
-    let Some(RunLengthReader { width, height, is_four_bit: half, mut codes }) = run_length_reader(bytes) else {
+    let Some(RunLengthReader { width, height, is_four_bit: half, mut codes }) =
+        run_length_reader(bytes)
+    else {
         return Ok(());
     };
     let short = || PictureFault::truncated("its runs of pixels have no end");
@@ -67,5 +69,10 @@ fn run_length_reader(bytes: &[u8]) -> Option<RunLengthReader<'_>> {
     // Shorter headers do not have the field `compression`.
     (header >= 40).then_some(())?;
     let height = i32::from_le_bytes(word(22)?.to_le_bytes()).unsigned_abs();
-    Some(RunLengthReader { width: word(18)?, height, is_four_bit: half, codes: bytes.get(offset as usize..)? })
+    Some(RunLengthReader {
+        width: word(18)?,
+        height,
+        is_four_bit: half,
+        codes: bytes.get(offset as usize..)?,
+    })
 }

@@ -14,7 +14,7 @@ mod huffman;
 mod scan;
 
 use self::bits::marker_at;
-use self::frame::{FrameComponent, FrameHeader, CodingProcess};
+use self::frame::{CodingProcess, FrameComponent, FrameHeader};
 use self::huffman::HuffmanTable;
 use self::scan::{HuffmanTables, ScanHeader};
 use super::damage::PictureFault;
@@ -51,7 +51,11 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
             }
             0xC0..=0xC2 => {
                 let progressive = marker == 0xC2;
-                let process = if progressive { CodingProcess::Progressive } else { CodingProcess::Sequential };
+                let process = if progressive {
+                    CodingProcess::Progressive
+                } else {
+                    CodingProcess::Sequential
+                };
                 frame = FrameHeader::read(process, segment)?;
                 if frame.is_none() {
                     return Ok(());

@@ -157,7 +157,12 @@ fn pam_header(mut rest: &[u8]) -> Option<(PnmHeader, &[u8])> {
         }
     }
     let [width, height, samples, largest] = values;
-    let header =
-        PnmHeader { kind: b'7', width: width?, height: height?, samples: samples?, largest: largest? };
+    let header = PnmHeader {
+        kind: b'7',
+        width: width?,
+        height: height?,
+        samples: samples?,
+        largest: largest?,
+    };
     within_limits(header, rest)
 }

@@ -7,12 +7,12 @@ use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_frame::{Frame, ByteFrame, convert_depth, luma};
+use foveate_frame::{ByteFrame, Frame, convert_depth, luma};
 
 use super::{damaged, unreadable};
 use crate::source::feed::FrameFeed;
-use crate::source::set_form::{SetLabels, SetFiles, SetForm};
-use crate::{FootageError, SourceKind, SourceFrame, picture};
+use crate::source::set_form::{SetFiles, SetForm, SetLabels};
+use crate::{FootageError, SourceFrame, SourceKind, picture};
 
 const SIDE: u32 = 32;
 const AREA: usize = 1024;

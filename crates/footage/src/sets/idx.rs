@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use super::{compressed_data_error, damaged, expect_end, is_packed, open_unpacked};
 use crate::samples::SampleLayout;
 use crate::source::feed::FrameFeed;
-use crate::source::set_form::{IdxFile, SetLabels, SetFiles, SetForm};
-use crate::{FootageError, SourceKind, MAX_SIDE, SourceFrame};
+use crate::source::set_form::{IdxFile, SetFiles, SetForm, SetLabels};
+use crate::{FootageError, MAX_SIDE, SourceFrame, SourceKind};
 
 /// The first bytes of a file of images: unsigned bytes in three dimensions.
 pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
@@ -75,7 +75,10 @@ impl FrameFeed for IdxImages {
         let mut bytes = Vec::new();
         let size = u64::from(width) * u64::from(height);
         // Memory grows with the bytes that exist, not with the size in the header.
-        (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(compressed_data_error(&self.path))?;
+        (&mut *self.input)
+            .take(size)
+            .read_to_end(&mut bytes)
+            .map_err(compressed_data_error(&self.path))?;
         let layout = SampleLayout::luma(width, height, 8);
         let frame = layout
             .byte_frame(bytes, self.bits)
@@ -124,7 +127,9 @@ pub(crate) fn is_other_idx(start: &[u8]) -> bool {
 /// Returns true for a file of images that has no file of labels in its folder.
 pub(crate) fn lacks_labels(path: &Path) -> bool {
     let start = || read(&mut *open_unpacked(path)?, path);
-    path.is_file() && find_labels(path).is_none() && start().is_ok_and(|start: [u8; 4]| start == MAGIC)
+    path.is_file()
+        && find_labels(path).is_none()
+        && start().is_ok_and(|start: [u8; 4]| start == MAGIC)
 }
 
 /// Returns the usual name of the file of labels, if the file of images has its usual name.
@@ -159,7 +164,10 @@ fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
         ));
     }
     let mut labels = Vec::new();
-    (&mut *input).take(total.into()).read_to_end(&mut labels).map_err(compressed_data_error(path))?;
+    (&mut *input)
+        .take(total.into())
+        .read_to_end(&mut labels)
+        .map_err(compressed_data_error(path))?;
     if labels.len() < total as usize {
         return Err(damaged(path, "it ends before its last label"));
     }

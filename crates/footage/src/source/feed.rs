@@ -3,10 +3,10 @@
 //! their times, cropped, scaled, and checked to have one size, in the same way for every kind of
 //! input.
 
-use super::set_form::SetForm;
 use super::scaling;
 use super::selection::{FrameSelection, FrameSelector, SelectionDecision};
-use super::{SourceKind, FrameOrigin, FrameSource, SourceFrame};
+use super::set_form::SetForm;
+use super::{FrameOrigin, FrameSource, SourceFrame, SourceKind};
 use crate::limits::CropRect;
 use crate::{FootageError, InputOptions};
 
@@ -176,7 +176,10 @@ impl AdjustedSource {
 
     /// Handles a frame of another size. A stream ends there and keeps the frames before; images are
     /// refused.
-    fn handle_other_size(&mut self, other: &SourceFrame) -> Result<Option<SourceFrame>, FootageError> {
+    fn handle_other_size(
+        &mut self,
+        other: &SourceFrame,
+    ) -> Result<Option<SourceFrame>, FootageError> {
         let other_size = (other.frame.width(), other.frame.height());
         if !self.feed.is_stream() {
             return Err(FootageError::MixedSizes {

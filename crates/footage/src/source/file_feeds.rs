@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use foveate_scenes::{Scene, SceneFrames, SceneParameters};
 
 use super::feed::FrameFeed;
-use super::set_form::{SetLabels, SetFiles, SetForm};
-use super::{SourceKind, SourceFrame};
+use super::set_form::{SetFiles, SetForm, SetLabels};
+use super::{SourceFrame, SourceKind};
 use crate::{FootageError, FrameRate, picture};
 
 /// An image file, with the label that its folder gives it.

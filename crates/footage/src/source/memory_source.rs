@@ -3,8 +3,8 @@
 
 use foveate_frame::ByteFrame;
 
-use super::feed::{FrameAdjustment, FrameFeed, AdjustedSource};
-use super::{SourceKind, FrameSource, SourceFrame};
+use super::feed::{AdjustedSource, FrameAdjustment, FrameFeed};
+use super::{FrameSource, SourceFrame, SourceKind};
 use crate::{FootageError, FrameRate, ImageRelation, InputOptions};
 
 /// A feed of frames in a given order.
@@ -47,7 +47,11 @@ pub fn source_from_memory(
         rate: options.frame_rate,
         kind,
     };
-    Ok(Box::new(AdjustedSource::new(vec![name.to_owned()], Box::new(feed), FrameAdjustment::from_options(options))?))
+    Ok(Box::new(AdjustedSource::new(
+        vec![name.to_owned()],
+        Box::new(feed),
+        FrameAdjustment::from_options(options),
+    )?))
 }
 
 impl FrameFeed for MemoryFeed {

@@ -55,7 +55,11 @@ pub fn read_ahead<T, E: From<FootageError>>(
     })
 }
 
-fn read(source: &mut dyn FrameSource, sender: &SyncSender<ReadAheadItem>, returned: &Receiver<SourceFrame>) {
+fn read(
+    source: &mut dyn FrameSource,
+    sender: &SyncSender<ReadAheadItem>,
+    returned: &Receiver<SourceFrame>,
+) {
     while let Some(next) = source.next_frame().transpose() {
         let last = next.is_err();
         let next = next.map(|frame| (frame, source.origin()));

@@ -6,7 +6,7 @@
 //! of that part count in proportion. The mean is rounded to the nearest, halves up. Downscaling is
 //! box filtering; upscaling is nearest-neighbor with blended borders.
 
-use foveate_frame::{FramePixels, ByteFrame};
+use foveate_frame::{ByteFrame, FramePixels};
 
 use crate::{CropRect, FootageError};
 
@@ -21,8 +21,12 @@ pub(crate) fn crop(frame: &ByteFrame, crop: CropRect) -> Result<ByteFrame, Foota
     }
     let (bits, whole) = (frame.bits(), frame.width() as usize);
     Ok(match frame.borrowed_pixels() {
-        FramePixels::Bytes(pixels) => ByteFrame::from_bytes(width, height, bits, part(pixels, whole, crop)),
-        FramePixels::Words(pixels) => ByteFrame::from_words(width, height, bits, part(pixels, whole, crop)),
+        FramePixels::Bytes(pixels) => {
+            ByteFrame::from_bytes(width, height, bits, part(pixels, whole, crop))
+        }
+        FramePixels::Words(pixels) => {
+            ByteFrame::from_words(width, height, bits, part(pixels, whole, crop))
+        }
     }?)
 }
 
@@ -111,10 +115,19 @@ mod tests {
     #[test]
     fn pixels_at_the_edge_count_in_proportion() {
         // Scaling 3 pixels to 2 gives (2 a + b) / 3 and (b + 2 c) / 3.
-        assert_eq!(resize(frame(3, 1, &[0, 90, 255]), 2, 1).unwrap().borrowed_pixels().to_words(), [30, 200]);
-        assert_eq!(resize(frame(1, 3, &[0, 90, 255]), 1, 2).unwrap().borrowed_pixels().to_words(), [30, 200]);
+        assert_eq!(
+            resize(frame(3, 1, &[0, 90, 255]), 2, 1).unwrap().borrowed_pixels().to_words(),
+            [30, 200]
+        );
+        assert_eq!(
+            resize(frame(1, 3, &[0, 90, 255]), 1, 2).unwrap().borrowed_pixels().to_words(),
+            [30, 200]
+        );
         // Scaling 2 pixels to 3 puts half of each into the middle pixel.
-        assert_eq!(resize(frame(2, 1, &[10, 20]), 3, 1).unwrap().borrowed_pixels().to_words(), [10, 15, 20]);
+        assert_eq!(
+            resize(frame(2, 1, &[10, 20]), 3, 1).unwrap().borrowed_pixels().to_words(),
+            [10, 15, 20]
+        );
     }
 
     #[test]

@@ -132,10 +132,19 @@ mod tests {
 
     #[test]
     fn start_is_in_and_end_is_out() {
-        let selection = FrameSelection { start_us: Some(20), end_us: Some(40), ..FrameSelection::default() };
+        let selection =
+            FrameSelection { start_us: Some(20), end_us: Some(40), ..FrameSelection::default() };
         let mut selector = FrameSelector::new(selection);
         let verdicts = [19, 20, 39, 40].map(|time| selector.decide(time));
-        assert_eq!(verdicts, [SelectionDecision::Skip, SelectionDecision::Take, SelectionDecision::Take, SelectionDecision::End]);
+        assert_eq!(
+            verdicts,
+            [
+                SelectionDecision::Skip,
+                SelectionDecision::Take,
+                SelectionDecision::Take,
+                SelectionDecision::End
+            ]
+        );
         assert!(selection.check().is_ok());
         assert!(FrameSelection { end_us: Some(20), ..selection }.check().is_err());
     }

@@ -6,8 +6,8 @@ use std::io::{self, Read};
 
 use foveate_toolchain::{Interrupt, Invocation, LocatedTool, ProgramReader, ToolError};
 
-use super::ffmpeg_log::{FfmpegLog, LogEntry, AnnouncedFrame};
-use super::{VideoMedium, NETWORK_TIMEOUT_US};
+use super::ffmpeg_log::{AnnouncedFrame, FfmpegLog, LogEntry};
+use super::{NETWORK_TIMEOUT_US, VideoMedium};
 use crate::samples::SampleLayout;
 
 /// The parameters of the decoding of a video.
@@ -37,7 +37,9 @@ impl DecodingParameters {
         let input = match start {
             StartPosition::BeginningWithOwnTimes => input,
             StartPosition::BeginningWithContainerTimes => input.arg("-copyts"),
-            StartPosition::SeekTo(place) => input.args(["-copyts", "-noaccurate_seek", "-ss", place]),
+            StartPosition::SeekTo(place) => {
+                input.args(["-copyts", "-noaccurate_seek", "-ss", place])
+            }
         };
         input.args(self.medium.arguments()).args(["-map", "0:v:0"])
     }
@@ -88,11 +90,17 @@ pub(super) struct VideoDecoder {
 }
 
 impl VideoDecoder {
-    pub(super) fn start(ffmpeg: &DecodingParameters, start: StartPosition<'_>) -> Result<Self, ToolError> {
+    pub(super) fn start(
+        ffmpeg: &DecodingParameters,
+        start: StartPosition<'_>,
+    ) -> Result<Self, ToolError> {
         Self::from_invocation(&ffmpeg.decoding(start), &ffmpeg.interrupt)
     }
 
-    pub(super) fn from_invocation(decoding: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+    pub(super) fn from_invocation(
+        decoding: &Invocation,
+        interrupt: &Interrupt,
+    ) -> Result<Self, ToolError> {
         let stream = ProgramReader::start(decoding, interrupt)?;
         Ok(Self { stream, log: FfmpegLog::default(), announced_frame: None })
     }

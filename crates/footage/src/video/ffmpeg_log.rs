@@ -123,7 +123,10 @@ fn parse_frame(line: &str) -> Option<LogEntry> {
     };
     let pts = pts.parse().ok();
     let SampleFormat { depth, colour, big_endian } = samples;
-    Some(LogEntry::Frame(AnnouncedFrame { pts, layout: SampleLayout { width, height, depth, is_colour: colour, is_big_endian: big_endian } }))
+    Some(LogEntry::Frame(AnnouncedFrame {
+        pts,
+        layout: SampleLayout { width, height, depth, is_colour: colour, is_big_endian: big_endian },
+    }))
 }
 
 #[cfg(test)]
@@ -144,7 +147,10 @@ mod tests {
         let shown = AnnouncedFrame { pts: Some(21_504), layout };
         assert_eq!(log.read_line(FRAME), Some(LogEntry::Frame(shown)));
         let without = FRAME.replace("pts:  21504", "pts:NOPTS");
-        assert_eq!(log.read_line(&without), Some(LogEntry::Frame(AnnouncedFrame { pts: None, ..shown })));
+        assert_eq!(
+            log.read_line(&without),
+            Some(LogEntry::Frame(AnnouncedFrame { pts: None, ..shown }))
+        );
         assert_eq!(log.read_line("[Parsed_showinfo_1 @ 0x5a] [info] color_range:tv"), None);
         assert_eq!(log.read_line("[info]   title : [error] s:1x1 fmt:gray pts:1"), None);
         assert_eq!(log.problem(), None);
@@ -155,13 +161,17 @@ mod tests {
         let mut log = FfmpegLog::default();
         let deep = FRAME.replace("fmt:gray", "fmt:gray10be");
         let layout = SampleLayout { is_big_endian: true, ..SampleLayout::luma(320, 240, 10) };
-        assert_eq!(log.read_line(&deep), Some(LogEntry::Frame(AnnouncedFrame { pts: Some(21_504), layout })));
+        assert_eq!(
+            log.read_line(&deep),
+            Some(LogEntry::Frame(AnnouncedFrame { pts: Some(21_504), layout }))
+        );
         for (from, to, part) in [
             ("fmt:gray", "fmt:grayf32le", "`grayf32le`"),
             ("s:320x240", "s:320x999999999", "320x999999999"),
             ("s:320x240", "s:", "sides are"),
         ] {
-            let Some(LogEntry::UntakableFrame(problem)) = log.read_line(&FRAME.replace(from, to)) else {
+            let Some(LogEntry::UntakableFrame(problem)) = log.read_line(&FRAME.replace(from, to))
+            else {
                 panic!("{to} is passed over")
             };
             assert!(problem.contains(part), "{problem}");
@@ -172,7 +182,9 @@ mod tests {
     fn faults_are_counted_and_the_first_is_kept() {
         let mut log = FfmpegLog::default();
         log.read_line("[warning] deprecated pixel format used");
-        log.read_line("[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...");
+        log.read_line(
+            "[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...",
+        );
         log.read_line("[info]   title : [error] s:1x1 fmt:gray pts:1");
         assert_eq!(log.problem(), None);
         log.read_line("[avi @ 0x1] [warning] Packet corrupt (stream = 0, dts = 60).");

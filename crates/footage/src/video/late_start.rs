@@ -15,7 +15,7 @@ use std::time::Duration;
 
 use foveate_toolchain::Toolchain;
 
-use super::decoder::{VideoDecoder, DecodingParameters, StartPosition};
+use super::decoder::{DecodingParameters, StartPosition, VideoDecoder};
 use super::probe::VideoProperties;
 use crate::FootageError;
 
@@ -83,7 +83,13 @@ fn starts_cleanly(
         "hevc" => ("hevc", is_irap),
         _ => return Ok(false),
     };
-    let packet = ffmpeg.input(StartPosition::SeekTo(place)).args(["-c", "copy", "-frames:v", "1", "-copyinkf"]);
+    let packet = ffmpeg.input(StartPosition::SeekTo(place)).args([
+        "-c",
+        "copy",
+        "-frames:v",
+        "1",
+        "-copyinkf",
+    ]);
     let packet = tools.run(&packet.args(["-f", raw, "pipe:1"]).timeout(LIMIT))?;
     Ok(packet.is_success() && first_picture(&packet.stdout, codec).is_some_and(clean))
 }

@@ -49,8 +49,8 @@ pub(super) fn conversion_filter(name: &str) -> String {
         "scale=in_range=pc:out_range=pc,format=gray16le".to_owned()
     } else {
         let shared = SHARED_WORD_FORMATS.iter().find(|(prefix, _)| name.starts_with(prefix));
-        let planar =
-            shared.and_then(|(_, planes)| Some(format!("format={planes}{}le,", shared_bits(name)?)));
+        let planar = shared
+            .and_then(|(_, planes)| Some(format!("format={planes}{}le,", shared_bits(name)?)));
         // ffmpeg converts other formats that `extractplanes` does not know to planar formats of the
         // same kind.
         format!("{}extractplanes=y,{GREY}", planar.unwrap_or_default())

@@ -12,7 +12,8 @@ pub(super) fn truncation_problem(path: &Path) -> Option<String> {
     let length = file.metadata().ok().filter(std::fs::Metadata::is_file)?.len();
     let mut start = [0; 12];
     file.read_exact(&mut start).ok()?;
-    missing_bytes(&start, length).map(|bytes| format!("the file is truncated, {bytes} bytes are missing"))
+    missing_bytes(&start, length)
+        .map(|bytes| format!("the file is truncated, {bytes} bytes are missing"))
 }
 
 fn missing_bytes(start: &[u8; 12], length: u64) -> Option<u64> {

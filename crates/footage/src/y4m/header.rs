@@ -51,7 +51,8 @@ impl Y4mHeader {
             return Err("its header lacks width or height".to_owned());
         };
         let unknown = || format!("its colour space `{colour}` is not known");
-        let (others, depth) = chroma_samples_and_depth(colour, width.into(), height.into()).ok_or_else(unknown)?;
+        let (others, depth) =
+            chroma_samples_and_depth(colour, width.into(), height.into()).ok_or_else(unknown)?;
         Ok(Self { width, height, depth, others, rate })
     }
 }

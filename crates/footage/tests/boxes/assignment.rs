@@ -16,7 +16,10 @@ fn a_file_beside_every_clip_is_found() {
     let above = file(folder.path(), "b/gt/gt.txt", ROW);
     file(folder.path(), "b/img1/000001.jpg", "");
     let inputs = [folder.path().join("a"), folder.path().join("b/img1")];
-    let clips = [ClipToLabel { name: "a", input: &inputs[0] }, ClipToLabel { name: "b", input: &inputs[1] }];
+    let clips = [
+        ClipToLabel { name: "a", input: &inputs[0] },
+        ClipToLabel { name: "b", input: &inputs[1] },
+    ];
     let found = assign_boxes(&[PathBuf::from("gt/gt.txt")], &clips).unwrap();
     assert_eq!([found[0].path(), found[1].path()], [inside.as_path(), above.as_path()]);
     // Two files are assigned to two clips in their order.
@@ -24,7 +27,8 @@ fn a_file_beside_every_clip_is_found() {
     assert_eq!([found[0].path(), found[1].path()], [above.as_path(), inside.as_path()]);
     // If the input is a pattern of files, their folder is searched.
     let frames = folder.path().join("b/img1/*.jpg");
-    let found = assign_boxes(&["gt/gt.txt".into()], &[ClipToLabel { name: "b", input: &frames }]).unwrap();
+    let found =
+        assign_boxes(&["gt/gt.txt".into()], &[ClipToLabel { name: "b", input: &frames }]).unwrap();
     assert_eq!(found[0].path(), above);
 }
 
@@ -35,8 +39,9 @@ fn files_that_do_not_fit_the_clips_are_refused() {
     let csv = file(folder.path(), "all.csv", "file,x0,y0,x1,y1\n");
     let input = folder.path().join("frames");
     let [one, two] = ["one", "two"].map(|name| ClipToLabel { name, input: &input });
-    let message =
-        |files: &[PathBuf], clips: &[ClipToLabel<'_>]| assign_boxes(files, clips).unwrap_err().to_string();
+    let message = |files: &[PathBuf], clips: &[ClipToLabel<'_>]| {
+        assign_boxes(files, clips).unwrap_err().to_string()
+    };
     let both = message(&[mot.clone(), csv.clone()], &[one]);
     assert!(both.starts_with("2 files of boxes are given for 1 clips"), "{both}");
     let shared = message(&[mot], &[one, two]);

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use crate::support::{at, file, frame, image};
-use foveate_footage::boxes::{BoxFile, RegionGrid, LabelledBox, FrameKey};
+use foveate_footage::boxes::{BoxFile, FrameKey, LabelledBox, RegionGrid};
 use foveate_frame::Rect;
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use foveate_footage::boxes::{BoxError, BoxFile, FrameBoxes, LabelledBox, FrameKey};
+use foveate_footage::boxes::{BoxError, BoxFile, FrameBoxes, FrameKey, LabelledBox};
 use foveate_frame::Rect;
 
 /// Writes a file into a folder.

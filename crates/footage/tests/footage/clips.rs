@@ -6,7 +6,7 @@ use std::process::Command;
 
 use foveate_camera::CameraConfig;
 use foveate_footage::FootageError;
-use foveate_footage::{InputOptions, FrameSource, SourceFrame, open};
+use foveate_footage::{FrameSource, InputOptions, SourceFrame, open};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 

@@ -4,7 +4,10 @@
 use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, SourceKind, FrameSource, source_from_memory, open};
+use foveate_footage::{
+    CropRect, FrameRate, FrameSource, ImageRelation, InputOptions, SourceKind, open,
+    source_from_memory,
+};
 use foveate_frame::ByteFrame;
 
 const SIZE: (u32, u32) = (9, 6);
@@ -27,8 +30,13 @@ fn options_are_those_of_files() {
     let mut bytes = b"YUV4MPEG2 W9 H6 Cmono\n".to_vec();
     for frame in frames() {
         bytes.extend(b"FRAME\n");
-        bytes
-            .extend(frame.borrowed_pixels().to_words().into_iter().map(|pixel| u8::try_from(pixel).unwrap()));
+        bytes.extend(
+            frame
+                .borrowed_pixels()
+                .to_words()
+                .into_iter()
+                .map(|pixel| u8::try_from(pixel).unwrap()),
+        );
     }
     std::fs::write(&path, bytes).unwrap();
     let rate = FrameRate::new(25, 1).unwrap();

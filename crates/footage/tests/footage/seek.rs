@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use crate::clips::{all, ffmpeg, frames, opened, tools};
-use foveate_footage::{CropRect, FrameRate, InputOptions, FrameOrigin, FrameSelection};
+use foveate_footage::{CropRect, FrameOrigin, FrameRate, FrameSelection, InputOptions};
 
 /// Makes a clip of 200 frames at 25 per second. Its first second is already larger than a pipe's
 /// buffer.
@@ -103,8 +103,11 @@ fn frames_are_numbered_whatever_is_taken() {
     while source.next_frame().unwrap().is_some() {
         origins.extend(source.origin());
     }
-    let expected =
-        [125, 130, 135, 140].map(|number| FrameOrigin { number, size: (160, 120), own_file: false });
+    let expected = [125, 130, 135, 140].map(|number| FrameOrigin {
+        number,
+        size: (160, 120),
+        own_file: false,
+    });
     assert_eq!(origins, expected);
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::clips::{all, clip, ffmpeg, frames, opened, tools};
-use foveate_footage::{CropRect, FrameRate, InputOptions, FrameSelection, SourceFrame};
+use foveate_footage::{CropRect, FrameRate, FrameSelection, InputOptions, SourceFrame};
 use foveate_frame::{convert_depth, luma};
 use foveate_toolchain::testing::data_folder;
 
@@ -102,7 +102,11 @@ fn luma_is_the_coded_plane_whatever_way_it_comes() {
                     _ => u16::from(sample[0]),
                 });
                 let expected: Vec<u16> = luma.map(|v| convert_depth(v, depth, bits)).collect();
-                assert_eq!(frame.frame.borrowed_pixels().to_words(), expected, "{format} at {bits} bits");
+                assert_eq!(
+                    frame.frame.borrowed_pixels().to_words(),
+                    expected,
+                    "{format} at {bits} bits"
+                );
             }
         }
         if format != "nv12" {
@@ -130,7 +134,10 @@ fn rgb_video_is_mixed_as_images_are() {
     for (number, frame) in (1..).zip(&seen) {
         let png = image::open(dir.path().join(format!("{number}.png"))).unwrap().into_rgb8();
         let mix = |p: &image::Rgb<u8>| luma(p.0[0].into(), p.0[1].into(), p.0[2].into());
-        assert_eq!(frame.frame.borrowed_pixels().to_words(), png.pixels().map(mix).collect::<Vec<_>>());
+        assert_eq!(
+            frame.frame.borrowed_pixels().to_words(),
+            png.pixels().map(mix).collect::<Vec<_>>()
+        );
     }
     assert_eq!(seen.len(), 3);
 }

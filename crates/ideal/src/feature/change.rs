@@ -7,7 +7,12 @@ use crate::view::FrameView;
 
 /// Counts the changed pixels of every region. A region without a valid reference counts all its
 /// pixels.
-pub(crate) fn count_changed_pixels(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, changed: &mut [f64]) {
+pub(crate) fn count_changed_pixels(
+    level: f64,
+    view: &FrameView,
+    scratch: &mut ScoreBuffers,
+    changed: &mut [f64],
+) {
     let FrameView { grid, denoised: now, references: before } = *view;
     let [hits, ..] = &mut scratch.lines;
     hits.resize(now.width(), 0.0);

@@ -21,7 +21,8 @@ pub(super) fn score(view: &FrameView, scratch: &mut ScoreBuffers, scores: &mut [
         *center = (sum / n).round();
     }
     for y in 0..plane.height() {
-        let regions = squares[grid.regions_of_row(y)].iter_mut().zip(&scores[grid.regions_of_row(y)]);
+        let regions =
+            squares[grid.regions_of_row(y)].iter_mut().zip(&scores[grid.regions_of_row(y)]);
         for (part, (square, center)) in plane.row(y).chunks_exact(grid.side).zip(regions) {
             *square += part.iter().map(|x| (x - center) * (x - center)).sum::<f64>();
         }

@@ -3,7 +3,8 @@
 
 use foveate_camera::RegionAction;
 use foveate_camera::{
-    Camera, CameraConfig, Decimal, FeatureKind, DenoiseFilter, Neighborhood, ReferencePolicy, SpatialConfig,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy,
+    SpatialConfig,
 };
 use foveate_frame::ByteFrame;
 use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
@@ -107,7 +108,8 @@ fn thresholds_are_those_of_the_configuration() {
         config.spatial = vec![SpatialConfig::new(FeatureKind::Mad)];
         config.spatial[0].min_score = Decimal::from_f64(minimum);
         config.temporal.min_count = 1;
-        let outcome = outcome_of_first_frame(&config, |x, _| if x < 2 { 9 } else { 3 * u8::from(x == 2) });
+        let outcome =
+            outcome_of_first_frame(&config, |x, _| if x < 2 { 9 } else { 3 * u8::from(x == 2) });
         assert_eq!(outcome.scores, [[0.0, 1.5]]);
         assert_eq!(outcome.srs, [false, srs]);
     }

@@ -2,8 +2,8 @@
 //! Random cameras and clips.
 
 use foveate_camera::{
-    Camera, CameraConfig, VoteCombination, Decimal, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload,
-    ReferencePolicy, SpatialConfig,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood,
+    Payload, ReferencePolicy, SpatialConfig, VoteCombination,
 };
 use foveate_frame::Frame;
 use proptest::prelude::*;
@@ -67,11 +67,14 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
                 config.region.neighborhood = Neighborhood::Shared;
                 config.spatial = features;
                 (config.temporal.level, config.temporal.min_count) = (Some(level), min_count);
-                config.denoise.filter = if on[0] { DenoiseFilter::None } else { DenoiseFilter::Median3x3 };
-                config.decision.combine = if on[1] { VoteCombination::All } else { VoteCombination::Any };
+                config.denoise.filter =
+                    if on[0] { DenoiseFilter::None } else { DenoiseFilter::Median3x3 };
+                config.decision.combine =
+                    if on[1] { VoteCombination::All } else { VoteCombination::Any };
                 config.temporal.reference =
                     if on[2] { ReferencePolicy::LastSent } else { ReferencePolicy::Previous };
-                config.render.irrelevant = if on[3] { IrrelevantRendering::Hold } else { IrrelevantRendering::Zero };
+                config.render.irrelevant =
+                    if on[3] { IrrelevantRendering::Hold } else { IrrelevantRendering::Zero };
                 if let Some((blocks, level)) = periphery {
                     config.render.irrelevant = IrrelevantRendering::Mean;
                     (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));

@@ -3,5 +3,5 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod by_hand;
-mod model;
 mod generators;
+mod model;

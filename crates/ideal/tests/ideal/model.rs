@@ -5,8 +5,8 @@
 use crate::generators;
 use crate::generators::{ChangeScript, cameras, script_frames};
 use foveate_camera::{Camera, FeatureKind};
-use foveate_frame::Frame;
 use foveate_frame::ByteFrame;
+use foveate_frame::Frame;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;

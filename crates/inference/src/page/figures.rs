@@ -82,7 +82,8 @@ pub(super) fn heading_facts(summary: &InferenceSummary) -> Vec<HeadingFigure> {
     let mut facts = Vec::new();
     if summary.counted_frames > 0 {
         let (macs, active) = (&summary.macs, share_text(summary.active_share));
-        let (dense, time) = (large_count_text(macs.whole_frame), milliseconds_text(summary.seconds_per_frame));
+        let (dense, time) =
+            (large_count_text(macs.whole_frame), milliseconds_text(summary.seconds_per_frame));
         facts.extend([
             fact("MACs needed", share_text(macs.needed_share()), format!("of {dense} per frame")),
             fact("MACs computed", share_text(macs.scheduled_share()), "whole blocks".to_owned()),
@@ -90,12 +91,17 @@ pub(super) fn heading_facts(summary: &InferenceSummary) -> Vec<HeadingFigure> {
             fact("Time per frame", time, "on this computer".to_owned()),
         ]);
         facts.extend(summary.accelerator.as_ref().map(|found| {
-            let [masked, all] = [found.masked, found.whole].map(|cost| millijoules_text(cost.energy_mj));
+            let [masked, all] =
+                [found.masked, found.whole].map(|cost| millijoules_text(cost.energy_mj));
             fact("Energy per frame", masked, format!("whole {all}"))
         }));
         facts.extend(summary.error.map(|found| {
             let psnr = decibels_text(found.outputs.psnr);
-            fact("Relative RMS error", error_text(found.outputs.relative_rms), format!("PSNR {psnr}"))
+            fact(
+                "Relative RMS error",
+                error_text(found.outputs.relative_rms),
+                format!("PSNR {psnr}"),
+            )
         }));
     }
     let (frames, counted) = (grouped(summary.frames), grouped(summary.counted_frames));

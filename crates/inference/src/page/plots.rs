@@ -4,7 +4,10 @@
 
 use crate::charts::ChartWithIds;
 use foveate_pictures::chart::ChartData;
-use foveate_pictures::page::{PlotAxis, PlotAxes, PlotLine, PlotMark, PagePlot, group_look, nest_marks, coordinate_text, line_path};
+use foveate_pictures::page::{
+    PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
+    nest_marks,
+};
 use std::collections::BTreeMap;
 
 /// The number of points of a line above which its marks are smaller.
@@ -23,9 +26,15 @@ pub(super) fn plot(drawn: &ChartWithIds, titles: &BTreeMap<&str, &str>, note: &s
     let is_frames = ["frames", "saved"].contains(&&drawn.chart.file_stem[..]);
     let is_tuning = drawn.chart.file_stem == "tuning";
     let field = if is_tuning {
-        PlotAxes { x: PlotAxis::always_linear(xs().chain([0.0])), y: PlotAxis::starting_at_zero(ys()) }
+        PlotAxes {
+            x: PlotAxis::always_linear(xs().chain([0.0])),
+            y: PlotAxis::starting_at_zero(ys()),
+        }
     } else if !is_joined {
-        PlotAxes { x: PlotAxis::always_linear(xs().chain([0.0])), y: PlotAxis::always_linear(ys().chain([0.0])) }
+        PlotAxes {
+            x: PlotAxis::always_linear(xs().chain([0.0])),
+            y: PlotAxis::always_linear(ys().chain([0.0])),
+        }
     } else {
         PlotAxes { x: PlotAxis::always_linear(xs()), y: PlotAxis::always_linear(ys().chain([0.0])) }
     };

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clips, layers, frames and tuning trials, as rows of tables and as texts of marks.
 
-use super::figures::{bytes_text, decibels_text, error_text, large_count_text, mean_bytes_text, millijoules_text, milliseconds_text, share_text};
+use super::figures::{
+    bytes_text, decibels_text, error_text, large_count_text, mean_bytes_text, millijoules_text,
+    milliseconds_text, share_text,
+};
 use crate::charts::{self, frame_id, layer_id};
-use crate::table_columns::{CLIPS, FigureColumn as Fact, FRAMES, LAYERS, TRIALS, FigureValue, shape_text};
 use crate::frame::FrameFigures;
-use crate::{LayerSummary, InferenceSummary};
+use crate::table_columns::{
+    CLIPS, FRAMES, FigureColumn as Fact, FigureValue, LAYERS, TRIALS, shape_text,
+};
+use crate::{InferenceSummary, LayerSummary};
 use foveate_pictures::page::number_text::real_number;
-use foveate_pictures::page::{TableCell, TableColumn, TableRow, SortableTable};
+use foveate_pictures::page::{SortableTable, TableCell, TableColumn, TableRow};
 use std::collections::BTreeMap;
 
 /// The rows of a table, and the text of the mark of each row.
@@ -42,8 +47,9 @@ impl TableRows {
         for (id, number, of, is_counted, title) in of {
             // Without a counted frame there are no shares.
             let is_told = |fact: &Fact<T>| is_counted || !fact.is_mean;
-            let cell =
-                |fact: &&Fact<T>| if is_told(fact) { cell((fact.value)(of)) } else { TableCell::missing() };
+            let cell = |fact: &&Fact<T>| {
+                if is_told(fact) { cell((fact.value)(of)) } else { TableCell::missing() }
+            };
             rows.rows.push(TableRow {
                 id,
                 number,
@@ -87,12 +93,18 @@ fn cell(value: FigureValue) -> TableCell {
         FigureValue::Count(count) => TableCell::count(count),
         FigureValue::Share(share) => TableCell::share(share),
         FigureValue::Real(None, _) => TableCell::missing(),
-        FigureValue::Real(Some(value), digits) => TableCell::number(real_number(value, digits), Some(value)),
-        FigureValue::Milliseconds(seconds, digits) => cell(FigureValue::Real(Some(1e3 * seconds), digits)),
+        FigureValue::Real(Some(value), digits) => {
+            TableCell::number(real_number(value, digits), Some(value))
+        }
+        FigureValue::Milliseconds(seconds, digits) => {
+            cell(FigureValue::Real(Some(1e3 * seconds), digits))
+        }
         FigureValue::Error(value) => number(value, error_text),
         FigureValue::Limit(value) => number(value, limit_text),
         // Equal outputs are the best.
-        FigureValue::Psnr(None) => TableCell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
+        FigureValue::Psnr(None) => {
+            TableCell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" }
+        }
         FigureValue::Psnr(psnr) => cell(FigureValue::Real(psnr, 1)),
     }
 }

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The setup and the findings of a run in sentences.
 
-use super::figures::{bytes_text, decibels_text, error_text, large_count_text, mean_bytes_text, millijoules_text, milliseconds_text, share_text};
-use crate::{ConfidenceIntervals, PixelMapping, NoiseAgreement, WholeFrameAgreement, InferenceSummary, TuningSummary};
+use super::figures::{
+    bytes_text, decibels_text, error_text, large_count_text, mean_bytes_text, millijoules_text,
+    milliseconds_text, share_text,
+};
+use crate::{
+    ConfidenceIntervals, InferenceSummary, NoiseAgreement, PixelMapping, TuningSummary,
+    WholeFrameAgreement,
+};
 use foveate_design::Design;
-use foveate_pictures::page::number_text::{grouped, counted};
+use foveate_pictures::page::number_text::{counted, grouped};
 use std::path::Path;
 
 /// The number of inputs that are named; the others are counted.
@@ -196,8 +202,10 @@ fn traffic_sentence(summary: &InferenceSummary) -> String {
 
 fn macs_sentence(summary: &InferenceSummary) -> String {
     let macs = &summary.macs;
-    let whole =
-        format!("A whole frame takes {} multiplications and additions (MACs).", large_count_text(macs.whole_frame));
+    let whole = format!(
+        "A whole frame takes {} multiplications and additions (MACs).",
+        large_count_text(macs.whole_frame)
+    );
     if summary.mode == "dense" {
         return format!("{whole} All of them are computed for every frame, so nothing is saved.");
     }
@@ -211,8 +219,10 @@ fn time_sentence(summary: &InferenceSummary) -> String {
         milliseconds_text(summary.overhead_seconds_per_frame)
     );
     if let Some(error) = &summary.error {
-        text +=
-            &format!("; a whole computation took {}", milliseconds_text(error.dense_seconds_per_frame));
+        text += &format!(
+            "; a whole computation took {}",
+            milliseconds_text(error.dense_seconds_per_frame)
+        );
     }
     if let Some(blocks) = summary.break_even_share() {
         text += &format!(
@@ -296,7 +306,10 @@ fn whole_frame_sentences(summary: &InferenceSummary) -> Vec<String> {
         )
     }));
     found.extend(sight.same_places.map(|same| {
-        format!("The class of a place is that of the whole frame at {} of the places.", share_text(same))
+        format!(
+            "The class of a place is that of the whole frame at {} of the places.",
+            share_text(same)
+        )
     }));
     found.push(format!(
         "The outputs differ from those of whole frames by a relative RMS of {}.",

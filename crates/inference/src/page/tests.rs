@@ -2,7 +2,9 @@
 use super::*;
 use crate::cost::{AcceleratorSummary, FrameCost};
 use crate::macs::Macs;
-use crate::summary::{ClipSummary, WholeComputationError, OutputCloseness, TuningTrial, TuningSummary};
+use crate::summary::{
+    ClipSummary, OutputCloseness, TuningSummary, TuningTrial, WholeComputationError,
+};
 use crate::{FrameTraffic, Framing, LayerSummary, PixelMapping, RecordedOutput};
 use foveate_design::DesignConfig;
 use foveate_pictures::page::browser::{ExpectedMark, chromium, probe_page};
@@ -14,7 +16,8 @@ const BAD: &str = "\"><script>alert('&amp;')</script>";
 type RunSample = (InferenceSummary, Vec<FrameFigures>, Design);
 
 /// Marks show their name and the needed share, and link to their rows.
-const TIP: ExpectedMark = ExpectedMark { figures: r"/^(Layer|Frame|Limits).*\n.* needed/", links: 1 };
+const TIP: ExpectedMark =
+    ExpectedMark { figures: r"/^(Layer|Frame|Limits).*\n.* needed/", links: 1 };
 
 fn outputs(error: f64, psnr: Option<f64>) -> OutputCloseness {
     OutputCloseness {
@@ -121,7 +124,8 @@ fn several_clips_have_a_table_and_their_frames_names() {
 
 /// Returns a made-up run with everything that a page can show.
 fn sample(frames: u32) -> RunSample {
-    let macs = Macs { whole_frame: 140_894_208.0, needed: 14e6, scheduled: 15e6, whole_blocks: 141e6 };
+    let macs =
+        Macs { whole_frame: 140_894_208.0, needed: 14e6, scheduled: 15e6, whole_blocks: 141e6 };
     let tried = |relative_limit, needed_share, error| TuningTrial {
         relative_limit,
         needed_share,
@@ -284,7 +288,8 @@ fn every_figure_is_there() {
     }
     for frame in frames {
         let cells = sorted_by(&document, &format!("pf{}", frame.number));
-        let shares = [frame.active_share, frame.changed_share, frame.macs.needed / frame.macs.whole_frame];
+        let shares =
+            [frame.active_share, frame.changed_share, frame.macs.needed / frame.macs.whole_frame];
         assert_eq!(cells[2..5], shares.map(|share| share.to_string()));
     }
     let tuning = summary.tuning.as_ref().unwrap();

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The network on whole frames, which the network behind the camera is compared with.
 
-use super::noise_comparison::NoiseComparison;
 use super::interval::ConfidenceIntervals;
-use super::precision::PrecisionCurve;
 use super::kept_screens::KeptScreens;
-use super::summary::{ReceiverTally, WholeFrameAgreement, GroundTruthFigures, psnr_of_error};
+use super::noise_comparison::NoiseComparison;
+use super::precision::PrecisionCurve;
+use super::summary::{GroundTruthFigures, ReceiverTally, WholeFrameAgreement, psnr_of_error};
 use crate::camera::{OriginalFrame, ReceivedFrame, frame_format_of};
 use foveate_design::Camera;
 use foveate_frame::FramePixels;
 use foveate_network::Executor;
 use foveate_network::vision::{
-    Detection, FrameFindings, DetectionCounts, VisionRun, DetectionPairs, SAME_OBJECT_OVERLAP, AgreementSums, VisionNetwork,
+    AgreementSums, Detection, DetectionCounts, DetectionPairs, FrameFindings, SAME_OBJECT_OVERLAP,
+    VisionNetwork, VisionRun,
 };
 
 /// The network on whole frames, and its agreement with the network behind the camera.
@@ -91,7 +92,8 @@ impl<'a> WholeFrameComparison<'a> {
         is_counted: bool,
     ) -> Option<FrameAgreement> {
         let original = seen.original?;
-        let seconds = self.whole_frame_network.run(FramePixels::Words(original.frame)).as_secs_f64();
+        let seconds =
+            self.whole_frame_network.run(FramePixels::Words(original.frame)).as_secs_f64();
         let (whole, found) = (self.whole_frame_network.findings(), self.witness.findings(other));
         let pairs = self.witness.match_detections(&whole, &found);
         let sums = AgreementSums::from_frame(&whole, &found, pairs.as_ref());
@@ -118,9 +120,16 @@ impl<'a> WholeFrameComparison<'a> {
         Some(frame)
     }
 
-    fn add_truth(&mut self, original: OriginalFrame<'_>, whole: &FrameFindings, seen: &FrameFindings) {
+    fn add_truth(
+        &mut self,
+        original: OriginalFrame<'_>,
+        whole: &FrameFindings,
+        seen: &FrameFindings,
+    ) {
         let Some(detector) = self.witness.detector() else { return };
-        let Some((curves, objects)) = self.truth_curves.as_mut().zip(original.objects) else { return };
+        let Some((curves, objects)) = self.truth_curves.as_mut().zip(original.objects) else {
+            return;
+        };
         for (curve, findings) in curves.iter_mut().zip([whole, seen]) {
             let found = findings.detections.as_deref().unwrap_or_default();
             curve.add_frame(found, objects, SAME_OBJECT_OVERLAP, detector.height);

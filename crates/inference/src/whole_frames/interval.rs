@@ -7,7 +7,7 @@
 //! independent.
 
 use foveate_network::Network;
-use foveate_network::vision::{DetectionCounts, AgreementSums};
+use foveate_network::vision::{AgreementSums, DetectionCounts};
 use serde::Serialize;
 
 /// The number of standard deviations from the mean within which 95 % of the values of a normal
@@ -41,7 +41,9 @@ impl ConfidenceIntervals {
     /// were read.
     #[must_use]
     pub fn new(agreement: f64, found: Option<DetectionCounts>, counted: Option<u64>) -> Self {
-        let interval = |share, count| (count > 0).then(|| wilson_interval(share, count_to_f64(count), NORMAL_QUANTILE));
+        let interval = |share, count| {
+            (count > 0).then(|| wilson_interval(share, count_to_f64(count), NORMAL_QUANTILE))
+        };
         let Some(found) = found else {
             let agreement = counted.and_then(|count| interval(agreement, count));
             return Self { agreement, ..Self::default() };
@@ -112,14 +114,19 @@ mod tests {
                 assert!((away - NORMAL_QUANTILE).abs() < 1e-9, "{share} of {count}: {end}");
             }
         }
-        assert!(wilson_interval(1.0, 20.0, NORMAL_QUANTILE)[1] == 1.0 && wilson_interval(0.0, 20.0, NORMAL_QUANTILE)[0] == 0.0);
+        assert!(
+            wilson_interval(1.0, 20.0, NORMAL_QUANTILE)[1] == 1.0
+                && wilson_interval(0.0, 20.0, NORMAL_QUANTILE)[0] == 0.0
+        );
     }
 
     #[test]
     fn the_agreement_has_the_interval_of_the_smaller_share() {
         let found = |whole, kept, seen, added| Some(DetectionCounts { whole, kept, seen, added });
         let few = ConfidenceIntervals::new(0.9, found(100, 98, 100, 10), Some(100));
-        assert!(few.agreement == few.right && few.kept != few.right && few.wide_agreement().is_some());
+        assert!(
+            few.agreement == few.right && few.kept != few.right && few.wide_agreement().is_some()
+        );
         let none = ConfidenceIntervals::new(1.0, found(0, 0, 0, 0), Some(0));
         assert_eq!((none, none.wide_agreement()), (ConfidenceIntervals::default(), None));
         // Nothing of the whole frames is found, but much else is.

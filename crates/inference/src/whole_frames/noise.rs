@@ -41,7 +41,11 @@ impl GaussianNoise {
             let end = (f64::from(step) + 0.5) / deviation;
             (DRAW_COUNT * 0.5 * libm::erfc(-end / SQRT_2)) as u32
         };
-        Self { largest_step_down: reach.into(), step_ends: (-reach..reach).map(below).collect(), max }
+        Self {
+            largest_step_down: reach.into(),
+            step_ends: (-reach..reach).map(below).collect(),
+            max,
+        }
     }
 
     /// Writes the frame with noise to `noisy`, in place of its content.
@@ -53,7 +57,8 @@ impl GaussianNoise {
 
     fn noisy_pixel(&self, pixel: u16, draw: u32) -> u16 {
         #[allow(clippy::cast_possible_wrap, reason = "a place among the steps of pixels")]
-        let step = self.step_ends.partition_point(|&end| end <= draw) as i64 - self.largest_step_down;
+        let step =
+            self.step_ends.partition_point(|&end| end <= draw) as i64 - self.largest_step_down;
         let level = (i64::from(pixel) + step).clamp(0, i64::from(self.max));
         u16::try_from(level).expect("a level between black and white is a pixel")
     }

@@ -4,7 +4,9 @@
 
 use super::interval::ConfidenceIntervals;
 use super::noise::GaussianNoise;
-use foveate_network::vision::{FrameFindings, DetectionCounts, VisionRun, AgreementSums, VisionNetwork};
+use foveate_network::vision::{
+    AgreementSums, DetectionCounts, FrameFindings, VisionNetwork, VisionRun,
+};
 use serde::Serialize;
 
 /// The standard deviations of the noise in grey levels of 8 bits, if the user gives no others.
@@ -77,7 +79,11 @@ impl NoiseComparison {
             noise.add(frame, seed, &mut self.noisy_frame);
             looking.run(foveate_frame::FramePixels::Words(&self.noisy_frame));
             let found = looking.findings();
-            sums.push(AgreementSums::from_frame(whole, &found, witness.match_detections(whole, &found).as_ref()));
+            sums.push(AgreementSums::from_frame(
+                whole,
+                &found,
+                witness.match_detections(whole, &found).as_ref(),
+            ));
         }
         self.samples.push((place, sums));
         if self.samples.len() > MAX_NOISY_FRAMES {

@@ -18,7 +18,13 @@ pub(crate) struct PrecisionCurve {
 impl PrecisionCurve {
     /// Adds a frame. Objects and detections less than `least` pixels high count neither as found
     /// nor as missed.
-    pub(crate) fn add_frame(&mut self, found: &[Detection], objects: &[Rect], overlap: f64, least: f64) {
+    pub(crate) fn add_frame(
+        &mut self,
+        found: &[Detection],
+        objects: &[Rect],
+        overlap: f64,
+        least: f64,
+    ) {
         let counts = |rect: &Rect| rect.height() >= least;
         let right = match_detections(found, objects, overlap, |rect| rect, |_, _| true);
         for (one, right) in found.iter().zip(right) {
@@ -65,7 +71,8 @@ impl PrecisionCurve {
             *precision = best;
         }
         let at = |recall: f64| points.iter().find(|point| point.0 >= recall).map_or(0.0, |it| it.1);
-        let sum: f64 = (0..=RECALL_STEPS).map(|step| at(f64::from(step) / f64::from(RECALL_STEPS))).sum();
+        let sum: f64 =
+            (0..=RECALL_STEPS).map(|step| at(f64::from(step) / f64::from(RECALL_STEPS))).sum();
         sum / f64::from(RECALL_STEPS + 1)
     }
 }

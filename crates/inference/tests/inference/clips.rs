@@ -2,7 +2,7 @@
 //! Runs over several clips: each clip has the results of a run of its own, and the totals are those
 //! of all clips.
 
-use crate::common::{TableRow, RunSetup, is_counted, is_near, number, rows, text};
+use crate::common::{RunSetup, TableRow, is_counted, is_near, number, rows, text};
 use foveate_footage::{RunHooks, RunProgress};
 use foveate_inference::{Computation, TuningGoal};
 use foveate_network::ExecutionMode;
@@ -25,11 +25,17 @@ fn timeless(rows: Vec<TableRow>) -> Vec<TableRow> {
 #[test]
 fn a_run_over_clips_equals_runs_over_each_clip() {
     let dir = tempfile::tempdir().unwrap();
-    for mode in [ExecutionMode::Exact, ExecutionMode::Compare, ExecutionMode::Truncate(0.05), ExecutionMode::Fixed] {
+    for mode in [
+        ExecutionMode::Exact,
+        ExecutionMode::Compare,
+        ExecutionMode::Truncate(0.05),
+        ExecutionMode::Fixed,
+    ] {
         let all = ["scene:street", "scene:shake", "scene:fade"];
         let run = |inputs: &[&str]| {
             let computed = Computation::Mode(mode);
-            let run = RunSetup { inputs, computed, accelerator: Some("eyeriss"), ..RunSetup::default() };
+            let run =
+                RunSetup { inputs, computed, accelerator: Some("eyeriss"), ..RunSetup::default() };
             let summary = run.write(dir.path()).unwrap();
             let tables = ["frames.parquet", "layers_frames.parquet"];
             let tables = tables.map(|table| timeless(rows(dir.path(), table)));
@@ -115,13 +121,15 @@ impl RunHooks for CancelAfter {
 #[test]
 fn an_interrupted_run_keeps_the_clips_before() {
     let dir = tempfile::tempdir().unwrap();
-    let run = RunSetup { inputs: &["scene:street", "scene:shake", "scene:fade"], ..RunSetup::default() };
+    let run =
+        RunSetup { inputs: &["scene:street", "scene:shake", "scene:fade"], ..RunSetup::default() };
     for (after, clips, problem) in [
         (4, 1, "clips that were not begun: 2"),
         (6, 2, "`shake`: it was interrupted; clips that were not begun: 1"),
         (10, 3, "`fade`: it was interrupted"),
     ] {
-        let summary = run.write_with_hooks(dir.path(), &mut CancelAfter { after, done: 0 }).unwrap();
+        let summary =
+            run.write_with_hooks(dir.path(), &mut CancelAfter { after, done: 0 }).unwrap();
         assert_eq!(summary.problem.as_deref(), Some(problem), "{after}");
         assert_eq!((summary.frames, summary.clips.len()), (after, clips), "{after}");
         let frames = rows(dir.path(), "frames.parquet");
@@ -132,6 +140,7 @@ fn an_interrupted_run_keeps_the_clips_before() {
                 == after * summary.layers.len() as u64
         );
     }
-    let nothing = run.write_with_hooks(dir.path(), &mut CancelAfter { after: 0, done: 0 }).unwrap_err();
+    let nothing =
+        run.write_with_hooks(dir.path(), &mut CancelAfter { after: 0, done: 0 }).unwrap_err();
     assert_eq!(nothing.to_string(), "interrupted; nothing was written");
 }

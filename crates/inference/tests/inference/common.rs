@@ -7,10 +7,10 @@ use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{RunHooks, InputOptions, SilentHooks};
+use foveate_footage::{InputOptions, RunHooks, SilentHooks};
 use foveate_inference::{
-    Computation, Detector, Framing, Inference, InferenceError, PixelMapping, InferenceOptions, RecordOptions, InferenceSummary,
-    VisionOptions, read_accelerator,
+    Computation, Detector, Framing, Inference, InferenceError, InferenceOptions, InferenceSummary,
+    PixelMapping, RecordOptions, VisionOptions, read_accelerator,
 };
 use foveate_network::ExecutionMode;
 use parquet::file::reader::{FileReader, SerializedFileReader};

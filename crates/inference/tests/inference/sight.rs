@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{RunSetup, number, rows};
 use foveate_inference::{
-    OutputAgreement, Computation, Detector, Framing, InferenceError, WholeFrameAgreement, InferenceSummary, VisionOptions, VisionNetwork,
-    frame_format_of, parse_detector, parse_framing,
+    Computation, Detector, Framing, InferenceError, InferenceSummary, OutputAgreement,
+    VisionNetwork, VisionOptions, WholeFrameAgreement, frame_format_of, parse_detector,
+    parse_framing,
 };
 use foveate_network::ExecutionMode;
 use foveate_network::onnx::{
@@ -124,7 +125,8 @@ fn detections_are_lost_under_noise() {
     let network = bright_squares(dir.path());
     let (network, detector) = (Some(network.as_path()), Some(squares()));
     let noise = &[0.05, 4.0, 40.0, 255.0];
-    let run = RunSetup { network, detector, noise, sight: true, frames: 120, ..RunSetup::default() };
+    let run =
+        RunSetup { network, detector, noise, sight: true, frames: 120, ..RunSetup::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     let found: Vec<_> = sight.noise.iter().map(|noisy| noisy.detections.unwrap()).collect();
     // Of 119 counted frames at most 48 get noise: every fourth, from the first.
@@ -152,7 +154,8 @@ fn detections_are_lost_under_noise() {
 fn places_have_no_interval() {
     let dir = tempfile::tempdir().unwrap();
     let network = bright_squares(dir.path());
-    let run = RunSetup { network: Some(&network), noise: &[40.0], sight: true, ..RunSetup::default() };
+    let run =
+        RunSetup { network: Some(&network), noise: &[40.0], sight: true, ..RunSetup::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     assert!(sight.same_places.is_some_and(|share| share == sight.agreement));
     for intervals in [sight.intervals, sight.noise[0].intervals] {
@@ -212,7 +215,10 @@ fn half_of_the_objects_give_an_agreement_of_one_half() {
     let both: OutputAgreement = [&less, &same].into_iter().sum();
     assert_eq!(both.share(), 0.75);
     assert!(
-        VisionNetwork::read(&network, (32, 48), &viewing).unwrap_err().to_string().contains("letterbox")
+        VisionNetwork::read(&network, (32, 48), &viewing)
+            .unwrap_err()
+            .to_string()
+            .contains("letterbox")
     );
     let viewing = VisionOptions { detector: Some(parse_detector("ssd").unwrap()), ..viewing };
     assert!(
@@ -240,7 +246,8 @@ fn scaled_frames_are_exact() {
         assert_eq!(serde_json::to_value(&summary).unwrap()["framing"], text);
     }
     // The denoiser takes any size, so the user must name one.
-    let problem = RunSetup { framing: Framing::Letterbox(None), ..RunSetup::default() }.write(dir.path());
+    let problem =
+        RunSetup { framing: Framing::Letterbox(None), ..RunSetup::default() }.write(dir.path());
     assert!(problem.unwrap_err().to_string().contains("letterbox=416x416"));
 }
 

@@ -2,7 +2,7 @@
 //! The table of layers and frames, summed over frames or over layers, gives the two other tables,
 //! and they give the totals.
 
-use crate::common::{TableRow, RunSetup, is_counted, is_near, number, rows, text};
+use crate::common::{RunSetup, TableRow, is_counted, is_near, number, rows, text};
 use foveate_inference::Computation;
 use foveate_network::ExecutionMode;
 use parquet::record::Field;
@@ -26,7 +26,8 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
         assert_eq!(details.len(), frames.len() * layers.len());
         assert_eq!((frames.len(), summary.counted_frames), (8, 6));
         for frame in &frames {
-            let own = |row: &&TableRow| row["clip"] == frame["clip"] && row["frame"] == frame["frame"];
+            let own =
+                |row: &&TableRow| row["clip"] == frame["clip"] && row["frame"] == frame["frame"];
             let sum = |column: &str| -> f64 {
                 details.iter().filter(own).map(|row| number(row, column)).sum()
             };
@@ -39,7 +40,10 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
                 "latency_seconds",
                 "energy_mj",
             ] {
-                assert!(is_near(sum(column), number(frame, column)), "{name}: {column} of {frame:?}");
+                assert!(
+                    is_near(sum(column), number(frame, column)),
+                    "{name}: {column} of {frame:?}"
+                );
             }
             assert!(sum("seconds") <= number(frame, "seconds"), "operators are a part of it");
         }

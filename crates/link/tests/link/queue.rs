@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The buffer and the windows against a simulation that moves one bit at a time.
 
-use foveate_link::{LinkFigures, WindowRates, Timeline, LinkUnit, send_over_link};
+use foveate_link::{LinkFigures, LinkUnit, Timeline, WindowRates, send_over_link};
 use proptest::prelude::*;
 
 /// Simulates every nanosecond: it takes the bits that come, and passes on a bit whenever the last
@@ -107,7 +107,13 @@ fn figures_of_a_burst_by_hand() {
     let units: Vec<LinkUnit> = (0..2)
         .map(|frame| {
             let sent = timeline.start_ns(frame + 1);
-            LinkUnit { frame, read_ns: timeline.row_read_ns(frame, 0), decided_ns: sent, sent_ns: sent, bits: 8000 }
+            LinkUnit {
+                frame,
+                read_ns: timeline.row_read_ns(frame, 0),
+                decided_ns: sent,
+                sent_ns: sent,
+                bits: 8000,
+            }
         })
         .collect();
     let figures = LinkFigures::from_units(units, &timeline, 1_000_000);

@@ -2,8 +2,8 @@
 //! The times at which cameras send, worked out by hand from docs/timing.md, docs/serial.md and
 //! docs/raster.md.
 
-use foveate_design::{RegionAction, DesignConfig, Design};
-use foveate_link::{SenderCameras, SentCounts, Timeline, LinkUnit};
+use foveate_design::{Design, DesignConfig, RegionAction};
+use foveate_link::{LinkUnit, SenderCameras, SentCounts, Timeline};
 
 /// A frame of 20x12 pixels has 3x2 regions of 8; the last column is 4 pixels wide and the last row
 /// 4 pixels high.
@@ -13,7 +13,10 @@ const MEGAHERTZ: u64 = 1_000_000;
 
 /// Returns the actions of regions that are active or held.
 fn actions(active: &[bool]) -> Vec<RegionAction> {
-    active.iter().map(|&active| if active { RegionAction::Forward } else { RegionAction::Hold }).collect()
+    active
+        .iter()
+        .map(|&active| if active { RegionAction::Forward } else { RegionAction::Hold })
+        .collect()
 }
 
 fn design(overrides: &[&str]) -> Design {
@@ -38,7 +41,10 @@ fn sent(design: &Design) -> [SentCounts; 2] {
 
 /// Returns the times of reading, decision and sending in us, and the bits.
 fn times(units: &[LinkUnit]) -> Vec<(u64, u64, u64, u64)> {
-    units.iter().map(|u| (u.read_ns / 1000, u.decided_ns / 1000, u.sent_ns / 1000, u.bits)).collect()
+    units
+        .iter()
+        .map(|u| (u.read_ns / 1000, u.decided_ns / 1000, u.sent_ns / 1000, u.bits))
+        .collect()
 }
 
 #[test]
@@ -199,7 +205,8 @@ fn an_array_that_is_too_slow_is_refused() {
     // A whole frame takes 64 clocks, but 12 rows of 8 pixels one by one take 96 clocks, in 12 ms.
     let (design, timeline) = (design(&[]), timeline());
     assert!(SenderCameras::new("clip", &design, &timeline, Some(8_000)).is_ok());
-    let error = SenderCameras::new("clip", &design, &timeline, Some(7_999)).unwrap_err().to_string();
+    let error =
+        SenderCameras::new("clip", &design, &timeline, Some(7_999)).unwrap_err().to_string();
     assert!(error.contains("every 12000000 ns") && error.contains("12001501 ns"), "{error}");
     let without = SenderCameras::new("clip", &design, &timeline, None).unwrap();
     assert_eq!(without.needed_clock_hz(), 8_000);
@@ -222,13 +229,17 @@ fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
         let later = |clock: u64| {
             let (without, with) =
                 (at(None).region_array_units(&sent), at(Some(clock)).region_array_units(&sent));
-            let later = with.iter().zip(&without).map(|(with, without)| with.sent_ns - without.sent_ns);
+            let later =
+                with.iter().zip(&without).map(|(with, without)| with.sent_ns - without.sent_ns);
             // The clocks of this test are far below 1 GHz, and its times are below a minute.
             (later.max().unwrap() - 1) * clock / 1_000_000_000
         };
         assert!((own - 2..=own).contains(&later(needed)), "{set:?}: {}", later(needed));
         assert!(later(100 * needed) < own, "{set:?}");
-        assert!(SenderCameras::new("clip", &design, &timeline, Some(needed - 1)).is_err(), "{set:?}");
+        assert!(
+            SenderCameras::new("clip", &design, &timeline, Some(needed - 1)).is_err(),
+            "{set:?}"
+        );
     }
 }
 
@@ -250,8 +261,9 @@ fn without_a_clock_the_clocks_of_the_array_are_left_out_and_stated() {
         };
         let (without_clock, with_clock) = (all(&without), all(&with));
         let pairs = without_clock.iter().zip(&with_clock);
-        let later =
-            pairs.map(|(one, other)| (other.sent_ns - one.sent_ns).max(other.decided_ns - one.decided_ns));
+        let later = pairs.map(|(one, other)| {
+            (other.sent_ns - one.sent_ns).max(other.decided_ns - one.decided_ns)
+        });
         assert_eq!(later.max(), Some(without.added_clocks() * 10));
         assert_eq!(without.added_clocks(), expected.unwrap_or(without.added_clocks()));
     }

@@ -2,12 +2,15 @@
 //! The construction of an explanation from the outcome of a frame. The hits of single pixels come
 //! from the arithmetic of the model.
 
-use foveate_camera::{RegionAction, Camera, IrrelevantRendering, Periphery, SpatialFeature};
+use foveate_camera::{Camera, IrrelevantRendering, Periphery, RegionAction, SpatialFeature};
 use foveate_design::Design;
 use foveate_frame::Frame;
 
-use super::{TemporalExplanation, RegionExplanation, FrameIdentification, RegionPosition, SquareRows, SpatialExplanation, SummaryExplanation};
-use crate::feature::{region_hits, mad};
+use super::{
+    FrameIdentification, RegionExplanation, RegionPosition, SpatialExplanation, SquareRows,
+    SummaryExplanation, TemporalExplanation,
+};
+use crate::feature::{mad, region_hits};
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 
 /// Version of the format. It changes when a key is removed or changes its meaning.
@@ -41,15 +44,17 @@ impl RegionExplanation {
             denoised: rows(camera, &pixels(camera, &outcome.denoised, region)),
             filter: camera.filter(),
             spatial: scores
-                .map(|(feature, scores)| SpatialExplanation::of(camera, feature, outcome, region, scores[at]))
+                .map(|(feature, scores)| {
+                    SpatialExplanation::of(camera, feature, outcome, region, scores[at])
+                })
                 .collect(),
             combine: camera.combine().name(),
             srs: outcome.srs[at],
             temporal: TemporalExplanation::of(camera, before.reference, outcome, region),
             trs: outcome.trs[at],
-            summary: camera
-                .periphery()
-                .map(|periphery| SummaryExplanation::of(periphery, &outcome.means[at], before.summary)),
+            summary: camera.periphery().map(|periphery| {
+                SummaryExplanation::of(periphery, &outcome.means[at], before.summary)
+            }),
             action: outcome.actions[at].name(),
             rule: rule(camera, outcome.srs[at], outcome.trs[at], outcome.actions[at]),
         }
@@ -157,7 +162,9 @@ fn rule(camera: &Camera, srs: bool, trs: bool, action: RegionAction) -> String {
         (_, false) => {
             let then = match camera.irrelevant() {
                 IrrelevantRendering::Zero => "the region is rendered black (irrelevant = \"zero\")",
-                IrrelevantRendering::Hold => "the previous rendered pixels stay (irrelevant = \"hold\")",
+                IrrelevantRendering::Hold => {
+                    "the previous rendered pixels stay (irrelevant = \"hold\")"
+                }
                 IrrelevantRendering::Mean if action == RegionAction::Summarize => {
                     "its means are sent and shown (irrelevant = \"mean\")"
                 }

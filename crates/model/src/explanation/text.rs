@@ -7,7 +7,9 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{TemporalExplanation, RegionExplanation, SquareRows, SpatialExplanation, SummaryExplanation};
+use super::{
+    RegionExplanation, SpatialExplanation, SquareRows, SummaryExplanation, TemporalExplanation,
+};
 
 /// Width of a terminal in columns.
 const WIDTH: usize = 80;
@@ -65,7 +67,12 @@ impl Display for RegionExplanation {
 }
 
 impl SpatialExplanation {
-    fn show_hits(&self, f: &mut Formatter<'_>, grid: &GridFormat, denoised: &SquareRows<u16>) -> fmt::Result {
+    fn show_hits(
+        &self,
+        f: &mut Formatter<'_>,
+        grid: &GridFormat,
+        denoised: &SquareRows<u16>,
+    ) -> fmt::Result {
         match (&self.hits, self.level) {
             (Some(hits), Some(level)) => {
                 let title = format!("{}: hits ({}), level {level}", self.feature, grid.mark());

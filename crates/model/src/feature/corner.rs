@@ -40,7 +40,10 @@ pub fn corner_strength(window: &PixelWindow) -> Option<u32> {
 /// region.
 #[must_use]
 pub fn corner_strengths(camera: &Camera, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
-    FrameRegion::new(camera, denoised, region).windows().map(|window| corner_strength(&window)).collect()
+    FrameRegion::new(camera, denoised, region)
+        .windows()
+        .map(|window| corner_strength(&window))
+        .collect()
 }
 
 #[cfg(test)]

@@ -31,7 +31,10 @@ pub fn edge_magnitude(window: &PixelWindow) -> u32 {
 /// region.
 #[must_use]
 pub fn edge_magnitudes(camera: &Camera, denoised: &Frame, region: u32) -> Vec<u32> {
-    FrameRegion::new(camera, denoised, region).windows().map(|window| edge_magnitude(&window)).collect()
+    FrameRegion::new(camera, denoised, region)
+        .windows()
+        .map(|window| edge_magnitude(&window))
+        .collect()
 }
 
 #[cfg(test)]

@@ -59,7 +59,9 @@ pub fn region_hits(
 pub fn is_hit(kind: FeatureKind, window: &PixelWindow, level: u32) -> bool {
     match kind {
         FeatureKind::Edge => edge::edge_magnitude(window) > level,
-        FeatureKind::Corner => corner::corner_strength(window).is_some_and(|strength| level <= strength),
+        FeatureKind::Corner => {
+            corner::corner_strength(window).is_some_and(|strength| level <= strength)
+        }
         FeatureKind::Mad | FeatureKind::Variance => false,
     }
 }

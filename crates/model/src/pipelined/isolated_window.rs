@@ -15,8 +15,8 @@
 //! (flush) until the next frame begins, and from then on one with every pixel. All have left before
 //! pixel N + 1 of the next frame comes.
 
-use super::window_center::{WindowCenter, center_at};
 use super::pixel::StagePixel;
+use super::window_center::{WindowCenter, center_at};
 
 /// The window stage with all pixels of the current frame and of the frame before. The hardware
 /// stores two rows, which is enough. Whole frames make the model easier to check.

@@ -42,8 +42,8 @@ impl MedianStage {
         // The raw halo of a shared region already repeats the border of the frame.
         let no_border = 0;
         let center = self.window.step(pixel, no_border);
-        let result =
-            center.map(|center| StagePixel { scored: median(&center.window), raw: center.pixel.raw });
+        let result = center
+            .map(|center| StagePixel { scored: median(&center.window), raw: center.pixel.raw });
         self.results.step(result)
     }
 }

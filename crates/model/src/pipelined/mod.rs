@@ -13,23 +13,23 @@
 //!
 //! A stage that the design does not need is left out. At an edge a stage takes one pixel or none.
 
-mod window_center;
-mod relevance;
-mod isolated_window;
 mod delay_line;
+mod frame_store;
+mod isolated_window;
 mod median;
-mod region_sums;
-mod tail_summary;
 mod pixel;
-mod rpu_parameters;
 mod ports;
 mod rcm;
+mod region_sums;
+mod relevance;
 mod rpu;
+mod rpu_parameters;
 mod scores;
 mod shared_window;
-mod frame_store;
 mod tail;
+mod tail_summary;
 mod temporal_counters;
+mod window_center;
 mod window_stage;
 
 pub use ports::{RpuInput, RpuOutput};

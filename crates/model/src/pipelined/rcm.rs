@@ -111,7 +111,9 @@ impl CycleModel for PipelinedRcm {
                     self.append_lanes(values, |shown| shown.scores[place]);
                 }
             }
-            PortRole::TemporalCount => self.append_lanes(values, |shown| shown.temporal_count.into()),
+            PortRole::TemporalCount => {
+                self.append_lanes(values, |shown| shown.temporal_count.into())
+            }
             PortRole::ForwardValid => self.append_lanes(values, |shown| shown.forward_valid.into()),
             PortRole::ForwardPixel => self.append_lanes(values, |shown| shown.forward_pixel.into()),
             // The other roles are inputs, or outputs that an RCM does not have.

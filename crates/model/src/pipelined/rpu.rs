@@ -3,13 +3,13 @@
 
 use foveate_design::PipelinedDesign;
 
-use super::window_center::WindowCenter;
 use super::delay_line::DelayLine;
 use super::median::MedianStage;
 use super::pixel::{StagePixel, TailStep};
-use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
 use super::ports::{RpuInput, RpuOutput};
+use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
 use super::tail::RpuTail;
+use super::window_center::WindowCenter;
 use super::window_stage::WindowStage;
 use crate::ThresholdInputs;
 use crate::feature::is_hit;

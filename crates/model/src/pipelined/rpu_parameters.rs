@@ -2,8 +2,8 @@
 //! The parameters of the blocks of an RPU, which are taken from the design once.
 
 use foveate_design::{
-    VoteCombination, FeatureKind, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, PipelinedDesign,
-    PipelinedTiming, ReferencePolicy, SpatialFeature,
+    DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, Periphery,
+    PipelinedDesign, PipelinedTiming, ReferencePolicy, SpatialFeature, VoteCombination,
 };
 
 use crate::ThresholdInputs;
@@ -80,7 +80,10 @@ impl RpuParameters {
     }
 
     /// Returns the thresholds that the core uses: its constants if it has them, else the inputs.
-    pub(super) fn effective_thresholds<'a>(&'a self, applied: &'a ThresholdInputs) -> &'a ThresholdInputs {
+    pub(super) fn effective_thresholds<'a>(
+        &'a self,
+        applied: &'a ThresholdInputs,
+    ) -> &'a ThresholdInputs {
         self.constants.as_ref().unwrap_or(applied)
     }
 }

@@ -11,8 +11,8 @@
 
 use foveate_design::FeatureKind;
 
-use super::region_sums::RegionSums;
 use super::pixel::TailStep;
+use super::region_sums::RegionSums;
 use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
 use crate::feature::mad;
 

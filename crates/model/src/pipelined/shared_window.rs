@@ -11,8 +11,8 @@
 //! A center leaves at the edge that takes the pixel below and to the right of it, so there is no
 //! flush.
 
-use super::window_center::{WindowCenter, center_at};
 use super::pixel::StagePixel;
+use super::window_center::{WindowCenter, center_at};
 
 use crate::stream::{BOTTOM, LEFT, RIGHT, TOP};
 

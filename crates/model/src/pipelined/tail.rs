@@ -14,15 +14,15 @@
 //! With `mad` the decision after edge 8 is that of frame a, and its pixels leave while frame c
 //! comes in.
 
-use foveate_design::{RegionAction, Payload};
+use foveate_design::{Payload, RegionAction};
 
-use super::relevance::RelevanceBits;
-use super::tail_summary::TailSummary;
-use super::pixel::{StagePixel, TailStep};
-use super::rpu_parameters::RpuParameters;
-use super::ports::RpuOutput;
-use super::scores::RpuScores;
 use super::frame_store::RegionFrameStore;
+use super::pixel::{StagePixel, TailStep};
+use super::ports::RpuOutput;
+use super::relevance::RelevanceBits;
+use super::rpu_parameters::RpuParameters;
+use super::scores::RpuScores;
+use super::tail_summary::TailSummary;
 use super::temporal_counters::TemporalCounters;
 use crate::ThresholdInputs;
 
@@ -53,7 +53,11 @@ struct TailRegisters {
 
 impl RpuTail {
     pub(super) fn new(plan: &RpuParameters) -> Self {
-        Self { plan: *plan, store: RegionFrameStore::new(plan), registers: TailRegisters::default() }
+        Self {
+            plan: *plan,
+            store: RegionFrameStore::new(plan),
+            registers: TailRegisters::default(),
+        }
     }
 
     pub(super) fn reset(&mut self) {
@@ -145,7 +149,8 @@ impl RpuTail {
             active: decision.is_some_and(RelevanceBits::is_active),
             summary: decision.is_some_and(|decision| {
                 let level = thresholds.summary_level;
-                self.registers.periphery.action(&self.plan, decision, level) == RegionAction::Summarize
+                self.registers.periphery.action(&self.plan, decision, level)
+                    == RegionAction::Summarize
             }),
             scores: self.registers.scores.port_scores(&self.plan),
             temporal_count: self.temporal_count(),

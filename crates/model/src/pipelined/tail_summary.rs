@@ -31,7 +31,12 @@ impl TailSummary {
     }
 
     /// Returns the action on the region whose decision is made in this clock.
-    pub(super) fn action(&self, plan: &RpuParameters, decision: RelevanceBits, level: u32) -> RegionAction {
+    pub(super) fn action(
+        &self,
+        plan: &RpuParameters,
+        decision: RelevanceBits,
+        level: u32,
+    ) -> RegionAction {
         let RelevanceBits { srs, trs } = decision;
         self.summary.action(plan.irrelevant, srs, trs, &self.decided_means(plan), level)
     }
@@ -48,7 +53,12 @@ impl TailSummary {
     }
 
     /// Applies the edge after done.
-    pub(super) fn finish(&mut self, plan: &RpuParameters, decision: Option<RelevanceBits>, level: u32) {
+    pub(super) fn finish(
+        &mut self,
+        plan: &RpuParameters,
+        decision: Option<RelevanceBits>,
+        level: u32,
+    ) {
         self.sent = None;
         if let Some(decision) = decision {
             let (RelevanceBits { srs, trs }, means) = (decision, self.decided_means(plan));
@@ -64,7 +74,8 @@ impl TailSummary {
     pub(super) fn leaving_mean(&self, plan: &RpuParameters, position: usize) -> Option<u16> {
         let (sent, periphery) = (self.sent.as_ref()?, plan.periphery?);
         let mut blocks = (0..).zip(sent);
-        let is_whole = |&(block, _): &(u32, _)| index(last_position_of_block(&periphery, block)) == position;
+        let is_whole =
+            |&(block, _): &(u32, _)| index(last_position_of_block(&periphery, block)) == position;
         blocks.find(is_whole).map(|(_, &mean)| mean)
     }
 }

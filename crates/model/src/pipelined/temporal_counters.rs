@@ -13,9 +13,9 @@
 
 use foveate_design::{IrrelevantRendering, ReferencePolicy};
 
+use super::frame_store::RegionFrameStore;
 use super::relevance::RelevanceBits;
 use super::rpu_parameters::RpuParameters;
-use super::frame_store::RegionFrameStore;
 
 /// The counters, and the validity of the references.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +33,13 @@ pub(super) struct TemporalCounters {
 
 impl TemporalCounters {
     /// Applies a tail step.
-    pub(super) fn step(&mut self, store: &RegionFrameStore, position: usize, pixel: u16, level: u32) {
+    pub(super) fn step(
+        &mut self,
+        store: &RegionFrameStore,
+        position: usize,
+        pixel: u16,
+        level: u32,
+    ) {
         let differs = |reference: u16| u32::from(pixel.abs_diff(reference)) > level;
         let from_previous = !self.has_previous || differs(store.previous(position));
         let from_sent = !self.sent_valid || differs(store.sent(position));
@@ -52,11 +58,22 @@ impl TemporalCounters {
 
     /// Returns the count of the frame that is done, for a design with a second pass. The frame
     /// before it is decided now, or does not exist.
-    pub(super) fn final_count(&self, plan: &RpuParameters, decision: Option<RelevanceBits>, n: u32) -> u32 {
+    pub(super) fn final_count(
+        &self,
+        plan: &RpuParameters,
+        decision: Option<RelevanceBits>,
+        n: u32,
+    ) -> u32 {
         match (plan.reference, decision) {
             (ReferencePolicy::Previous, _) => self.against_previous,
-            (ReferencePolicy::LastSent, Some(decision)) if decision.is_active() => self.against_previous,
-            (ReferencePolicy::LastSent, Some(decision)) if invalidates_reference(plan, decision) => n,
+            (ReferencePolicy::LastSent, Some(decision)) if decision.is_active() => {
+                self.against_previous
+            }
+            (ReferencePolicy::LastSent, Some(decision))
+                if invalidates_reference(plan, decision) =>
+            {
+                n
+            }
             (ReferencePolicy::LastSent, _) => self.against_sent,
         }
     }

@@ -3,11 +3,11 @@
 
 use foveate_design::Neighborhood;
 
-use super::window_center::WindowCenter;
 use super::isolated_window::IsolatedWindow;
 use super::pixel::StagePixel;
 use super::rpu_parameters::RpuParameters;
 use super::shared_window::SharedWindow;
+use super::window_center::WindowCenter;
 
 /// A stage with a 3x3 window that moves over a region.
 #[derive(Clone, Debug)]

@@ -61,7 +61,8 @@ impl AdvanceCounter {
         let number = self.next;
         let word = self.position(number);
         self.next = (number + 1) % self.timing.advances();
-        let last = WordPosition { row: self.timing.taken_rows - 1, column: self.timing.taken_words - 1 };
+        let last =
+            WordPosition { row: self.timing.taken_rows - 1, column: self.timing.taken_words - 1 };
         Some(Advance {
             word,
             tail: number.checked_sub(self.timing.tail_delay()).and_then(|tail| self.position(tail)),

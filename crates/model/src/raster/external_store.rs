@@ -90,7 +90,12 @@ impl ExternalStorePorts {
 
     /// Applies edge `now`, at which the port shows the word `port`. If a reference is due, the word
     /// is taken. Returns the region that has all of its references from now on, if there is one.
-    pub(super) fn take_reference(&mut self, now: u64, valid: bool, port: &[u16]) -> Option<CompletedRegion> {
+    pub(super) fn take_reference(
+        &mut self,
+        now: u64,
+        valid: bool,
+        port: &[u16],
+    ) -> Option<CompletedRegion> {
         let asking = take_due(&mut self.reference_requests, now)?;
         if asking.has_reference {
             let left = asking.place.column * self.timing.word_pixels;
@@ -107,7 +112,9 @@ impl ExternalStorePorts {
 
     /// Returns true if a reference is taken at the edge after `now`.
     pub(super) fn is_reference_due_after(&self, now: u64) -> bool {
-        self.reference_requests.front().is_some_and(|(due, asking)| *due == now + 1 && asking.has_reference)
+        self.reference_requests
+            .front()
+            .is_some_and(|(due, asking)| *due == now + 1 && asking.has_reference)
     }
 
     /// Returns true if a region waits for the reference of its last word.

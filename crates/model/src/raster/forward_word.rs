@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use foveate_design::{RegionAction, Camera, Periphery};
+use foveate_design::{Camera, Periphery, RegionAction};
 
 use super::decisions::{DecidedRasterRegion, ScoredRasterRegion};
 use crate::conversions::index;
@@ -44,12 +44,20 @@ pub(super) struct DepartingRegion {
 
 impl DepartingRegion {
     /// Makes the words, of `word_pixels` pixels each, of a region that was decided.
-    pub(super) fn from_decided(decided: &DecidedRasterRegion, camera: &Camera, word_pixels: u32) -> Self {
+    pub(super) fn from_decided(
+        decided: &DecidedRasterRegion,
+        camera: &Camera,
+        word_pixels: u32,
+    ) -> Self {
         let DecidedRasterRegion { judged, action } = decided;
         let mut words = match (action, camera.periphery()) {
             (RegionAction::Forward, _) => pixel_words(judged, word_pixels),
-            (RegionAction::Summarize, Some(periphery)) => mean_words(judged, periphery, word_pixels),
-            (RegionAction::Summarize, None) | (RegionAction::Hold | RegionAction::Blank, _) => VecDeque::new(),
+            (RegionAction::Summarize, Some(periphery)) => {
+                mean_words(judged, periphery, word_pixels)
+            }
+            (RegionAction::Summarize, None) | (RegionAction::Hold | RegionAction::Blank, _) => {
+                VecDeque::new()
+            }
         };
         if let Some(last) = words.back_mut() {
             last.is_last = true;
@@ -71,7 +79,11 @@ fn pixel_words(judged: &ScoredRasterRegion, word_pixels: u32) -> VecDeque<Forwar
     words.zip(positions).map(word).collect()
 }
 
-fn mean_words(judged: &ScoredRasterRegion, periphery: &Periphery, word_pixels: u32) -> VecDeque<ForwardWord> {
+fn mean_words(
+    judged: &ScoredRasterRegion,
+    periphery: &Periphery,
+    word_pixels: u32,
+) -> VecDeque<ForwardWord> {
     let word = |(&mean, block): (&u16, u32)| ForwardWord {
         pixels: vec![mean; index(word_pixels)],
         is_mean: true,

@@ -28,13 +28,13 @@ mod advances;
 mod decisions;
 mod due_queue;
 mod external_store;
+mod forward_word;
 mod incoming_frame;
 mod ports;
 mod rcm;
 mod readout;
 mod regions;
 mod staleness;
-mod forward_word;
 
 pub use ports::RasterOutput;
 pub use rcm::RasterRcm;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The output ports of the core.
 
-use foveate_design::{RegionAction, FRAME_NUMBERS, FeatureKind, PortRole};
+use foveate_design::{FRAME_NUMBERS, FeatureKind, PortRole, RegionAction};
 
 use super::decisions::DecidedRasterRegion;
 use super::external_store::StoreWord;
-use super::readout::LostRegion;
 use super::forward_word::ForwardWord;
+use super::readout::LostRegion;
 
 /// The outputs of the core after an edge. A port whose value has no meaning, or that the core does
 /// not have, is 0.

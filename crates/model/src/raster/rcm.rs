@@ -11,8 +11,8 @@ use super::ports::RasterOutput;
 use super::readout::Readout;
 use super::regions::RasterRegions;
 use super::staleness::RowStaleness;
-use crate::cycle_model::{CoreInput, CycleModel};
 use crate::conversions::index;
+use crate::cycle_model::{CoreInput, CycleModel};
 use crate::{FrameSync, ThresholdInputs};
 
 /// The cycle-level model of a raster core. A new one is in the state after a reset.
@@ -145,7 +145,8 @@ impl RasterRcm {
     /// yet.
     #[must_use]
     pub fn is_deciding(&self) -> bool {
-        !self.decisions.is_empty() || self.external_store.as_ref().is_some_and(ExternalStorePorts::has_waiting_region)
+        !self.decisions.is_empty()
+            || self.external_store.as_ref().is_some_and(ExternalStorePorts::has_waiting_region)
     }
 
     /// Returns true if the region sends pixels or means.
@@ -190,7 +191,9 @@ impl RasterRcm {
         }
         let complete = self.completed_region(place);
         match (&mut self.external_store, complete) {
-            (Some(outside), _) => outside.push_word(self.now, place, complete, self.incoming_frame.padded()),
+            (Some(outside), _) => {
+                outside.push_word(self.now, place, complete, self.incoming_frame.padded())
+            }
             (None, Some(complete)) => self.score_region(complete, applied),
             (None, None) => {}
         }
@@ -259,8 +262,9 @@ impl RasterRcm {
 
     fn update_output(&mut self) {
         let waits = self.timing.waits_for_pending && self.advances.is_between_frames();
-        self.is_open =
-            self.clocks_to_ready == 0 && self.advances.takes_next() && !(waits && self.is_pending());
+        self.is_open = self.clocks_to_ready == 0
+            && self.advances.takes_next()
+            && !(waits && self.is_pending());
         self.output.ready = self.is_open && !self.sync.is_filling();
         self.output.sync_error = self.sync.is_error();
         self.output.set_decision_ports(self.decided.as_ref());

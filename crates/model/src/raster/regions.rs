@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the core keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{RegionAction, Camera, RasterDesign, ReferencePolicy};
+use foveate_design::{Camera, RasterDesign, ReferencePolicy, RegionAction};
 use foveate_frame::Frame;
 
 use super::decisions::{CompletedRegion, DecidedRasterRegion, ScoredRasterRegion};
@@ -73,7 +73,8 @@ impl RasterRegions {
         self.scorer.load(stream.into_iter(), region_border(&self.camera, region));
         let taken = taken.map(|frame| self.region_pixels_of(frame, region));
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
-        let verdict = RegionDecision::from_scorer(&self.camera, &self.scorer, reference, thresholds);
+        let verdict =
+            RegionDecision::from_scorer(&self.camera, &self.scorer, reference, thresholds);
         let scored: Vec<u16> = self.scorer.pixels().collect();
         match self.camera.temporal().reference {
             ReferencePolicy::Previous => {
@@ -99,7 +100,9 @@ impl RasterRegions {
             (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             (ReferencePolicy::LastSent, RegionAction::Forward) => *referenced = true,
             // The screen no longer shows the pixels that were sent.
-            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => *referenced = false,
+            (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
+                *referenced = false
+            }
         }
         DecidedRasterRegion { judged, action }
     }
@@ -115,7 +118,9 @@ impl RasterRegions {
     pub(super) fn record_sent_word(&mut self, word: &ForwardWord) {
         match self.camera.temporal().reference {
             ReferencePolicy::Previous => {}
-            ReferencePolicy::LastSent => self.write_reference(word.region, word.position, &word.scored),
+            ReferencePolicy::LastSent => {
+                self.write_reference(word.region, word.position, &word.scored)
+            }
         }
     }
 

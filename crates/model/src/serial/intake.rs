@@ -3,8 +3,8 @@
 
 use foveate_design::{PixelFeed, SerialDesign};
 
-use super::raster_feed::RasterFeedFrame;
 use super::lane_streams::LaneStreams;
+use super::raster_feed::RasterFeedFrame;
 
 /// The raw pixels of one frame.
 #[derive(Clone, Debug, PartialEq)]

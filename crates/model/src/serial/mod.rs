@@ -20,12 +20,12 @@
 //! due. [`SerialRcm::skip`] skips any number of clocks in which the outputs do not change.
 
 mod intake;
+mod lane_streams;
 mod ports;
 mod raster_feed;
 mod rcm;
 mod regions;
 mod schedule;
-mod lane_streams;
 
 pub use ports::SerialOutput;
 pub use rcm::SerialRcm;

@@ -78,7 +78,8 @@ impl RasterFeedFrame {
     /// Returns the number of clocks for which pixel number `at` is written.
     fn clocks(&self, at: usize) -> u64 {
         let width = self.columns.size();
-        u64::from(self.columns.place_counts[at % width]) * u64::from(self.rows.place_counts[at / width])
+        u64::from(self.columns.place_counts[at % width])
+            * u64::from(self.rows.place_counts[at / width])
     }
 
     pub(super) fn stream(&self, region: usize, out: &mut Vec<u16>) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: its position in a frame, and its outputs there.
 
-use foveate_design::{RegionAction, PixelFeed, PortRole, SerialDesign};
+use foveate_design::{PixelFeed, PortRole, RegionAction, SerialDesign};
 
 use super::intake::FrameIntake;
 use super::ports::SerialOutput;
 use super::regions::{DecidedSerialRegion, SerialRegions};
 use super::schedule::{ForwardedKind, SerialSchedule, StepOutput};
-use crate::cycle_model::{CoreInput, CycleModel};
 use crate::conversions::index;
+use crate::cycle_model::{CoreInput, CycleModel};
 use crate::{FrameSync, ThresholdInputs, region_border};
 
 /// The cycle-level model of a serial array. A new one is in the state after a reset.
@@ -50,7 +50,8 @@ impl SerialRcm {
     #[must_use]
     pub fn new(design: SerialDesign<'_>) -> Self {
         let intake = FrameIntake::new(design);
-        let output = SerialOutput { ready: true, ..SerialOutput::without_valid_bits(intake.port_pixels()) };
+        let output =
+            SerialOutput { ready: true, ..SerialOutput::without_valid_bits(intake.port_pixels()) };
         Self {
             schedule: SerialSchedule::new(design),
             constants: ThresholdInputs::constants(&design),
@@ -205,7 +206,9 @@ impl SerialRcm {
                 writing: writing.saturating_sub(clocks),
                 before: before.map(|clock| clock.saturating_add(clocks)),
             },
-            SerialStage::Working { clock } => SerialStage::Working { clock: clock.saturating_add(clocks) },
+            SerialStage::Working { clock } => {
+                SerialStage::Working { clock: clock.saturating_add(clocks) }
+            }
         };
     }
 
@@ -218,7 +221,9 @@ impl SerialRcm {
         self.output.ready = self.is_open() && !self.sync.is_filling();
         self.output.sync_error = self.sync.is_error();
         let seen = match self.stage {
-            SerialStage::Taking { before, .. } => before.and_then(|clock| self.schedule.output_at(clock)),
+            SerialStage::Taking { before, .. } => {
+                before.and_then(|clock| self.schedule.output_at(clock))
+            }
             SerialStage::Working { clock } => self.schedule.output_at(clock),
         };
         if let Some((slot, seen)) = seen {
@@ -248,7 +253,8 @@ impl SerialRcm {
         output.score = verdict.score(number);
         if decides {
             output.decision_valid = true;
-            (output.srs, output.trs, output.active) = (verdict.srs, verdict.trs, verdict.is_active());
+            (output.srs, output.trs, output.active) =
+                (verdict.srs, verdict.trs, verdict.is_active());
             output.summary = *action == RegionAction::Summarize;
         }
     }

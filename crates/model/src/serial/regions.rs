@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the array keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{RegionAction, Camera, ReferencePolicy, SerialDesign};
+use foveate_design::{Camera, ReferencePolicy, RegionAction, SerialDesign};
 
 use super::schedule::ForwardedKind;
 use crate::conversions::index;
@@ -93,7 +93,12 @@ impl SerialRegions {
 
     /// Returns pixel or mean `number` of the last frame of a region with its position, or `None` if
     /// the region does not send it.
-    pub(super) fn forwarded_value(&self, region: u32, what: ForwardedKind, number: u32) -> Option<(u32, u16)> {
+    pub(super) fn forwarded_value(
+        &self,
+        region: u32,
+        what: ForwardedKind,
+        number: u32,
+    ) -> Option<(u32, u16)> {
         let DecidedSerialRegion { action, payload, means, .. } = &self.decided[index(region)];
         match (what, action) {
             (ForwardedKind::Pixel, RegionAction::Forward) => Some((number, payload[index(number)])),
@@ -101,8 +106,14 @@ impl SerialRegions {
                 let position = last_position_of_block(self.camera.periphery()?, number);
                 Some((position, means[index(number)]))
             }
-            (ForwardedKind::Pixel, RegionAction::Hold | RegionAction::Blank | RegionAction::Summarize)
-            | (ForwardedKind::Mean, RegionAction::Hold | RegionAction::Blank | RegionAction::Forward) => None,
+            (
+                ForwardedKind::Pixel,
+                RegionAction::Hold | RegionAction::Blank | RegionAction::Summarize,
+            )
+            | (
+                ForwardedKind::Mean,
+                RegionAction::Hold | RegionAction::Blank | RegionAction::Forward,
+            ) => None,
         }
     }
 
@@ -115,7 +126,12 @@ impl SerialRegions {
         thresholds: &ThresholdInputs,
     ) {
         self.scorer.load(stream, border);
-        let verdict = RegionDecision::from_scorer(&self.camera, &self.scorer, self.reference(region), thresholds);
+        let verdict = RegionDecision::from_scorer(
+            &self.camera,
+            &self.scorer,
+            self.reference(region),
+            thresholds,
+        );
         let means = self.scorer.means();
         let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level);
         let summary = &mut self.summaries[region];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The schedule of a frame: the step of the array in every clock, and the outputs of that step.
 
-use foveate_design::{PixelFeed, Periphery, SerialPhase, SerialDesign, SerialTiming};
+use foveate_design::{Periphery, PixelFeed, SerialDesign, SerialPhase, SerialTiming};
 
 /// The outputs in a step that has any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -167,12 +167,14 @@ fn visible_phases(design: SerialDesign<'_>, phases: &[(SerialPhase, u64)]) -> Ve
                 let decides = number == design.score_count();
                 Some(PhaseOutput::Rotation { number: number - 1, decides })
             }
-            SerialPhase::UnloadPixels => {
-                Some(PhaseOutput::Unload { what: ForwardedKind::Pixel, rounds: unload_order(design, steps, pixels) })
-            }
-            SerialPhase::UnloadMeans => {
-                Some(PhaseOutput::Unload { what: ForwardedKind::Mean, rounds: unload_order(design, steps, means) })
-            }
+            SerialPhase::UnloadPixels => Some(PhaseOutput::Unload {
+                what: ForwardedKind::Pixel,
+                rounds: unload_order(design, steps, pixels),
+            }),
+            SerialPhase::UnloadMeans => Some(PhaseOutput::Unload {
+                what: ForwardedKind::Mean,
+                rounds: unload_order(design, steps, means),
+            }),
         };
         visible.extend(what.map(|what| VisiblePhase { start, steps, what }));
         start += steps;

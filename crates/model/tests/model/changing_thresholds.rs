@@ -7,12 +7,13 @@ use foveate_frame::Frame;
 use foveate_model::denoising::denoise;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    PipelinedRpu, RpuInput, ThresholdInputs, pad, region_border, region_stream, temporal_differences,
+    PipelinedRpu, RpuInput, ThresholdInputs, pad, region_border, region_stream,
+    temporal_differences,
 };
 use proptest::prelude::*;
 
-use crate::frames::{SeededRandom, make_clip, arbitrary_scripts};
-use crate::oracle::{OracleOutcome, region_values, oracle_history};
+use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};
+use crate::oracle::{OracleOutcome, oracle_history, region_values};
 use crate::parameters::{DesignParameters, arbitrary_parameters};
 use crate::schedule::{tail_delay, tail_steps};
 
@@ -118,7 +119,8 @@ fn check(recipe: &DesignParameters, film: &[Frame], seed: u64) -> Result<(), Tes
     }
     inputs.extend(vec![
         None;
-        PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency as usize
+        PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency
+            as usize
             + 3
     ]);
     let frames = ThresholdHistory {

@@ -21,7 +21,7 @@ pub(crate) enum FrameContent {
 pub(crate) type ClipScript = Vec<(FrameContent, u64)>;
 
 pub(crate) fn arbitrary_scripts(most: usize) -> impl Strategy<Value = ClipScript> {
-    use FrameContent::{AlmostFlat, Binary, Noise, SmallSteps, Ramp, Repeat, FewChanges};
+    use FrameContent::{AlmostFlat, Binary, FewChanges, Noise, Ramp, Repeat, SmallSteps};
     let content = proptest::sample::select(vec![
         Noise, Binary, AlmostFlat, AlmostFlat, Ramp, Repeat, SmallSteps, FewChanges, FewChanges,
     ]);

@@ -6,16 +6,20 @@ use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
-use crate::frames::{make_clip, arbitrary_scripts};
+use crate::frames::{arbitrary_scripts, make_clip};
 use crate::oracle::{OracleFrame, OracleOutcome, oracle_history};
-use crate::parameters::{PeripheryParameters, DesignParameters, arbitrary_parameters};
+use crate::parameters::{DesignParameters, PeripheryParameters, arbitrary_parameters};
 
 fn frame_values(frame: &Frame) -> OracleFrame {
     let row = |y| frame.row(y).iter().map(|&pixel| i64::from(pixel)).collect();
     (0..frame.height()).map(row).collect()
 }
 
-pub(crate) fn assert_outcome_is(recipe: &DesignParameters, outcome: &FunctionalOutcome, seen: &OracleOutcome) {
+pub(crate) fn assert_outcome_is(
+    recipe: &DesignParameters,
+    outcome: &FunctionalOutcome,
+    seen: &OracleOutcome,
+) {
     assert_eq!(frame_values(&outcome.padded), seen.padded);
     assert_eq!(frame_values(&outcome.denoised), seen.denoised);
     for (index, region) in seen.regions.iter().enumerate() {
@@ -78,7 +82,12 @@ proptest! {
     }
 }
 
-fn check_shown(recipe: &DesignParameters, outcome: &FunctionalOutcome, design: &Design, region: u32) {
+fn check_shown(
+    recipe: &DesignParameters,
+    outcome: &FunctionalOutcome,
+    design: &Design,
+    region: u32,
+) {
     let PeripheryParameters { blocks, level } = recipe.periphery.unwrap();
     let side = (recipe.side / blocks) as u32;
     let (left, top) = (

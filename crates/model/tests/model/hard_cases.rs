@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of cases at the ends of ranges, with explicit expected numbers.
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_frame::Frame;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
@@ -9,7 +9,7 @@ use foveate_model::{
     region_stream, temporal_differences,
 };
 
-use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 use crate::{functional_properties, pipelined_properties};
 
 fn design(toml: &str) -> Design {
@@ -154,7 +154,13 @@ pub(crate) fn hard_frames(recipe: &DesignParameters) -> Vec<Frame> {
     ]
 }
 
-fn recipe_with_all_features(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: bool) -> DesignParameters {
+fn recipe_with_all_features(
+    side: i64,
+    bits: u32,
+    size: (i64, i64),
+    shared: bool,
+    last_sent: bool,
+) -> DesignParameters {
     let max = (1i64 << bits) - 1;
     let feature =
         |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 1 };

@@ -10,18 +10,18 @@
     reason = "the oracle is plain arithmetic on small numbers"
 )]
 
+mod changing_thresholds;
+mod floating_point;
 mod frames;
 mod functional_properties;
 mod hard_cases;
 mod oracle;
+mod parameters;
 mod pipelined_properties;
 mod raster;
-mod parameters;
 mod schedule;
 mod screen;
 mod serial;
 mod sync;
 mod temporal_behavior;
-mod changing_thresholds;
 mod waveforms;
-mod floating_point;

@@ -4,7 +4,7 @@
 
 use foveate_frame::Frame;
 
-use crate::parameters::{FeatureParameters, DesignParameters};
+use crate::parameters::{DesignParameters, FeatureParameters};
 
 pub(crate) type OracleFrame = Vec<Vec<i64>>;
 
@@ -41,7 +41,10 @@ pub(crate) fn oracle_history(recipe: &DesignParameters, film: &[Frame]) -> Vec<O
 }
 
 /// Returns the results for every frame of a clip, with the thresholds of each frame.
-pub(crate) fn oracle_history_with_thresholds(recipes: &[DesignParameters], film: &[Frame]) -> Vec<OracleOutcome> {
+pub(crate) fn oracle_history_with_thresholds(
+    recipes: &[DesignParameters],
+    film: &[Frame],
+) -> Vec<OracleOutcome> {
     let mut history: Vec<OracleOutcome> = Vec::new();
     for (recipe, frame) in recipes.iter().zip(film) {
         let seen = oracle_outcome(recipe, &history, frame);
@@ -53,7 +56,11 @@ pub(crate) fn oracle_history_with_thresholds(recipes: &[DesignParameters], film:
     history
 }
 
-fn oracle_outcome(recipe: &DesignParameters, history: &[OracleOutcome], frame: &Frame) -> OracleOutcome {
+fn oracle_outcome(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    frame: &Frame,
+) -> OracleOutcome {
     let mut seen = outcome_without_regions(recipe, frame);
     for region in 0..recipe.columns() * recipe.rows() {
         seen.regions.push(oracle_region(recipe, (history, history), &seen, region));
@@ -87,7 +94,12 @@ fn window_offsets() -> impl Iterator<Item = (i64, i64)> {
 }
 
 /// Returns the pixel next to (x, y), by the neighborhood of the region of that pixel.
-fn neighbor(recipe: &DesignParameters, image: &OracleFrame, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> i64 {
+fn neighbor(
+    recipe: &DesignParameters,
+    image: &OracleFrame,
+    (x, y): (i64, i64),
+    (dx, dy): (i64, i64),
+) -> i64 {
     let (mut nx, mut ny) = (x + dx, y + dy);
     if !recipe.shared && nx.div_euclid(recipe.side) != x / recipe.side {
         nx = x;
@@ -108,7 +120,11 @@ fn positions(recipe: &DesignParameters, region: i64) -> Vec<(i64, i64)> {
         .collect()
 }
 
-pub(crate) fn region_values(recipe: &DesignParameters, image: &OracleFrame, region: i64) -> Vec<i64> {
+pub(crate) fn region_values(
+    recipe: &DesignParameters,
+    image: &OracleFrame,
+    region: i64,
+) -> Vec<i64> {
     positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
 }
 
@@ -191,8 +207,10 @@ fn means(recipe: &DesignParameters, pixels: &[i64]) -> Vec<i64> {
             let (x, y) = (place % recipe.side, place / recipe.side);
             (left..left + side).contains(&x) && (top..top + side).contains(&y)
         };
-        let own: Vec<i64> =
-            (0..recipe.region_pixels()).filter(|&i| inside(i)).map(|i| pixels[i as usize]).collect();
+        let own: Vec<i64> = (0..recipe.region_pixels())
+            .filter(|&i| inside(i))
+            .map(|i| pixels[i as usize])
+            .collect();
         let twice = 2 * own.iter().sum::<i64>() + own.len() as i64;
         twice.div_euclid(2 * own.len() as i64)
     };
@@ -212,7 +230,12 @@ fn are_near(last: &[i64], now: &[i64], level: i64) -> bool {
     last.iter().zip(now).all(|(last, now)| (last - now).abs() <= level)
 }
 
-fn terms(recipe: &DesignParameters, feature: &FeatureParameters, denoised: &OracleFrame, region: i64) -> Vec<i64> {
+fn terms(
+    recipe: &DesignParameters,
+    feature: &FeatureParameters,
+    denoised: &OracleFrame,
+    region: i64,
+) -> Vec<i64> {
     let places = positions(recipe, region);
     let at = |place: (i64, i64), offset| neighbor(recipe, denoised, place, offset);
     let hits = |hit: &dyn Fn((i64, i64)) -> bool| places.iter().map(|&p| hit(p).into()).collect();
@@ -240,7 +263,8 @@ fn terms(recipe: &DesignParameters, feature: &FeatureParameters, denoised: &Orac
         "mad" => {
             let pixels = region_values(recipe, denoised, region);
             let scale = 1i64 << feature.fraction_bits;
-            let mean = (pixels.iter().sum::<i64>() * scale + recipe.region_pixels() / 2) / recipe.region_pixels();
+            let mean = (pixels.iter().sum::<i64>() * scale + recipe.region_pixels() / 2)
+                / recipe.region_pixels();
             pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
         }
         // The variance is not a sum over pixels.

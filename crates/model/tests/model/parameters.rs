@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{DesignConfig, Design, FeatureKind};
+use foveate_design::{Design, DesignConfig, FeatureKind};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
@@ -140,11 +140,14 @@ impl DesignParameters {
 /// Generates every kind of pipelined design, with frames of about three regions.
 pub(crate) fn arbitrary_parameters() -> impl Strategy<Value = DesignParameters> {
     let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
-    (arbitrary_parameters_with_sides(sides), any::<bool>()).prop_map(|(recipe, deep)| DesignParameters { deep, ..recipe })
+    (arbitrary_parameters_with_sides(sides), any::<bool>())
+        .prop_map(|(recipe, deep)| DesignParameters { deep, ..recipe })
 }
 
 /// Generates every kind of design with plain pipelining, for regions of these sides.
-pub(crate) fn arbitrary_parameters_with_sides(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = DesignParameters> {
+pub(crate) fn arbitrary_parameters_with_sides(
+    sides: impl Strategy<Value = i64>,
+) -> impl Strategy<Value = DesignParameters> {
     let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
     (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
         let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
@@ -162,29 +165,34 @@ fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value =
         let names: Vec<_> = FeatureKind::ALL.iter().map(|kind| kind.name()).collect();
         let features =
             subsequence(names, 1..=FeatureKind::COUNT).prop_shuffle().prop_flat_map(move |names| {
-                names.into_iter().map(|name| arbitrary_feature(name, side, bits)).collect::<Vec<_>>()
+                names
+                    .into_iter()
+                    .map(|name| arbitrary_feature(name, side, bits))
+                    .collect::<Vec<_>>()
             });
         let switches = proptest::array::uniform8(any::<bool>());
         let max = (1i64 << bits) - 1;
         let temporal = (small_numbers(max - 1), small_numbers(side * side));
         ((size.clone(), size), features, switches, temporal).prop_map(
-            move |((width, height), features, on, (temporal_level, temporal_min))| DesignParameters {
-                width,
-                height,
-                bits,
-                side,
-                shared: on[0],
-                median: on[1],
-                features,
-                all_must_vote: on[2],
-                temporal_level,
-                temporal_min,
-                last_sent: on[3],
-                blank_irrelevant: on[4],
-                raw_payload: on[5],
-                constant: on[6] && on[7],
-                periphery: None,
-                deep: false,
+            move |((width, height), features, on, (temporal_level, temporal_min))| {
+                DesignParameters {
+                    width,
+                    height,
+                    bits,
+                    side,
+                    shared: on[0],
+                    median: on[1],
+                    features,
+                    all_must_vote: on[2],
+                    temporal_level,
+                    temporal_min,
+                    last_sent: on[3],
+                    blank_irrelevant: on[4],
+                    raw_payload: on[5],
+                    constant: on[6] && on[7],
+                    periphery: None,
+                    deep: false,
+                }
             },
         )
     })
@@ -203,7 +211,9 @@ fn arbitrary_feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<
         "edge" => (6 * max - 1, small_numbers(n).prop_map(|hits| 1000 * hits).boxed()),
         "corner" => (max - 1, small_numbers(n).prop_map(|hits| 1000 * hits).boxed()),
         "mad" => (0, small_numbers(400).prop_map(move |permille| permille * max).boxed()),
-        "variance" => (0, small_numbers(200).prop_map(move |permille| permille * max * max).boxed()),
+        "variance" => {
+            (0, small_numbers(200).prop_map(move |permille| permille * max * max).boxed())
+        }
         _ => panic!("`{name}` needs thresholds that some regions reach"),
     };
     let fraction_max = (0..).find(|bits| 1i64 << bits >= n).unwrap();

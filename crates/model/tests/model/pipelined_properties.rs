@@ -2,14 +2,15 @@
 //! Tests that the cycle-level model shows the outputs of the schedule and the oracle after every
 //! edge, and that its decisions are those of the functional model.
 
-use foveate_design::{RegionAction, PipelinedTiming};
+use foveate_design::{PipelinedTiming, RegionAction};
 use foveate_frame::Frame;
 use foveate_model::{
-    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs, region_pixels, region_stream,
+    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs, region_pixels,
+    region_stream,
 };
 use proptest::prelude::*;
 
-use crate::frames::{SeededRandom, make_clip, arbitrary_scripts};
+use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};
 use crate::oracle::oracle_history;
 use crate::parameters::{DesignParameters, arbitrary_parameters};
 use crate::schedule::{ExpectedOutput, expected_outputs, tail_steps};
@@ -122,8 +123,9 @@ fn check(recipe: &DesignParameters, rcm: &mut PipelinedRcm, film: &[Frame], gaps
     let edges = stream_edges(recipe, gaps, film.len());
     let steps = tail_steps(recipe, &edges);
     let last = edges.iter().flatten().max().unwrap();
-    let clocks =
-        last + PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency as usize + 5;
+    let clocks = last
+        + PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency as usize
+        + 5;
     let shown = run(recipe, rcm, film, &edges, clocks);
     let history = oracle_history(recipe, film);
     for region in 0..design.regions() as usize {
@@ -177,7 +179,12 @@ fn check_against_camera(recipe: &DesignParameters, film: &[Frame], shown: &[Vec<
 }
 
 /// Checks that without gaps a decision is valid exactly at the clocks of `PipelinedTiming`.
-fn check_latency(recipe: &DesignParameters, gaps: GapPattern, film: &[Frame], shown: &[Vec<RpuOutput>]) {
+fn check_latency(
+    recipe: &DesignParameters,
+    gaps: GapPattern,
+    film: &[Frame],
+    shown: &[Vec<RpuOutput>],
+) {
     if gaps.inside != 0 || gaps.between != 0 {
         return;
     }
@@ -200,7 +207,9 @@ fn check_latency(recipe: &DesignParameters, gaps: GapPattern, film: &[Frame], sh
         let outputs = &shown[taken + departure.forward_clocks as usize];
         let left: Vec<bool> = outputs.iter().map(|output| output.forward_valid).collect();
         // At this clock the last pixel of a region or the last mean of a summary leaves.
-        let sent = |action: &RegionAction| matches!(action, RegionAction::Forward | RegionAction::Summarize);
+        let sent = |action: &RegionAction| {
+            matches!(action, RegionAction::Forward | RegionAction::Summarize)
+        };
         let actions = &camera.step(frame).unwrap().actions;
         assert_eq!(left, actions.iter().map(sent).collect::<Vec<_>>());
     }

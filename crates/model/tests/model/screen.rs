@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The screen of a receiver behind an array or core, which shows the output at once.
 
-use foveate_design::{RegionAction, Design};
+use foveate_design::{Design, RegionAction};
 
 pub(crate) struct ReceiverScreen {
     pub(crate) design: Design,
@@ -27,7 +27,11 @@ impl ReceiverScreen {
     /// Applies a decision. `summary` is true if means will leave.
     pub(crate) fn apply_decision(&mut self, region: u32, (srs, trs, summary): (bool, bool, bool)) {
         let action = foveate_model::region_action(self.design.irrelevant(), srs, trs, || summary);
-        assert_eq!(action == RegionAction::Summarize, summary, "means leave of irrelevant regions only");
+        assert_eq!(
+            action == RegionAction::Summarize,
+            summary,
+            "means leave of irrelevant regions only"
+        );
         self.summaries[region as usize] = summary;
         // Pixels that the array fails to send must differ from those that were shown before.
         let value = match action {

@@ -2,7 +2,7 @@
 //! Tests of the two references over time: the first frame, drift, blanked regions, and long periods
 //! without changes.
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, PipelinedRpu, RpuInput, ThresholdInputs};
 
@@ -109,7 +109,8 @@ fn last_sent_never_drifts() {
                 let mut camera = FunctionalCamera::new(&design);
                 let mut all_held = 0;
                 for (index, frame) in frames.iter().enumerate() {
-                    let (stale, held) = stale_and_held_regions(&design, camera.step(frame).unwrap());
+                    let (stale, held) =
+                        stale_and_held_regions(&design, camera.step(frame).unwrap());
                     assert_eq!(stale, 0, "{name} {filter} {irrelevant}, frame {index}");
                     all_held += held;
                 }

@@ -2,7 +2,7 @@
 //! Tests against waveforms that are written by hand from `docs/timing.md`. The first is the example
 //! of that page.
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, ThresholdInputs};
 
 fn tiny_design(toml: &str) -> Design {

@@ -8,7 +8,7 @@
 
 use super::blocking::BlockSizes;
 use super::chunks::{CHUNK_POSITIONS, PositionChunk};
-use super::gathered_inputs::{GatheredInputs, ConvInput};
+use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::panels::{ConvOutputs, add_block};
 use super::weights::PackedWeights;
 use crate::values::{ByteNumber, TensorNumber};
@@ -112,7 +112,9 @@ pub(crate) fn convolve_bytes<X: ByteNumber, Y: TensorNumber>(
                 stride,
             });
         }
-        for (sums, chunks) in sums.chunks(stride * lanes).zip(chunks.chunks(lanes / CHUNK_POSITIONS)) {
+        for (sums, chunks) in
+            sums.chunks(stride * lanes).zip(chunks.chunks(lanes / CHUNK_POSITIONS))
+        {
             for ((channel, sums), plane) in (first..).zip(sums.chunks(lanes)).zip(&mut planes) {
                 for (sums, chunk) in sums.chunks(CHUNK_POSITIONS).zip(chunks) {
                     let places = chunk.memory_range(width);

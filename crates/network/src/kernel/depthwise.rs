@@ -7,8 +7,8 @@
 //! offset. Tiles therefore need not end with a row, so that all lanes of a tile are used in narrow
 //! inputs, too.
 
-use super::output_areas::OutputArea;
 use super::gathered_inputs::{ConvInput, StridedInputs, copy_short_run};
+use super::output_areas::OutputArea;
 use crate::mask::AxisWindow;
 use foveate_lanes::{InstructionSet, PanelTask};
 
@@ -38,8 +38,10 @@ struct DepthwiseTask<'a, F>(DepthwiseChannel<'a, F>, &'a mut AreaBuffers);
 impl<F: Fn(f32) -> f32> PanelTask for DepthwiseTask<'_, F> {
     #[inline(always)]
     fn run<const LANES: usize, const FUSED: bool>(self) {
-        let Self(DepthwiseChannel { picture, weights, bias, layouts, outputs, width, finish }, planes) =
-            self;
+        let Self(
+            DepthwiseChannel { picture, weights, bias, layouts, outputs, width, finish },
+            planes,
+        ) = self;
         for layout in layouts {
             planes.enlarge(layout, 2 * LANES);
             layout.gather(&picture, &mut planes.inputs);
@@ -96,7 +98,8 @@ pub(crate) struct AreaLayout {
 
 impl AreaLayout {
     pub(crate) fn new(area: OutputArea, rows: AxisWindow, columns: AxisWindow) -> Self {
-        let [height, pitch] = [area.rows.len() + extra_inputs(rows), area.columns.len() + extra_inputs(columns)];
+        let [height, pitch] =
+            [area.rows.len() + extra_inputs(rows), area.columns.len() + extra_inputs(columns)];
         let mut layout = Self {
             height,
             pitch,

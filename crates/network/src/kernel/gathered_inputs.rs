@@ -212,7 +212,8 @@ fn copy_strided<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
                 *to = std::array::from_fn(|at| from[2 * at]);
             }
             let rest = whole[done..].as_flattened_mut().iter_mut().chain(rest);
-            rest.zip(from[2 * CHUNK_POSITIONS * done..].iter().step_by(2)).for_each(|(to, &from)| *to = from);
+            rest.zip(from[2 * CHUNK_POSITIONS * done..].iter().step_by(2))
+                .for_each(|(to, &from)| *to = from);
         }
         stride => to.iter_mut().zip(from.iter().step_by(stride)).for_each(|(to, &from)| *to = from),
     }
@@ -223,10 +224,14 @@ fn copy_strided<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
 #[inline(always)]
 pub(super) fn copy_short_run<T: Copy>(from: &[T], to: &mut [T]) {
     match to.len() {
-        length if length < CHUNK_POSITIONS / 2 => to.iter_mut().zip(from).for_each(|(to, &from)| *to = from),
+        length if length < CHUNK_POSITIONS / 2 => {
+            to.iter_mut().zip(from).for_each(|(to, &from)| *to = from)
+        }
         length if length < CHUNK_POSITIONS => copy_ends::<_, { CHUNK_POSITIONS / 2 }>(from, to),
         length if length <= 2 * CHUNK_POSITIONS => copy_ends::<_, CHUNK_POSITIONS>(from, to),
-        length if length <= 4 * CHUNK_POSITIONS => copy_ends::<_, { 2 * CHUNK_POSITIONS }>(from, to),
+        length if length <= 4 * CHUNK_POSITIONS => {
+            copy_ends::<_, { 2 * CHUNK_POSITIONS }>(from, to)
+        }
         _ => {
             let (whole, _) = to.as_chunks_mut::<{ 2 * CHUNK_POSITIONS }>();
             whole.iter_mut().zip(from.as_chunks().0).for_each(|(to, from)| *to = *from);

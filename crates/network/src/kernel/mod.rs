@@ -3,23 +3,25 @@
 //! computes it and whichever outputs are computed with it, so that a part of a tensor has the same
 //! bits as in a complete computation.
 
-mod output_areas;
 mod blocking;
+mod byte_convolution;
 mod chunks;
 mod depthwise;
 mod gathered_inputs;
-mod byte_convolution;
 mod micro_kernel;
+mod output_areas;
 mod panels;
 mod thread_parts;
 mod weights;
 
-pub(crate) use output_areas::areas_of_chunks;
 pub(crate) use blocking::BlockSizes;
-pub(crate) use chunks::{CHUNK_POSITIONS, PositionChunk, chunks_of_mask, chunks_of_flat_mask};
-pub(crate) use depthwise::{DepthwiseChannel, AreaLayout, AreaBuffers};
+pub(crate) use byte_convolution::{
+    DepthwiseByteTask, MAX_EXACT_PRODUCTS, PackedByteWeights, convolve_bytes,
+};
+pub(crate) use chunks::{CHUNK_POSITIONS, PositionChunk, chunks_of_flat_mask, chunks_of_mask};
+pub(crate) use depthwise::{AreaBuffers, AreaLayout, DepthwiseChannel};
 pub(crate) use gathered_inputs::ConvInput;
-pub(crate) use byte_convolution::{PackedByteWeights, DepthwiseByteTask, MAX_EXACT_PRODUCTS, convolve_bytes};
+pub(crate) use output_areas::areas_of_chunks;
 pub(crate) use panels::{ConvOutputs, convolve, scheduled_positions};
 pub(crate) use thread_parts::thread_parts;
 pub(crate) use weights::PackedWeights;

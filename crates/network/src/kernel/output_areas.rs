@@ -24,7 +24,9 @@ pub(crate) fn areas_of_chunks(chunks: &[PositionChunk], width: usize) -> Vec<Out
     let mut latest = HashMap::<Range<usize>, usize>::new();
     for (y, columns) in runs_of_chunks(chunks, width) {
         let last = latest.get(&columns).map(|&last| &mut found[last].rows);
-        match last.filter(|rows| rows.end == y && (rows.len() + 1) * columns.len() <= MAX_AREA_POSITIONS) {
+        match last
+            .filter(|rows| rows.end == y && (rows.len() + 1) * columns.len() <= MAX_AREA_POSITIONS)
+        {
             Some(rows) => rows.end += 1,
             None => {
                 latest.insert(columns.clone(), found.len());
@@ -36,7 +38,10 @@ pub(crate) fn areas_of_chunks(chunks: &[PositionChunk], width: usize) -> Vec<Out
 }
 
 /// Returns the runs of positions that chunks cover, each with its row.
-fn runs_of_chunks(chunks: &[PositionChunk], width: usize) -> impl Iterator<Item = (usize, Range<usize>)> {
+fn runs_of_chunks(
+    chunks: &[PositionChunk],
+    width: usize,
+) -> impl Iterator<Item = (usize, Range<usize>)> {
     let mut rest = chunks.iter().peekable();
     std::iter::from_fn(move || {
         let &PositionChunk { x, y } = rest.next()?;

@@ -4,7 +4,7 @@
 
 use super::blocking::BlockSizes;
 use super::chunks::{CHUNK_POSITIONS, PositionChunk};
-use super::gathered_inputs::{GatheredInputs, ConvInput};
+use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::micro_kernel::multiply;
 use super::weights::PackedWeights;
 use foveate_lanes::{InstructionSet, PanelTask};
@@ -65,7 +65,11 @@ impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
         let taps = picture.columns.kernel;
         let all = weights.depth() / taps;
         let at_once = all.min((GATHERED_INPUTS / taps).max(1));
-        let mut gathered = GatheredInputs::new(picture.columns, PANELS_PER_PASS * LANES / CHUNK_POSITIONS, at_once);
+        let mut gathered = GatheredInputs::new(
+            picture.columns,
+            PANELS_PER_PASS * LANES / CHUNK_POSITIONS,
+            at_once,
+        );
         // If one gather covers all products, a sum needs room only within its block.
         let is_once = at_once == all;
         let largest = blocks.iter().map(Range::len).max().unwrap_or_default();
@@ -77,7 +81,8 @@ impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
                 let rows = from..all.min(from + at_once);
                 gathered.gather(picture, &rows);
                 for block in blocks {
-                    let products = weights.block_weights(block, &(rows.start * taps..rows.end * taps));
+                    let products =
+                        weights.block_weights(block, &(rows.start * taps..rows.end * taps));
                     let place = if is_once { 0 } else { block.start - first };
                     let panels = sums.chunks_mut(stride).zip(group.chunks(LANES / CHUNK_POSITIONS));
                     for (panel, (sums, chunks)) in panels.enumerate() {
@@ -99,7 +104,11 @@ impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
 
 /// Starts every sum with the bias of its channel.
 #[inline(always)]
-fn start_with_bias<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &PackedWeights, first: usize) {
+fn start_with_bias<const LANES: usize>(
+    sums: &mut [[f32; LANES]],
+    weights: &PackedWeights,
+    first: usize,
+) {
     for (sums, channel) in sums.iter_mut().zip(first..) {
         *sums = [weights.bias(channel); LANES];
     }
@@ -140,7 +149,8 @@ fn add_sized_block<const LANES: usize, const CHANNELS: usize, const FUSED: bool>
 ) {
     let sums = sums.try_into().expect("a block has a sum for each of its channels");
     let weights = weights.as_chunks().0;
-    let places = &inputs.chunk_offsets[panel * LANES / CHUNK_POSITIONS..][..LANES / CHUNK_POSITIONS];
+    let places =
+        &inputs.chunk_offsets[panel * LANES / CHUNK_POSITIONS..][..LANES / CHUNK_POSITIONS];
     if places.windows(2).all(|pair| pair[0] + CHUNK_POSITIONS == pair[1]) {
         multiply::<CHANNELS, LANES, true, FUSED>(weights, inputs, places, sums);
     } else {
@@ -157,9 +167,12 @@ impl ConvOutputs<'_> {
         first: usize,
         chunks: &[PositionChunk],
     ) {
-        let place = |chunk: &PositionChunk| chunk.memory_range(self.width).start - self.first_position;
-        let is_row = chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK_POSITIONS == place(&pair[1]));
-        let is_whole = is_row && chunks.len() * CHUNK_POSITIONS == LANES && self.width >= CHUNK_POSITIONS;
+        let place =
+            |chunk: &PositionChunk| chunk.memory_range(self.width).start - self.first_position;
+        let is_row =
+            chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK_POSITIONS == place(&pair[1]));
+        let is_whole =
+            is_row && chunks.len() * CHUNK_POSITIONS == LANES && self.width >= CHUNK_POSITIONS;
         for (outputs, plane) in outputs.iter().zip(&mut self.channels[first..]) {
             if is_whole {
                 let to = plane[place(&chunks[0])..].first_chunk_mut();

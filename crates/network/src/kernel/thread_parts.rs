@@ -84,9 +84,9 @@ fn split_by_channels<'a, T>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tensor_form::TensorForm;
     use crate::kernel::{BlockSizes, chunks::chunks_of_mask};
     use crate::mask::Mask;
+    use crate::tensor_form::TensorForm;
     use foveate_lanes::InstructionSet;
 
     /// Each chunk is in exactly one part, whose planes hold its positions. Each part adds 1 at the
@@ -106,14 +106,17 @@ mod tests {
         {
             let all = chunks_of_mask(mask);
             let mut values = vec![0.0f32; form.element_count()];
-            let parts = split_by_positions(&blocks, cut_chunks(&all, threads, 70), &mut values, [40, 70]);
+            let parts =
+                split_by_positions(&blocks, cut_chunks(&all, threads, 70), &mut values, [40, 70]);
             assert!(parts.len() <= threads);
             let mut seen = Vec::new();
             for (own, outputs) in parts {
                 assert_eq!(outputs.channels.len(), 13);
                 for plane in outputs.channels {
                     for chunk in own {
-                        for value in &mut plane[chunk.y * 70 + chunk.x - outputs.first_position..][..1] {
+                        for value in
+                            &mut plane[chunk.y * 70 + chunk.x - outputs.first_position..][..1]
+                        {
                             *value += 1.0;
                         }
                     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Activation functions of one value.
 
-use super::{OperatorJob, Operator, only_input};
+use super::{Operator, OperatorJob, only_input};
 use crate::tensor_form::TensorForm;
 use foveate_lanes::{InstructionSet, VectorTask};
 
@@ -192,7 +192,9 @@ impl Operator for ActivationOperator {
         match self.0 {
             // A function that is known at compile time needs no choice in the loop.
             Activation::Sigmoid => apply_to_job(job, sigmoid),
-            Activation::Swish { alpha } => apply_to_job(job, |x| Activation::Swish { alpha }.apply(x)),
+            Activation::Swish { alpha } => {
+                apply_to_job(job, |x| Activation::Swish { alpha }.apply(x))
+            }
             Activation::HardSwish => apply_to_job(job, |x| Activation::HardSwish.apply(x)),
             Activation::Relu => apply_to_job(job, |x| Activation::Relu.apply(x)),
             other => apply_to_job(job, |x| other.apply(x)),

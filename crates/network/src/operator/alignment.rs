@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Maps the positions of an input to those of an output with other axes.
 
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use std::ops::Range;
 
 /// Returns the positions of an output that depend on those of an input. `to` maps an axis of the
@@ -19,8 +19,12 @@ pub(crate) fn aligned_mask(
     }
     // For the rows and the columns of the input: the source of their index.
     let index = |axis: Option<usize>| match axis.and_then(&to) {
-        Some(own) if output.position_axes().len() == 2 && own == output.position_axes().start => AxisIndexSource::Row,
-        Some(own) if own + 1 == output.position_axes().end && output.has_positions() => AxisIndexSource::Column,
+        Some(own) if output.position_axes().len() == 2 && own == output.position_axes().start => {
+            AxisIndexSource::Row
+        }
+        Some(own) if own + 1 == output.position_axes().end && output.has_positions() => {
+            AxisIndexSource::Column
+        }
         Some(_) | None => AxisIndexSource::All,
     };
     let rows = index((form.position_axes().len() == 2).then_some(form.position_axes().start));
@@ -28,7 +32,11 @@ pub(crate) fn aligned_mask(
     let is_same = (form.height(), form.width()) == (output.height(), output.width());
     match (rows, columns) {
         (AxisIndexSource::Row, AxisIndexSource::Column) if is_same => mask.clone(),
-        (AxisIndexSource::All, AxisIndexSource::Column) if is_same && form.position_axes().len() == 1 => mask.clone(),
+        (AxisIndexSource::All, AxisIndexSource::Column)
+            if is_same && form.position_axes().len() == 1 =>
+        {
+            mask.clone()
+        }
         _ => Mask::from_fn(output.height(), output.width(), |x, y| {
             let range = |along: AxisIndexSource, length: usize| -> Range<usize> {
                 let at = match along {

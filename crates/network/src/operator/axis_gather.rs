@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Selection of elements along each axis, in any order: slices, single indices, and padding.
 
-use super::{OperatorJob, Operator, moved_encoding, only_input, wrong_element_message};
+use super::{Operator, OperatorJob, moved_encoding, only_input, wrong_element_message};
 use crate::element::{Encoding, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 /// The elements that are taken from an axis.
@@ -81,7 +81,9 @@ impl Operator for AxisGather {
         let input = only_input(inputs)?;
         let fits = |(picked, &length): (&AxisSelection, &usize)| match picked {
             AxisSelection::All => true,
-            AxisSelection::Indices(places) => places.iter().filter_map(|&at| input_element(at)).all(|at| at < length),
+            AxisSelection::Indices(places) => {
+                places.iter().filter_map(|&at| input_element(at)).all(|at| at < length)
+            }
         };
         if self.axes.len() != input.shape().len() || !self.axes.iter().zip(input.shape()).all(fits)
         {
@@ -89,7 +91,9 @@ impl Operator for AxisGather {
         }
         let mut shape = self.lengths(input);
         let axes = input.position_axes();
-        let Some(dropped) = self.dropped_axis else { return Ok(TensorForm::with_positions(shape, axes)) };
+        let Some(dropped) = self.dropped_axis else {
+            return Ok(TensorForm::with_positions(shape, axes));
+        };
         shape.remove(dropped);
         let start = axes.start - usize::from(dropped < axes.start);
         let count = axes.len() - usize::from(axes.contains(&dropped));
@@ -99,7 +103,9 @@ impl Operator for AxisGather {
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
         let own = self.padding.as_ref().map(|padding| padding.form().encoding().element);
         match (inputs.first(), own) {
-            (Some(input), Some(own)) if input.element != own => Err(wrong_element_message(own, input.element)),
+            (Some(input), Some(own)) if input.element != own => {
+                Err(wrong_element_message(own, input.element))
+            }
             _ => moved_encoding(inputs),
         }
     }

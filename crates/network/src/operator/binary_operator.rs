@@ -2,10 +2,10 @@
 //! Element-wise operations on two tensors with broadcasting: an axis with one element is repeated.
 
 use super::alignment::aligned_mask;
-use super::{Activation, OperatorJob, Operator};
-use crate::tensor_form::TensorForm;
+use super::{Activation, Operator, OperatorJob};
 use crate::mask::Mask;
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 use std::ops::Range;
 use std::sync::Arc;
@@ -109,13 +109,21 @@ impl Operator for BinaryOperator {
     fn compute(&self, job: OperatorJob<'_>) {
         // An operation that is known at compile time needs no choice in the loop.
         match (self.kind, self.activation) {
-            (ArithmeticKind::Add, Activation::Identity) => self.compute_lines(job, |a: f32, b| a + b),
+            (ArithmeticKind::Add, Activation::Identity) => {
+                self.compute_lines(job, |a: f32, b| a + b)
+            }
             (ArithmeticKind::Add, Activation::Relu) => {
                 self.compute_lines(job, |a: f32, b| Activation::Relu.apply(a + b));
             }
-            (ArithmeticKind::Sub, Activation::Identity) => self.compute_lines(job, |a: f32, b| a - b),
-            (ArithmeticKind::Mul, Activation::Identity) => self.compute_lines(job, |a: f32, b| a * b),
-            (ArithmeticKind::Div, Activation::Identity) => self.compute_lines(job, |a: f32, b| a / b),
+            (ArithmeticKind::Sub, Activation::Identity) => {
+                self.compute_lines(job, |a: f32, b| a - b)
+            }
+            (ArithmeticKind::Mul, Activation::Identity) => {
+                self.compute_lines(job, |a: f32, b| a * b)
+            }
+            (ArithmeticKind::Div, Activation::Identity) => {
+                self.compute_lines(job, |a: f32, b| a / b)
+            }
             (kind, finish) => self.compute_lines(job, |a, b| finish.apply(kind.apply(a, b))),
         }
     }
@@ -123,7 +131,11 @@ impl Operator for BinaryOperator {
 
 impl BinaryOperator {
     /// Computes the output, line by line along the last axis.
-    pub(super) fn compute_lines<T: TensorNumber, Y: TensorNumber>(&self, job: OperatorJob<'_>, of: impl Fn(T, T) -> Y + Sync) {
+    pub(super) fn compute_lines<T: TensorNumber, Y: TensorNumber>(
+        &self,
+        job: OperatorJob<'_>,
+        of: impl Fn(T, T) -> Y + Sync,
+    ) {
         let (inputs, form) = (job.inputs, job.form);
         let [a, b] =
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
@@ -137,8 +149,10 @@ impl BinaryOperator {
             let (first, mut start) = (run.start, run.start);
             while start < run.end {
                 let end = run.end.min((start / last + 1) * last);
-                let (a, b) =
-                    (line_values(a, &of_a, form, start..end), line_values(b, &of_b, form, start..end));
+                let (a, b) = (
+                    line_values(a, &of_a, form, start..end),
+                    line_values(b, &of_b, form, start..end),
+                );
                 let to = &mut to[start - first..end - first];
                 compute_line(a, b, to, &of);
                 start = end;
@@ -164,7 +178,9 @@ fn compute_line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], of: impl Fn(T,
 /// that has the most axes of positions and repeats none of them.
 pub(super) fn broadcast_form(inputs: &[&TensorForm], shape: Vec<usize>) -> TensorForm {
     let new = |form: &TensorForm| shape.len() - form.shape().len();
-    let axes = |form: &TensorForm| form.position_axes().start + new(form)..form.position_axes().end + new(form);
+    let axes = |form: &TensorForm| {
+        form.position_axes().start + new(form)..form.position_axes().end + new(form)
+    };
     let is_kept = |form: &&&TensorForm| {
         form.has_positions() && axes(form).all(|axis| shape[axis] == form.shape()[axis - new(form)])
     };

@@ -2,7 +2,7 @@
 //! Functions of one 8-bit value as tables of 256 entries.
 
 use super::requantization::quantize_steps;
-use super::{Activation, OperatorJob, Operator, only_input};
+use super::{Activation, Operator, OperatorJob, only_input};
 use crate::element::{ElementType, Encoding, with_byte_type};
 use crate::tensor_form::TensorForm;
 use crate::values::ByteNumber;
@@ -29,7 +29,11 @@ impl ByteTable {
             let steps = activation.apply((value - from.zero_point) as f32 * from.scale) / to.scale;
             with_byte_type!(to.element, Y => i32::from(quantize_steps::<Y>(steps, to.zero_point)))
         };
-        Self { from: from.element, to: Some(to), values: value_range(from.element).map(of).collect() }
+        Self {
+            from: from.element,
+            to: Some(to),
+            values: value_range(from.element).map(of).collect(),
+        }
     }
 
     /// Maps some values through the table.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A factor and an offset per channel, which is batch normalization after training.
 
-use super::{OperatorJob, Operator, only_input};
+use super::{Operator, OperatorJob, only_input};
 use crate::tensor_form::TensorForm;
 
 #[derive(Clone, Debug)]

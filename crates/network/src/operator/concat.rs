@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Concatenation of tensors along an axis.
 
-use super::binary_operator::broadcast_mask;
 use super::alignment::aligned_mask;
-use super::{OperatorJob, Operator, moved_encoding};
+use super::binary_operator::broadcast_mask;
+use super::{Operator, OperatorJob, moved_encoding};
 use crate::element::{Encoding, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 #[derive(Clone, Debug)]
@@ -34,7 +34,8 @@ impl Operator for Concat {
         }
         // The positions of the output are the axes that are positions in all inputs that have
         // positions.
-        let positions = inputs.iter().map(|form| form.position_axes()).filter(|axes| !axes.is_empty());
+        let positions =
+            inputs.iter().map(|form| form.position_axes()).filter(|axes| !axes.is_empty());
         let common = positions.reduce(|a, b| a.start.max(b.start)..a.end.min(b.end));
         Ok(match common.filter(|axes| !axes.is_empty()) {
             Some(axes) => TensorForm::with_positions(shape, axes),

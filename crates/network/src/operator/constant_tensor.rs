@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A constant tensor in the place of an input that depends on the frame.
 
-use super::{OperatorJob, Operator, ProductKind, output_values};
+use super::{Operator, OperatorJob, ProductKind, output_values};
 use crate::element::{Encoding, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 
 #[derive(Clone, Debug)]
 pub(crate) struct ConstantTensor(pub(crate) Tensor);

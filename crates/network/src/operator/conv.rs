@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution with groups, strides, dilation and padding.
 
-use super::{Activation, ConvGeometry, OperatorJob, Operator, ProductKind, output_values};
-use crate::tensor_form::TensorForm;
+use super::{Activation, ConvGeometry, Operator, OperatorJob, ProductKind, output_values};
 use crate::kernel::{
-    self, BlockSizes, CHUNK_POSITIONS, PositionChunk, DepthwiseChannel, AreaLayout, ConvOutputs, ConvInput, AreaBuffers, PackedWeights, areas_of_chunks,
-    chunks_of_mask, chunks_of_flat_mask,
+    self, AreaBuffers, AreaLayout, BlockSizes, CHUNK_POSITIONS, ConvInput, ConvOutputs,
+    DepthwiseChannel, PackedWeights, PositionChunk, areas_of_chunks, chunks_of_flat_mask,
+    chunks_of_mask,
 };
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 use foveate_lanes::InstructionSet;
 use std::sync::Arc;
@@ -44,12 +45,20 @@ impl Conv {
             ConvKernels::Depthwise { weights: weights.to_vec(), bias }
         } else {
             let of_group = channels / geometry.groups;
-            let pack = |(rows, bias)| PackedWeights::new(rows, depth, bias, BlockSizes::for_instruction_set(level));
+            let pack = |(rows, bias)| {
+                PackedWeights::new(rows, depth, bias, BlockSizes::for_instruction_set(level))
+            };
             let groups = weights.chunks(of_group * depth).zip(bias.chunks(of_group));
             ConvKernels::Groups(groups.map(pack).collect())
         };
         let weights = 4 * (weights.len() + channels) as u64;
-        Ok(Self { geometry, level, kernels, weight_bytes: weights, activation: Activation::Identity })
+        Ok(Self {
+            geometry,
+            level,
+            kernels,
+            weight_bytes: weights,
+            activation: Activation::Identity,
+        })
     }
 }
 
@@ -74,7 +83,9 @@ impl Operator for Conv {
             Activation::Swish { alpha } => {
                 self.convolve(job, &chunks, |x| Activation::Swish { alpha }.apply(x));
             }
-            Activation::HardSwish => self.convolve(job, &chunks, |x| Activation::HardSwish.apply(x)),
+            Activation::HardSwish => {
+                self.convolve(job, &chunks, |x| Activation::HardSwish.apply(x))
+            }
             finish => self.convolve(job, &chunks, |x| finish.apply(x)),
         }
     }
@@ -87,7 +98,9 @@ impl Operator for Conv {
         let chunks = self.chunks(at).len();
         match &self.kernels {
             ConvKernels::Depthwise { .. } => chunks * CHUNK_POSITIONS,
-            ConvKernels::Groups(groups) => kernel::scheduled_positions(chunks, groups[0].blocking()),
+            ConvKernels::Groups(groups) => {
+                kernel::scheduled_positions(chunks, groups[0].blocking())
+            }
         }
     }
 
@@ -107,13 +120,19 @@ impl Conv {
         if self.geometry.is_pointwise() { chunks_of_flat_mask(at) } else { chunks_of_mask(at) }
     }
 
-    fn convolve(&self, job: OperatorJob<'_>, chunks: &[PositionChunk], finish: impl Fn(f32) -> f32 + Copy + Sync) {
+    fn convolve(
+        &self,
+        job: OperatorJob<'_>,
+        chunks: &[PositionChunk],
+        finish: impl Fn(f32) -> f32 + Copy + Sync,
+    ) {
         let OperatorJob { inputs, form, output, .. } = job;
         let output: &mut [f32] = output_values(output, form);
         let [height, width] = self.geometry.computed_size(inputs[0].form());
         let size = self.geometry.computed_size(form);
         let places = form.position_count();
-        let ConvGeometry { rows, columns, groups, output_channels: channels, input_channels: all } = self.geometry;
+        let ConvGeometry { rows, columns, groups, output_channels: channels, input_channels: all } =
+            self.geometry;
         let of_group = all / groups * height * width;
         let picture = |group: usize| ConvInput {
             values: &inputs[0].values()[group * of_group..][..of_group],
@@ -127,7 +146,8 @@ impl Conv {
             ConvKernels::Depthwise { weights, bias } => {
                 let taps = rows.kernel * columns.kernel;
                 let layout = |area| AreaLayout::new(area, rows, columns);
-                let layouts: &Vec<_> = &areas_of_chunks(chunks, size[1]).into_iter().map(layout).collect();
+                let layouts: &Vec<_> =
+                    &areas_of_chunks(chunks, size[1]).into_iter().map(layout).collect();
                 let channel = |planes: &mut AreaBuffers, channel: usize, outputs: &mut [f32]| {
                     let (weights, bias) = (&weights[channel * taps..][..taps], bias[channel]);
                     let (picture, width) = (picture(channel), size[1]);
@@ -145,7 +165,10 @@ impl Conv {
                         kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
                     };
                     let blocks = weights.blocks();
-                    threads::for_each_part(kernel::thread_parts(blocks, chunks, values, size), &part);
+                    threads::for_each_part(
+                        kernel::thread_parts(blocks, chunks, values, size),
+                        &part,
+                    );
                 }
             }
         }

@@ -2,8 +2,8 @@
 //! The windows and channels of a convolution, independent of the type of its values.
 
 use super::{ProductKind, feature_size, only_input};
-use crate::tensor_form::TensorForm;
 use crate::mask::AxisWindow;
+use crate::tensor_form::TensorForm;
 
 /// The windows, groups and channels of a convolution.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,13 @@ impl ConvGeometry {
         if rows.kernel != height || columns.kernel != width {
             return Err(format!("its kernel_shape differs from its weights, {height}x{width}"));
         }
-        Ok(Self { rows, columns, groups, output_channels: channels, input_channels: inputs * groups })
+        Ok(Self {
+            rows,
+            columns,
+            groups,
+            output_channels: channels,
+            input_channels: inputs * groups,
+        })
     }
 
     /// Fails if a bias does not have one value per channel.
@@ -75,9 +81,13 @@ impl ConvGeometry {
     pub(crate) fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         let [channels, height, width] = feature_size(only_input(inputs)?)?;
         if channels != self.input_channels {
-            return Err(format!("it takes {} channels, but its input has {channels}", self.input_channels));
+            return Err(format!(
+                "it takes {} channels, but its input has {channels}",
+                self.input_channels
+            ));
         }
-        let (height, width) = (output_length(self.rows, height)?, output_length(self.columns, width)?);
+        let (height, width) =
+            (output_length(self.rows, height)?, output_length(self.columns, width)?);
         Ok(TensorForm::features(vec![1, self.output_channels, height, width]))
     }
 

@@ -2,10 +2,10 @@
 //! Rearranges channels into blocks of neighboring positions (`DepthToSpace`) and back
 //! (`SpaceToDepth`).
 
-use super::{OperatorJob, Operator, feature_size, moved_encoding, only_input};
+use super::{Operator, OperatorJob, feature_size, moved_encoding, only_input};
 use crate::element::{Encoding, with_element_type};
+use crate::mask::{AxisWindow, Mask};
 use crate::tensor_form::TensorForm;
-use crate::mask::{Mask, AxisWindow};
 
 /// The order of the channels that hold one block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,12 @@ impl Operator for DepthToSpace {
         if channels % square != 0 {
             return Err(format!("{channels} channels are not squares of {square}"));
         }
-        Ok(TensorForm::features(vec![1, channels / square, height * self.block_size, width * self.block_size]))
+        Ok(TensorForm::features(vec![
+            1,
+            channels / square,
+            height * self.block_size,
+            width * self.block_size,
+        ]))
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
@@ -89,7 +94,10 @@ impl Operator for SpaceToDepth {
     }
 
     fn axis_windows(&self) -> Option<[AxisWindow; 2]> {
-        Some([AxisWindow { kernel: self.block_size, stride: self.block_size, ..AxisWindow::SAME }; 2])
+        Some(
+            [AxisWindow { kernel: self.block_size, stride: self.block_size, ..AxisWindow::SAME };
+                2],
+        )
     }
 
     fn compute(&self, job: OperatorJob<'_>) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution of 8-bit values. Its sums are exact, and are either kept or requantized to 8 bits.
 
-use super::requantization::{SumOutput, Requantization};
-use super::{ConvGeometry, OperatorJob, Operator, ProductKind, encoding_from_bytes, output_values};
+use super::requantization::{Requantization, SumOutput};
+use super::{ConvGeometry, Operator, OperatorJob, ProductKind, encoding_from_bytes, output_values};
 use crate::element::{ElementType, Encoding, with_byte_type};
-use crate::tensor_form::TensorForm;
 use crate::kernel::{
-    self, BlockSizes, PackedByteWeights, CHUNK_POSITIONS, PositionChunk, DepthwiseByteTask, MAX_EXACT_PRODUCTS, ConvOutputs, ConvInput, chunks_of_mask,
+    self, BlockSizes, CHUNK_POSITIONS, ConvInput, ConvOutputs, DepthwiseByteTask,
+    MAX_EXACT_PRODUCTS, PackedByteWeights, PositionChunk, chunks_of_mask,
 };
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
 use foveate_lanes::InstructionSet;
@@ -64,8 +65,11 @@ impl IntegerConv {
             ));
         } else {
             let (depth, of_group) = (geometry.depth(), geometry.output_channels / geometry.groups);
-            let pack = |(rows, zeros)| PackedByteWeights::new(rows, depth, zeros, BlockSizes::for_instruction_set(level));
-            let groups = rows.values.chunks(of_group * depth).zip(rows.zero_points.chunks(of_group));
+            let pack = |(rows, zeros)| {
+                PackedByteWeights::new(rows, depth, zeros, BlockSizes::for_instruction_set(level))
+            };
+            let groups =
+                rows.values.chunks(of_group * depth).zip(rows.zero_points.chunks(of_group));
             IntegerConvKernels::Groups(groups.map(pack).collect())
         };
         Ok(Self { geometry, level, kernels, weights, zero_point: zero, sums })
@@ -78,7 +82,8 @@ impl IntegerConv {
         }
         let OperatorJob { inputs, form, output, .. } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
-        let ConvGeometry { rows, columns, groups, output_channels: channels, input_channels: all } = self.geometry;
+        let ConvGeometry { rows, columns, groups, output_channels: channels, input_channels: all } =
+            self.geometry;
         let (of_group, seen) = (channels / groups, all / groups * height * width);
         let picture = |group: usize| ConvInput {
             values: &inputs[0].values::<X>()[group * seen..][..seen],
@@ -88,7 +93,8 @@ impl IntegerConv {
             columns,
             padding: X::from_saturated(self.zero_point),
         };
-        let (outputs, length) = (output_values::<Y>(output, form), of_group * form.position_count());
+        let (outputs, length) =
+            (output_values::<Y>(output, form), of_group * form.position_count());
         match &self.kernels {
             IntegerConvKernels::Depthwise(weights) => {
                 threads::for_each_chunk(outputs, length, &|channel, outputs| {
@@ -111,16 +117,26 @@ impl IntegerConv {
                     }
                 });
             }
-            IntegerConvKernels::Groups(kernels) => threads::for_each_chunk(outputs, length, &|group, values| {
-                let (weights, picture) = (&kernels[group], picture(group));
-                let finish = |channel, sum| self.sums.requantize(group * of_group + channel, sum);
-                let part = |(chunks, outputs): (&[PositionChunk], ConvOutputs<'_, Y>)| {
-                    kernel::convolve_bytes(self.level, &picture, weights, chunks, outputs, finish);
-                };
-                let blocks = weights.packed().blocks();
-                let parts = kernel::thread_parts(blocks, &chunks, values, [form.height(), form.width()]);
-                threads::for_each_part(parts, &part);
-            }),
+            IntegerConvKernels::Groups(kernels) => {
+                threads::for_each_chunk(outputs, length, &|group, values| {
+                    let (weights, picture) = (&kernels[group], picture(group));
+                    let finish =
+                        |channel, sum| self.sums.requantize(group * of_group + channel, sum);
+                    let part = |(chunks, outputs): (&[PositionChunk], ConvOutputs<'_, Y>)| {
+                        kernel::convolve_bytes(
+                            self.level, &picture, weights, chunks, outputs, finish,
+                        );
+                    };
+                    let blocks = weights.packed().blocks();
+                    let parts = kernel::thread_parts(
+                        blocks,
+                        &chunks,
+                        values,
+                        [form.height(), form.width()],
+                    );
+                    threads::for_each_part(parts, &part);
+                })
+            }
         }
     }
 }
@@ -153,7 +169,9 @@ impl Operator for IntegerConv {
         let chunks = chunks_of_mask(at).len();
         match &self.kernels {
             IntegerConvKernels::Depthwise(_) => chunks * CHUNK_POSITIONS,
-            IntegerConvKernels::Groups(groups) => kernel::scheduled_positions(chunks, groups[0].packed().blocking()),
+            IntegerConvKernels::Groups(groups) => {
+                kernel::scheduled_positions(chunks, groups[0].packed().blocking())
+            }
         }
     }
 

@@ -4,11 +4,11 @@
 
 use super::integer_conv::ByteWeightRows;
 use super::linear::matrix_product_form;
-use super::requantization::{SumOutput, Requantization};
-use super::{OperatorJob, Operator, ProductKind, encoding_from_bytes, output_values};
-use crate::element::{Encoding, with_element_type, with_byte_type};
-use crate::tensor_form::TensorForm;
+use super::requantization::{Requantization, SumOutput};
+use super::{Operator, OperatorJob, ProductKind, encoding_from_bytes, output_values};
+use crate::element::{Encoding, with_byte_type, with_element_type};
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Products with a constant matrix, as in fully connected layers.
 
-use super::{OperatorJob, Operator, ProductKind, only_input, output_values};
-use crate::tensor_form::TensorForm;
+use super::{Operator, OperatorJob, ProductKind, only_input, output_values};
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 
 /// The number of partial sums of a dot product. They are added at the end, in a fixed order.
@@ -23,7 +23,11 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
 }
 
 /// Returns the form of the product of the last axis with a matrix of `own` x `outputs` values.
-pub(super) fn matrix_product_form(inputs: &[&TensorForm], own: usize, outputs: usize) -> Result<TensorForm, String> {
+pub(super) fn matrix_product_form(
+    inputs: &[&TensorForm],
+    own: usize,
+    outputs: usize,
+) -> Result<TensorForm, String> {
     let form = only_input(inputs)?;
     let mut shape = form.shape().to_vec();
     match shape.last_mut() {
@@ -84,7 +88,12 @@ impl Linear {
                 return Err(format!("its bias has {} values for {outputs} outputs", bias.len()));
             }
         };
-        Ok(Self { weights: (0..outputs).flat_map(row).collect(), bias, inputs, needs_two_axes: true })
+        Ok(Self {
+            weights: (0..outputs).flat_map(row).collect(),
+            bias,
+            inputs,
+            needs_two_axes: true,
+        })
     }
 
     fn outputs(&self) -> usize {

@@ -2,9 +2,9 @@
 //! The product of two matrices that both depend on the frame, as in attention.
 
 use super::binary_operator::broadcast_shape;
-use super::{OperatorJob, Operator, ProductKind, output_values};
-use crate::tensor_form::TensorForm;
+use super::{Operator, OperatorJob, ProductKind, output_values};
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 use foveate_lanes::{InstructionSet, VectorTask};
 
@@ -27,7 +27,8 @@ fn matrix_axes(form: &TensorForm) -> Result<(&[usize], [usize; 2]), String> {
 impl Operator for MatrixProduct {
     fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         let &[a, b] = inputs else { return Err("it takes two tensors".to_owned()) };
-        let ((front_a, [rows, inner]), (front_b, [other, columns])) = (matrix_axes(a)?, matrix_axes(b)?);
+        let ((front_a, [rows, inner]), (front_b, [other, columns])) =
+            (matrix_axes(a)?, matrix_axes(b)?);
         let front = broadcast_shape(front_a, front_b).filter(|_| inner == other);
         let mut shape = front
             .ok_or_else(|| format!("{} and {} do not fit together", a.describe(), b.describe()))?;
@@ -38,7 +39,11 @@ impl Operator for MatrixProduct {
         let is_kept = a.has_positions()
             && axes.end < shape.len()
             && axes.clone().all(|axis| shape[axis] == a.shape()[axis - new]);
-        Ok(if is_kept { TensorForm::with_positions(shape, axes) } else { TensorForm::without_positions(shape) })
+        Ok(if is_kept {
+            TensorForm::with_positions(shape, axes)
+        } else {
+            TensorForm::without_positions(shape)
+        })
     }
 
     fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
@@ -63,11 +68,15 @@ impl Operator for MatrixProduct {
         let steps = |of: &TensorForm| form.broadcast_strides(of)[..fronts].to_vec();
         let (steps_a, steps_b) = (steps(a.form()), steps(b.form()));
         let (a, b) = (a.values::<f32>(), b.values::<f32>());
-        threads::for_each_chunk(output_values::<f32>(output, form), rows * columns, &|number, to| {
-            let a = &a[front.offset(number, &steps_a)..][..rows * inner];
-            let b = &b[front.offset(number, &steps_b)..][..inner * columns];
-            self.level.run(MatrixProductTask { a, b, to, inner, columns });
-        });
+        threads::for_each_chunk(
+            output_values::<f32>(output, form),
+            rows * columns,
+            &|number, to| {
+                let a = &a[front.offset(number, &steps_a)..][..rows * inner];
+                let b = &b[front.offset(number, &steps_b)..][..inner * columns];
+                self.level.run(MatrixProductTask { a, b, to, inner, columns });
+            },
+        );
     }
 
     fn products(&self) -> ProductKind {

@@ -3,66 +3,68 @@
 //! spread of changes through them.
 
 mod activation;
+mod alignment;
+mod axis_gather;
 mod binary_operator;
-mod depth_to_space;
+mod byte_table;
+mod channel_scale;
 mod concat;
-mod conv;
 mod constant_tensor;
+mod conv;
 mod conv_geometry;
+mod depth_to_space;
 mod integer_conv;
 mod integer_matmul;
 mod linear;
-mod normalization;
-mod axis_gather;
-mod alignment;
-mod pool;
 mod matrix_product;
+mod normalization;
+mod pool;
 mod quantization;
 mod quantized_operators;
-mod reduction;
 mod reduced_axes;
+mod reduction;
+mod requantization;
 mod reshape;
 mod resize;
-mod channel_scale;
 mod selection;
 mod softmax;
 mod strided_copy;
-mod requantization;
-mod byte_table;
 mod transposed_conv;
 
 pub(crate) use activation::{Activation, ActivationOperator};
+pub(crate) use axis_gather::{AxisGather, AxisSelection};
 pub(crate) use binary_operator::{ArithmeticKind, BinaryOperator, broadcast_shape};
-pub(crate) use depth_to_space::{DepthToSpace, DepthToSpaceOrder, SpaceToDepth};
+pub(crate) use byte_table::ByteTable;
+pub(crate) use channel_scale::ChannelScale;
 pub(crate) use concat::Concat;
-pub(crate) use conv::Conv;
 pub(crate) use constant_tensor::ConstantTensor;
+pub(crate) use conv::Conv;
 pub(crate) use conv_geometry::ConvGeometry;
-pub(crate) use integer_conv::{IntegerConv, ByteWeightRows};
+pub(crate) use depth_to_space::{DepthToSpace, DepthToSpaceOrder, SpaceToDepth};
+pub(crate) use integer_conv::{ByteWeightRows, IntegerConv};
 pub(crate) use integer_matmul::IntegerMatMul;
 pub(crate) use linear::Linear;
-pub(crate) use normalization::{LocalResponseNorm, Normalization, MeanGroup};
-pub(crate) use axis_gather::{AxisGather, AxisSelection};
-pub(crate) use pool::{Pool, PoolKind};
 pub(crate) use matrix_product::MatrixProduct;
-pub(crate) use quantization::{Dequantize, Quantize, QuantizationScales};
-pub(crate) use quantized_operators::{QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool};
-pub(crate) use reduction::{ArgMax, ReductionOperator, ReductionKind};
+pub(crate) use normalization::{LocalResponseNorm, MeanGroup, Normalization};
+pub(crate) use pool::{Pool, PoolKind};
+pub(crate) use quantization::{Dequantize, QuantizationScales, Quantize};
+pub(crate) use quantized_operators::{
+    QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool,
+};
 pub(crate) use reduced_axes::ReducedAxes;
+pub(crate) use reduction::{ArgMax, ReductionKind, ReductionOperator};
+pub(crate) use requantization::Requantization;
 pub(crate) use reshape::{FeatureView, Reshape};
-pub(crate) use resize::{ResizeCoordinates, NearestRounding, Resize, ResizeKind, ResizeSize};
-pub(crate) use channel_scale::ChannelScale;
-pub(crate) use selection::{ComparisonOperator, ComparisonKind, WhereOperator};
+pub(crate) use resize::{NearestRounding, Resize, ResizeCoordinates, ResizeKind, ResizeSize};
+pub(crate) use selection::{ComparisonKind, ComparisonOperator, WhereOperator};
 pub(crate) use softmax::{QuantizedSoftmax, Softmax};
 pub(crate) use strided_copy::{Expand, Transpose};
-pub(crate) use requantization::Requantization;
-pub(crate) use byte_table::ByteTable;
-pub(crate) use transposed_conv::{TransposedWindow, TransposedConv};
+pub(crate) use transposed_conv::{TransposedConv, TransposedWindow};
 
 use crate::element::{ElementType, Encoding};
-use crate::tensor_form::TensorForm;
-use crate::mask::{Mask, AxisWindow};
+use crate::mask::{AxisWindow, Mask};
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 use crate::values::{TensorNumber, TensorValues};
 use std::fmt::Debug;
@@ -216,7 +218,10 @@ impl OperatorJob<'_> {
 }
 
 /// Returns the values of an output.
-pub(crate) fn output_values<'a, T: TensorNumber>(output: &'a mut TensorValues, form: &TensorForm) -> &'a mut [T] {
+pub(crate) fn output_values<'a, T: TensorNumber>(
+    output: &'a mut TensorValues,
+    form: &TensorForm,
+) -> &'a mut [T] {
     &mut T::slice_of_mut(output)[..form.element_count()]
 }
 
@@ -281,7 +286,9 @@ pub(crate) fn only_input<'a>(inputs: &[&'a TensorForm]) -> Result<&'a TensorForm
 /// Returns the channels, rows and columns of features.
 pub(crate) fn feature_size(form: &TensorForm) -> Result<[usize; 3], String> {
     match *form.shape() {
-        [1, channels, height, width] if form.position_axes() == (2..4) => Ok([channels, height, width]),
+        [1, channels, height, width] if form.position_axes() == (2..4) => {
+            Ok([channels, height, width])
+        }
         _ => Err(format!(
             "its input must be features [1, channels, height, width], not {}",
             form.describe()

@@ -2,9 +2,9 @@
 //! Normalization: values less their mean, divided by their standard deviation.
 
 use super::alignment::aligned_mask;
-use super::{OperatorJob, Operator, only_input, output_values};
-use crate::tensor_form::TensorForm;
+use super::{Operator, OperatorJob, only_input, output_values};
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 
 /// The values that share a mean.
@@ -135,7 +135,8 @@ pub(crate) struct LocalResponseNorm {
 impl Operator for LocalResponseNorm {
     fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         let form = only_input(inputs)?;
-        let is_one = form.shape().len() > 1 && form.shape()[0] == 1 && !form.position_axes().contains(&1);
+        let is_one =
+            form.shape().len() > 1 && form.shape()[0] == 1 && !form.position_axes().contains(&1);
         if is_one {
             Ok(form.clone())
         } else {

@@ -2,10 +2,13 @@
 //! Pooling: the largest value or the mean of a window.
 
 use super::conv_geometry::output_length;
-use super::{OperatorJob, Operator, feature_size, moved_encoding, only_input, output_values, wrong_element_message};
+use super::{
+    Operator, OperatorJob, feature_size, moved_encoding, only_input, output_values,
+    wrong_element_message,
+};
 use crate::element::{ElementType, Encoding, with_element_type};
+use crate::mask::{AxisWindow, Mask};
 use crate::tensor_form::TensorForm;
-use crate::mask::{Mask, AxisWindow};
 use crate::threads;
 use crate::values::TensorNumber;
 
@@ -33,11 +36,16 @@ impl Pool {
         let whole = output_length(window, inputs)?;
         let used = (whole - 1) * window.stride + window.span();
         let begins_inside = whole * window.stride < inputs + window.padding_before;
-        Ok(if self.rounds_up && used < inputs + window.padding_before + window.padding_after && begins_inside {
-            whole + 1
-        } else {
-            whole
-        })
+        Ok(
+            if self.rounds_up
+                && used < inputs + window.padding_before + window.padding_after
+                && begins_inside
+            {
+                whole + 1
+            } else {
+                whole
+            },
+        )
     }
 
     /// Calls `add` for every output of `x..x + run.len()` in row `y` with every input that it sees,
@@ -107,7 +115,11 @@ impl Pool {
             pass(&in_rows, plane, [height, width], &seen, rows);
             pass(&of_rows, rows, [height, form.width()], at, output);
         };
-        threads::for_each_chunk_with_scratch(output_values(output, form), form.position_count(), &channel);
+        threads::for_each_chunk_with_scratch(
+            output_values(output, form),
+            form.position_count(),
+            &channel,
+        );
     }
 
     fn compute_average(&self, job: OperatorJob<'_>, with_padding: bool) {
@@ -130,15 +142,23 @@ impl Pool {
         let OperatorJob { inputs, form, output, positions: at } = job;
         let size = [inputs[0].form().height(), inputs[0].form().width()];
         let planes = inputs[0].values::<T>();
-        threads::for_each_chunk(output_values(output, form), form.position_count(), &|number, output| {
-            let plane = &planes[number * size[0] * size[1]..][..size[0] * size[1]];
-            for_each_plane_run(at, output, |place, run| fill(plane, size, place, run));
-        });
+        threads::for_each_chunk(
+            output_values(output, form),
+            form.position_count(),
+            &|number, output| {
+                let plane = &planes[number * size[0] * size[1]..][..size[0] * size[1]];
+                for_each_plane_run(at, output, |place, run| fill(plane, size, place, run));
+            },
+        );
     }
 }
 
 /// Calls `fill` with the position and the values of every run of positions of a channel.
-fn for_each_plane_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usize), &mut [T])) {
+fn for_each_plane_run<T>(
+    at: &Mask,
+    plane: &mut [T],
+    mut fill: impl FnMut((usize, usize), &mut [T]),
+) {
     for y in 0..at.height() {
         for (x, length) in at.runs(y) {
             fill((x, y), &mut plane[y * at.width() + x..][..length]);
@@ -187,7 +207,9 @@ impl Operator for Pool {
 
     fn compute(&self, job: OperatorJob<'_>) {
         match self.kind {
-            PoolKind::Max => with_element_type!(job.form.encoding().element, T => self.compute_max::<T>(job)),
+            PoolKind::Max => {
+                with_element_type!(job.form.encoding().element, T => self.compute_max::<T>(job))
+            }
             PoolKind::Average { with_padding } => self.compute_average(job, with_padding),
         }
     }

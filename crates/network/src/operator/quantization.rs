@@ -2,8 +2,8 @@
 //! Quantization of floating-point values to 8 bits, and dequantization.
 
 use super::requantization::quantize_steps;
-use super::{OperatorJob, Operator, only_input, wrong_element_message};
-use crate::element::{ElementType, Encoding, with_element_type, with_byte_type};
+use super::{Operator, OperatorJob, only_input, wrong_element_message};
+use crate::element::{ElementType, Encoding, with_byte_type, with_element_type};
 use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber as _;
 

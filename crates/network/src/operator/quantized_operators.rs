@@ -3,11 +3,14 @@
 //! scale, as onnxruntime defines them.
 
 use super::requantization::{SumOutput, quantize_steps};
-use super::{ArithmeticKind, BinaryOperator, Concat, OperatorJob, Operator, Pool, ByteTable, encoding_from_bytes, only_input, output_values};
+use super::{
+    ArithmeticKind, BinaryOperator, ByteTable, Concat, Operator, OperatorJob, Pool,
+    encoding_from_bytes, only_input, output_values,
+};
 use super::{full_if_changed, wrong_element_message};
 use crate::element::{Encoding, with_byte_type};
+use crate::mask::{AxisWindow, Mask};
 use crate::tensor_form::TensorForm;
-use crate::mask::{Mask, AxisWindow};
 use crate::values::ByteNumber;
 
 /// The sum or the product of two tensors.
@@ -116,7 +119,8 @@ impl QuantizedMean {
         let output: &mut [T] = output_values(output, form);
         let places = inputs[0].form().position_count();
         for (output, values) in output.iter_mut().zip(inputs[0].values::<T>().chunks(places)) {
-            let above_zero = |&value: &T| i64::from(Into::<i32>::into(value) - self.from.zero_point);
+            let above_zero =
+                |&value: &T| i64::from(Into::<i32>::into(value) - self.from.zero_point);
             let sum: i64 = values.iter().map(above_zero).sum();
             let factor = self.from.scale / (self.to.scale * places as f32);
             *output = quantize_steps(sum as f32 * factor, self.to.zero_point);

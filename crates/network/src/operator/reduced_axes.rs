@@ -3,8 +3,8 @@
 
 use super::alignment::aligned_mask;
 use super::{OperatorJob, only_input};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 #[derive(Clone, Debug)]
@@ -29,8 +29,10 @@ impl ReducedAxes {
             }
         });
         let shape = left.collect();
-        let axes: Vec<usize> =
-            input.position_axes().filter_map(|axis| self.output_axis(axis, self.keeps_axes)).collect();
+        let axes: Vec<usize> = input
+            .position_axes()
+            .filter_map(|axis| self.output_axis(axis, self.keeps_axes))
+            .collect();
         Ok(match (axes.first(), axes.last()) {
             (Some(&first), Some(&last)) => TensorForm::with_positions(shape, first..last + 1),
             _ => TensorForm::without_positions(shape),

@@ -3,10 +3,10 @@
 //! largest value.
 
 use super::reduced_axes::ReducedAxes;
-use super::{OperatorJob, Operator};
+use super::{Operator, OperatorJob};
 use crate::element::{ElementType, Encoding};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReductionKind {

@@ -2,10 +2,10 @@
 //! Reshaping: the values of a tensor in another shape.
 
 use super::alignment::{aligned_mask, full_if};
-use super::{OperatorJob, Operator, ProductKind, moved_encoding, only_input};
+use super::{Operator, OperatorJob, ProductKind, moved_encoding, only_input};
 use crate::element::{Encoding, with_element_type};
-use crate::tensor_form::{TensorForm, checked_element_count};
 use crate::mask::Mask;
+use crate::tensor_form::{TensorForm, checked_element_count};
 use std::ops::Range;
 
 /// The values of a tensor, in the same order, in another shape.
@@ -21,7 +21,10 @@ impl Operator for Reshape {
         let input = only_input(inputs)?;
         let shape = self.resolve(input)?;
         let axes = position_axes_of(input, &shape);
-        Ok(axes.map_or_else(|| TensorForm::without_positions(shape.clone()), |axes| TensorForm::with_positions(shape.clone(), axes)))
+        Ok(axes.map_or_else(
+            || TensorForm::without_positions(shape.clone()),
+            |axes| TensorForm::with_positions(shape.clone(), axes),
+        ))
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
@@ -72,7 +75,11 @@ impl Reshape {
         if let Some(axis) = open {
             shape[axis] = input.element_count().checked_div(product).ok_or_else(wrong)?;
         }
-        if shape.iter().product::<usize>() == input.element_count() { Ok(shape) } else { Err(wrong()) }
+        if shape.iter().product::<usize>() == input.element_count() {
+            Ok(shape)
+        } else {
+            Err(wrong())
+        }
     }
 }
 

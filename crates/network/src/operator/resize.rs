@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Resizing of features to another height and width.
 
-use super::{OperatorJob, Operator, feature_size, moved_encoding, only_input, wrong_element_message};
+use super::{
+    Operator, OperatorJob, feature_size, moved_encoding, only_input, wrong_element_message,
+};
 use crate::element::{ElementType, Encoding, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +119,9 @@ impl Resize {
             let at = output as f32;
             let at = match self.coordinates {
                 ResizeCoordinates::PytorchHalfPixel if outputs == 1 => 0.0,
-                ResizeCoordinates::HalfPixel | ResizeCoordinates::PytorchHalfPixel => (at + 0.5) / scale - 0.5,
+                ResizeCoordinates::HalfPixel | ResizeCoordinates::PytorchHalfPixel => {
+                    (at + 0.5) / scale - 0.5
+                }
                 ResizeCoordinates::AlignCorners if outputs == 1 => 0.0,
                 ResizeCoordinates::AlignCorners => at * last as f32 / (outputs - 1) as f32,
                 ResizeCoordinates::Asymmetric => at / scale,
@@ -185,8 +189,9 @@ impl Operator for Resize {
 
     fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
         let (form, mask) = inputs[0];
-        let range =
-            |taps: Vec<AxisTaps>| -> Vec<(usize, usize)> { taps.iter().map(AxisTaps::range).collect() };
+        let range = |taps: Vec<AxisTaps>| -> Vec<(usize, usize)> {
+            taps.iter().map(AxisTaps::range).collect()
+        };
         let rows = range(self.taps(0, form.height(), output.height()));
         let columns = range(self.taps(1, form.width(), output.width()));
         mask.outputs_of_ranges(&rows, &columns)
@@ -224,7 +229,11 @@ fn weighted_sum(taps: &AxisTaps, of: impl Fn(usize) -> f32) -> f32 {
 impl Resize {
     /// Fills every output. `of` takes the plane of the channel, the length of its rows, and the
     /// taps of the row and of the column.
-    fn fill<T: TensorNumber>(&self, job: OperatorJob<'_>, of: impl Fn(&[T], usize, &AxisTaps, &AxisTaps) -> T + Sync) {
+    fn fill<T: TensorNumber>(
+        &self,
+        job: OperatorJob<'_>,
+        of: impl Fn(&[T], usize, &AxisTaps, &AxisTaps) -> T + Sync,
+    ) {
         let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let rows = self.taps(0, height, form.height());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Comparisons, whose results are 0 and 1, and selection by them.
 
-use super::binary_operator::{broadcast_shape, broadcast_mask, broadcast_form};
-use super::{OperatorJob, Operator, wrong_element_message};
+use super::binary_operator::{broadcast_form, broadcast_mask, broadcast_shape};
+use super::{Operator, OperatorJob, wrong_element_message};
 use crate::element::{ElementType, Encoding};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ComparisonKind {
@@ -48,8 +48,8 @@ impl Operator for ComparisonOperator {
 
     fn compute(&self, job: OperatorJob<'_>) {
         let (inputs, form) = (job.inputs, job.form);
-        let [a, b] =
-            [0, 1].map(|at| (inputs[at].values::<f32>(), form.broadcast_strides(inputs[at].form())));
+        let [a, b] = [0, 1]
+            .map(|at| (inputs[at].values::<f32>(), form.broadcast_strides(inputs[at].form())));
         job.fill::<u8>(|run, to| {
             for (place, to) in run.zip(to) {
                 let [a, b] = [&a, &b].map(|(values, steps)| values[form.offset(place, steps)]);

@@ -3,10 +3,10 @@
 
 use super::alignment::aligned_mask;
 use super::requantization::quantize_steps;
-use super::{OperatorJob, Operator, encoding_from_bytes, only_input, output_values};
+use super::{Operator, OperatorJob, encoding_from_bytes, only_input, output_values};
 use crate::element::{Encoding, with_byte_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
 
@@ -24,7 +24,11 @@ impl Softmax {
     fn sum_length_and_stride(&self, form: &TensorForm) -> (usize, usize) {
         let axis = form.resolve_axis(self.axis).expect("the form has it");
         let behind = form.shape()[axis + 1..].iter().product();
-        if self.spans_following_axes { (form.shape()[axis] * behind, 1) } else { (form.shape()[axis], behind) }
+        if self.spans_following_axes {
+            (form.shape()[axis] * behind, 1)
+        } else {
+            (form.shape()[axis], behind)
+        }
     }
 
     /// Computes the softmax of the values of one sum, which are `step` apart.
@@ -93,8 +97,9 @@ impl QuantizedSoftmax {
         for (to, from) in planes.zip(inputs[0].values::<T>().chunks(length * step)) {
             let from: Vec<f32> = from.iter().map(real).collect();
             let mut shares = vec![0.0; from.len()];
-            (0..step)
-                .for_each(|first| self.softmax.compute_line(&from[first..], &mut shares[first..], step));
+            (0..step).for_each(|first| {
+                self.softmax.compute_line(&from[first..], &mut shares[first..], step)
+            });
             let stored = |share: f32| quantize_steps(share / self.to.scale, self.to.zero_point);
             to.iter_mut().zip(shares).for_each(|(to, share)| *to = stored(share));
         }

@@ -2,10 +2,10 @@
 //! Tensors that read an input with other strides: transposed or broadcast.
 
 use super::alignment::aligned_mask;
-use super::{OperatorJob, Operator, moved_encoding, only_input};
+use super::{Operator, OperatorJob, moved_encoding, only_input};
 use crate::element::{Encoding, with_element_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 /// Fills the output with values of the input at these strides, one for each axis of the output.
@@ -59,10 +59,13 @@ impl Operator for Transpose {
             ));
         }
         let shape: Vec<usize> = self.order.iter().map(|&axis| input.shape()[axis]).collect();
-        let mut places: Vec<usize> = input.position_axes().filter_map(|axis| self.output_axis(axis)).collect();
+        let mut places: Vec<usize> =
+            input.position_axes().filter_map(|axis| self.output_axis(axis)).collect();
         places.sort_unstable();
         Ok(match *places.as_slice() {
-            [first, second] if first + 1 == second => TensorForm::with_positions(shape, first..first + 2),
+            [first, second] if first + 1 == second => {
+                TensorForm::with_positions(shape, first..first + 2)
+            }
             // If the axes of positions become separated, only the longer one remains an axis of
             // positions.
             [first, second] => {

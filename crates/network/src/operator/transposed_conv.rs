@@ -5,10 +5,12 @@
 //! is a convolution over the unchanged input, and its products are summed in the order of that
 //! convolution.
 
-use super::{Activation, OperatorJob, Operator, ProductKind, feature_size, only_input, output_values};
+use super::{
+    Activation, Operator, OperatorJob, ProductKind, feature_size, only_input, output_values,
+};
+use crate::kernel::{self, BlockSizes, ConvInput, ConvOutputs, PackedWeights, chunks_of_mask};
+use crate::mask::{AxisWindow, Mask};
 use crate::tensor_form::TensorForm;
-use crate::kernel::{self, BlockSizes, ConvOutputs, ConvInput, PackedWeights, chunks_of_mask};
-use crate::mask::{Mask, AxisWindow};
 use crate::threads;
 use foveate_lanes::InstructionSet;
 use std::collections::BTreeMap;
@@ -145,7 +147,12 @@ impl TransposedConv {
                 }
             }
             let depth = of_group * y.window.kernel * x.window.kernel;
-            PackedWeights::new(&packed, depth, &bias[group * own..][..own], BlockSizes::for_instruction_set(level))
+            PackedWeights::new(
+                &packed,
+                depth,
+                &bias[group * own..][..own],
+                BlockSizes::for_instruction_set(level),
+            )
         };
         let (of_rows, of_columns) = (rows.phases(), columns.phases());
         let pairs = of_rows.iter().flat_map(|&y| of_columns.iter().map(move |&x| [y, x]));
@@ -169,10 +176,16 @@ impl TransposedConv {
     }
 
     /// Computes the needed outputs of a phase.
-    fn convolve(&self, job: &mut OperatorJob<'_>, [y, x]: [OutputPhase; 2], weights: &[PackedWeights]) {
+    fn convolve(
+        &self,
+        job: &mut OperatorJob<'_>,
+        [y, x]: [OutputPhase; 2],
+        weights: &[PackedWeights],
+    ) {
         let (height, width) = (self.rows.phase_length(y), self.columns.phase_length(x));
         let output = |row: usize, column: usize| {
-            let (row, column) = (self.rows.output_index(y, row)?, self.columns.output_index(x, column)?);
+            let (row, column) =
+                (self.rows.output_index(y, row)?, self.columns.output_index(x, column)?);
             job.positions.contains(column, row).then_some((row, column))
         };
         let at = Mask::from_fn(height, width, |column, row| output(row, column).is_some());
@@ -198,10 +211,14 @@ impl TransposedConv {
                 let finish = |x| self.activation.apply(x);
                 kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
             };
-            let parts = kernel::thread_parts(weights.blocks(), &chunks, &mut planes, [height, width]);
+            let parts =
+                kernel::thread_parts(weights.blocks(), &chunks, &mut planes, [height, width]);
             threads::for_each_part(parts, &part);
-            let to = &mut output_values::<f32>(job.output, job.form)[group * own * job.form.position_count()..];
-            for (plane, to) in planes.chunks(form.position_count()).zip(to.chunks_mut(job.form.position_count())) {
+            let to = &mut output_values::<f32>(job.output, job.form)
+                [group * own * job.form.position_count()..];
+            for (plane, to) in
+                planes.chunks(form.position_count()).zip(to.chunks_mut(job.form.position_count()))
+            {
                 for row in 0..height {
                     for (column, count) in at.runs(row) {
                         for column in column..column + count {
@@ -227,7 +244,10 @@ impl Operator for TransposedConv {
 
     fn spread(&self, inputs: &[(&TensorForm, &Mask)], _output: &TensorForm) -> Mask {
         let (form, mask) = inputs[0];
-        mask.outputs_of_ranges(&self.rows.inputs_of_outputs(form.height()), &self.columns.inputs_of_outputs(form.width()))
+        mask.outputs_of_ranges(
+            &self.rows.inputs_of_outputs(form.height()),
+            &self.columns.inputs_of_outputs(form.width()),
+        )
     }
 
     fn compute(&self, mut job: OperatorJob<'_>) {
@@ -256,7 +276,10 @@ impl Operator for TransposedConv {
     }
 
     fn needed_input(&self, at: &Mask, input: &TensorForm) -> Mask {
-        at.outputs_of_ranges(&self.rows.outputs_of_inputs(input.height()), &self.columns.outputs_of_inputs(input.width()))
+        at.outputs_of_ranges(
+            &self.rows.outputs_of_inputs(input.height()),
+            &self.columns.outputs_of_inputs(input.width()),
+        )
     }
 
     fn with_activation(&self, finish: Activation) -> Option<Arc<dyn Operator>> {

@@ -59,8 +59,9 @@ impl GraphReader<'_> {
             && self.use_counts.get(input_name.as_str()) == Some(&2)
             && !self.aliased_tensors.contains(&input);
         let before = is_alone.then(|| &self.network.nodes()[input - 1]);
-        let finished =
-            before.and_then(|before| Some((before.operator_name(), before.operator.with_activation(swish)?)));
+        let finished = before.and_then(|before| {
+            Some((before.operator_name(), before.operator.with_activation(swish)?))
+        });
         match finished {
             Some((kind, operator)) => {
                 let kind = format!("{kind}+Sigmoid+Mul");
@@ -69,7 +70,8 @@ impl GraphReader<'_> {
                 Some(input)
             }
             None => {
-                self.network.replace_last("Sigmoid+Mul", pointwise_operators::activation_operator(swish));
+                self.network
+                    .replace_last("Sigmoid+Mul", pointwise_operators::activation_operator(swish));
                 Some(gate)
             }
         }

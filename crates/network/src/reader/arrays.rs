@@ -5,7 +5,7 @@ use super::constant::Constant;
 use super::graph::{InputSource, ProblemPolicy};
 use super::names::element_type;
 use super::node::GraphValue;
-use super::{read_file, decode_model, read_model_graph};
+use super::{decode_model, read_file, read_model_graph};
 use crate::error::NetworkError;
 use crate::executor::Executor;
 use crate::network::Network;

@@ -2,12 +2,12 @@
 //! Constant tensors of a model.
 
 use super::constant_values::ConstantValues;
-use super::tensor_data::{decode_raw, decode_fields};
 use super::model_folder::{ModelFolder, read_external_data};
+use super::tensor_data::{decode_fields, decode_raw};
 use crate::element::{ElementType, Encoding};
-use crate::tensor_form::{TensorForm, MAX_AXES, checked_element_count};
 use crate::onnx::{TensorProto, data_type};
 use crate::tensor::Tensor;
+use crate::tensor_form::{MAX_AXES, TensorForm, checked_element_count};
 use crate::values::TensorNumber;
 
 /// A constant tensor.
@@ -60,7 +60,9 @@ impl Constant {
             )
         }
         let (values, kind) = match tensor.form().encoding().element {
-            ElementType::F32 => (ConstantValues::Floats(tensor.values().to_vec()), data_type::FLOAT),
+            ElementType::F32 => {
+                (ConstantValues::Floats(tensor.values().to_vec()), data_type::FLOAT)
+            }
             ElementType::U8 => (integers::<u8>(tensor), data_type::UINT8),
             ElementType::I8 => (integers::<i8>(tensor), data_type::INT8),
             ElementType::I32 => (integers::<i32>(tensor), data_type::INT32),
@@ -118,9 +120,9 @@ impl Constant {
                     data_type::type_name(kind.into())
                 ));
             }
-            (_, ConstantValues::Integers(values)) => {
-                ConstantValues::Integers(values.iter().map(|&value| cast_integer(value, kind)).collect())
-            }
+            (_, ConstantValues::Integers(values)) => ConstantValues::Integers(
+                values.iter().map(|&value| cast_integer(value, kind)).collect(),
+            ),
             (_, ConstantValues::Floats(values)) if kind == data_type::BOOL => {
                 ConstantValues::Integers(
                     values.iter().map(|&value| i64::from(value != 0.0)).collect(),
@@ -196,7 +198,8 @@ impl Constant {
         if self.values.value_count() == 0 {
             return Err(format!("a constant is empty: {:?}", self.shape));
         }
-        let form = TensorForm::without_positions(self.shape.clone()).with_encoding(Encoding::plain(element));
+        let form = TensorForm::without_positions(self.shape.clone())
+            .with_encoding(Encoding::plain(element));
         Ok(match &self.values {
             ConstantValues::Floats(values) => Tensor::new(form, values.clone()),
             ConstantValues::Integers(values) => Tensor::from_integers(form, values)?,

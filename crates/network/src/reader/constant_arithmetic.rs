@@ -2,9 +2,9 @@
 //! Arithmetic, comparisons and selection of constants, with broadcasting.
 
 use super::constant::Constant;
+use super::constant_selection::broadcast_constant;
 use super::constant_values::ConstantValues;
 use super::model_folder::ModelFolder;
-use super::constant_selection::broadcast_constant;
 use crate::onnx::data_type;
 use crate::operator::{Activation, broadcast_shape};
 
@@ -56,14 +56,16 @@ pub(super) fn binary_operation(
         return Ok(None);
     }
     let shape = broadcast_shape_of(&[a, b])?;
-    let (a, mut b) = (broadcast_constant(folder, a, &shape)?, broadcast_constant(folder, b, &shape)?);
+    let (a, mut b) =
+        (broadcast_constant(folder, a, &shape)?, broadcast_constant(folder, b, &shape)?);
     if kind == "Pow" {
         b = cast_exponent(&b, a.data_type)?;
     }
     let values = match (&a.values, &b.values) {
         (ConstantValues::Integers(of_a), ConstantValues::Integers(of_b)) => {
             let pairs = of_a.iter().zip(of_b);
-            let values: Option<Vec<i64>> = pairs.map(|(&a, &b)| integer_operation(kind, a, b)).collect();
+            let values: Option<Vec<i64>> =
+                pairs.map(|(&a, &b)| integer_operation(kind, a, b)).collect();
             ConstantValues::Integers(values.ok_or("its result is no integer of 64 bits")?)
         }
         (ConstantValues::Floats(of_a), ConstantValues::Floats(of_b)) => {

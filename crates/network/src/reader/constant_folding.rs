@@ -4,12 +4,15 @@
 
 use super::constant::Constant;
 use super::constant_arithmetic;
-use super::reshaping::{axes_of_node, resolve_axes};
+use super::constant_selection::{
+    broadcast_constant, concat_constants, fill_constant, gather_constant, reshape_constant,
+    slice_constant, transpose_constant,
+};
 use super::node::{GraphValue, NodeReader, index_from_start, length_to_i64};
 use super::quantized_operators;
-use super::constant_selection::{fill_constant, gather_constant, concat_constants, reshape_constant, slice_constant, broadcast_constant, transpose_constant};
-use crate::tensor_form::MAX_AXES;
+use super::reshaping::{axes_of_node, resolve_axes};
 use crate::operator::broadcast_shape;
+use crate::tensor_form::MAX_AXES;
 
 /// Returns the output of a node that depends only on constants, or `None` if the node is not one
 /// that can be folded.
@@ -55,7 +58,8 @@ pub(super) fn fold_node(node: &NodeReader<'_>) -> Result<Option<Constant>, Strin
         _ => {
             let Some(inputs) = constant_inputs(node) else { return Ok(None) };
             let made = compute_output(node, &inputs)?;
-            made.iter().try_for_each(|made| node.folder.count_computed(&made.shape, &made.values))?;
+            made.iter()
+                .try_for_each(|made| node.folder.count_computed(&made.shape, &made.values))?;
             Ok(made)
         }
     }
@@ -116,7 +120,9 @@ fn compute_output(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<
         }
         "Range" => constant_arithmetic::number_range(node.folder, inputs)?,
         "Where" => match inputs {
-            [condition, a, b] => constant_arithmetic::select_by_condition(node.folder, condition, a, b)?,
+            [condition, a, b] => {
+                constant_arithmetic::select_by_condition(node.folder, condition, a, b)?
+            }
             _ => return Err(format!("it has {} inputs, not 3", inputs.len())),
         },
         "ConstantOfShape" => fill_constant(node, first)?,

@@ -62,7 +62,10 @@ pub(super) fn reshape_constant(
 }
 
 /// Permutes the axes. Without `perm` their order is reversed.
-pub(super) fn transpose_constant(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
+pub(super) fn transpose_constant(
+    node: &NodeReader<'_>,
+    from: &Constant,
+) -> Result<Constant, String> {
     let axes = from.shape.len();
     let order: Vec<usize> = match node.ints("perm") {
         None => (0..axes).rev().collect(),
@@ -83,7 +86,9 @@ pub(super) fn transpose_constant(node: &NodeReader<'_>, from: &Constant) -> Resu
 pub(super) fn slice_constant(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
     let starts = node.ints_or_input("starts", 1)?.ok_or("it has no starts")?;
     let ends = node.ints_or_input("ends", 2)?.ok_or("it has no ends")?;
-    let axes = node.ints_or_input("axes", 3)?.unwrap_or_else(|| (0..length_to_i64(starts.len())).collect());
+    let axes = node
+        .ints_or_input("axes", 3)?
+        .unwrap_or_else(|| (0..length_to_i64(starts.len())).collect());
     let steps = node.ints_or_input("steps", 4)?.unwrap_or_else(|| vec![1; starts.len()]);
     if [ends.len(), axes.len(), steps.len()].iter().any(|&length| length != starts.len()) {
         return Err("its starts, ends, axes and steps are not as many".to_owned());
@@ -116,7 +121,8 @@ pub(super) fn slice_bounds(
     step: i64,
     length: usize,
 ) -> Result<(i64, usize), String> {
-    let (start, end, all) = (index_from_start(start, length), index_from_start(end, length), length_to_i64(length));
+    let (start, end, all) =
+        (index_from_start(start, length), index_from_start(end, length), length_to_i64(length));
     // With a negative step, an end of -1 is in front of the first element.
     let (low, high) = if step < 0 { (-1, all - 1) } else { (0, all) };
     let (start, end) = (start.clamp(low.max(0), high.max(0)), end.clamp(low, high));
@@ -175,14 +181,18 @@ pub(super) fn gather_constant(
     let shape = [front, indices.shape.as_slice(), behind].concat();
     // The values are selected as if all indices were one axis.
     let (count, inner) = (places.len(), behind.iter().product::<usize>());
-    let made = select_values(node.folder, from, vec![front.iter().product(), count, inner], |place| {
-        (place[0] * length + places[place[1]]) * inner + place[2]
-    })?;
+    let made =
+        select_values(node.folder, from, vec![front.iter().product(), count, inner], |place| {
+            (place[0] * length + places[place[1]]) * inner + place[2]
+        })?;
     Ok(Constant { shape, ..made })
 }
 
 /// Concatenates constants along an axis.
-pub(super) fn concat_constants(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Constant, String> {
+pub(super) fn concat_constants(
+    node: &NodeReader<'_>,
+    parts: &[&Constant],
+) -> Result<Constant, String> {
     let first = parts[0];
     let axis = usize::try_from(index_from_start(node.int("axis", 0), first.shape.len()))
         .ok()

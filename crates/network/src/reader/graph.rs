@@ -5,10 +5,10 @@ use super::attributes::NodeAttributes;
 use super::constant::Constant;
 use super::constant_folding;
 use super::model_folder::ModelFolder;
+use super::names::{full_operator_name, node_name, value_name};
 use super::network_input::{FrameSize, array_inputs, frame_input, puts_channels_first};
-use super::node_output::NodeOutput;
-use super::names::{full_operator_name, value_name, node_name};
 use super::node::{GraphValue, NodeReader, Operand};
+use super::node_output::NodeOutput;
 use super::operators;
 use super::pointwise_operators;
 use super::schema::OperatorSchema;
@@ -17,7 +17,7 @@ use crate::error::NetworkError;
 use crate::input_layout::InputLayout;
 use crate::network::Network;
 use crate::onnx::{GraphProto, NodeProto, TensorProto};
-use crate::operator::{ConstantTensor, Operator, FeatureView, Quantize, QuantizationScales};
+use crate::operator::{ConstantTensor, FeatureView, Operator, QuantizationScales, Quantize};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -94,7 +94,10 @@ pub(super) fn read_graph(
 /// the number of such values.
 type GraphConstants = (HashMap<String, GraphValue>, Vec<(String, usize)>);
 
-fn read_constants(graph: &GraphProto, folder: &ModelFolder) -> Result<GraphConstants, NetworkError> {
+fn read_constants(
+    graph: &GraphProto,
+    folder: &ModelFolder,
+) -> Result<GraphConstants, NetworkError> {
     let (mut known, mut odd) = (HashMap::new(), Vec::new());
     for tensor in &graph.initializer {
         let name = tensor.name.clone().unwrap_or_default();
@@ -144,8 +147,11 @@ impl GraphReader<'_> {
         let mut problems = Vec::new();
         for (index, node) in graph.node.iter().enumerate() {
             let is_transpose = channels_last.is_some_and(|name| puts_channels_first(node, name));
-            let read =
-                if is_transpose { self.alias_output(node, index, 0) } else { self.read_node(node, index) };
+            let read = if is_transpose {
+                self.alias_output(node, index, 0)
+            } else {
+                self.read_node(node, index)
+            };
             match read {
                 Err(problem) if self.on_problem == ProblemPolicy::Note => {
                     problems.push(problem);
@@ -200,7 +206,12 @@ impl GraphReader<'_> {
     }
 
     /// Adds the operator of an output of a node to the network, and returns the output.
-    fn add_output(&mut self, node: &NodeProto, name: &str, made: NodeOutput) -> Result<GraphValue, NetworkError> {
+    fn add_output(
+        &mut self,
+        node: &NodeProto,
+        name: &str,
+        made: NodeOutput,
+    ) -> Result<GraphValue, NetworkError> {
         let kind = node.op_type.clone().unwrap_or_default();
         Ok(match made {
             NodeOutput::Constant(constant) => GraphValue::Constant(Arc::new(constant)),
@@ -227,7 +238,8 @@ impl GraphReader<'_> {
     /// Adds a node that stores the input as 8-bit integers, and gives its output the name of the
     /// input.
     fn add_stored_input(&mut self, name: &str, element: ElementType) -> Result<(), NetworkError> {
-        let quantize = Arc::new(Quantize { scales: QuantizationScales::per_tensor(1.0, 0), to: element });
+        let quantize =
+            Arc::new(Quantize { scales: QuantizationScales::per_tensor(1.0, 0), to: element });
         let value = self.network.push(&format!("{name}/stored"), "Cast", quantize, vec![0])?;
         self.values.insert(name.to_owned(), GraphValue::Tensor(value));
         Ok(())
@@ -251,7 +263,8 @@ impl GraphReader<'_> {
                     self.network.push(&made_for("constant"), "Constant", fixed, Vec::new())?
                 }
                 Operand::Tensor(value)
-                    if operator.takes_features() && FeatureView::applies_to(self.network.form(value)) =>
+                    if operator.takes_features()
+                        && FeatureView::applies_to(self.network.form(value)) =>
                 {
                     let placed = Arc::new(FeatureView);
                     self.network.push(&made_for("features"), "Reshape", placed, vec![value])?
@@ -263,7 +276,12 @@ impl GraphReader<'_> {
     }
 
     /// Makes the only output of a node a second name of a tensor.
-    fn alias_output(&mut self, node: &NodeProto, index: usize, value: usize) -> Result<(), NetworkError> {
+    fn alias_output(
+        &mut self,
+        node: &NodeProto,
+        index: usize,
+        value: usize,
+    ) -> Result<(), NetworkError> {
         let output = &node.output[0];
         self.check_name_is_new(output).map_err(|problem| NetworkError::InvalidNode {
             node: node_name(node, index),

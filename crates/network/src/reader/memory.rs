@@ -49,14 +49,20 @@ fn field_content(kind: MessageKind, field: usize) -> FieldContent {
     match (kind, field) {
         (MessageKind::Model, 7) => FieldContent::Message(MessageKind::Graph),
         (MessageKind::Graph, 1) => FieldContent::Message(MessageKind::Node),
-        (MessageKind::Graph | MessageKind::Attribute, 5) => FieldContent::Message(MessageKind::Tensor),
+        (MessageKind::Graph | MessageKind::Attribute, 5) => {
+            FieldContent::Message(MessageKind::Tensor)
+        }
         (MessageKind::Graph, 11 | 12) => FieldContent::Message(MessageKind::Value),
         (MessageKind::Node, 5) => FieldContent::Message(MessageKind::Attribute),
         (MessageKind::Value, 2) => FieldContent::Message(MessageKind::Type),
         (MessageKind::Type, 1) => FieldContent::Message(MessageKind::TensorType),
         (MessageKind::TensorType, 2) => FieldContent::Message(MessageKind::Shape),
-        (MessageKind::Attribute, 8) | (MessageKind::Tensor, 1 | 5 | 7) => FieldContent::Bytes(BYTES_PER_INTEGER_BYTE),
-        (MessageKind::Attribute, 7) | (MessageKind::Tensor, 4 | 10) => FieldContent::Bytes(BYTES_PER_FLOAT_BYTE),
+        (MessageKind::Attribute, 8) | (MessageKind::Tensor, 1 | 5 | 7) => {
+            FieldContent::Bytes(BYTES_PER_INTEGER_BYTE)
+        }
+        (MessageKind::Attribute, 7) | (MessageKind::Tensor, 4 | 10) => {
+            FieldContent::Bytes(BYTES_PER_FLOAT_BYTE)
+        }
         _ => FieldContent::Bytes(1),
     }
 }

@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reading of networks from ONNX files.
 
+mod activation_fusion;
 mod arrays;
 mod attributes;
 mod constant;
-mod constant_values;
-mod tensor_data;
 mod constant_arithmetic;
 mod constant_folding;
-mod model_folder;
-mod activation_fusion;
+mod constant_selection;
+mod constant_values;
 mod graph;
-mod network_input;
-mod node_output;
 mod memory;
-mod reshaping;
+mod model_folder;
 mod names;
+mod network_input;
 mod node;
+mod node_output;
 mod normalization;
 mod operators;
-mod slicing;
 mod pointwise_operators;
 mod quantized_operators;
-mod constant_selection;
+mod reductions;
+mod reshaping;
+mod resizing;
 mod scales;
 mod schema;
-mod resizing;
-mod reductions;
+mod slicing;
+mod tensor_data;
 mod transposed_conv;
 
 use crate::error::NetworkError;
 use crate::network::Network;
 use crate::onnx::ModelProto;
-use model_folder::ModelFolder;
 use graph::{GraphResult, InputSource, ProblemPolicy};
+use model_folder::ModelFolder;
 use node::GraphValue;
 use prost::Message as _;
 use std::fs::File;
@@ -76,7 +76,8 @@ impl Network {
         frames: impl Into<Option<FrameSize>>,
     ) -> Result<Self, NetworkError> {
         let source = InputSource::Frames(frames.into());
-        let read = read_model_graph(&decode_model(bytes, path)?, path, &source, ProblemPolicy::Stop)?;
+        let read =
+            read_model_graph(&decode_model(bytes, path)?, path, &source, ProblemPolicy::Stop)?;
         let constant = read.outputs.iter().find(|(_, of)| matches!(of, GraphValue::Constant(_)));
         match constant {
             None => Ok(read.network),
@@ -94,7 +95,8 @@ impl Network {
     /// Fails as [`Network::read`] does, except for problems of nodes.
     pub fn check(path: &Path, open: FrameSize) -> Result<NetworkCheck, NetworkError> {
         let model = decode_model(&read_file(path)?, path)?;
-        let read = read_model_graph(&model, path, &InputSource::DefaultFrames(open), ProblemPolicy::Note)?;
+        let read =
+            read_model_graph(&model, path, &InputSource::DefaultFrames(open), ProblemPolicy::Note)?;
         let nodes = model.graph.map_or(0, |graph| graph.node.len());
         let network = if read.problems.is_empty() { Ok(read.network) } else { Err(read.problems) };
         Ok(NetworkCheck { nodes, network })

@@ -2,8 +2,8 @@
 //! The folder of a model, whose files hold constants, and the memory that constants may still take.
 
 use super::constant_values::ConstantValues;
-use crate::tensor_form::checked_element_count;
 use crate::onnx::TensorProto;
+use crate::tensor_form::checked_element_count;
 use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
@@ -26,7 +26,11 @@ const MAX_COMPUTED_BYTES: u64 = 1 << 30;
 impl ModelFolder {
     pub(super) fn of_model(model: &Path) -> Self {
         let path = model.parent().unwrap_or_else(|| Path::new("")).to_owned();
-        Self { path, readable_bytes: Cell::new(MAX_EXTERNAL_BYTES), computable_bytes: Cell::new(MAX_COMPUTED_BYTES) }
+        Self {
+            path,
+            readable_bytes: Cell::new(MAX_EXTERNAL_BYTES),
+            computable_bytes: Cell::new(MAX_COMPUTED_BYTES),
+        }
     }
 
     /// Counts bytes that are to be read, and fails if they exceed the limit.
@@ -55,7 +59,11 @@ impl ModelFolder {
     }
 
     /// Counts a computed constant that is kept, and fails if there is no room for it.
-    pub(super) fn count_computed(&self, shape: &[usize], values: &ConstantValues) -> Result<(), String> {
+    pub(super) fn count_computed(
+        &self,
+        shape: &[usize],
+        values: &ConstantValues,
+    ) -> Result<(), String> {
         let count = self.check_room(shape, values)? as u64;
         self.computable_bytes.set(self.computable_bytes.get() - count * values.bytes_per_value());
         Ok(())
@@ -63,7 +71,10 @@ impl ModelFolder {
 }
 
 /// Reads the bytes of a tensor from a separate file, which must lie in the folder of the model.
-pub(super) fn read_external_data(tensor: &TensorProto, folder: &ModelFolder) -> Result<Vec<u8>, String> {
+pub(super) fn read_external_data(
+    tensor: &TensorProto,
+    folder: &ModelFolder,
+) -> Result<Vec<u8>, String> {
     let entry = |key: &str| {
         tensor
             .external_data

@@ -3,13 +3,13 @@
 
 use super::constant::Constant;
 use super::model_folder::ModelFolder;
-use super::names::{full_operator_name, is_standard, value_name, node_name};
+use super::names::{full_operator_name, is_standard, node_name, value_name};
 use super::node::GraphValue;
 use crate::element::ElementType;
 use crate::error::NetworkError;
-use crate::tensor_form::TensorForm;
 use crate::input_layout::InputLayout;
 use crate::onnx::{GraphProto, NodeProto, TensorProto, ValueInfoProto, data_type};
+use crate::tensor_form::TensorForm;
 use std::sync::Arc;
 
 /// The width and height of the frames, for a network that takes frames of any size.
@@ -121,8 +121,9 @@ pub(super) fn array_inputs(
     for (input, array) in inputs.iter().zip(arrays) {
         let name = value_name(input).to_owned();
         check_array(input, array)?;
-        let wrong =
-            |problem| NetworkError::InvalidNetwork(format!("its input `{}`: {problem}", value_name(input)));
+        let wrong = |problem| {
+            NetworkError::InvalidNetwork(format!("its input `{}`: {problem}", value_name(input)))
+        };
         let constant = Constant::decode(array, folder).map_err(wrong)?;
         let is_float = matches!(constant.element(), Some(ElementType::F32));
         let is_byte = [data_type::UINT8, data_type::INT8].contains(&constant.data_type);

@@ -7,11 +7,11 @@ use super::constant::Constant;
 use super::model_folder::ModelFolder;
 use super::names;
 use crate::element::{ElementType, with_byte_type};
-use crate::tensor_form::TensorForm;
 use crate::mask::AxisWindow;
 use crate::onnx::{AttributeProto, NodeProto, data_type};
 use crate::operator::ConvGeometry;
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -162,11 +162,17 @@ impl<'a> NodeReader<'a> {
 
     /// Returns the windows, along rows and columns, of a convolution or of pooling with this
     /// kernel; `value` is the tensor of the input.
-    pub(super) fn axis_windows(&self, kernel: [usize; 2], value: usize) -> Result<[AxisWindow; 2], String> {
+    pub(super) fn axis_windows(
+        &self,
+        kernel: [usize; 2],
+        value: usize,
+    ) -> Result<[AxisWindow; 2], String> {
         let two = |name: &str| -> Result<[usize; 2], String> {
             match self.ints(name) {
                 None => Ok([1, 1]),
-                Some(&[rows, columns]) => Ok([checked_length(name, rows)?, checked_length(name, columns)?]),
+                Some(&[rows, columns]) => {
+                    Ok([checked_length(name, rows)?, checked_length(name, columns)?])
+                }
                 Some(ints) => Err(format!("its {name} has {} values, not 2", ints.len())),
             }
         };
@@ -219,7 +225,11 @@ impl<'a> NodeReader<'a> {
     }
 
     /// Returns the geometry of a convolution of `value` with weights of this shape.
-    pub(super) fn conv_geometry(&self, weights: &[usize], value: usize) -> Result<ConvGeometry, String> {
+    pub(super) fn conv_geometry(
+        &self,
+        weights: &[usize],
+        value: usize,
+    ) -> Result<ConvGeometry, String> {
         let &[_, _, height, width] = weights else {
             return Err(format!(
                 "its weights have {} axes; only two-dimensional convolution is supported",
@@ -240,9 +250,10 @@ impl<'a> NodeReader<'a> {
     pub(super) fn kernel_shape(&self) -> Result<Option<[usize; 2]>, String> {
         match self.ints("kernel_shape") {
             None => Ok(None),
-            Some(&[rows, columns]) => {
-                Ok(Some([checked_length("kernel_shape", rows)?, checked_length("kernel_shape", columns)?]))
-            }
+            Some(&[rows, columns]) => Ok(Some([
+                checked_length("kernel_shape", rows)?,
+                checked_length("kernel_shape", columns)?,
+            ])),
             Some(ints) => Err(format!("its kernel_shape has {} values, not 2", ints.len())),
         }
     }

@@ -2,9 +2,9 @@
 //! ONNX operators that normalize, including softmax.
 
 use super::constant::Constant;
+use super::node::{NodeReader, checked_length, index_from_start};
 use super::node_output::{NodeOutput, output_of_tensors};
-use super::node::{NodeReader, index_from_start, checked_length};
-use crate::operator::{LocalResponseNorm, Normalization, MeanGroup, Softmax};
+use crate::operator::{LocalResponseNorm, MeanGroup, Normalization, Softmax};
 
 /// Returns the scale and the bias, which are the inputs 1 and 2.
 fn scale_and_bias(node: &NodeReader<'_>) -> Result<[Vec<f32>; 2], String> {
@@ -18,21 +18,30 @@ pub(super) fn layer_normalization(node: &NodeReader<'_>) -> Result<Vec<NodeOutpu
     let axis = (node.forms)(value).resolve_axis(node.int("axis", -1))?;
     let [scale, bias] = scale_and_bias(node)?;
     let epsilon = node.float("epsilon", 1e-5);
-    output_of_tensors(Normalization { mean_group: MeanGroup::Axes(axis), epsilon, scale, bias }, vec![value])
+    output_of_tensors(
+        Normalization { mean_group: MeanGroup::Axes(axis), epsilon, scale, bias },
+        vec![value],
+    )
 }
 
 pub(super) fn instance_normalization(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let [scale, bias] = scale_and_bias(node)?;
     let epsilon = node.float("epsilon", 1e-5);
     let over = MeanGroup::Groups(scale.len());
-    output_of_tensors(Normalization { mean_group: over, epsilon, scale, bias }, vec![node.tensor_input(0)?])
+    output_of_tensors(
+        Normalization { mean_group: over, epsilon, scale, bias },
+        vec![node.tensor_input(0)?],
+    )
 }
 
 pub(super) fn group_normalization(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let [scale, bias] = scale_and_bias(node)?;
     let over = MeanGroup::Groups(checked_length("num_groups", node.int("num_groups", 0))?);
     let epsilon = node.float("epsilon", 1e-5);
-    output_of_tensors(Normalization { mean_group: over, epsilon, scale, bias }, vec![node.tensor_input(0)?])
+    output_of_tensors(
+        Normalization { mean_group: over, epsilon, scale, bias },
+        vec![node.tensor_input(0)?],
+    )
 }
 
 #[allow(clippy::cast_precision_loss, reason = "channels are below 65536")]
@@ -47,7 +56,10 @@ pub(super) fn local_response_norm(node: &NodeReader<'_>) -> Result<Vec<NodeOutpu
     output_of_tensors(response, vec![node.tensor_input(0)?])
 }
 
-pub(super) fn softmax(node: &NodeReader<'_>, is_logarithm: bool) -> Result<Vec<NodeOutput>, String> {
+pub(super) fn softmax(
+    node: &NodeReader<'_>,
+    is_logarithm: bool,
+) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;
     output_of_tensors(softmax_operator(node, value, node.opset, is_logarithm)?, vec![value])
 }

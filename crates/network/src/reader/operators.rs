@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The supported ONNX operators, and the function that reads each.
 
-use super::node_output::{NodeOutput, output_of_tensors};
 use super::node::NodeReader;
-use super::{reshaping, normalization, slicing, pointwise_operators, quantized_operators, resizing, reductions, transposed_conv};
+use super::node_output::{NodeOutput, output_of_tensors};
+use super::{
+    normalization, pointwise_operators, quantized_operators, reductions, reshaping, resizing,
+    slicing, transposed_conv,
+};
 use crate::operator::{Activation, ArithmeticKind, ComparisonKind, PoolKind, ReductionKind};
 
 type OperatorReader = fn(&NodeReader<'_>) -> Result<Vec<NodeOutput>, String>;
@@ -16,13 +19,18 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("ArgMin", |node| reductions::arg_max(node, true)),
     ("AveragePool", |node| {
         let with_padding = node.int("count_include_pad", 0) != 0;
-        output_of_tensors(reductions::pool(node, PoolKind::Average { with_padding })?, vec![node.tensor_input(0)?])
+        output_of_tensors(
+            reductions::pool(node, PoolKind::Average { with_padding })?,
+            vec![node.tensor_input(0)?],
+        )
     }),
     ("BatchNormalization", pointwise_operators::batch_normalization),
     ("Cast", pointwise_operators::cast),
     ("CastLike", pointwise_operators::cast_like),
     ("Ceil", |node| pointwise_operators::activation(node, Activation::Ceil)),
-    ("Celu", |node| pointwise_operators::activation(node, Activation::Celu { alpha: node.float("alpha", 1.0) })),
+    ("Celu", |node| {
+        pointwise_operators::activation(node, Activation::Celu { alpha: node.float("alpha", 1.0) })
+    }),
     ("Clip", pointwise_operators::clip),
     ("Concat", reshaping::concat),
     ("Constant", |_| Err("it has no value".to_owned())),
@@ -35,7 +43,9 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("DequantizeLinear", quantized_operators::dequantize),
     ("Div", |node| pointwise_operators::binary(node, ArithmeticKind::Div)),
     ("Dropout", pointwise_operators::dropout),
-    ("Elu", |node| pointwise_operators::activation(node, Activation::Elu { alpha: node.float("alpha", 1.0) })),
+    ("Elu", |node| {
+        pointwise_operators::activation(node, Activation::Elu { alpha: node.float("alpha", 1.0) })
+    }),
     ("Equal", |node| pointwise_operators::compare(node, ComparisonKind::Equal)),
     ("Erf", |node| pointwise_operators::activation(node, Activation::Erf)),
     ("Exp", |node| pointwise_operators::activation(node, Activation::Exp)),
@@ -65,7 +75,10 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("LRN", normalization::local_response_norm),
     ("LayerNormalization", normalization::layer_normalization),
     ("LeakyRelu", |node| {
-        pointwise_operators::activation(node, Activation::LeakyRelu { alpha: node.float("alpha", 0.01) })
+        pointwise_operators::activation(
+            node,
+            Activation::LeakyRelu { alpha: node.float("alpha", 0.01) },
+        )
     }),
     ("Less", |node| pointwise_operators::compare(node, ComparisonKind::Less)),
     ("LessOrEqual", |node| pointwise_operators::compare(node, ComparisonKind::LessOrEqual)),
@@ -74,7 +87,9 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("MatMul", reductions::matmul),
     ("MatMulInteger", quantized_operators::matmul_integer),
     ("Max", |node| pointwise_operators::binary(node, ArithmeticKind::Max)),
-    ("MaxPool", |node| output_of_tensors(reductions::pool(node, PoolKind::Max)?, vec![node.tensor_input(0)?])),
+    ("MaxPool", |node| {
+        output_of_tensors(reductions::pool(node, PoolKind::Max)?, vec![node.tensor_input(0)?])
+    }),
     ("Min", |node| pointwise_operators::binary(node, ArithmeticKind::Min)),
     ("Mish", |node| pointwise_operators::activation(node, Activation::Mish)),
     ("Mul", |node| pointwise_operators::binary(node, ArithmeticKind::Mul)),
@@ -127,7 +142,10 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     }),
     ("Tanh", |node| pointwise_operators::activation(node, Activation::Tanh)),
     ("ThresholdedRelu", |node| {
-        pointwise_operators::activation(node, Activation::ThresholdedRelu { alpha: node.float("alpha", 1.0) })
+        pointwise_operators::activation(
+            node,
+            Activation::ThresholdedRelu { alpha: node.float("alpha", 1.0) },
+        )
     }),
     ("Transpose", reshaping::transpose),
     ("Unsqueeze", reshaping::unsqueeze),
@@ -139,10 +157,15 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("com.microsoft.QLinearConcat", quantized_operators::concat),
     ("com.microsoft.QLinearGlobalAveragePool", quantized_operators::global_average_pool),
     ("com.microsoft.QLinearLeakyRelu", |node| {
-        quantized_operators::activation(node, Activation::LeakyRelu { alpha: node.float("alpha", 0.01) })
+        quantized_operators::activation(
+            node,
+            Activation::LeakyRelu { alpha: node.float("alpha", 0.01) },
+        )
     }),
     ("com.microsoft.QLinearMul", |node| quantized_operators::binary(node, ArithmeticKind::Mul)),
-    ("com.microsoft.QLinearSigmoid", |node| quantized_operators::activation(node, Activation::Sigmoid)),
+    ("com.microsoft.QLinearSigmoid", |node| {
+        quantized_operators::activation(node, Activation::Sigmoid)
+    }),
     ("com.microsoft.QLinearSoftmax", quantized_operators::softmax),
 ];
 

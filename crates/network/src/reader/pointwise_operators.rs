@@ -3,16 +3,16 @@
 
 use super::constant::Constant;
 use super::constant_arithmetic;
-use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
 use super::node::{GraphValue, NodeReader};
+use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
 use crate::element::ElementType;
-use crate::tensor_form::TensorForm;
 use crate::onnx::data_type;
 use crate::operator::{
-    Activation, ArithmeticKind, BinaryOperator, ComparisonOperator, ComparisonKind, Dequantize, Operator, ActivationOperator, ChannelScale,
-    QuantizationScales, WhereOperator, ByteTable,
+    Activation, ActivationOperator, ArithmeticKind, BinaryOperator, ByteTable, ChannelScale,
+    ComparisonKind, ComparisonOperator, Dequantize, Operator, QuantizationScales, WhereOperator,
 };
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use std::sync::Arc;
 
 /// Returns an activation as a separate operator.
@@ -20,7 +20,10 @@ pub(super) fn activation_operator(activation: Activation) -> Arc<dyn Operator> {
     Arc::new(ActivationOperator(activation))
 }
 
-pub(super) fn activation(node: &NodeReader<'_>, activation: Activation) -> Result<Vec<NodeOutput>, String> {
+pub(super) fn activation(
+    node: &NodeReader<'_>,
+    activation: Activation,
+) -> Result<Vec<NodeOutput>, String> {
     Ok(vec![NodeOutput::Activated(activation, node.tensor_input(0)?)])
 }
 
@@ -28,7 +31,10 @@ pub(super) fn relu(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;
     // ONNX defines `Relu` for signed integers, too.
     match (node.forms)(value).encoding().element {
-        ElementType::I8 => output_of_tensors(ByteTable::from_stored_function(ElementType::I8, |stored| stored.max(0)), vec![value]),
+        ElementType::I8 => output_of_tensors(
+            ByteTable::from_stored_function(ElementType::I8, |stored| stored.max(0)),
+            vec![value],
+        ),
         _ => activation(node, Activation::Relu),
     }
 }
@@ -65,7 +71,9 @@ pub(super) fn cast_like(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String
         },
     };
     match node.input(0) {
-        Some(GraphValue::Constant(constant)) => Ok(vec![NodeOutput::Constant(constant.cast(kind)?)]),
+        Some(GraphValue::Constant(constant)) => {
+            Ok(vec![NodeOutput::Constant(constant.cast(kind)?)])
+        }
         _ => cast_to(node, kind),
     }
 }
@@ -97,10 +105,15 @@ pub(super) fn power(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
         {
             let exponent = constant_arithmetic::cast_exponent(exponent, data_type::FLOAT)?;
             let weights = exponent.as_weights()?.to_vec();
-            let exponent = Tensor::new(TensorForm::without_positions(exponent.shape.clone()), weights);
+            let exponent =
+                Tensor::new(TensorForm::without_positions(exponent.shape.clone()), weights);
             let constant = Some((exponent, false));
             output_of_tensors(
-                BinaryOperator { kind: ArithmeticKind::Pow, constant, activation: Activation::Identity },
+                BinaryOperator {
+                    kind: ArithmeticKind::Pow,
+                    constant,
+                    activation: Activation::Identity,
+                },
                 vec![value],
             )
         }
@@ -108,20 +121,35 @@ pub(super) fn power(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     }
 }
 
-pub(super) fn binary(node: &NodeReader<'_>, kind: ArithmeticKind) -> Result<Vec<NodeOutput>, String> {
+pub(super) fn binary(
+    node: &NodeReader<'_>,
+    kind: ArithmeticKind,
+) -> Result<Vec<NodeOutput>, String> {
     let tensor = |constant: &Constant| -> Result<Tensor, String> {
-        Ok(Tensor::new(TensorForm::without_positions(constant.shape.clone()), constant.as_weights()?.to_vec()))
+        Ok(Tensor::new(
+            TensorForm::without_positions(constant.shape.clone()),
+            constant.as_weights()?.to_vec(),
+        ))
     };
     match (node.input(0), node.input(1), node.input(2)) {
-        (Some(&GraphValue::Tensor(a)), Some(&GraphValue::Tensor(b)), None) => {
-            output_of_tensors(BinaryOperator { kind, constant: None, activation: Activation::Identity }, vec![a, b])
-        }
+        (Some(&GraphValue::Tensor(a)), Some(&GraphValue::Tensor(b)), None) => output_of_tensors(
+            BinaryOperator { kind, constant: None, activation: Activation::Identity },
+            vec![a, b],
+        ),
         (Some(GraphValue::Constant(a)), Some(&GraphValue::Tensor(b)), None) => output_of_tensors(
-            BinaryOperator { kind, constant: Some((tensor(a)?, true)), activation: Activation::Identity },
+            BinaryOperator {
+                kind,
+                constant: Some((tensor(a)?, true)),
+                activation: Activation::Identity,
+            },
             vec![b],
         ),
         (Some(&GraphValue::Tensor(a)), Some(GraphValue::Constant(b)), None) => output_of_tensors(
-            BinaryOperator { kind, constant: Some((tensor(b)?, false)), activation: Activation::Identity },
+            BinaryOperator {
+                kind,
+                constant: Some((tensor(b)?, false)),
+                activation: Activation::Identity,
+            },
             vec![a],
         ),
         _ => Err(format!(
@@ -131,7 +159,10 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: ArithmeticKind) -> Result<Vec<
     }
 }
 
-pub(super) fn compare(node: &NodeReader<'_>, comparison: ComparisonKind) -> Result<Vec<NodeOutput>, String> {
+pub(super) fn compare(
+    node: &NodeReader<'_>,
+    comparison: ComparisonKind,
+) -> Result<Vec<NodeOutput>, String> {
     output_of_operands(ComparisonOperator(comparison), vec![node.operand(0)?, node.operand(1)?])
 }
 
@@ -155,7 +186,8 @@ pub(super) fn clip(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;
     let element = (node.forms)(value).encoding().element;
     if element.is_byte() {
-        let (min, max) = (node.byte_constant(1, "min", element)?, node.byte_constant(2, "max", element)?);
+        let (min, max) =
+            (node.byte_constant(1, "min", element)?, node.byte_constant(2, "max", element)?);
         let within = |stored: i32| {
             let stored = min.map_or(stored, |min| stored.max(min));
             max.map_or(stored, |max| stored.min(max))

@@ -3,20 +3,20 @@
 
 use super::constant::Constant;
 use super::constant_values::ConstantValues;
-use super::node_output::{NodeOutput, output_of_tensors};
 use super::node::{GraphValue, NodeReader};
+use super::node_output::{NodeOutput, output_of_tensors};
 use super::normalization::softmax_operator;
-use super::scales::{byte_weight_rows, row_major_matrix};
 use super::reductions::pool;
+use super::scales::{byte_weight_rows, row_major_matrix};
 use crate::element::{ElementType, Encoding};
-use crate::tensor_form::TensorForm;
 use crate::onnx::data_type;
 use crate::operator::{
-    Activation, ArithmeticKind, BinaryOperator, Concat, Dequantize, IntegerConv, IntegerMatMul, PoolKind,
-    Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool, QuantizedSoftmax,
-    Requantization, ByteTable,
+    Activation, ArithmeticKind, BinaryOperator, ByteTable, Concat, Dequantize, IntegerConv,
+    IntegerMatMul, PoolKind, Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean,
+    QuantizedPool, QuantizedSoftmax, Requantization,
 };
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use foveate_lanes::InstructionSet;
 
 type QuantizedResult<T> = Result<T, String>;
@@ -36,7 +36,10 @@ pub(super) fn dequantize(node: &NodeReader<'_>) -> QuantizedResult<Vec<NodeOutpu
 }
 
 /// Returns the floating-point values that constant integers stand for.
-pub(super) fn dequantize_constant(node: &NodeReader<'_>, constant: &Constant) -> QuantizedResult<Constant> {
+pub(super) fn dequantize_constant(
+    node: &NodeReader<'_>,
+    constant: &Constant,
+) -> QuantizedResult<Constant> {
     let element = constant.element().filter(|&element| element != ElementType::F32);
     let scales = node.dequantization(element.ok_or("it takes integers of 8 or 32 bits")?)?;
     let form = TensorForm::without_positions(constant.shape.clone());
@@ -51,7 +54,10 @@ pub(super) fn dequantize_constant(node: &NodeReader<'_>, constant: &Constant) ->
 }
 
 /// Quantizes constant floating-point values to integers.
-pub(super) fn quantize_constant(node: &NodeReader<'_>, constant: &Constant) -> QuantizedResult<Constant> {
+pub(super) fn quantize_constant(
+    node: &NodeReader<'_>,
+    constant: &Constant,
+) -> QuantizedResult<Constant> {
     let (scales, to) = node.quantization()?;
     let form = TensorForm::without_positions(constant.shape.clone());
     scales.check(&form)?;
@@ -86,7 +92,10 @@ pub(super) fn conv(node: &NodeReader<'_>) -> QuantizedResult<Vec<NodeOutput>> {
     let factors = node.factors([from.scale, 1.0], (4, "w_scale"), geometry.output_channels)?;
     let to = node.output_encoding(6, "y")?;
     let sums = Requantization { bias: node.bias(8)?, factors: divided_by(factors, to.scale), to };
-    output_of_tensors(IntegerConv::new(geometry, rows, from.zero_point, sums, InstructionSet::detect())?, vec![value])
+    output_of_tensors(
+        IntegerConv::new(geometry, rows, from.zero_point, sums, InstructionSet::detect())?,
+        vec![value],
+    )
 }
 
 /// Reads `ConvInteger`.
@@ -96,7 +105,10 @@ pub(super) fn conv_integer(node: &NodeReader<'_>) -> QuantizedResult<Vec<NodeOut
     let geometry = node.conv_geometry(&weights.shape, value)?;
     let zero = node.zero_point(2, "x_zero_point", byte_element(node, value)?)?;
     let rows = byte_weight_rows(node, weights, 3, geometry.output_channels)?;
-    output_of_tensors(IntegerConv::new(geometry, rows, zero, Requantization::none(), InstructionSet::detect())?, vec![value])
+    output_of_tensors(
+        IntegerConv::new(geometry, rows, zero, Requantization::none(), InstructionSet::detect())?,
+        vec![value],
+    )
 }
 
 /// Reads `MatMulInteger`.
@@ -151,11 +163,17 @@ fn matrix_product(
     let (matrix, outputs, inputs) = row_major_matrix(matrix, transposed)?;
     let rows = byte_weight_rows(node, &matrix, zeros, outputs)?;
     let sums = sums(outputs)?;
-    output_of_tensors(IntegerMatMul { rows, inputs, zero_point: zero, sums }, vec![node.tensor_input(0)?])
+    output_of_tensors(
+        IntegerMatMul { rows, inputs, zero_point: zero, sums },
+        vec![node.tensor_input(0)?],
+    )
 }
 
 /// Reads `QLinearAdd` and `QLinearMul`.
-pub(super) fn binary(node: &NodeReader<'_>, kind: ArithmeticKind) -> QuantizedResult<Vec<NodeOutput>> {
+pub(super) fn binary(
+    node: &NodeReader<'_>,
+    kind: ArithmeticKind,
+) -> QuantizedResult<Vec<NodeOutput>> {
     let to = node.output_encoding(6, "C")?;
     let from = [node.encoding(1, "A", to.element)?, node.encoding(4, "B", to.element)?];
     let (constant, inputs) = match (node.input(0), node.input(3)) {
@@ -174,7 +192,8 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: ArithmeticKind) -> QuantizedRe
 
 /// Returns a constant tensor of 8-bit values.
 fn byte_tensor(constant: &Constant, element: ElementType) -> QuantizedResult<Tensor> {
-    let form = TensorForm::without_positions(constant.shape.clone()).with_encoding(Encoding::plain(element));
+    let form = TensorForm::without_positions(constant.shape.clone())
+        .with_encoding(Encoding::plain(element));
     if constant.element() != Some(element) {
         return Err(format!("its constant must be of {}", element.describe()));
     }
@@ -200,7 +219,10 @@ pub(super) fn global_average_pool(node: &NodeReader<'_>) -> QuantizedResult<Vec<
 }
 
 /// Reads `QLinearLeakyRelu` and `QLinearSigmoid`.
-pub(super) fn activation(node: &NodeReader<'_>, activation: Activation) -> QuantizedResult<Vec<NodeOutput>> {
+pub(super) fn activation(
+    node: &NodeReader<'_>,
+    activation: Activation,
+) -> QuantizedResult<Vec<NodeOutput>> {
     let value = node.tensor_input(0)?;
     let (from, to) = input_and_output_encoding(node, value)?;
     output_of_tensors(ByteTable::from_activation(from, to, activation), vec![value])
@@ -224,12 +246,18 @@ pub(super) fn concat(node: &NodeReader<'_>) -> QuantizedResult<Vec<NodeOutput>> 
         tables.push(ByteTable::from_activation(from, to, Activation::Identity));
         inputs.push(value);
     }
-    output_of_tensors(QuantizedConcat { concat: Concat { axis: node.int("axis", 1) }, tables, to }, inputs)
+    output_of_tensors(
+        QuantizedConcat { concat: Concat { axis: node.int("axis", 1) }, tables, to },
+        inputs,
+    )
 }
 
 /// Returns the encodings of the input and the output of an operator that keeps the type of 8-bit
 /// values.
-fn input_and_output_encoding(node: &NodeReader<'_>, value: usize) -> QuantizedResult<(Encoding, Encoding)> {
+fn input_and_output_encoding(
+    node: &NodeReader<'_>,
+    value: usize,
+) -> QuantizedResult<(Encoding, Encoding)> {
     let element = byte_element(node, value)?;
     Ok((node.encoding(1, "X", element)?, node.encoding(3, "Y", element)?))
 }

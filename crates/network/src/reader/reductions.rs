@@ -2,11 +2,14 @@
 //! ONNX operators that sum or reduce over windows, channels or axes.
 
 use super::constant::Constant;
-use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
-use super::reshaping::axes_of_node;
 use super::node::{GraphValue, NodeReader, Operand};
+use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
 use super::pointwise_operators;
-use crate::operator::{ArgMax, Conv, Linear, Pool, PoolKind, MatrixProduct, ReductionOperator, ReducedAxes, ReductionKind};
+use super::reshaping::axes_of_node;
+use crate::operator::{
+    ArgMax, Conv, Linear, MatrixProduct, Pool, PoolKind, ReducedAxes, ReductionKind,
+    ReductionOperator,
+};
 use foveate_lanes::InstructionSet;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
@@ -14,7 +17,10 @@ pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let weights = node.required_constant(1, "weights")?;
     let geometry = node.conv_geometry(&weights.shape, value)?;
     let bias = node.constant(2, "bias")?.map(Constant::as_floats).transpose()?;
-    output_of_tensors(Conv::new(geometry, weights.as_weights()?, bias, InstructionSet::detect())?, vec![value])
+    output_of_tensors(
+        Conv::new(geometry, weights.as_weights()?, bias, InstructionSet::detect())?,
+        vec![value],
+    )
 }
 
 pub(super) fn pool(node: &NodeReader<'_>, kind: PoolKind) -> Result<Pool, String> {
@@ -22,17 +28,27 @@ pub(super) fn pool(node: &NodeReader<'_>, kind: PoolKind) -> Result<Pool, String
         return Err("its indices, a second output, are not supported".to_owned());
     }
     let value = node.tensor_input(0)?;
-    let [rows, columns] = node.axis_windows(node.kernel_shape()?.ok_or("it has no kernel_shape")?, value)?;
+    let [rows, columns] =
+        node.axis_windows(node.kernel_shape()?.ok_or("it has no kernel_shape")?, value)?;
     Ok(Pool { kind, rows, columns, rounds_up: node.int("ceil_mode", 0) != 0 })
 }
 
-pub(super) fn global_pool(node: &NodeReader<'_>, kind: ReductionKind) -> Result<Vec<NodeOutput>, String> {
+pub(super) fn global_pool(
+    node: &NodeReader<'_>,
+    kind: ReductionKind,
+) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;
     let axes = (2..(node.forms)(value).shape().len()).collect();
-    output_of_tensors(ReductionOperator { kind, reduced_axes: ReducedAxes { axes, keeps_axes: true } }, vec![value])
+    output_of_tensors(
+        ReductionOperator { kind, reduced_axes: ReducedAxes { axes, keeps_axes: true } },
+        vec![value],
+    )
 }
 
-pub(super) fn reduce(node: &NodeReader<'_>, kind: ReductionKind) -> Result<Vec<NodeOutput>, String> {
+pub(super) fn reduce(
+    node: &NodeReader<'_>,
+    kind: ReductionKind,
+) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;
     let count = (node.forms)(value).shape().len();
     let keep = node.int("keepdims", 1) != 0;
@@ -42,7 +58,10 @@ pub(super) fn reduce(node: &NodeReader<'_>, kind: ReductionKind) -> Result<Vec<N
     }
     let mut axes = named.unwrap_or_else(|| (0..count).collect());
     axes.sort_unstable();
-    output_of_tensors(ReductionOperator { kind, reduced_axes: ReducedAxes { axes, keeps_axes: keep } }, vec![value])
+    output_of_tensors(
+        ReductionOperator { kind, reduced_axes: ReducedAxes { axes, keeps_axes: keep } },
+        vec![value],
+    )
 }
 
 pub(super) fn arg_max(node: &NodeReader<'_>, is_lowest: bool) -> Result<Vec<NodeOutput>, String> {
@@ -50,7 +69,10 @@ pub(super) fn arg_max(node: &NodeReader<'_>, is_lowest: bool) -> Result<Vec<Node
     let axis = (node.forms)(value).resolve_axis(node.int("axis", 0))?;
     let over = ReducedAxes { axes: vec![axis], keeps_axes: node.int("keepdims", 1) != 0 };
     let is_last = node.int("select_last_index", 0) != 0;
-    output_of_tensors(ArgMax { reduced_axes: over, takes_lowest: is_lowest, takes_last: is_last }, vec![value])
+    output_of_tensors(
+        ArgMax { reduced_axes: over, takes_lowest: is_lowest, takes_last: is_last },
+        vec![value],
+    )
 }
 
 pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
@@ -69,8 +91,13 @@ pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
 
 pub(super) fn matmul(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     match (node.input(0), node.input(1)) {
-        (Some(&GraphValue::Tensor(value)), Some(GraphValue::Constant(matrix))) if matrix.shape.len() == 2 => {
-            output_of_tensors(Linear::from_matrix(&matrix.shape, matrix.as_weights()?)?, vec![value])
+        (Some(&GraphValue::Tensor(value)), Some(GraphValue::Constant(matrix)))
+            if matrix.shape.len() == 2 =>
+        {
+            output_of_tensors(
+                Linear::from_matrix(&matrix.shape, matrix.as_weights()?)?,
+                vec![value],
+            )
         }
         (Some(GraphValue::Constant(_)), Some(GraphValue::Constant(_))) => {
             Err("a product of two constants is not supported".to_owned())
@@ -81,7 +108,10 @@ pub(super) fn matmul(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
                 Operand::Tensor(value) => (node.forms)(*value).shape().last().copied(),
                 Operand::Constant(tensor) => tensor.form().shape().last().copied(),
             };
-            output_of_operands(MatrixProduct { level: InstructionSet::detect(), depth: inner.unwrap_or(1) }, operands)
+            output_of_operands(
+                MatrixProduct { level: InstructionSet::detect(), depth: inner.unwrap_or(1) },
+                operands,
+            )
         }
     }
 }

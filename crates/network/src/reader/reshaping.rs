@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! ONNX operators that only move values: reshaping, transposition and concatenation.
 
-use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
 use super::node::{NodeReader, index_from_start, length_to_i64};
-use crate::tensor_form::MAX_AXES;
+use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
 use crate::operator::{Concat, Expand, Reshape, Transpose, broadcast_shape};
+use crate::tensor_form::MAX_AXES;
 
 pub(super) fn concat(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let operands = (0..node.node.input.len()).map(|at| node.operand(at));
@@ -64,7 +64,10 @@ pub(super) fn squeeze(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> 
         Some(axes) => !axes.contains(axis),
         None => **length != 1,
     });
-    output_of_tensors(Reshape { shape: left.map(|(_, &length)| length_to_i64(length)).collect() }, vec![value])
+    output_of_tensors(
+        Reshape { shape: left.map(|(_, &length)| length_to_i64(length)).collect() },
+        vec![value],
+    )
 }
 
 pub(super) fn unsqueeze(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
@@ -83,7 +86,10 @@ pub(super) fn unsqueeze(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String
 }
 
 /// Returns the axes among `count` that a node names.
-pub(super) fn axes_of_node(node: &NodeReader<'_>, count: usize) -> Result<Option<Vec<usize>>, String> {
+pub(super) fn axes_of_node(
+    node: &NodeReader<'_>,
+    count: usize,
+) -> Result<Option<Vec<usize>>, String> {
     node.ints_or_input("axes", 1)?.map(|axes| resolve_axes(&axes, count)).transpose()
 }
 

@@ -2,10 +2,11 @@
 //! ONNX operators that change the height and width of features.
 
 use super::constant::Constant;
-use super::node_output::{NodeOutput, output_of_tensors};
 use super::node::{NodeReader, checked_length};
+use super::node_output::{NodeOutput, output_of_tensors};
 use crate::operator::{
-    ResizeCoordinates, DepthToSpace, NearestRounding, DepthToSpaceOrder, Resize, ResizeKind, ResizeSize, SpaceToDepth,
+    DepthToSpace, DepthToSpaceOrder, NearestRounding, Resize, ResizeCoordinates, ResizeKind,
+    ResizeSize, SpaceToDepth,
 };
 
 /// The scale of a Resize must be below this. The size of its output is limited separately.
@@ -52,7 +53,10 @@ pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
         return Err("only the keep_aspect_ratio_policy `stretch` is supported".to_owned());
     }
     let value = node.tensor_input(0)?;
-    output_of_tensors(Resize { kind, coordinates, size: resize_size(node, value, is_old)? }, vec![value])
+    output_of_tensors(
+        Resize { kind, coordinates, size: resize_size(node, value, is_old)? },
+        vec![value],
+    )
 }
 
 /// Returns the rows and columns of the output.
@@ -90,14 +94,18 @@ fn resize_size(node: &NodeReader<'_>, value: usize, is_old: bool) -> Result<Resi
             Err(format!("scales {scales:?} are not supported, only those of rows and columns"))
         }
         (None, Some(sizes), _) => match (sizes.as_integers()?, are_of_all) {
-            (&[rows, columns], false) => {
-                Ok(ResizeSize::Sizes([checked_length("size", rows)?, checked_length("size", columns)?]))
-            }
+            (&[rows, columns], false) => Ok(ResizeSize::Sizes([
+                checked_length("size", rows)?,
+                checked_length("size", columns)?,
+            ])),
             (&[1, channels, rows, columns], true)
                 if (node.forms)(value).shape().get(1)
                     == usize::try_from(channels).ok().as_ref() =>
             {
-                Ok(ResizeSize::Sizes([checked_length("size", rows)?, checked_length("size", columns)?]))
+                Ok(ResizeSize::Sizes([
+                    checked_length("size", rows)?,
+                    checked_length("size", columns)?,
+                ]))
             }
             (sizes, _) => Err(format!("sizes {sizes:?} are not supported")),
         },

@@ -33,7 +33,13 @@ impl NodeReader<'_> {
 
     /// Returns `count` zero points from an input that has one or `count`. They are 0 if the node
     /// has none.
-    fn zero_points(&self, at: usize, what: &str, element: ElementType, count: usize) -> ScaleResult<Vec<i32>> {
+    fn zero_points(
+        &self,
+        at: usize,
+        what: &str,
+        element: ElementType,
+        count: usize,
+    ) -> ScaleResult<Vec<i32>> {
         let Some(zeros) = self.constant(at, what)? else { return Ok(vec![0; count]) };
         if zeros.element() != Some(element) {
             return Err(format!("its {what} must be of {}, as its tensor", element.describe()));
@@ -54,13 +60,23 @@ impl NodeReader<'_> {
     }
 
     /// Returns the only zero point of a tensor.
-    pub(super) fn zero_point(&self, at: usize, what: &str, element: ElementType) -> ScaleResult<i32> {
+    pub(super) fn zero_point(
+        &self,
+        at: usize,
+        what: &str,
+        element: ElementType,
+    ) -> ScaleResult<i32> {
         self.zero_points(at, what, element, 1).map(|zeros| zeros[0])
     }
 
     /// Returns the encoding of a tensor whose scale is at an input and whose zero point is at the
     /// next.
-    pub(super) fn encoding(&self, at: usize, what: &str, element: ElementType) -> ScaleResult<Encoding> {
+    pub(super) fn encoding(
+        &self,
+        at: usize,
+        what: &str,
+        element: ElementType,
+    ) -> ScaleResult<Encoding> {
         let scale = self.scales(at, &format!("{what}_scale"), Some(1))?[0];
         let zero = self.zero_point(at + 1, &format!("{what}_zero_point"), element)?;
         Ok(Encoding { element, scale, zero_point: zero })

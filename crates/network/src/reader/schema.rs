@@ -98,7 +98,9 @@ impl OperatorSchema {
 
     /// Returns the line for a version, or `None` if the table does not have the operator.
     fn for_node(node: &NodeProto, opset: i64) -> Result<Option<&'static Self>, String> {
-        let Some(lines) = SCHEMAS.get(names::full_operator_name(node).as_str()) else { return Ok(None) };
+        let Some(lines) = SCHEMAS.get(names::full_operator_name(node).as_str()) else {
+            return Ok(None);
+        };
         // Operators of other domains have a separate version, which is 1.
         let version = if names::is_standard(node.domain.as_deref()) { opset } else { 1 };
         match lines.iter().rev().find(|schema| schema.first_version <= version) {
@@ -167,7 +169,11 @@ fn inferred_type(attribute: &AttributeProto) -> Option<&'static str> {
 }
 
 /// Fails if a count is not in its range.
-fn check_count(what: &str, count: usize, (least, most): (usize, Option<usize>)) -> Result<(), String> {
+fn check_count(
+    what: &str,
+    count: usize,
+    (least, most): (usize, Option<usize>),
+) -> Result<(), String> {
     if count >= least && most.is_none_or(|most| count <= most) {
         return Ok(());
     }

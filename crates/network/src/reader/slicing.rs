@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! ONNX operators that take parts of a tensor, or pad it.
 
+use super::constant_selection::slice_bounds;
+use super::node::{NodeReader, Operand, index_from_start, length_to_i64};
 use super::node_output::{NodeOutput, output_of_tensors};
 use super::reshaping::resolve_axes;
-use super::node::{NodeReader, Operand, index_from_start, length_to_i64};
-use super::constant_selection::slice_bounds;
 use crate::element::{ElementType, Encoding};
-use crate::tensor_form::TensorForm;
 use crate::operator::{AxisGather, AxisSelection};
 use crate::tensor::Tensor;
+use crate::tensor_form::TensorForm;
 use std::sync::Arc;
 
 /// The largest number of elements that padding adds at one end of an axis.
@@ -103,7 +103,11 @@ pub(super) fn gather(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
         return Err("it has no indices, so that its output is empty".to_owned());
     }
     let dropped = indices.shape.is_empty().then_some(axis);
-    let pick = AxisGather::along_axis(axis, AxisSelection::from_indices(places.into_iter()), form.shape().len());
+    let pick = AxisGather::along_axis(
+        axis,
+        AxisSelection::from_indices(places.into_iter()),
+        form.shape().len(),
+    );
     output_of_tensors(AxisGather { dropped_axis: dropped, ..pick }, vec![value])
 }
 
@@ -131,12 +135,13 @@ pub(super) fn pad(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let padding = match (mode, node.constant(2, "value")?) {
         (PaddingMode::Reflect | PaddingMode::Edge | PaddingMode::Wrap, _) => None,
         (PaddingMode::Constant, Some(value)) => Some(value.single_value(element)?),
-        (PaddingMode::Constant, None) if element == ElementType::F32 => {
-            Some(Tensor::new(TensorForm::without_positions(Vec::new()), vec![node.float("value", 0.0)]))
-        }
-        (PaddingMode::Constant, None) => {
-            Some(Tensor::zeros(TensorForm::without_positions(Vec::new()).with_encoding(Encoding::plain(element))))
-        }
+        (PaddingMode::Constant, None) if element == ElementType::F32 => Some(Tensor::new(
+            TensorForm::without_positions(Vec::new()),
+            vec![node.float("value", 0.0)],
+        )),
+        (PaddingMode::Constant, None) => Some(Tensor::zeros(
+            TensorForm::without_positions(Vec::new()).with_encoding(Encoding::plain(element)),
+        )),
     };
     output_of_tensors(AxisGather { axes: picked, dropped_axis: None, padding }, vec![value])
 }
@@ -182,7 +187,11 @@ impl PaddingMode {
 }
 
 /// Returns an axis padded with `before` and `after` elements. Negative numbers remove elements.
-fn padded_axis([before, after]: [i64; 2], length: usize, mode: PaddingMode) -> Result<AxisSelection, String> {
+fn padded_axis(
+    [before, after]: [i64; 2],
+    length: usize,
+    mode: PaddingMode,
+) -> Result<AxisSelection, String> {
     if let Some(odd) = [before, after].into_iter().find(|pad| !(-MAX_PAD..=MAX_PAD).contains(pad)) {
         return Err(format!("a pad of {odd} is not supported; it must be within {MAX_PAD}"));
     }

@@ -48,12 +48,12 @@ pub(super) fn decode_fields(kind: i32, tensor: &TensorProto) -> Result<ConstantV
         data_type::DOUBLE => {
             ConstantValues::Floats(tensor.double_data.iter().map(|&value| value as f32).collect())
         }
-        data_type::FLOAT16 => {
-            ConstantValues::Floats(tensor.int32_data.iter().map(low_16_bits).map(float16_to_f32).collect())
-        }
-        data_type::BFLOAT16 => {
-            ConstantValues::Floats(tensor.int32_data.iter().map(low_16_bits).map(bfloat16_to_f32).collect())
-        }
+        data_type::FLOAT16 => ConstantValues::Floats(
+            tensor.int32_data.iter().map(low_16_bits).map(float16_to_f32).collect(),
+        ),
+        data_type::BFLOAT16 => ConstantValues::Floats(
+            tensor.int32_data.iter().map(low_16_bits).map(bfloat16_to_f32).collect(),
+        ),
         data_type::INT64 => ConstantValues::Integers(tensor.int64_data.clone()),
         data_type::INT32 | data_type::INT8 | data_type::UINT8 | data_type::BOOL => {
             ConstantValues::Integers(

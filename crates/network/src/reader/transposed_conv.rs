@@ -2,9 +2,9 @@
 //! Transposed convolution, with the size of its output as ONNX defines it.
 
 use super::constant::Constant;
-use super::node_output::{NodeOutput, output_of_tensors};
 use super::node::{NodeReader, checked_length, length_to_i64};
-use crate::operator::{TransposedWindow, TransposedConv};
+use super::node_output::{NodeOutput, output_of_tensors};
+use crate::operator::{TransposedConv, TransposedWindow};
 use foveate_lanes::InstructionSet;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
@@ -23,7 +23,8 @@ pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
         ));
     }
     let groups = checked_length("group", node.int("group", 1))?;
-    let reaches = [transposed_window(node, value, 0, height)?, transposed_window(node, value, 1, width)?];
+    let reaches =
+        [transposed_window(node, value, 0, height)?, transposed_window(node, value, 1, width)?];
     let conv = TransposedConv::new(
         &weights.shape,
         weights.as_weights()?,
@@ -36,7 +37,12 @@ pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
 }
 
 /// Returns the window of a transposed convolution along rows (0) or columns (1).
-fn transposed_window(node: &NodeReader<'_>, value: usize, axis: usize, kernel: usize) -> Result<TransposedWindow, String> {
+fn transposed_window(
+    node: &NodeReader<'_>,
+    value: usize,
+    axis: usize,
+    kernel: usize,
+) -> Result<TransposedWindow, String> {
     let form = (node.forms)(value);
     let [_, _, sizes @ ..] = form.shape() else {
         return Err(format!("its input must be features, not {}", form.describe()));

@@ -137,12 +137,21 @@ impl DetectionPairs {
 
     fn counts_by_size(&self) -> [DetectionCounts; 3] {
         let mut sizes = [DetectionCounts::default(); 3];
-        let size = |one: &Detection| SIZE_AREAS.iter().filter(|&&area| one.rect.area() >= area).count();
+        let size =
+            |one: &Detection| SIZE_AREAS.iter().filter(|&&area| one.rect.area() >= area).count();
         for (one, kept) in &self.whole {
-            sizes[size(one)].add(DetectionCounts { whole: 1, kept: (*kept).into(), ..DetectionCounts::default() });
+            sizes[size(one)].add(DetectionCounts {
+                whole: 1,
+                kept: (*kept).into(),
+                ..DetectionCounts::default()
+            });
         }
         for (one, right) in &self.seen {
-            sizes[size(one)].add(DetectionCounts { seen: 1, added: (!right).into(), ..DetectionCounts::default() });
+            sizes[size(one)].add(DetectionCounts {
+                seen: 1,
+                added: (!right).into(),
+                ..DetectionCounts::default()
+            });
         }
         sizes
     }
@@ -159,7 +168,11 @@ impl DetectionPairs {
 impl AgreementSums {
     /// Returns the sums for one frame.
     #[must_use]
-    pub fn from_frame(whole: &FrameFindings, seen: &FrameFindings, pairs: Option<&DetectionPairs>) -> Self {
+    pub fn from_frame(
+        whole: &FrameFindings,
+        seen: &FrameFindings,
+        pairs: Option<&DetectionPairs>,
+    ) -> Self {
         let mut sums = Self { frames: 1, ..Self::default() };
         for (right, found) in whole.outputs.iter().zip(&seen.outputs) {
             sums.distance.add(OutputDistance::between(&right.values, &found.values).0);
@@ -201,7 +214,8 @@ impl AgreementSums {
     /// The share of positions with the same class, if an output has a class per position.
     #[must_use]
     pub fn position_share(&self) -> Option<f64> {
-        (self.position_classes.0 > 0).then(|| share(self.position_classes.1, self.position_classes.0))
+        (self.position_classes.0 > 0)
+            .then(|| share(self.position_classes.1, self.position_classes.0))
     }
 
     /// The agreement of classes, if an output is one class per frame.
@@ -304,7 +318,8 @@ mod tests {
     #[test]
     fn classes_agree_by_frames_and_by_places() {
         let whole = findings(&[1, 3], &[1.0, 5.0, 2.0]);
-        let mut sums = AgreementSums::from_frame(&whole, &findings(&[1, 3], &[1.0, 4.0, 3.0]), None);
+        let mut sums =
+            AgreementSums::from_frame(&whole, &findings(&[1, 3], &[1.0, 4.0, 3.0]), None);
         let classes = sums.class_agreement().unwrap();
         assert_eq!((classes.same_share, classes.whole_margin, classes.seen_margin), (1., 3., 1.));
         sums.add(&AgreementSums::from_frame(&whole, &findings(&[1, 3], &[9.0, 4.0, 3.0]), None));
@@ -321,7 +336,9 @@ mod tests {
     #[test]
     fn numbers_agree_by_their_error() {
         let whole = findings(&[1, 1, 1, 2], &[3.0, 4.0]);
-        let at = |values| AgreementSums::from_frame(&whole, &findings(&[1, 1, 1, 2], values), None).agreement();
+        let at = |values| {
+            AgreementSums::from_frame(&whole, &findings(&[1, 1, 1, 2], values), None).agreement()
+        };
         assert_eq!(at(&[3.0, 4.0]), 1.0);
         assert!((at(&[3.0, 3.0]) - 0.8).abs() < 1e-12);
         assert_eq!(at(&[-9.0, 99.0]), 0.0);

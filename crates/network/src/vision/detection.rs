@@ -31,8 +31,9 @@ pub(super) fn suppress_overlapping(mut found: Vec<Detection>, most: f64) -> Vec<
     found.sort_by(|one, other| other.score.total_cmp(&one.score));
     let mut kept: Vec<Detection> = Vec::new();
     for one in found {
-        let is_same =
-            |other: &Detection| other.class == one.class && intersection_over_union(&other.rect, &one.rect) > most;
+        let is_same = |other: &Detection| {
+            other.class == one.class && intersection_over_union(&other.rect, &one.rect) > most
+        };
         if !kept.iter().any(is_same) {
             kept.push(one);
         }
@@ -55,7 +56,8 @@ pub fn match_detections<T>(
     let take = |one: &Detection| {
         let candidates =
             right.iter().enumerate().filter(|(at, other)| !taken[*at] && same(one, other));
-        let overlaps = candidates.map(|(at, other)| (at, intersection_over_union(&one.rect, rect(other))));
+        let overlaps =
+            candidates.map(|(at, other)| (at, intersection_over_union(&one.rect, rect(other))));
         let best = overlaps.filter(|(_, found)| *found >= least);
         let best = best.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(at, _)| at);
         if let Some(at) = best {
@@ -85,7 +87,10 @@ pub(crate) mod tests {
             ([5., 5., 6., 6.], 0.0),
             ([1., 1., 1., 3.], 0.0),
         ] {
-            assert!((intersection_over_union(&one, &rect(other)) - share).abs() < 1e-12, "{other:?}");
+            assert!(
+                (intersection_over_union(&one, &rect(other)) - share).abs() < 1e-12,
+                "{other:?}"
+            );
         }
     }
 
@@ -97,7 +102,8 @@ pub(crate) mod tests {
             detection(1, 0.4, [0., 0., 10., 10.]),
             detection(0, 0.3, [20., 0., 30., 10.]),
         ];
-        let scores: Vec<f32> = suppress_overlapping(found, 0.5).iter().map(|one| one.score).collect();
+        let scores: Vec<f32> =
+            suppress_overlapping(found, 0.5).iter().map(|one| one.score).collect();
         assert_eq!(scores, [0.9, 0.4, 0.3]);
     }
 
@@ -110,7 +116,10 @@ pub(crate) mod tests {
             detection(1, 0.6, [4., 0., 14., 10.]),
         ];
         let same = |one: &Detection, other: &Detection| one.class == other.class;
-        assert_eq!(match_detections(&found, &right, 0.4, |o| &o.rect, same), [Some(0), Some(1), None]);
+        assert_eq!(
+            match_detections(&found, &right, 0.4, |o| &o.rect, same),
+            [Some(0), Some(1), None]
+        );
         assert_eq!(match_detections(&found, &right, 0.5, |o| &o.rect, same), [Some(0), None, None]);
     }
 }

@@ -133,13 +133,20 @@ impl DetectionFormat {
     /// Decodes the detections with a score of at least `least`: the most likely class of every
     /// cell, in pixels of the input. The outputs must have passed [`Head::check`].
     #[must_use]
-    pub fn decode(self, outputs: &[OutputTensor], input: (usize, usize), least: f32) -> Vec<Detection> {
+    pub fn decode(
+        self,
+        outputs: &[OutputTensor],
+        input: (usize, usize),
+        least: f32,
+    ) -> Vec<Detection> {
         match self {
             Self::Yolox => decode_yolox(&outputs[0], input, least),
             Self::Yolov5 => {
                 let [_, _, values] = outputs[0].shape[..] else { return Vec::new() };
                 let rows = outputs[0].values.chunks_exact(values);
-                let read = |row: &[f32]| most_likely_class(&row[5..], row[4], least, corners_from_center(&row[..4]));
+                let read = |row: &[f32]| {
+                    most_likely_class(&row[5..], row[4], least, corners_from_center(&row[..4]))
+                };
                 rows.filter_map(read).collect()
             }
             Self::Yolov8 => {
@@ -147,7 +154,9 @@ impl DetectionFormat {
                 let of = |cell: usize| -> Vec<f32> {
                     (0..values).map(|value| outputs[0].values[value * cells + cell]).collect()
                 };
-                let read = |row: Vec<f32>| most_likely_class(&row[4..], 1.0, least, corners_from_center(&row[..4]));
+                let read = |row: Vec<f32>| {
+                    most_likely_class(&row[4..], 1.0, least, corners_from_center(&row[..4]))
+                };
                 (0..cells).map(of).filter_map(read).collect()
             }
             Self::Ssd => decode_ssd(outputs, input, least),
@@ -174,7 +183,12 @@ fn corners_from_center(values: &[f32]) -> [f32; 4] {
 
 /// Returns a detection of the most likely class, if its score is high enough and the corners are
 /// valid.
-fn most_likely_class(classes: &[f32], factor: f32, least: f32, corners: [f32; 4]) -> Option<Detection> {
+fn most_likely_class(
+    classes: &[f32],
+    factor: f32,
+    least: f32,
+    corners: [f32; 4],
+) -> Option<Detection> {
     let best = classes.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
     let (class, &share) = best?;
     checked_detection(class, share * factor, least, corners)
@@ -208,17 +222,31 @@ fn corners_in_cell(values: &[f32], stride: usize, column: usize, row: usize) -> 
 }
 
 /// Returns the output of a kind and a stride, such as `cls_8`.
-fn grid_output<'a>(outputs: &'a [OutputTensor], kind: &str, stride: usize) -> Option<&'a OutputTensor> {
+fn grid_output<'a>(
+    outputs: &'a [OutputTensor],
+    kind: &str,
+    stride: usize,
+) -> Option<&'a OutputTensor> {
     let name = format!("{kind}_{stride}");
     outputs.iter().find(|output| output.name == name)
 }
 
-fn decode_yunet(outputs: &[OutputTensor], stride: usize, columns: usize, least: f32) -> Vec<Detection> {
+fn decode_yunet(
+    outputs: &[OutputTensor],
+    stride: usize,
+    columns: usize,
+    least: f32,
+) -> Vec<Detection> {
     let of = |kind| grid_output(outputs, kind, stride).map_or(&[][..], |output| &output.values);
     let (classes, objects, places) = (of("cls"), of("obj"), of("bbox"));
     let read = |(cell, ((class, object), place)): (usize, ((&f32, &f32), &[f32]))| {
         let score = (class.clamp(0.0, 1.0) * object.clamp(0.0, 1.0)).sqrt();
-        checked_detection(0, score, least, corners_in_cell(place, stride, cell % columns, cell / columns))
+        checked_detection(
+            0,
+            score,
+            least,
+            corners_in_cell(place, stride, cell % columns, cell / columns),
+        )
     };
     classes.iter().zip(objects).zip(places.chunks_exact(4)).enumerate().filter_map(read).collect()
 }
@@ -226,7 +254,8 @@ fn decode_yunet(outputs: &[OutputTensor], stride: usize, columns: usize, least: 
 /// Returns the output of scores and that of boxes.
 fn scores_and_boxes(outputs: &[OutputTensor]) -> Option<(&OutputTensor, &OutputTensor)> {
     let is_boxes = |output: &&OutputTensor| matches!(output.shape[..], [1, _, 4]);
-    let called = |output: &&OutputTensor| ["box", "loc"].iter().any(|word| output.name.contains(word));
+    let called =
+        |output: &&OutputTensor| ["box", "loc"].iter().any(|word| output.name.contains(word));
     let mut boxes = outputs.iter().filter(is_boxes);
     let boxes = boxes.clone().find(called).or_else(|| boxes.next())?;
     let fits = |output: &&OutputTensor| {
@@ -261,7 +290,12 @@ fn decode_fastestdet(output: &OutputTensor, input: (usize, usize), least: f32) -
         let y = (at(2).tanh() + (cell / columns) as f32) * high;
         let (width, height) = (sigmoid(at(3)) * input.0 as f32, sigmoid(at(4)) * input.1 as f32);
         let classes: Vec<f32> = (5..values).map(|value| at(value).powf(0.4)).collect();
-        most_likely_class(&classes, at(0).powf(0.6), least, corners_from_center(&[x, y, width, height]))
+        most_likely_class(
+            &classes,
+            at(0).powf(0.6),
+            least,
+            corners_from_center(&[x, y, width, height]),
+        )
     };
     (0..rows * columns).filter_map(read).collect()
 }
@@ -275,7 +309,11 @@ mod tests {
         OutputTensor { name: name.to_owned(), shape: shape.to_vec(), values }
     }
 
-    fn only(head: DetectionFormat, outputs: &[OutputTensor], input: (usize, usize)) -> (usize, f32, [f64; 4]) {
+    fn only(
+        head: DetectionFormat,
+        outputs: &[OutputTensor],
+        input: (usize, usize),
+    ) -> (usize, f32, [f64; 4]) {
         head.check(outputs, input).unwrap();
         let found = head.decode(outputs, input, 0.3);
         let [one] = &found[..] else { panic!("{found:?}") };
@@ -312,14 +350,20 @@ mod tests {
         values[7..11].copy_from_slice(&row);
         values[11..14].copy_from_slice(&[0.5, 0.9, 0.2]);
         let outputs = [output("out", &[1, 3, 7], values)];
-        assert_eq!(only(DetectionFormat::Yolov5, &outputs, (64, 64)), (0, 0.45, [16., 8., 24., 12.]));
+        assert_eq!(
+            only(DetectionFormat::Yolov5, &outputs, (64, 64)),
+            (0, 0.45, [16., 8., 24., 12.])
+        );
         assert_eq!(DetectionFormat::Yolov5.class_count(&outputs), 2);
         let mut values = vec![0.0; 6 * 3];
         for (value, number) in row.into_iter().chain([0.2, 0.6]).enumerate() {
             values[value * 3 + 2] = number;
         }
         let outputs = [output("out", &[1, 6, 3], values)];
-        assert_eq!(only(DetectionFormat::Yolov8, &outputs, (64, 64)), (1, 0.6, [16., 8., 24., 12.]));
+        assert_eq!(
+            only(DetectionFormat::Yolov8, &outputs, (64, 64)),
+            (1, 0.6, [16., 8., 24., 12.])
+        );
         assert_eq!(DetectionFormat::Yolov8.class_count(&outputs), 2);
     }
 
@@ -329,7 +373,10 @@ mod tests {
             output("boxes", &[1, 2, 4], vec![0.0, 0.0, 1.0, 1.0, 0.25, 0.5, 0.75, 1.0]),
             output("scores", &[1, 2, 3], vec![0.9, 0.05, 0.05, 0.1, 0.1, 0.8]),
         ];
-        assert_eq!(only(DetectionFormat::Ssd, &outputs, (320, 240)), (1, 0.8, [80., 120., 240., 240.]));
+        assert_eq!(
+            only(DetectionFormat::Ssd, &outputs, (320, 240)),
+            (1, 0.8, [80., 120., 240., 240.])
+        );
         // The background is not counted as a class.
         assert_eq!(DetectionFormat::Ssd.class_count(&outputs), 2);
     }
@@ -358,7 +405,10 @@ mod tests {
         }
         let outputs = [output("758", &[1, 7, 2, 3], values)];
         // Cell (1, 1) begins at (32, 32). Half of the input is 48 x 32 pixels.
-        assert_eq!(only(DetectionFormat::FastestDet, &outputs, (96, 64)), (1, 1.0, [8., 16., 56., 48.]));
+        assert_eq!(
+            only(DetectionFormat::FastestDet, &outputs, (96, 64)),
+            (1, 1.0, [8., 16., 56., 48.])
+        );
     }
 
     #[test]

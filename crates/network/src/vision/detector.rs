@@ -36,7 +36,11 @@ impl Detector {
 
     /// Returns the detections with at least the score that average precision needs, in descending
     /// order of score and in pixels of the input.
-    pub(super) fn read_detections(&self, outputs: &[OutputTensor], input: (usize, usize)) -> Vec<Detection> {
+    pub(super) fn read_detections(
+        &self,
+        outputs: &[OutputTensor],
+        input: (usize, usize),
+    ) -> Vec<Detection> {
         let least = self.score.min(MIN_SCORE);
         let mut found = self.format.decode(outputs, input, least);
         found.retain(|one| self.classes.is_empty() || self.classes.contains(&one.class));
@@ -57,10 +61,11 @@ impl Detector {
 pub fn parse_detector(text: &str) -> Result<Detector, String> {
     let mut words = text.split(',');
     let name = words.next().unwrap_or_default();
-    let head = DetectionFormat::ALL.into_iter().find(|head| head.name() == name).ok_or_else(|| {
-        let names = DetectionFormat::ALL.map(DetectionFormat::name);
-        format!("`{name}` is no format of detections; expected {}", names.join(", "))
-    })?;
+    let head =
+        DetectionFormat::ALL.into_iter().find(|head| head.name() == name).ok_or_else(|| {
+            let names = DetectionFormat::ALL.map(DetectionFormat::name);
+            format!("`{name}` is no format of detections; expected {}", names.join(", "))
+        })?;
     let mut detector = Detector::new(head);
     for word in words {
         let wrong = || {

@@ -25,7 +25,16 @@ impl Default for OutputDistance {
     fn default() -> Self {
         let [largest, difference, right, found, product] = [0.0; 5];
         let (lowest, highest) = (f64::INFINITY, f64::NEG_INFINITY);
-        Self { largest, squared_difference: difference, right_squares: right, found_squares: found, products: product, lowest, highest, values: 0 }
+        Self {
+            largest,
+            squared_difference: difference,
+            right_squares: right,
+            found_squares: found,
+            products: product,
+            lowest,
+            highest,
+            values: 0,
+        }
     }
 }
 
@@ -78,14 +87,22 @@ impl OutputDistance {
     /// difference.
     #[must_use]
     pub fn relative_rms(&self) -> f64 {
-        if self.squared_difference == 0.0 { 0.0 } else { (self.squared_difference / self.right_squares).sqrt() }
+        if self.squared_difference == 0.0 {
+            0.0
+        } else {
+            (self.squared_difference / self.right_squares).sqrt()
+        }
     }
 
     /// The cosine of the angle between the right and the found values as vectors; 1 if there is no
     /// difference.
     #[must_use]
     pub fn cosine(&self) -> f64 {
-        if self.squared_difference == 0.0 { 1.0 } else { self.products / (self.right_squares * self.found_squares).sqrt() }
+        if self.squared_difference == 0.0 {
+            1.0
+        } else {
+            self.products / (self.right_squares * self.found_squares).sqrt()
+        }
     }
 
     /// The peak signal-to-noise ratio in decibels, with the range of the right values as the peak;

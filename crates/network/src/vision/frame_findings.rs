@@ -2,9 +2,9 @@
 //! The outputs of a network for a frame, and the detections in them.
 
 use super::detection::Detection;
+use super::detection_format::OutputTensor;
 use super::detector::Detector;
 use super::framing::FrameScaling;
-use super::detection_format::OutputTensor;
 use super::network_defaults::{NetworkDefaults, guess_defaults};
 use crate::executor::Executor;
 use crate::network::Network;
@@ -55,7 +55,9 @@ impl FindingsReader {
 
     /// The number of classes of the detector, if there is one.
     pub(super) fn class_count(&self, network: &Network) -> Option<usize> {
-        self.detector.as_ref().map(|detector| detector.format.class_count(&outputs_without_values(network)))
+        self.detector
+            .as_ref()
+            .map(|detector| detector.format.class_count(&outputs_without_values(network)))
     }
 
     /// Guesses the formats and the pixel mapping of the network.
@@ -64,13 +66,16 @@ impl FindingsReader {
     }
 
     /// Reads the outputs that an executor has computed.
-    pub(super) fn read_findings(&self, network: &Network, executor: &Executor<'_>) -> FrameFindings {
+    pub(super) fn read_findings(
+        &self,
+        network: &Network,
+        executor: &Executor<'_>,
+    ) -> FrameFindings {
         let outputs = outputs(network, |value| executor.tensor(value).real_values().into_owned());
         let placed = |one: Detection| Detection { rect: self.rect_in_frame(&one.rect), ..one };
-        let detections = self
-            .detector
-            .as_ref()
-            .map(|detector| detector.read_detections(&outputs, self.input).into_iter().map(placed).collect());
+        let detections = self.detector.as_ref().map(|detector| {
+            detector.read_detections(&outputs, self.input).into_iter().map(placed).collect()
+        });
         FrameFindings { outputs, detections }
     }
 

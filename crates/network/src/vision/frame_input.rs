@@ -3,8 +3,8 @@
 
 use super::framing::FrameScaling;
 use super::pixel_mapping::PixelMapping;
-use crate::tensor_form::TensorForm;
 use crate::mask::Mask;
+use crate::tensor_form::TensorForm;
 use foveate_frame::FramePixels;
 
 /// The format of frames: one size and depth, and square regions that change as a whole.
@@ -151,7 +151,9 @@ impl FrameInput {
         match &self.inputs {
             PixelConversion::Lookup(tables) => {
                 let places = self.frame.len();
-                for region in (0..self.changed_by_region.len()).filter(|&region| self.changed_by_region[region]) {
+                for region in (0..self.changed_by_region.len())
+                    .filter(|&region| self.changed_by_region[region])
+                {
                     for at in self.region_rows(region).flatten() {
                         self.changed.insert(at % self.width, at / self.width);
                         for (channel, table) in tables.iter().enumerate() {
@@ -163,13 +165,18 @@ impl FrameInput {
             PixelConversion::Interpolated { lens, mapping, channels, max } => {
                 let places = self.values.len() / channels;
                 let is_fresh = |column, row| self.changed_by_region[row * self.columns + column];
-                lens.for_each_pixel_of_regions(&self.frame, self.side, is_fresh, |(x, y), at, grey| {
-                    self.changed.insert(x, y);
-                    for channel in 0..*channels {
-                        let value = mapping.input_value(channel, f64::from(grey) / max);
-                        self.values[channel * places + at] = value;
-                    }
-                });
+                lens.for_each_pixel_of_regions(
+                    &self.frame,
+                    self.side,
+                    is_fresh,
+                    |(x, y), at, grey| {
+                        self.changed.insert(x, y);
+                        for channel in 0..*channels {
+                            let value = mapping.input_value(channel, f64::from(grey) / max);
+                            self.values[channel * places + at] = value;
+                        }
+                    },
+                );
             }
         }
     }

@@ -209,7 +209,11 @@ fn axis_taps(frame: u32, shown: u32, scale: f64) -> Vec<BilinearTap> {
         let place = ((f64::from(at) + 0.5) * scale - 0.5).clamp(0.0, last);
         let first = place.floor();
         let second = (first + 1.0).min(last);
-        BilinearTap { first: first as usize, second: second as usize, weight: (place - first) as f32 }
+        BilinearTap {
+            first: first as usize,
+            second: second as usize,
+            weight: (place - first) as f32,
+        }
     };
     (0..shown).map(tap).collect()
 }

@@ -8,26 +8,29 @@
 
 mod agreement;
 mod detection;
+mod detection_format;
 mod detector;
 mod distance;
 mod error;
 mod frame_findings;
-mod framing;
-mod detection_format;
-mod pixel_mapping;
 mod frame_input;
+mod framing;
 mod network_defaults;
+mod pixel_mapping;
 mod vision_network;
 
-pub use agreement::{ClassAgreement, DetectionAgreement, DetectionCounts, DetectionPairs, SAME_OBJECT_OVERLAP, AgreementSums};
+pub use agreement::{
+    AgreementSums, ClassAgreement, DetectionAgreement, DetectionCounts, DetectionPairs,
+    SAME_OBJECT_OVERLAP,
+};
 pub use detection::{Detection, match_detections};
+pub use detection_format::{DetectionFormat, OutputTensor};
 pub use detector::{Detector, parse_detector};
 pub use distance::{OutputDistance, index_of_largest, psnr};
 pub use error::VisionError;
 pub use frame_findings::FrameFindings;
-pub use framing::{Framing, parse_framing};
-pub use detection_format::{DetectionFormat, OutputTensor};
-pub use pixel_mapping::{PixelMapping, parse_mean, parse_scale};
 pub use frame_input::{FrameFormat, FrameInput};
+pub use framing::{Framing, parse_framing};
 pub use network_defaults::{NetworkDefaults, guess_defaults};
-pub use vision_network::{OutputAgreement, VisionRun, FrameOutcome, VisionOptions, VisionNetwork};
+pub use pixel_mapping::{PixelMapping, parse_mean, parse_scale};
+pub use vision_network::{FrameOutcome, OutputAgreement, VisionNetwork, VisionOptions, VisionRun};

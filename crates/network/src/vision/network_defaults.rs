@@ -2,8 +2,8 @@
 //! Guesses the detection format and the usual pixel mapping of a network, for users who open a
 //! network without options.
 
-use super::detector::Detector;
 use super::detection_format::{DetectionFormat, OutputTensor};
+use super::detector::Detector;
 
 /// The probable formats and pixel mapping of a network. It may have been trained with others.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +25,14 @@ pub struct NetworkDefaults {
 pub fn guess_defaults(outputs: &[OutputTensor], input: (usize, usize)) -> NetworkDefaults {
     // Formats with fixed names or numbers of cells come before formats that are recognized by the
     // number of axes.
-    let order = [DetectionFormat::Yunet, DetectionFormat::Yolox, DetectionFormat::Ssd, DetectionFormat::FastestDet, DetectionFormat::Yolov5, DetectionFormat::Yolov8];
+    let order = [
+        DetectionFormat::Yunet,
+        DetectionFormat::Yolox,
+        DetectionFormat::Ssd,
+        DetectionFormat::FastestDet,
+        DetectionFormat::Yolov5,
+        DetectionFormat::Yolov8,
+    ];
     let fits: Vec<DetectionFormat> =
         order.into_iter().filter(|head| head.check(outputs, input).is_ok()).collect();
     let head = fits.iter().copied().find(|&head| is_likely(head, outputs, input));
@@ -44,7 +51,8 @@ impl NetworkDefaults {
 /// Returns true if outputs that have a format probably have it on purpose.
 fn is_likely(head: DetectionFormat, outputs: &[OutputTensor], input: (usize, usize)) -> bool {
     match (head, &outputs[0].shape[..]) {
-        (DetectionFormat::Yolov5, [_, cells, values]) | (DetectionFormat::Yolov8, [_, values, cells]) => values < cells,
+        (DetectionFormat::Yolov5, [_, cells, values])
+        | (DetectionFormat::Yolov8, [_, values, cells]) => values < cells,
         // A grid as fine as the input is a segmentation, and a single cell is a classification.
         (DetectionFormat::FastestDet, [_, _, rows, columns]) => {
             rows.min(columns) > &1 && rows * 8 <= input.1 && columns * 8 <= input.0
@@ -60,7 +68,9 @@ fn usual_mapping(head: DetectionFormat) -> (&'static str, &'static str) {
     match head {
         DetectionFormat::Yolox | DetectionFormat::Yunet => ("0", "1/255"),
         DetectionFormat::Ssd => ("127/255", "128/255"),
-        DetectionFormat::Yolov5 | DetectionFormat::Yolov8 | DetectionFormat::FastestDet => ("0", "1"),
+        DetectionFormat::Yolov5 | DetectionFormat::Yolov8 | DetectionFormat::FastestDet => {
+            ("0", "1")
+        }
     }
 }
 
@@ -82,7 +92,10 @@ mod tests {
         let of_one = |shape: &[usize], input| of(&[("out", shape)], input);
         let yolox = of_one(&[1, 3549, 85], (416, 416));
         assert_eq!((yolox.format, yolox.scale), (Some(DetectionFormat::Yolox), "1/255"));
-        assert_eq!(yolox.matching_formats, [DetectionFormat::Yolox, DetectionFormat::Yolov5, DetectionFormat::Yolov8]);
+        assert_eq!(
+            yolox.matching_formats,
+            [DetectionFormat::Yolox, DetectionFormat::Yolov5, DetectionFormat::Yolov8]
+        );
         assert_eq!(of_one(&[1, 25200, 85], (640, 640)).format, Some(DetectionFormat::Yolov5));
         let yolov8 = of_one(&[1, 84, 8400], (640, 640));
         assert_eq!((yolov8.format, yolov8.scale), (Some(DetectionFormat::Yolov8), "1"));
@@ -96,10 +109,16 @@ mod tests {
         let classes = of(&[("logits", &[1, 1000])], (224, 224));
         assert_eq!((classes.format, classes.matching_formats.len(), classes.scale), (None, 0, "1"));
         let classes = of(&[("softmax", &[1, 1000, 1, 1])], (224, 224));
-        assert_eq!((classes.format, classes.matching_formats), (None, vec![DetectionFormat::FastestDet]));
+        assert_eq!(
+            (classes.format, classes.matching_formats),
+            (None, vec![DetectionFormat::FastestDet])
+        );
         // A segmentation has as many axes as the format of FastestDet, so users may still choose
         // that format.
         let places = of(&[("out", &[1, 21, 513, 513])], (513, 513));
-        assert_eq!((places.format, places.matching_formats), (None, vec![DetectionFormat::FastestDet]));
+        assert_eq!(
+            (places.format, places.matching_formats),
+            (None, vec![DetectionFormat::FastestDet])
+        );
     }
 }

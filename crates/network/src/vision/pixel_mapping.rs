@@ -40,7 +40,8 @@ impl PixelMapping {
 /// Fails if the text is no number or quotient, or if the value is not finite; the message tells
 /// what is expected.
 pub fn parse_mean(text: &str) -> Result<f32, String> {
-    parse_quotient(text).ok_or_else(|| "expected a number, or a quotient such as 127/255".to_owned())
+    parse_quotient(text)
+        .ok_or_else(|| "expected a number, or a quotient such as 127/255".to_owned())
 }
 
 /// Parses a value of a scale as users write it: a number above 0, or a quotient of two numbers.

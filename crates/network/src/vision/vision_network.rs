@@ -5,19 +5,19 @@
 use std::path::Path;
 use std::time::Duration;
 
-use super::agreement::{DetectionCounts, DetectionPairs, AgreementSums};
+use super::agreement::{AgreementSums, DetectionCounts, DetectionPairs};
 use super::detector::Detector;
 use super::error::VisionError;
-use super::frame_findings::{FrameFindings, FindingsReader};
-use super::framing::{Framing, FrameScaling};
-use super::pixel_mapping::PixelMapping;
+use super::frame_findings::{FindingsReader, FrameFindings};
 use super::frame_input::{FrameFormat, FrameInput};
+use super::framing::{FrameScaling, Framing};
 use super::network_defaults::NetworkDefaults;
+use super::pixel_mapping::PixelMapping;
 use crate::error::NetworkError;
-use crate::executor::{Executor, ExecutionMode};
+use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;
-use crate::optional_instant::OptionalInstant;
 use crate::network::Network;
+use crate::optional_instant::OptionalInstant;
 use crate::reader::FrameSize;
 use foveate_frame::FramePixels;
 
@@ -66,7 +66,11 @@ impl VisionNetwork {
     /// # Errors
     /// Fails if the network cannot be read or takes frames of another size, if the mapping is for
     /// another number of channels, or if the outputs do not have the format of the detector.
-    pub fn read(path: &Path, frame: (u32, u32), viewing: &VisionOptions) -> Result<Self, VisionError> {
+    pub fn read(
+        path: &Path,
+        frame: (u32, u32),
+        viewing: &VisionOptions,
+    ) -> Result<Self, VisionError> {
         Self::read_with(|size| Network::read(path, size), frame, viewing)
     }
 
@@ -100,7 +104,11 @@ impl VisionNetwork {
     /// # Errors
     /// Fails if the mapping is for another number of channels, or if the outputs do not have the
     /// format of the detector.
-    pub fn with_mapping_and_detector(self, mapping: PixelMapping, detector: Option<Detector>) -> Result<Self, VisionError> {
+    pub fn with_mapping_and_detector(
+        self,
+        mapping: PixelMapping,
+        detector: Option<Detector>,
+    ) -> Result<Self, VisionError> {
         mapping.check(self.network.input().shape()[1])?;
         let reader = self.reader.with_detector(&self.network, detector);
         let reader = reader.map_err(|problem| VisionError::DetectorFormat { problem })?;
@@ -157,7 +165,11 @@ impl VisionNetwork {
 
     /// Matches the detections of two frames, if detections are read.
     #[must_use]
-    pub fn match_detections(&self, whole: &FrameFindings, other: &FrameFindings) -> Option<DetectionPairs> {
+    pub fn match_detections(
+        &self,
+        whole: &FrameFindings,
+        other: &FrameFindings,
+    ) -> Option<DetectionPairs> {
         let both = whole.detections.as_ref().zip(other.detections.as_ref());
         let (detector, (whole, other)) = self.detector().zip(both)?;
         Some(DetectionPairs::from_detections(detector, whole, other))
@@ -167,7 +179,11 @@ impl VisionNetwork {
     #[must_use]
     pub fn compare(&self, whole: &FrameOutcome, other: &FrameOutcome) -> OutputAgreement {
         let (whole, other) = (&whole.0, &other.0);
-        OutputAgreement(AgreementSums::from_frame(whole, other, self.match_detections(whole, other).as_ref()))
+        OutputAgreement(AgreementSums::from_frame(
+            whole,
+            other,
+            self.match_detections(whole, other).as_ref(),
+        ))
     }
 }
 

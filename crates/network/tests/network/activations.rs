@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Activations are compared with the formulas of the ONNX standard, in double precision.
 
-use crate::model::{ModelBuilder, AttributeValue};
-use foveate_network::{Executor, Mask, ExecutionMode};
+use crate::model::{AttributeValue, ModelBuilder};
+use foveate_network::{ExecutionMode, Executor, Mask};
 
 /// Runs a node on values from -30 to 30, and returns pairs of input and output.
 fn activation_pairs(model: ModelBuilder, name: &str) -> Vec<(f64, f64)> {

@@ -2,9 +2,9 @@
 //! Each attribute of a node must be one of its operator in the version that the model uses, and
 //! must be read.
 
-use crate::model::{ModelBuilder, AttributeValue, noise};
+use crate::model::{AttributeValue, ModelBuilder, noise};
 use foveate_network::onnx::{TensorProto, attribute_type, data_type};
-use foveate_network::{Executor, Mask, ExecutionMode, Network, NetworkError};
+use foveate_network::{ExecutionMode, Executor, Mask, Network, NetworkError};
 
 const SIDE: usize = 4;
 
@@ -47,12 +47,14 @@ fn an_attribute_that_the_operator_has_not_is_refused_by_its_name() {
 #[test]
 fn attributes_belong_to_versions() {
     let blocks = |opset| {
-        let attributes = [("blocksize", AttributeValue::Int(2)), ("mode", AttributeValue::Text("CRD"))];
+        let attributes =
+            [("blocksize", AttributeValue::Int(2)), ("mode", AttributeValue::Text("CRD"))];
         one_node(Some(opset), "SpaceToDepth", &attributes)
     };
     assert!(refusal(blocks(27)).contains("it has no attribute `mode` in version 27"));
     assert!(blocks(28).read(SIDE, SIDE).is_ok());
-    let axes = |opset| one_node(Some(opset), "ReduceMax", &[("axes", AttributeValue::Ints(vec![1]))]);
+    let axes =
+        |opset| one_node(Some(opset), "ReduceMax", &[("axes", AttributeValue::Ints(vec![1]))]);
     assert!(axes(17).read(SIDE, SIDE).is_ok());
     assert!(refusal(axes(18)).contains("it has no attribute `axes` in version 18"));
     let says = "it is an operator since version 20, but the model uses version 19";
@@ -72,7 +74,8 @@ fn space_to_depth_has_two_orders() {
         let other = model.node("Neg", &["picture"], &[]);
         let both = model.node("Concat", &["picture", &other], &[("axis", AttributeValue::Int(1))]);
         let named = mode.map(|mode| ("mode", AttributeValue::Text(mode)));
-        let attributes: Vec<_> = named.into_iter().chain([("blocksize", AttributeValue::Int(2))]).collect();
+        let attributes: Vec<_> =
+            named.into_iter().chain([("blocksize", AttributeValue::Int(2))]).collect();
         let output = model.node("SpaceToDepth", &[&both], &attributes);
         model.output(&output);
         let network = model.read(2, 2).unwrap();
@@ -81,7 +84,11 @@ fn space_to_depth_has_two_orders() {
         executor.step(&picture, &Mask::full(2, 2));
         let all = [1.0, 2.0, 3.0, 4.0, -1.0, -2.0, -3.0, -4.0];
         let wanted = order.map(|at: usize| all[at]);
-        assert_eq!(executor.tensor(network.outputs()[0]).real_values().as_ref(), wanted, "{mode:?}");
+        assert_eq!(
+            executor.tensor(network.outputs()[0]).real_values().as_ref(),
+            wanted,
+            "{mode:?}"
+        );
     }
 }
 
@@ -195,7 +202,8 @@ fn constants_of_a_shape_may_be_large() {
         float_data: vec![0.5],
         ..TensorProto::default()
     };
-    let weights = model.node("ConstantOfShape", &[&shape], &[("value", AttributeValue::Tensor(value))]);
+    let weights =
+        model.node("ConstantOfShape", &[&shape], &[("value", AttributeValue::Tensor(value))]);
     let features = model.node("Conv", &["picture", &weights], &[]);
     model.output(&features);
     let values = outputs(&model.read(SIDE, SIDE).unwrap());

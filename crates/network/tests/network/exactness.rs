@@ -3,8 +3,8 @@
 //! computation.
 
 use crate::integer_layers::{self, IntegerLayer, integer_layer};
-use crate::model::{ModelBuilder, AttributeValue, noise};
-use foveate_network::{Executor, Mask, ExecutionMode, Network};
+use crate::model::{AttributeValue, ModelBuilder, noise};
+use foveate_network::{ExecutionMode, Executor, Mask, Network};
 use proptest::prelude::*;
 
 /// A layer of a random network.
@@ -111,7 +111,13 @@ enum RandomLayer {
 
 /// Returns a 3x3 convolution that keeps the size with stride 1.
 fn three_by_three(channels: usize, stride: i64) -> RandomLayer {
-    RandomLayer::Conv { channels, kernel: [3, 3], strides: [stride; 2], dilations: [1, 1], pads: [1; 4] }
+    RandomLayer::Conv {
+        channels,
+        kernel: [3, 3],
+        strides: [stride; 2],
+        dilations: [1, 1],
+        pads: [1; 4],
+    }
 }
 
 fn layer() -> impl Strategy<Value = RandomLayer> {
@@ -189,7 +195,12 @@ pub(crate) fn signed(length: usize) -> i64 {
     i64::try_from(length).unwrap()
 }
 
-fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, seed: u64) -> Option<LayerOutput> {
+fn add_layer(
+    model: &mut ModelBuilder,
+    now: &LayerOutput,
+    layer: &RandomLayer,
+    seed: u64,
+) -> Option<LayerOutput> {
     let LayerOutput { name, channels, height, width } = now.clone();
     let outputs = |length: i64, kernel: i64, stride: i64, dilation: i64, pads: i64| {
         let room = length + pads - (kernel - 1) * dilation - 1;
@@ -230,7 +241,8 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
         RandomLayer::Grouped => {
             let inner = channels.checked_div(2).filter(|&inner| inner > 1 && channels % 2 == 0)?;
             let weights = model.floats(&[10, signed(inner), 3, 3], &noise(seed, 90 * inner));
-            let attributes = [("pads", AttributeValue::Ints(vec![1; 4])), ("group", AttributeValue::Int(2))];
+            let attributes =
+                [("pads", AttributeValue::Ints(vec![1; 4])), ("group", AttributeValue::Int(2))];
             Some(LayerOutput {
                 name: model.node("Conv", &[&name, &weights], &attributes),
                 channels: 10,
@@ -270,14 +282,20 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
                 &[signed(channels), signed(channels), 3, 3],
                 &noise(seed, channels * channels * 9),
             );
-            let branch =
-                model.node("Conv", &[&name, &weights], &[("pads", AttributeValue::Ints(vec![1; 4]))]);
+            let branch = model.node(
+                "Conv",
+                &[&name, &weights],
+                &[("pads", AttributeValue::Ints(vec![1; 4]))],
+            );
             of(model.node("Add", &[&name, &branch], &[]))
         }
         RandomLayer::ConcatBranch { up } => {
             let weights = model.floats(&[3, signed(channels), 1, 3], &noise(seed, channels * 9));
-            let branch =
-                model.node("Conv", &[&name, &weights], &[("pads", AttributeValue::Ints(vec![0, 1, 0, 1]))]);
+            let branch = model.node(
+                "Conv",
+                &[&name, &weights],
+                &[("pads", AttributeValue::Ints(vec![0, 1, 0, 1]))],
+            );
             let inputs = if up { [&name, &branch] } else { [&branch, &name] };
             let name = model.node(
                 "Concat",
@@ -339,18 +357,32 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
             let mode = ("mode", AttributeValue::Text(if linear { "linear" } else { "nearest" }));
             let coordinates = (
                 "coordinate_transformation_mode",
-                AttributeValue::Text(if seed.is_multiple_of(2) { "half_pixel" } else { "asymmetric" }),
+                AttributeValue::Text(if seed.is_multiple_of(2) {
+                    "half_pixel"
+                } else {
+                    "asymmetric"
+                }),
             );
             let name = model.node("Resize", &[&name, "", &scales], &[mode, coordinates]);
             let scaled = |length: i64| length * i64::from(halves) / 2;
             Some(LayerOutput { name, height: scaled(height), width: scaled(width), ..now.clone() })
         }
-        RandomLayer::Softmax => of(model.node("Softmax", &[&name], &[("axis", AttributeValue::Int(1))])),
+        RandomLayer::Softmax => {
+            of(model.node("Softmax", &[&name], &[("axis", AttributeValue::Int(1))]))
+        }
         RandomLayer::TransposeAndBack => {
+            let turned = model.node(
+                "Transpose",
+                &[&name],
+                &[("perm", AttributeValue::Ints(vec![0, 2, 3, 1]))],
+            );
             let turned =
-                model.node("Transpose", &[&name], &[("perm", AttributeValue::Ints(vec![0, 2, 3, 1]))]);
-            let turned = model.node("LeakyRelu", &[&turned], &[("alpha", AttributeValue::Float(0.1))]);
-            of(model.node("Transpose", &[&turned], &[("perm", AttributeValue::Ints(vec![0, 3, 1, 2]))]))
+                model.node("LeakyRelu", &[&turned], &[("alpha", AttributeValue::Float(0.1))]);
+            of(model.node(
+                "Transpose",
+                &[&turned],
+                &[("perm", AttributeValue::Ints(vec![0, 3, 1, 2]))],
+            ))
         }
         RandomLayer::Integers { signed, layers } => {
             Some(integer_layers::add_block(model, now, signed, &layers, seed))
@@ -380,8 +412,11 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
             let shapes = [vec![half, 2, places], vec![2, -1, half, height, width]];
             let [apart, back] = shapes.map(|shape| model.ints(&shape));
             let apart = model.node("Reshape", &[&name, &apart], &[]);
-            let turned =
-                model.node("Transpose", &[&apart], &[("perm", AttributeValue::Ints(vec![1, 0, 2]))]);
+            let turned = model.node(
+                "Transpose",
+                &[&apart],
+                &[("perm", AttributeValue::Ints(vec![1, 0, 2]))],
+            );
             let back = model.node("Reshape", &[&turned, &back], &[]);
             let index = model.index(1);
             let own = model.node("Gather", &[&back, &index], &[("axis", AttributeValue::Int(0))]);
@@ -390,8 +425,10 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
         RandomLayer::DepthBlocks { up } => {
             let side = ("blocksize", AttributeValue::Int(2));
             if up {
-                let mode =
-                    ("mode", AttributeValue::Text(if seed.is_multiple_of(2) { "DCR" } else { "CRD" }));
+                let mode = (
+                    "mode",
+                    AttributeValue::Text(if seed.is_multiple_of(2) { "DCR" } else { "CRD" }),
+                );
                 let fits = channels % 4 == 0 && height * width < 1000;
                 fits.then(|| LayerOutput {
                     name: model.node("DepthToSpace", &[&name], &[side, mode]),
@@ -453,9 +490,11 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
                     &[("size", AttributeValue::Int(3)), ("alpha", AttributeValue::Float(0.5))],
                 ),
                 "LogSoftmax" => model.node(kind, &[&name], &[("axis", AttributeValue::Int(1))]),
-                "GroupNormalization" => {
-                    model.node(kind, &[&name, &scale, &bias], &[("num_groups", AttributeValue::Int(groups))])
-                }
+                "GroupNormalization" => model.node(
+                    kind,
+                    &[&name, &scale, &bias],
+                    &[("num_groups", AttributeValue::Int(groups))],
+                ),
                 _ => model.node(kind, &[&name, &scale, &bias], &[]),
             })
         }
@@ -465,12 +504,16 @@ fn add_layer(model: &mut ModelBuilder, now: &LayerOutput, layer: &RandomLayer, s
             }
             let shape = model.ints(&[1, 0, -1]);
             let flat = model.node("Reshape", &[&name, &shape], &[]);
-            let turned = model.node("Transpose", &[&flat], &[("perm", AttributeValue::Ints(vec![0, 2, 1]))]);
+            let turned =
+                model.node("Transpose", &[&flat], &[("perm", AttributeValue::Ints(vec![0, 2, 1]))]);
             let alike = model.node("MatMul", &[&turned, &flat], &[]);
             let shares = model.node("Softmax", &[&alike], &[]);
             let mixed = model.node("MatMul", &[&shares, &turned], &[]);
-            let turned =
-                model.node("Transpose", &[&mixed], &[("perm", AttributeValue::Ints(vec![0, 2, 1]))]);
+            let turned = model.node(
+                "Transpose",
+                &[&mixed],
+                &[("perm", AttributeValue::Ints(vec![0, 2, 1]))],
+            );
             let shape = model.ints(&[1, -1, height, width]);
             of(model.node("Reshape", &[&turned, &shape], &[]))
         }
@@ -565,15 +608,19 @@ pub(crate) fn first_difference(
         dense.step(picture, mask);
         other.step(picture, mask);
         for value in 0..=network.nodes().len() {
-            let what =
-                || value.checked_sub(1).map_or("picture", |node| network.nodes()[node].operator_name());
+            let what = || {
+                value.checked_sub(1).map_or("picture", |node| network.nodes()[node].operator_name())
+            };
             let differences = dense.tensor(value).differing_positions(other.tensor(value));
             if !differences.is_empty() {
                 return Some(format!("{mode:?}: frame {number}, value {value} ({})", what()));
             }
             // The positions that have really changed must be in the mask.
             if let Some(before) = before.get(value)
-                && !dense.tensor(value).differing_positions(before).is_subset(other.change_mask(value))
+                && !dense
+                    .tensor(value)
+                    .differing_positions(before)
+                    .is_subset(other.change_mask(value))
             {
                 return Some(format!(
                     "{mode:?}: frame {number}, value {value} ({}) changed outside of its mask",
@@ -610,7 +657,12 @@ proptest! {
 #[test]
 fn rows_of_every_length_have_the_bits_of_the_whole() {
     for width in 6..30 {
-        let layers = [three_by_three(13, 1), RandomLayer::Relu, three_by_three(37, 2), RandomLayer::Residual];
+        let layers = [
+            three_by_three(13, 1),
+            RandomLayer::Relu,
+            three_by_three(37, 2),
+            RandomLayer::Residual,
+        ];
         let network = network(1, [9, width], &layers);
         let frames = masked_clip(
             1,
@@ -628,7 +680,11 @@ fn a_change_outside_of_the_mask_is_found() {
     let network = network(1, [12, 12], &layers);
     let mut frames = masked_clip(1, [12, 12], &[vec![(3, 3, 4)]]);
     frames[1].1.remove(6, 6);
-    assert!(first_difference(&network, ExecutionMode::Exact, &frames).unwrap().contains("frame 1, value 0"));
+    assert!(
+        first_difference(&network, ExecutionMode::Exact, &frames)
+            .unwrap()
+            .contains("frame 1, value 0")
+    );
 }
 
 /// Truncation passes on few changes, so that little is computed, and the output stays close.
@@ -646,10 +702,12 @@ fn truncation_computes_less_and_stays_near() {
     let needed = |mode| {
         let mut executor = Executor::new(&network, mode);
         executor.step(&picture, &full);
-        let needed: usize = executor.step(&shifted, &full).iter().map(|work| work.needed_positions).sum();
+        let needed: usize =
+            executor.step(&shifted, &full).iter().map(|work| work.needed_positions).sum();
         (needed, executor.tensor(3).real_values().to_vec())
     };
-    let ((exact, right), (truncated, near)) = (needed(ExecutionMode::Exact), needed(ExecutionMode::Truncate(0.1)));
+    let ((exact, right), (truncated, near)) =
+        (needed(ExecutionMode::Exact), needed(ExecutionMode::Truncate(0.1)));
     assert!(truncated < exact, "{truncated} of {exact}");
     let worst = right.iter().zip(&near).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     assert!(worst > 0.0 && worst < 0.1 * 54.0, "{worst}");
@@ -675,7 +733,11 @@ fn every_node_has_a_limit_of_its_own() {
     for at in 0..nodes {
         let (whole, cut) = (&all[1], &cut_at(at)[1]);
         assert_eq!(whole[..at], cut[..at], "{at}");
-        assert_eq!((whole[at].needed_positions, 0), (cut[at].needed_positions, cut[at].changed_positions), "{at}");
+        assert_eq!(
+            (whole[at].needed_positions, 0),
+            (cut[at].needed_positions, cut[at].changed_positions),
+            "{at}"
+        );
     }
 }
 
@@ -706,7 +768,10 @@ fn any_number_of_threads_gives_the_same_bits() {
     let alone = values(1);
     for threads in [2, 3, 5] {
         for (value, (alone, shared)) in alone.iter().zip(values(threads)).enumerate() {
-            assert!(alone.differing_positions(&shared).is_empty(), "{threads} threads, value {value}");
+            assert!(
+                alone.differing_positions(&shared).is_empty(),
+                "{threads} threads, value {value}"
+            );
         }
     }
 }
@@ -720,15 +785,18 @@ fn a_part_is_never_more_than_the_whole() {
         [31, 70],
         &[three_by_three(5, 1), RandomLayer::Depthwise { kernel: 3, stride: 1, pads: [1; 4] }],
     );
-    let (mut dense, mut exact) =
-        (Executor::new(&network, ExecutionMode::Dense), Executor::new(&network, ExecutionMode::Exact));
+    let (mut dense, mut exact) = (
+        Executor::new(&network, ExecutionMode::Dense),
+        Executor::new(&network, ExecutionMode::Exact),
+    );
     let picture = noise(5, 31 * 70);
     let scattered = Mask::from_fn(31, 70, |x, y| x % 9 == 0 && y % 2 == 0);
     for mask in [Mask::full(31, 70), scattered] {
         let (all, part) = (dense.step(&picture, &mask).to_vec(), exact.step(&picture, &mask));
         for (all, part) in all.iter().zip(part) {
             assert!(
-                part.needed_positions <= part.scheduled_positions && part.scheduled_positions <= all.scheduled_positions,
+                part.needed_positions <= part.scheduled_positions
+                    && part.scheduled_positions <= all.scheduled_positions,
                 "{part:?} of {all:?}"
             );
         }
@@ -760,8 +828,10 @@ fn the_fixed_mode_is_wrong_at_borders_only() {
     let layers = [three_by_three(2, 1)];
     let network = network(1, [16, 16], &layers);
     let frames = masked_clip(1, [16, 16], &[vec![(4, 4, 6)]]);
-    let (mut dense, mut fixed) =
-        (Executor::new(&network, ExecutionMode::Dense), Executor::new(&network, ExecutionMode::Fixed));
+    let (mut dense, mut fixed) = (
+        Executor::new(&network, ExecutionMode::Dense),
+        Executor::new(&network, ExecutionMode::Fixed),
+    );
     for (picture, mask) in &frames {
         dense.step(picture, mask);
         fixed.step(picture, mask);
@@ -812,7 +882,8 @@ fn a_sum_with_its_own_transpose_is_exact() {
 fn convolutions_of_a_pooled_tensor_are_exact() {
     let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
     let weights = model.floats(&[6, 1, 3, 3], &noise(1, 54));
-    let features = model.node("Conv", &["picture", &weights], &[("pads", AttributeValue::Ints(vec![1; 4]))]);
+    let features =
+        model.node("Conv", &["picture", &weights], &[("pads", AttributeValue::Ints(vec![1; 4]))]);
     let mean = model.node("GlobalAveragePool", &[&features], &[]);
     let weights = model.floats(&[6, 6, 1, 1], &noise(2, 36));
     let gate = model.node("Conv", &[&mean, &weights], &[]);

@@ -2,7 +2,7 @@
 //! The quantized network of the project is compared with onnxruntime 1.31. `scripts/quantize.py`
 //! wrote both files of `golden`.
 
-use foveate_network::{ElementType, Executor, FrameSize, Mask, ExecutionMode, Network};
+use foveate_network::{ElementType, ExecutionMode, Executor, FrameSize, Mask, Network};
 use std::path::Path;
 
 #[test]

@@ -2,7 +2,7 @@
 //! Layers of 8-bit values for random networks.
 
 use crate::exactness::{LayerOutput, signed};
-use crate::model::{ModelBuilder, AttributeValue, noise};
+use crate::model::{AttributeValue, ModelBuilder, noise};
 use foveate_network::onnx::data_type;
 use proptest::prelude::*;
 
@@ -138,7 +138,8 @@ pub(crate) fn add_block(
 ) -> LayerOutput {
     let first = QuantizationConstants::new(model, is_signed, 1.0 / 64.0, seed);
     let name = model.node("QuantizeLinear", &[&now.name, &first.scale, &first.zero_point], &[]);
-    let mut block = QuantizedTensor { state: LayerOutput { name, ..now.clone() }, bytes: first, is_signed };
+    let mut block =
+        QuantizedTensor { state: LayerOutput { name, ..now.clone() }, bytes: first, is_signed };
     for (at, layer) in layers.iter().enumerate() {
         if let Some(next) = block.add(model, layer, seed * 40 + at as u64) {
             block = next;
@@ -271,7 +272,8 @@ impl QuantizedTensor {
             IntegerLayer::Gate => {
                 let inputs = [self.inputs().as_slice(), &[&to.scale, &to.zero_point]].concat();
                 let mean = model.node("com.microsoft.QLinearGlobalAveragePool", &inputs, &[]);
-                let product = QuantizationConstants::new(model, self.is_signed, 1.0 / 30.0, seed + 1);
+                let product =
+                    QuantizationConstants::new(model, self.is_signed, 1.0 / 30.0, seed + 1);
                 let inputs = [
                     self.inputs().as_slice(),
                     &[&mean, &to.scale, &to.zero_point, &product.scale, &product.zero_point],
@@ -291,8 +293,11 @@ impl QuantizedTensor {
                     self.inputs().as_slice(),
                 ]
                 .concat();
-                let name =
-                    model.node("com.microsoft.QLinearConcat", &inputs, &[("axis", AttributeValue::Int(1))]);
+                let name = model.node(
+                    "com.microsoft.QLinearConcat",
+                    &inputs,
+                    &[("axis", AttributeValue::Int(1))],
+                );
                 let state = LayerOutput { name, channels: channels + 3, ..self.state.clone() };
                 (channels < 20).then(|| Self { state, bytes: both, ..self.clone() })
             }
@@ -348,7 +353,10 @@ impl QuantizedTensor {
             IntegerLayer::TransposeAndBack => {
                 let order = |order: &[i64]| [("perm", AttributeValue::Ints(order.to_vec()))];
                 let turned = model.node("Transpose", &[&name], &order(&[0, 2, 3, 1]));
-                self.with_name(model.node("Transpose", &[&turned], &order(&[0, 3, 1, 2])), &self.bytes)
+                self.with_name(
+                    model.node("Transpose", &[&turned], &order(&[0, 3, 1, 2])),
+                    &self.bytes,
+                )
             }
             IntegerLayer::SliceColumns => {
                 let [starts, ends, axes, steps] =

@@ -7,9 +7,9 @@
 )]
 
 use crate::integer_layers::integers;
-use crate::model::{ModelBuilder, AttributeValue, noise};
+use crate::model::{AttributeValue, ModelBuilder, noise};
 use foveate_network::onnx::data_type;
-use foveate_network::{Executor, Mask, ExecutionMode};
+use foveate_network::{ExecutionMode, Executor, Mask};
 use proptest::prelude::*;
 
 /// Divides a number by a power of two, and rounds halves to even.
@@ -319,8 +319,10 @@ fn operators_of_onnxruntime_are_as_it_says() {
     let shares = with("com.microsoft.QLinearSoftmax", &[("opset", AttributeValue::Int(13))]);
     assert_eq!(of(&shares), [0.0, 0.25, 0.75, 0.0]);
     let pairs = |model: &mut ModelBuilder, x: [&str; 3], y: [&str; 2]| {
-        let attributes =
-            [("kernel_shape", AttributeValue::Ints(vec![1, 2])), ("pads", AttributeValue::Ints(vec![0, 1, 0, 0]))];
+        let attributes = [
+            ("kernel_shape", AttributeValue::Ints(vec![1, 2])),
+            ("pads", AttributeValue::Ints(vec![0, 1, 0, 0])),
+        ];
         model.node("com.microsoft.QLinearAveragePool", &[x[0], x[1], x[2], y[0], y[1]], &attributes)
     };
     // The first window holds one value of padding, which does not count.
@@ -381,8 +383,15 @@ fn what_rounds_away_is_not_passed_on() {
         executor.step(&after, &Mask::full(8, 8))[0].changed_positions
     };
     assert_eq!(
-        (changed(0.04, ExecutionMode::Exact), changed(0.04, ExecutionMode::Compare), changed(0.2, ExecutionMode::Compare)),
+        (
+            changed(0.04, ExecutionMode::Exact),
+            changed(0.04, ExecutionMode::Compare),
+            changed(0.2, ExecutionMode::Compare)
+        ),
         (64, 0, 1)
     );
-    assert_eq!((changed(0.2, ExecutionMode::Truncate(0.25)), changed(0.2, ExecutionMode::Truncate(0.15))), (0, 1));
+    assert_eq!(
+        (changed(0.2, ExecutionMode::Truncate(0.25)), changed(0.2, ExecutionMode::Truncate(0.15))),
+        (0, 1)
+    );
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Networks from TensorFlow take the channels last, and first transpose them to the front.
 
-use crate::model::{ModelBuilder, AttributeValue, noise};
-use foveate_network::{Executor, InputLayout, Mask, ExecutionMode, Network};
+use crate::model::{AttributeValue, ModelBuilder, noise};
+use foveate_network::{ExecutionMode, Executor, InputLayout, Mask, Network};
 
 const FIRST: [i64; 4] = [0, 3, 1, 2];
 const LAST: [i64; 4] = [0, 2, 3, 1];
@@ -19,8 +19,11 @@ fn network(turn: bool, shape: &[i64]) -> Network {
     let pads = [("pads", AttributeValue::Ints(vec![1; 4]))];
     let parts: Vec<String> = (0..2)
         .map(|_| {
-            let picture =
-                if turn { add_transpose(&mut model, "picture", FIRST) } else { "picture".to_owned() };
+            let picture = if turn {
+                add_transpose(&mut model, "picture", FIRST)
+            } else {
+                "picture".to_owned()
+            };
             model.node("Conv", &[&picture, &weights], &pads)
         })
         .collect();
@@ -57,7 +60,8 @@ fn channels_that_are_put_first_are_read_as_such() {
         assert_eq!((first.layout(), last.layout()), (InputLayout::Nchw, InputLayout::Nhwc));
         assert_eq!(last.input().shape(), [1, 3, 4, 6]);
         assert_eq!(last.form(last.outputs()[0]).shape(), [1, 4, 6, 2]);
-        let kinds: Vec<_> = last.nodes().iter().map(foveate_network::NetworkNode::operator_name).collect();
+        let kinds: Vec<_> =
+            last.nodes().iter().map(foveate_network::NetworkNode::operator_name).collect();
         assert_eq!(kinds, ["Conv", "Conv", "Mul", "Transpose"]);
         for (first, last) in outputs(&first).iter().zip(outputs(&last)) {
             for (at, value) in last.iter().enumerate() {

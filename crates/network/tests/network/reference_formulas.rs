@@ -2,8 +2,8 @@
 //! Convolution and pooling are compared with the formulas of the ONNX standard, in double
 //! precision.
 
-use crate::model::{ModelBuilder, AttributeValue, noise};
-use foveate_network::{Executor, Mask, ExecutionMode};
+use crate::model::{AttributeValue, ModelBuilder, noise};
+use foveate_network::{ExecutionMode, Executor, Mask};
 use proptest::prelude::*;
 
 proptest! {
@@ -148,7 +148,10 @@ fn pooling_is_that_of_the_standard() {
     // The first window holds 0, 1, 5 and 6, and five values of padding.
     assert_eq!(run("AveragePool", &[square(3), strides.clone(), pads.clone()])[0], 3.0);
     assert_eq!(
-        run("AveragePool", &[square(3), strides, pads, ("count_include_pad", AttributeValue::Int(1))])[0],
+        run(
+            "AveragePool",
+            &[square(3), strides, pads, ("count_include_pad", AttributeValue::Int(1))]
+        )[0],
         12.0 / 9.0
     );
     assert_eq!(run("GlobalAveragePool", &[]), [12.0]);

@@ -3,7 +3,7 @@
 //! names the problem.
 
 use crate::exactness::signed;
-use crate::model::{ModelBuilder, AttributeValue};
+use crate::model::{AttributeValue, ModelBuilder};
 use foveate_network::onnx::data_type;
 use foveate_network::{FrameSize, Network};
 use proptest::prelude::*;
@@ -95,7 +95,10 @@ fn impossible_models_are_refused() {
         (
             one_node(
                 "MaxPool",
-                &[("kernel_shape", AttributeValue::Ints(vec![2, 2])), ("auto_pad", AttributeValue::Text("SAME"))],
+                &[
+                    ("kernel_shape", AttributeValue::Ints(vec![2, 2])),
+                    ("auto_pad", AttributeValue::Text("SAME")),
+                ],
             ),
             "its auto_pad is `SAME`",
         ),
@@ -196,7 +199,10 @@ fn what_is_not_as_it_seems_is_refused() {
         (with("Unsqueeze", &[&[0; 9]], &[]), "more than 8 axes"),
         (with("Unsqueeze", &[&[0, 0]], &[]), "it names an axis twice"),
         (with("Reshape", &[&[1, 1, 1, 1, 1, 1, 1, 1, -1]], &[]), "more than 8 axes"),
-        (with("Split", &[&[5, 4]], &[("axis", AttributeValue::Int(2))]), "8 elements cannot be split"),
+        (
+            with("Split", &[&[5, 4]], &[("axis", AttributeValue::Int(2))]),
+            "8 elements cannot be split",
+        ),
         (with("Slice", &[&[0, 0], &[4, 4], &[2, -2]], &[]), "its axis 2 is cut twice"),
         (with("Slice", &[&[0, 0], &[4], &[2, 3]], &[]), "differ in length"),
         (with("ReduceMean", &[&[4]], &[]), "its axis 4 is outside"),
@@ -237,17 +243,20 @@ fn quantized_networks_are_checked() {
     let of_zero = |data_type, values: &'static [i32]| {
         conv(&|model, inputs| inputs[2] = model.typed(data_type, &[signed(values.len())], values))
     };
-    let alone =
-        |kind: &str, rest: &dyn Fn(&mut ModelBuilder) -> Vec<String>, attributes: &[(&str, AttributeValue)]| {
-            let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
-            let rest = rest(&mut model);
-            let inputs = std::iter::once("picture").chain(rest.iter().map(String::as_str));
-            let output = model.node(kind, &inputs.collect::<Vec<_>>(), attributes);
-            model.output(&output);
-            refusal(model)
-        };
+    let alone = |kind: &str,
+                 rest: &dyn Fn(&mut ModelBuilder) -> Vec<String>,
+                 attributes: &[(&str, AttributeValue)]| {
+        let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
+        let rest = rest(&mut model);
+        let inputs = std::iter::once("picture").chain(rest.iter().map(String::as_str));
+        let output = model.node(kind, &inputs.collect::<Vec<_>>(), attributes);
+        model.output(&output);
+        refusal(model)
+    };
     let to = |kind, value: i32| {
-        move |model: &mut ModelBuilder| vec![model.floats(&[], &[1.0]), model.typed(kind, &[], &[value])]
+        move |model: &mut ModelBuilder| {
+            vec![model.floats(&[], &[1.0]), model.typed(kind, &[], &[value])]
+        }
     };
     let after = |kind: &str, attributes: &[(&str, AttributeValue)]| {
         let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
@@ -305,7 +314,11 @@ fn quantized_networks_are_checked() {
             "its y_zero_point is -129; it must be -128 to 127",
         ),
         (
-            alone("QuantizeLinear", &to(data_type::INT8, 0), &[("block_size", AttributeValue::Int(2))]),
+            alone(
+                "QuantizeLinear",
+                &to(data_type::INT8, 0),
+                &[("block_size", AttributeValue::Int(2))],
+            ),
             "blocked quantization is not supported",
         ),
         (
@@ -418,7 +431,8 @@ fn data_outside_of_the_folder_is_refused() {
 fn common_network() -> Vec<u8> {
     let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
     let weights = model.floats(&[4, 1, 3, 3], &[0.5; 36]);
-    let one = model.node("Conv", &["picture", &weights], &[("pads", AttributeValue::Ints(vec![1; 4]))]);
+    let one =
+        model.node("Conv", &["picture", &weights], &[("pads", AttributeValue::Ints(vec![1; 4]))]);
     let two = model.node("Relu", &[&one], &[]);
     let shape = model.ints(&[1, -1]);
     let three = model.node("Reshape", &[&two, &shape], &[]);
@@ -459,7 +473,8 @@ fn detector_network() -> Vec<u8> {
     let rest = model.ints(&[1, -1]);
     let shape = model.node("Concat", &[&rest, &channels], &[("axis", AttributeValue::Int(0))]);
     let flat = model.node("Reshape", &[&blocks, &shape], &[]);
-    let turned = model.node("Transpose", &[&flat], &[("perm", AttributeValue::Ints(vec![0, 2, 1]))]);
+    let turned =
+        model.node("Transpose", &[&flat], &[("perm", AttributeValue::Ints(vec![0, 2, 1]))]);
     let alike = model.node("MatMul", &[&turned, &flat], &[]);
     let sum = model.node("ReduceSum", &[&alike, &one], &[]);
     let most = model.node("ArgMax", &[&sum], &[("axis", AttributeValue::Int(2))]);
@@ -472,12 +487,14 @@ fn selection_network() -> Vec<u8> {
     let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
     let scale = model.floats(&[1], &[0.5]);
     let one = model.node("InstanceNormalization", &["picture", &scale, &scale], &[]);
-    let two = model.node("LayerNormalization", &[&one, &scale], &[("axis", AttributeValue::Int(2))]);
+    let two =
+        model.node("LayerNormalization", &[&one, &scale], &[("axis", AttributeValue::Int(2))]);
     let is = model.node("Less", &[&two, &scale], &[]);
     let three = model.node("Where", &[&is, &two, &scale], &[]);
     let four = model.node("LRN", &[&three], &[("size", AttributeValue::Int(3))]);
     let sizes = model.ints(&[1, 1, 12, 9]);
-    let five = model.node("Resize", &[&four, "", "", &sizes], &[("mode", AttributeValue::Text("cubic"))]);
+    let five =
+        model.node("Resize", &[&four, "", "", &sizes], &[("mode", AttributeValue::Text("cubic"))]);
     let shape = model.ints(&[2, 1, 12, 9]);
     let six = model.node("Expand", &[&five, &shape], &[]);
     let index = model.index(-1);
@@ -490,7 +507,8 @@ fn selection_network() -> Vec<u8> {
 }
 
 /// The valid networks that are damaged.
-const VALID_NETWORKS: [fn() -> Vec<u8>; 4] = [common_network, quantized_network, detector_network, selection_network];
+const VALID_NETWORKS: [fn() -> Vec<u8>; 4] =
+    [common_network, quantized_network, detector_network, selection_network];
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]

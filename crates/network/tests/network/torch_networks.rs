@@ -2,7 +2,7 @@
 //! Small networks are compared with torch. `scripts/golden_networks.py`, which wrote the files, has
 //! compared torch with onnxruntime.
 
-use foveate_network::{Executor, FrameSize, Mask, ExecutionMode, Network};
+use foveate_network::{ExecutionMode, Executor, FrameSize, Mask, Network};
 use std::path::Path;
 
 /// The tolerance as a share of the largest output. Sums are added in another order, and

@@ -3,8 +3,8 @@
 //! names, are read, and a part has the bits of a dense computation. `scripts/compare_networks.py`
 //! compares the networks with onnxruntime.
 
-use crate::exactness::{masked_clip, first_difference};
-use foveate_network::{FrameSize, ExecutionMode, Network};
+use crate::exactness::{first_difference, masked_clip};
+use foveate_network::{ExecutionMode, FrameSize, Network};
 use foveate_toolchain::testing::data_folder;
 
 /// The name, width and height of each network.

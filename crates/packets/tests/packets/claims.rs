@@ -5,7 +5,10 @@
 use std::ops::Range;
 
 use fastrand::Rng;
-use foveate_packets::{FrameAssembler, StreamItem, PacketLayout, StreamLoss, ReceivedFrame, PacketSplitter, packet_writer};
+use foveate_packets::{
+    FrameAssembler, PacketLayout, PacketSplitter, ReceivedFrame, StreamItem, StreamLoss,
+    packet_writer,
+};
 
 use crate::damage::case_count;
 use crate::stream::{TestStream, random_stream, read_stream};
@@ -45,14 +48,17 @@ fn forge(rng: &mut Rng, packet: &mut [u8]) {
 
 /// Returns the frames and losses received from bytes, and ignores a FRAME that is refused.
 fn receive(layout: &PacketLayout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<StreamLoss>) {
-    let (mut splitter, mut assembler) = (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
+    let (mut splitter, mut assembler) =
+        (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
     let mut frames = Vec::new();
     splitter.feed(bytes);
     splitter.mark_complete();
     loop {
         match splitter.next(Some(layout)) {
             StreamItem::Pending => break,
-            StreamItem::Skipped { offset, bytes } => assembler.add_loss(StreamLoss::Bytes { offset, bytes }),
+            StreamItem::Skipped { offset, bytes } => {
+                assembler.add_loss(StreamLoss::Bytes { offset, bytes })
+            }
             StreamItem::Packet { frame, packet } => {
                 let ended = assembler.push(frame, packet).unwrap_or_default();
                 frames.extend(ended.into_iter().flatten());
@@ -96,7 +102,12 @@ fn a_wrong_frame_number_costs_two_frames_at_most() {
     for jump in [100, 1 << 16, 1 << 30, (1 << 31) - 1, 1 << 31, u32::MAX - 2] {
         let at = frames[2].end;
         let mut forged = bytes[..at].to_vec();
-        packet_writer::append_frame(&mut forged, &layout, 2u32.wrapping_add(jump), (120_000, false));
+        packet_writer::append_frame(
+            &mut forged,
+            &layout,
+            2u32.wrapping_add(jump),
+            (120_000, false),
+        );
         forged.extend(&bytes[at..]);
         let received = read_stream(&mut rng, &layout, &forged).0;
         let numbers: Vec<u32> = received.iter().map(|frame| frame.number).collect();

@@ -31,7 +31,11 @@ fn fuzz_right_times_are_exact_and_any_times_never_go_back() {
         for _ in 0..50 {
             let exact = u128::from(time - start) * 1_000_000 / u128::from(per_second);
             let taken = take(&mut right, &info, time);
-            assert_eq!((u128::from(taken.time_us), taken.is_impossible), (exact, false), "seed {seed}");
+            assert_eq!(
+                (u128::from(taken.time_us), taken.is_impossible),
+                (exact, false),
+                "seed {seed}"
+            );
             time += rng.u64(0..day) >> rng.u32(0..40);
 
             let wild = match rng.u8(0..4) {
@@ -64,7 +68,8 @@ fn a_time_that_cannot_be_right_is_that_of_the_frame_before() {
             (1_002_000, false),
         ];
         // A time slightly before the last one does not make the next time doubtful.
-        let expected = expected.map(|(time_us, is_wrong)| FrameTime { time_us, is_impossible: is_wrong });
+        let expected =
+            expected.map(|(time_us, is_wrong)| FrameTime { time_us, is_impossible: is_wrong });
         if wrong == 4999 {
             assert_eq!(times[2..4].iter().filter(|time| time.is_impossible).count(), 1);
             assert!(times[4].time_us > times[3].time_us);

@@ -2,7 +2,7 @@
 //! Streams that lose, gain and change bytes. The frames that remain whole are received unchanged.
 
 use fastrand::Rng;
-use foveate_packets::{StreamLoss, ReceivedFrame};
+use foveate_packets::{ReceivedFrame, StreamLoss};
 
 use crate::stream::{TestStream, random_stream, read_stream};
 

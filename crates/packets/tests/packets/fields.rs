@@ -3,7 +3,9 @@
 //! limit. No bit is truncated, and nothing is appended.
 
 use foveate_design::DesignConfig;
-use foveate_packets::{RegionDecision, EndPacket, PacketLayout, PacketError, RegionFlags, packet_writer};
+use foveate_packets::{
+    EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_writer,
+};
 
 use crate::stream::design;
 
@@ -38,7 +40,13 @@ fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
         "a REGION of this design carries 4 values, not 524288"
     );
     assert_eq!(
-        refusal(|out| packet_writer::append_row(out, &layout, 0, 0, &[RegionDecision::default(); 4])),
+        refusal(|out| packet_writer::append_row(
+            out,
+            &layout,
+            0,
+            0,
+            &[RegionDecision::default(); 4]
+        )),
         "a ROW of this design carries 3 decisions, not 4"
     );
     let scores = (0..2).map(|_| [0; 2]);
@@ -47,7 +55,10 @@ fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
         "a SCORES of this design carries 3 records, not 2"
     );
     let many = (0..).map(|_| [0; 2]).take(1 << 20);
-    assert!(refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, many)).contains("3 records, not "));
+    assert!(
+        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, many))
+            .contains("3 records, not ")
+    );
     let long = (0..3).map(|_| [0; 3]);
     assert_eq!(
         refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, long)),
@@ -58,7 +69,9 @@ fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
 #[test]
 fn a_place_that_no_region_has_is_refused() {
     let layout = layout();
-    let region = |place| refusal(|out| packet_writer::append_region(out, &layout, 0, place, (PIXELS, &[0; 4])));
+    let region = |place| {
+        refusal(|out| packet_writer::append_region(out, &layout, 0, place, (PIXELS, &[0; 4])))
+    };
     let (row, column) = (
         |row| format!("the row of a packet cannot be {row}: it is 0 to 1"),
         |column| format!("the column of a packet cannot be {column}: it is 0 to 2"),
@@ -66,9 +79,15 @@ fn a_place_that_no_region_has_is_refused() {
     for wrong in [2, 65_535, 65_536, u32::MAX] {
         assert_eq!(region((wrong, 0)), row(wrong));
         let decisions = [RegionDecision::default(); 3];
-        assert_eq!(refusal(|out| packet_writer::append_row(out, &layout, 0, wrong, &decisions)), row(wrong));
+        assert_eq!(
+            refusal(|out| packet_writer::append_row(out, &layout, 0, wrong, &decisions)),
+            row(wrong)
+        );
         let scores = (0..3).map(|_| [0; 2]);
-        assert_eq!(refusal(|out| packet_writer::append_scores(out, &layout, 0, wrong, scores)), row(wrong));
+        assert_eq!(
+            refusal(|out| packet_writer::append_scores(out, &layout, 0, wrong, scores)),
+            row(wrong)
+        );
     }
     for wrong in [3, 65_536, u32::MAX] {
         assert_eq!(region((0, wrong)), column(wrong));
@@ -78,8 +97,11 @@ fn a_place_that_no_region_has_is_refused() {
 #[test]
 fn a_number_that_does_not_fit_is_refused() {
     let layout = layout();
-    let region =
-        |value| refusal(|out| packet_writer::append_region(out, &layout, 0, (0, 0), (PIXELS, &[0, value, 0, 0])));
+    let region = |value| {
+        refusal(|out| {
+            packet_writer::append_region(out, &layout, 0, (0, 0), (PIXELS, &[0, value, 0, 0]))
+        })
+    };
     // A lane of 8 bits would hold 0 for the last value.
     for wrong in [16, 255, 256] {
         assert_eq!(
@@ -87,7 +109,9 @@ fn a_number_that_does_not_fit_is_refused() {
             format!("the value of a packet cannot be {wrong}: it is 0 to 15")
         );
     }
-    let score = |record| refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, (0..3).map(|_| record)));
+    let score = |record| {
+        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, (0..3).map(|_| record)))
+    };
     assert_eq!(score([65_536, 0]), "the score of a packet cannot be 65536: it is 0 to 4");
     assert_eq!(score([0, 5]), "the score of a packet cannot be 5: it is 0 to 4");
     for rows_dropped in [65_536, u32::MAX] {
@@ -135,6 +159,7 @@ fn a_design_whose_sizes_do_not_fit_has_no_packets() {
     let wide = "frame={width=16384,height=2,pixel_bits=16}\nregion.size=2\ntemporal.min_count=1\n\
                 spatial=[{feature='edge',min_score=1},{feature='mad',mean_fraction_bits=2},{feature='corner',min_score=1},{feature='variance'}]\n";
     let layout =
-        PacketLayout::new(&DesignConfig::from_toml(wide).unwrap().validate().unwrap(), true, 1).unwrap();
+        PacketLayout::new(&DesignConfig::from_toml(wide).unwrap().validate().unwrap(), true, 1)
+            .unwrap();
     assert!(layout.scores_bytes() / 8 <= 65_535, "{}", layout.scores_bytes());
 }

@@ -2,7 +2,8 @@
 //! The packets of a small frame, written by hand from `docs/packets.md`, word by word.
 
 use foveate_packets::{
-    FrameAssembler, RegionContent, RegionDecision, EndPacket, StreamItem, PacketLayout, StreamLoss, Packet, RegionFlags, PacketSplitter, packet_writer,
+    EndPacket, FrameAssembler, Packet, PacketLayout, PacketSplitter, RegionContent, RegionDecision,
+    RegionFlags, StreamItem, StreamLoss, packet_writer,
 };
 
 use crate::stream::design;
@@ -42,7 +43,8 @@ fn a_frame_is_what_the_page_says() {
     let scores = [[4, 3, 0x1234], [1, 0, 0], [0, 4, 5]];
     packet_writer::append_scores(&mut bytes, &layout, number, 1, scores.into_iter()).unwrap();
     let flags = RegionFlags { raw: false, summary: false };
-    packet_writer::append_region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4])).unwrap();
+    packet_writer::append_region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4]))
+        .unwrap();
     let flags = RegionFlags { raw: false, summary: true };
     packet_writer::append_region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155])).unwrap();
     let end = EndPacket { regions_sent: 2, regions_dropped: 3, rows_dropped: 1 };
@@ -83,7 +85,8 @@ fn a_frame_is_what_the_page_says() {
     assert_eq!(all, by_hand.iter().map(Vec::len).collect::<Vec<_>>());
 
     // The packets are then read back.
-    let (mut splitter, mut assembler) = (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
+    let (mut splitter, mut assembler) =
+        (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
     splitter.feed(&bytes);
     splitter.mark_complete();
     let (mut frames, mut packets) = (Vec::new(), Vec::new());

@@ -5,7 +5,10 @@
 use std::ops::Range;
 
 use fastrand::Rng;
-use foveate_packets::{RegisterCommand, StreamItem, PacketLayout, Packet, RegisterPacket, PacketSplitter, packet_writer};
+use foveate_packets::{
+    Packet, PacketLayout, PacketSplitter, RegisterCommand, RegisterPacket, StreamItem,
+    packet_writer,
+};
 
 use crate::damage::{case_count, damage};
 use crate::golden::packet;
@@ -30,7 +33,10 @@ fn registers(bytes: &[u8], layout: Option<&PacketLayout>) -> (Vec<RegisterPacket
 }
 
 /// Returns a stream with answers between its packets, and the byte ranges of the answers.
-fn with_answers(rng: &mut Rng, stream: &TestStream) -> (Vec<u8>, Vec<(Range<usize>, RegisterPacket)>) {
+fn with_answers(
+    rng: &mut Rng,
+    stream: &TestStream,
+) -> (Vec<u8>, Vec<(Range<usize>, RegisterPacket)>) {
     let (mut bytes, mut answers, mut at) = (Vec::new(), Vec::new(), 0);
     while at < stream.bytes.len() {
         let words = u16::from_le_bytes([stream.bytes[at + 2], stream.bytes[at + 3]]);
@@ -113,7 +119,8 @@ fn fuzz_answers_beside_damage_come_back() {
         let whole = |(range, _): &&(Range<usize>, RegisterPacket)| {
             touched.end.max(touched.start + 1) <= range.start || touched.start >= range.end
         };
-        let expected: Vec<RegisterPacket> = answers.iter().filter(whole).map(|(_, own)| *own).collect();
+        let expected: Vec<RegisterPacket> =
+            answers.iter().filter(whole).map(|(_, own)| *own).collect();
         let mut found = registers(&bytes, Some(&stream.layout)).0;
         // Noise that is inserted before an answer leaves it whole, so `found` may have more answers
         // than `expected`.

@@ -4,9 +4,10 @@
 use std::ops::Range;
 
 use fastrand::Rng;
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_packets::{
-    FrameAssembler, RegionDecision, EndPacket, StreamItem, PacketLayout, StreamLoss, ReceivedFrame, RegionFlags, PacketSplitter, packet_writer,
+    EndPacket, FrameAssembler, PacketLayout, PacketSplitter, ReceivedFrame, RegionDecision,
+    RegionFlags, StreamItem, StreamLoss, packet_writer,
 };
 
 pub(crate) fn design(toml: &str) -> Design {
@@ -34,7 +35,12 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
     let (mut bytes, mut frames) = (Vec::new(), Vec::new());
     for number in 0..count {
         let start = bytes.len();
-        packet_writer::append_frame(&mut bytes, &layout, number, (u64::from(number) * 40_000, number == 0));
+        packet_writer::append_frame(
+            &mut bytes,
+            &layout,
+            number,
+            (u64::from(number) * 40_000, number == 0),
+        );
         let mut regions_sent = 0;
         for row in 0..layout.rows() {
             let decision = |_| {
@@ -49,11 +55,18 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
             for (column, decision) in (0..).zip(&decisions) {
                 if decision.summary || (decision.srs && decision.trs) {
                     let summary = decision.summary;
-                    let values: Vec<u16> =
-                        (0..layout.value_count(summary)).map(|_| rng.u16(..) >> (16 - bits)).collect();
+                    let values: Vec<u16> = (0..layout.value_count(summary))
+                        .map(|_| rng.u16(..) >> (16 - bits))
+                        .collect();
                     let flags = RegionFlags { raw: false, summary };
-                    packet_writer::append_region(&mut bytes, &layout, number, (row, column), (flags, &values))
-                        .unwrap();
+                    packet_writer::append_region(
+                        &mut bytes,
+                        &layout,
+                        number,
+                        (row, column),
+                        (flags, &values),
+                    )
+                    .unwrap();
                     regions_sent += 1;
                 }
             }
@@ -65,7 +78,12 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
                 packet_writer::append_scores(&mut bytes, &layout, number, row, scores).unwrap();
             }
         }
-        packet_writer::append_end(&mut bytes, number, EndPacket { regions_sent, ..EndPacket::default() }).unwrap();
+        packet_writer::append_end(
+            &mut bytes,
+            number,
+            EndPacket { regions_sent, ..EndPacket::default() },
+        )
+        .unwrap();
         frames.push(start..bytes.len());
     }
     TestStream { layout, bytes, frames }
@@ -77,7 +95,8 @@ pub(crate) fn read_stream(
     layout: &PacketLayout,
     bytes: &[u8],
 ) -> (Vec<ReceivedFrame>, Vec<StreamLoss>) {
-    let (mut splitter, mut assembler) = (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
+    let (mut splitter, mut assembler) =
+        (PacketSplitter::default(), FrameAssembler::new(layout.clone()));
     let (mut frames, mut rest) = (Vec::new(), bytes);
     loop {
         let (piece, after) = rest.split_at(rng.usize(0..=rest.len().min(700)));
@@ -89,7 +108,9 @@ pub(crate) fn read_stream(
         loop {
             match splitter.next(Some(layout)) {
                 StreamItem::Pending => break,
-                StreamItem::Skipped { offset, bytes } => assembler.add_loss(StreamLoss::Bytes { offset, bytes }),
+                StreamItem::Skipped { offset, bytes } => {
+                    assembler.add_loss(StreamLoss::Bytes { offset, bytes })
+                }
                 StreamItem::Packet { frame, packet } => {
                     let ended = assembler.push(frame, packet).unwrap();
                     frames.extend(ended.into_iter().flatten());

@@ -7,7 +7,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use super::label::number_label;
-use super::series_style::{GRID, BACKGROUND, DrawResult};
+use super::series_style::{BACKGROUND, DrawResult, GRID};
 use super::{Chart, ChartSeries};
 
 /// The most labels of a horizontal axis.

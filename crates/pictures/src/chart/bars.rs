@@ -7,8 +7,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::axis_top;
-use super::label::{truncated, number_label};
-use super::series_style::{GRID, BACKGROUND, INK, DrawResult, rgb};
+use super::label::{number_label, truncated};
+use super::series_style::{BACKGROUND, DrawResult, GRID, INK, rgb};
 use super::{BarSeries, Chart};
 
 /// The margin around the plot in pixels.

@@ -105,7 +105,8 @@ impl DrawingBackend for ChartCanvas<'_> {
             let mut dots = Vec::new();
             outline.draw(|dx, dy, covered| dots.push((dx, dy, covered)));
             for (dx, dy, covered) in dots {
-                let (dx, dy) = transform.transform(dot_position(corner.x, dx), dot_position(corner.y, dy));
+                let (dx, dy) =
+                    transform.transform(dot_position(corner.x, dx), dot_position(corner.y, dy));
                 let colour = style.color();
                 let alpha = colour.alpha * f64::from(covered.clamp(0.0, 1.0));
                 self.draw_pixel((x + dx, y + dy), BackendColor { alpha, ..colour })?;
@@ -117,7 +118,12 @@ impl DrawingBackend for ChartCanvas<'_> {
 
 impl ChartCanvas<'_> {
     /// Fills a rectangle with a colour, including its corners.
-    fn fill_opaque(&mut self, from: BackendCoord, to: BackendCoord, (red, green, blue): (u8, u8, u8)) {
+    fn fill_opaque(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        (red, green, blue): (u8, u8, u8),
+    ) {
         let (width, height) = self.size;
         let columns = clipped_range(from.0, to.0, width);
         let row = [red, green, blue].repeat(columns.len());
@@ -192,7 +198,11 @@ mod tests {
             let drawn = |by: fn(&mut ChartCanvas<'_>, BackendCoord, BackendCoord)| {
                 let mut pixels = vec![9; 3 * 7 * 8];
                 let font = FontRef::try_from_slice(dejavu::sans::regular()).unwrap();
-                by(&mut ChartCanvas { pixels: &mut pixels, size: (7, 8), font }, (x0, y0), (x1, y1));
+                by(
+                    &mut ChartCanvas { pixels: &mut pixels, size: (7, 8), font },
+                    (x0, y0),
+                    (x1, y1),
+                );
                 pixels
             };
             let ours =

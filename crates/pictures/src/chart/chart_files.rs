@@ -9,8 +9,8 @@ use image::{ExtendedColorType, ImageEncoder};
 use plotters::prelude::*;
 use plotters::style::register_font;
 
-use super::chart_data::SIZE;
 use super::canvas::ChartCanvas;
+use super::chart_data::SIZE;
 use super::{Chart, ChartError, drawing};
 use crate::xml_text;
 
@@ -50,7 +50,11 @@ impl Chart {
         static LOADED: OnceLock<bool> = OnceLock::new();
         let load =
             || register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular()).is_ok();
-        if *LOADED.get_or_init(load) { Ok(()) } else { Err(self.chart_error(&"the font is damaged")) }
+        if *LOADED.get_or_init(load) {
+            Ok(())
+        } else {
+            Err(self.chart_error(&"the font is damaged"))
+        }
     }
 
     fn chart_error(&self, problem: &dyn std::fmt::Display) -> ChartError {

@@ -7,19 +7,26 @@ use plotters::coord::ranged1d::Ranged;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::axes::{MAX_LABELS, AxesContext, draw_grid, line_chart_builder, draw_linear_axes, axis_top};
+use super::axes::{
+    AxesContext, MAX_LABELS, axis_top, draw_grid, draw_linear_axes, line_chart_builder,
+};
 use super::bars::draw_bars;
 use super::chart_data::SIZE;
 use super::label::unit_label;
 use super::legend::{LEGEND_WIDTH, draw_bar_names, draw_line_names, draw_point_names};
-use super::series_style::{BACKGROUND, SeriesStyle, SECONDARY, DrawResult, styled_lines, target_mark};
-use super::{Chart, ChartSeries, LineLook, ChartData};
+use super::series_style::{
+    BACKGROUND, DrawResult, SECONDARY, SeriesStyle, styled_lines, target_mark,
+};
+use super::{Chart, ChartData, ChartSeries, LineLook};
 
 const CAPTION_HEIGHT: u32 = 24;
 /// The number of points above which a line has no dots.
 const MAX_POINTS_WITH_DOTS: usize = 40;
 
-pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> DrawResult<DB> {
+pub(crate) fn draw<DB: DrawingBackend>(
+    chart: &Chart,
+    root: &DrawingArea<DB, Shift>,
+) -> DrawResult<DB> {
     root.fill(&BACKGROUND)?;
     let (above, caption) = root.split_vertically(SIZE.1 - CAPTION_HEIGHT);
     let (plot, legend) = above.split_horizontally(SIZE.0 - LEGEND_WIDTH);
@@ -72,7 +79,8 @@ fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
         if line.look == LineLook::Target {
             continue;
         }
-        let (points, is_long) = (line.points.iter().copied(), line.points.len() > MAX_POINTS_WITH_DOTS);
+        let (points, is_long) =
+            (line.points.iter().copied(), line.points.len() > MAX_POINTS_WITH_DOTS);
         let style = colour.stroke_width(2);
         let dashes = |ends: &[(f64, f64)], style| {
             DashedLineSeries::new(ends.to_vec(), 6, 4, style).into_iter()
@@ -99,7 +107,8 @@ fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
         }
     }
     let targets = lines.iter().filter(|line| line.look == LineLook::Target);
-    context.draw_series(targets.flat_map(|line| line.points.iter().copied().flat_map(target_mark)))?;
+    context
+        .draw_series(targets.flat_map(|line| line.points.iter().copied().flat_map(target_mark)))?;
     Ok(())
 }
 

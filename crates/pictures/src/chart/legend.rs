@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::label::truncated;
-use super::series_style::{INK, DrawResult, styled_lines, rgb, target_mark};
+use super::series_style::{DrawResult, INK, rgb, styled_lines, target_mark};
 use super::{BarSeries, ChartSeries, LineLook};
 
 /// The width of the legend in pixels.
@@ -60,7 +60,11 @@ pub(crate) fn draw_point_names<DB: DrawingBackend>(
     Ok(())
 }
 
-fn draw_name<DB: DrawingBackend>(name: &str, y: i32, area: &DrawingArea<DB, Shift>) -> DrawResult<DB> {
+fn draw_name<DB: DrawingBackend>(
+    name: &str,
+    y: i32,
+    area: &DrawingArea<DB, Shift>,
+) -> DrawResult<DB> {
     let font = ("sans-serif", 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(truncated(name, MAX_NAME_LETTERS), (29, y), font))
 }

@@ -5,14 +5,14 @@
 
 mod axes;
 mod bars;
-mod drawing;
-mod error;
+mod canvas;
 mod chart_data;
 mod chart_files;
+mod drawing;
+mod error;
 mod label;
 mod legend;
 mod series_style;
-mod canvas;
 
+pub use chart_data::{BarSeries, Chart, ChartData, ChartSeries, LineLook};
 pub use error::ChartError;
-pub use chart_data::{BarSeries, Chart, ChartSeries, LineLook, ChartData};

@@ -24,7 +24,9 @@ pub(crate) struct SeriesStyle {
 
 /// Returns the lines with their colours; a target needs none. When all colours are used, they are
 /// used again from the first on, with gaps in the lines.
-pub(crate) fn styled_lines(lines: &[ChartSeries]) -> impl Iterator<Item = (SeriesStyle, &ChartSeries)> {
+pub(crate) fn styled_lines(
+    lines: &[ChartSeries],
+) -> impl Iterator<Item = (SeriesStyle, &ChartSeries)> {
     let colours = LIGHT.series.len();
     let mut next = 0;
     lines.iter().map(move |line| {

@@ -43,7 +43,11 @@ impl PlotAxis {
             return Self { low: 0.0, high: 1.0, kind: AxisScale::Linear };
         };
         if low > 0.0 && high / low >= LOG_RATIO {
-            return Self { low: round_value(low, false), high: round_value(high, true), kind: AxisScale::Log };
+            return Self {
+                low: round_value(low, false),
+                high: round_value(high, true),
+                kind: AxisScale::Log,
+            };
         }
         Self::linear(low, high)
     }
@@ -84,7 +88,11 @@ impl PlotAxis {
         }
         let least = 10.0_f64.powi(-MAX_DECADES) * high;
         if !zero && low >= least {
-            return Self { low: round_value(low, false), high: round_value(high, true), kind: AxisScale::Log };
+            return Self {
+                low: round_value(low, false),
+                high: round_value(high, true),
+                kind: AxisScale::Log,
+            };
         }
         let small = 10.0_f64.powf(low.max(least).log10().floor());
         Self { low: 0.0, high: round_value(high, true), kind: AxisScale::LinearAtZero(small) }
@@ -132,7 +140,9 @@ impl PlotAxis {
         };
         let slack = (self.high - self.low) * 1e-6;
         let values = values.into_iter().filter(|value| *value <= self.high + slack);
-        let tick = |value: f64| Some(AxisTick { position: self.position(value)?, label: tick_label(value) });
+        let tick = |value: f64| {
+            Some(AxisTick { position: self.position(value)?, label: tick_label(value) })
+        };
         values.filter_map(tick).collect()
     }
 }
@@ -187,11 +197,17 @@ mod tests {
 
     #[test]
     fn narrow_ranges_are_linear_and_wide_ones_logarithmic() {
-        assert_eq!(labels(PlotAxis::with_free_start([10.0, 40.0].into_iter())), ["10", "20", "30", "40"]);
+        assert_eq!(
+            labels(PlotAxis::with_free_start([10.0, 40.0].into_iter())),
+            ["10", "20", "30", "40"]
+        );
         let wide = PlotAxis::with_free_start([1500.0, 400_000.0].into_iter());
         assert_eq!(labels(wide), ["1 k", "10 k", "100 k"]);
         assert!(wide.is_logarithmic());
-        assert_eq!(labels(PlotAxis::with_free_start([12.0, 90.0].into_iter())), ["10", "20", "50", "100"]);
+        assert_eq!(
+            labels(PlotAxis::with_free_start([12.0, 90.0].into_iter())),
+            ["10", "20", "50", "100"]
+        );
         assert_eq!(
             labels(PlotAxis::starting_at_zero([0.0, 0.02, 9.0].into_iter())),
             ["0", "0.01", "0.1", "1", "10"]
@@ -216,7 +232,11 @@ mod tests {
         ];
         for values in kinds {
             let all = || values.iter().copied();
-            for axis in [PlotAxis::with_free_start(all()), PlotAxis::starting_at_zero(all()), PlotAxis::always_linear(all())] {
+            for axis in [
+                PlotAxis::with_free_start(all()),
+                PlotAxis::starting_at_zero(all()),
+                PlotAxis::always_linear(all()),
+            ] {
                 let ticks = axis.ticks();
                 assert!(
                     ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.position)),

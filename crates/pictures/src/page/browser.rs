@@ -34,8 +34,9 @@ pub struct ExpectedMark {
 pub fn probe_page(program: &Path, page: &str, width: u32, tip: ExpectedMark) -> Value {
     let folder = tempfile::tempdir().expect("a folder for the page");
     let file = folder.path().join("page.html");
-    let script =
-        include_str!("probe.js").replace("TOLD", tip.figures).replace("LINKS", &tip.links.to_string());
+    let script = include_str!("probe.js")
+        .replace("TOLD", tip.figures)
+        .replace("LINKS", &tip.links.to_string());
     let script = format!("<script>{script}</script></body>");
     std::fs::write(&file, page.replace("</body>", &script)).expect("the page is written");
     let run = Command::new(program)

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use crate::palette::{Colour, SERIES, ChartStyle};
+use crate::palette::{ChartStyle, Colour, SERIES};
 
 /// The number of distinguishable colours; further groups have the same colours with square marks.
 pub const COLOUR_COUNT: usize = SERIES.len();

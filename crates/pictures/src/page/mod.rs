@@ -13,8 +13,11 @@ mod plot;
 mod table;
 
 pub use axis::PlotAxis;
-pub use colour::{COLOUR_COUNT, group_look, colour_variables};
-pub use document::{HeadingFigure, PageNotice, ResultPage, LinkTarget};
+pub use colour::{COLOUR_COUNT, colour_variables, group_look};
+pub use document::{HeadingFigure, LinkTarget, PageNotice, ResultPage};
 pub use error::PageError;
-pub use plot::{AxisPosition, PlotAxes, PlotLine, PlotMark, PagePlot, nest_marks, front_path, coordinate_text, line_path};
-pub use table::{TableCell, TableColumn, TableRow, SortableTable};
+pub use plot::{
+    AxisPosition, PagePlot, PlotAxes, PlotLine, PlotMark, coordinate_text, front_path, line_path,
+    nest_marks,
+};
+pub use table::{SortableTable, TableCell, TableColumn, TableRow};

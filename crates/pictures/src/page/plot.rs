@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use askama::Template;
 
-use super::axis::{PlotAxis, AxisTick};
+use super::axis::{AxisTick, PlotAxis};
 
 /// The edges of the frame inside a picture of 560 by 380; the template has the same numbers.
 const LEFT: f64 = 78.0;

@@ -3,7 +3,7 @@
 //! axes with no more precision than the data.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use foveate_pictures::chart::{BarSeries, Chart, ChartSeries, LineLook, ChartData};
+use foveate_pictures::chart::{BarSeries, Chart, ChartData, ChartSeries, LineLook};
 use foveate_pictures::palette::{Colour, SERIES};
 
 fn chart(shape: ChartData) -> Chart {
@@ -44,9 +44,15 @@ fn a_line_shows_through_an_open_one_on_it() {
         let (covered, open) = (of(LineLook::Plain), of(LineLook::Open));
         // Even where lines overlap, at least a fifth of each is visible.
         for colour in [SERIES[0], SERIES[1]] {
-            let alone =
-                count_pixels(&chart(ChartData::Lines(vec![line("one", points, LineLook::Plain)])), SERIES[0]);
-            assert!(5 * count_pixels(&open, colour) > alone, "{} of {alone}", count_pixels(&open, colour));
+            let alone = count_pixels(
+                &chart(ChartData::Lines(vec![line("one", points, LineLook::Plain)])),
+                SERIES[0],
+            );
+            assert!(
+                5 * count_pixels(&open, colour) > alone,
+                "{} of {alone}",
+                count_pixels(&open, colour)
+            );
         }
         assert!(count_pixels(&covered, SERIES[0]) < count_pixels(&open, SERIES[0]) / 2);
     }
@@ -58,8 +64,9 @@ fn the_target_is_in_front_and_unlike_any_line() {
     let names = ["a", "b", "c", "d", "e", "f", "g"];
     // The target is first, so it would be hidden by every line if it were drawn in order.
     let target = line("this design", &curve[1..2], LineLook::Target);
-    let lines: Vec<ChartSeries> =
-        std::iter::once(target).chain(names.map(|name| line(name, &curve, LineLook::Plain))).collect();
+    let lines: Vec<ChartSeries> = std::iter::once(target)
+        .chain(names.map(|name| line(name, &curve, LineLook::Plain)))
+        .collect();
     let drawn = chart(ChartData::LogLines(lines.clone()));
     let svg = drawn.to_svg(&[]).unwrap();
     let circles: Vec<&str> = svg.lines().filter(|line| line.starts_with("<circle")).collect();

@@ -5,7 +5,9 @@ use foveate_frame::Frame;
 use foveate_scenes::{Scene, SceneParameters};
 
 fn frames(scene: Scene, frames: u32) -> Vec<Frame> {
-    scene.frames(SceneParameters { width: 64, height: 48, bits: 8, region_size: 8, frames }).collect()
+    scene
+        .frames(SceneParameters { width: 64, height: 48, bits: 8, region_size: 8, frames })
+        .collect()
 }
 
 /// Returns the differences between successive frames, pixel by pixel.

@@ -58,7 +58,13 @@ impl ActivityChart {
     }
 
     /// Draws the bars at the bottom of a picture. A frame has `regions` regions.
-    pub(super) fn draw(&self, canvas: &mut PictureCanvas, layout: PictureLayout, regions: u64, colour: Colour) {
+    pub(super) fn draw(
+        &self,
+        canvas: &mut PictureCanvas,
+        layout: PictureLayout,
+        regions: u64,
+        colour: Colour,
+    ) {
         let (bottom, height) = (canvas.height, Self::HEIGHT_DOTS * layout.dot);
         let bar = Self::bar_width(layout);
         canvas.fill_rectangle(0, bottom - height / 2, canvas.width, 1, HALF_LINE_COLOUR);

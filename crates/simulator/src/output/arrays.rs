@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use foveate_camera::{RegionAction, Camera};
+use foveate_camera::{Camera, RegionAction};
 
 use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;

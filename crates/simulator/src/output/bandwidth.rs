@@ -71,9 +71,9 @@ impl BandwidthComparison {
         Self {
             raw: CameraTraffic::of(None, raw, duration_us),
             region: CameraTraffic::of(Some(sums.events), region, duration_us),
-            pixel: sums
-                .pixel_events
-                .map(|events| CameraTraffic::of(Some(events), events * PIXEL_EVENT_BYTES, duration_us)),
+            pixel: sums.pixel_events.map(|events| {
+                CameraTraffic::of(Some(events), events * PIXEL_EVENT_BYTES, duration_us)
+            }),
             duration_us,
         }
     }

@@ -54,7 +54,14 @@ impl PictureCanvas {
     }
 
     /// Fills the part of a rectangle that lies on the picture.
-    pub(super) fn fill_rectangle(&mut self, left: u32, top: u32, width: u32, height: u32, colour: Colour) {
+    pub(super) fn fill_rectangle(
+        &mut self,
+        left: u32,
+        top: u32,
+        width: u32,
+        height: u32,
+        colour: Colour,
+    ) {
         let right = left.saturating_add(width).min(self.width);
         let bottom = top.saturating_add(height).min(self.height);
         for y in top..bottom {
@@ -100,6 +107,10 @@ mod tests {
         let sizes = [(224, 224), (300, 200), (320, 240), (447, 300), (448, 300), (28, 28)];
         let scales = sizes.map(|(width, height)| PictureLayout::new(width, height).scale);
         assert_eq!(scales, [2, 2, 2, 2, 1, 16]);
-        assert_eq!(PictureLayout::new(100, 600).scale, 1, "no picture is higher than 1024 for that");
+        assert_eq!(
+            PictureLayout::new(100, 600).scale,
+            1,
+            "no picture is higher than 1024 for that"
+        );
     }
 }

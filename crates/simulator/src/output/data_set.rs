@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
 use foveate_files::npy::{ElementType, NpyWriter};
-use foveate_footage::{SetLabels, SetFiles, SetForm};
+use foveate_footage::{SetFiles, SetForm, SetLabels};
 
 /// The paths of a data set, relative to the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -43,7 +43,10 @@ impl DataSetPaths {
 }
 
 /// Returns the sinks that write the data set.
-pub(super) fn data_set_sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
+pub(super) fn data_set_sinks(
+    folder: &Path,
+    form: &SetForm,
+) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
     let mut sinks: Vec<Box<dyn FrameSink>> = Vec::new();
     if form.labels != SetLabels::None {
         let file = NpyWriter::create(&folder.join("labels.npy"), ElementType::Signed64, &[])?;
@@ -53,9 +56,15 @@ pub(super) fn data_set_sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dy
         SetFiles::Idx { images, labels } => {
             sinks.append(&mut idx_files::idx_sinks(folder, images, labels.as_ref())?);
         }
-        SetFiles::Images => sinks.push(Box::new(image_tree::ImageTreeSink::create(folder, image_tree::FileNaming::OfInputFile)?)),
+        SetFiles::Images => sinks.push(Box::new(image_tree::ImageTreeSink::create(
+            folder,
+            image_tree::FileNaming::OfInputFile,
+        )?)),
         SetFiles::Records => {
-            sinks.push(Box::new(image_tree::ImageTreeSink::create(folder, image_tree::FileNaming::Numbers)?));
+            sinks.push(Box::new(image_tree::ImageTreeSink::create(
+                folder,
+                image_tree::FileNaming::Numbers,
+            )?));
         }
     }
     Ok(sinks)

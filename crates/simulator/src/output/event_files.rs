@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
-use foveate_engine::{EventTable, EventFrame};
+use foveate_engine::{EventFrame, EventTable};
 
 use super::EventTableOptions;
 use super::csv::CsvFile;
@@ -36,7 +36,8 @@ pub(super) fn event_sinks(
     if tables.parquet {
         writers.push(Box::new(ParquetTable::create(&folder.join("events.parquet"), &table)?));
     }
-    let file = |writer| -> Box<dyn FrameSink> { Box::new(EventFileSink { table: table.clone(), writer }) };
+    let file =
+        |writer| -> Box<dyn FrameSink> { Box::new(EventFileSink { table: table.clone(), writer }) };
     Ok(writers.into_iter().map(file).collect())
 }
 

@@ -63,7 +63,8 @@ mod tests {
 
     #[test]
     fn an_f_looks_like_one() {
-        let row = |y| (0..3).map(|x| if has_dot('f', x, y) { '#' } else { '.' }).collect::<String>();
+        let row =
+            |y| (0..3).map(|x| if has_dot('f', x, y) { '#' } else { '.' }).collect::<String>();
         assert_eq!([0, 1, 2, 3, 4].map(row), ["###", "#..", "##.", "#..", "#.."]);
     }
 
@@ -73,7 +74,10 @@ mod tests {
         for (index, &letter) in known.iter().enumerate() {
             assert!(letter_rows(letter) != 0 && letter_rows(letter) < 0o100_000);
             // A zero and an O, or a five and an S, may look similar but not equal.
-            assert!(known[..index].iter().all(|&other| letter_rows(other) != letter_rows(letter)), "{letter}");
+            assert!(
+                known[..index].iter().all(|&other| letter_rows(other) != letter_rows(letter)),
+                "{letter}"
+            );
         }
     }
 }

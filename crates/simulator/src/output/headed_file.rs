@@ -9,7 +9,7 @@ use std::path::Path;
 
 use flate2::Compression;
 
-use super::deflate_packer::{STORED_BLOCK_HEADER_BYTES, DeflatePacker, stored_block};
+use super::deflate_packer::{DeflatePacker, STORED_BLOCK_HEADER_BYTES, stored_block};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 

@@ -68,10 +68,11 @@ impl HeatmapPainter {
         let last = u128::from(SCALE_STEPS - 1);
         let (score, max) = (u128::from(score.min(self.max)), u128::from(self.max.max(1)));
         let place = match self.score {
-            MappedScore::Spatial(_, ScoreUnit::SquaredLevels) => (score * last * last / max).isqrt(),
-            MappedScore::Spatial(_, ScoreUnit::Pixels | ScoreUnit::Levels) | MappedScore::Temporal => {
-                score * last / max
+            MappedScore::Spatial(_, ScoreUnit::SquaredLevels) => {
+                (score * last * last / max).isqrt()
             }
+            MappedScore::Spatial(_, ScoreUnit::Pixels | ScoreUnit::Levels)
+            | MappedScore::Temporal => score * last / max,
         };
         u64::try_from(place).expect("no score is above the largest")
     }
@@ -86,7 +87,13 @@ impl HeatmapPainter {
         let right = layout.width.saturating_sub((letters * (font::SIZE.0 + 1) + 3) * dot);
         let width = right.saturating_sub(left).max(1);
         for x in 0..width {
-            canvas.fill_rectangle(left + x, top, 1, height, scale_colour(u64::from(x) * SCALE_STEPS / u64::from(width)));
+            canvas.fill_rectangle(
+                left + x,
+                top,
+                1,
+                height,
+                scale_colour(u64::from(x) * SCALE_STEPS / u64::from(width)),
+            );
         }
         canvas.draw_text(right + dot, top, dot, &self.label);
         let tick = self.scale_step(self.threshold) * u64::from(width) / SCALE_STEPS;

@@ -38,7 +38,8 @@ impl NpzArchive {
     /// Makes an archive whose first array is `name`, with elements of type `descr`.
     pub(super) fn new(file: GrowingFile, name: &'static str, descr: &'static str) -> Self {
         let open = ArchiveEntry::new(name, descr, 0);
-        let mut npz = Self { file, position: 0, done: Vec::new(), open, packer: DeflatePacker::new(LEVEL) };
+        let mut npz =
+            Self { file, position: 0, done: Vec::new(), open, packer: DeflatePacker::new(LEVEL) };
         npz.begin();
         npz
     }
@@ -65,7 +66,8 @@ impl NpzArchive {
         descr: &'static str,
     ) -> Result<(), SimulatorError> {
         self.close(count)?;
-        let closed = std::mem::replace(&mut self.open, ArchiveEntry::new(name, descr, self.position));
+        let closed =
+            std::mem::replace(&mut self.open, ArchiveEntry::new(name, descr, self.position));
         self.done.push(closed);
         self.begin();
         Ok(())
@@ -83,7 +85,8 @@ impl NpzArchive {
 
     /// Reserves space for the headers of the open entry.
     fn begin(&mut self) {
-        let header = stored_block(&foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, "0,"));
+        let header =
+            stored_block(&foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
         let room = [self.open.local_header(), header].concat();
         self.position += length(&room);
@@ -91,7 +94,8 @@ impl NpzArchive {
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
-        let header = foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, &format!("{count},"));
+        let header =
+            foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, &format!("{count},"));
         let packer = std::mem::replace(&mut self.packer, DeflatePacker::new(LEVEL));
         let (last, crc, bytes) = packer.finish(&header);
         self.file.append(&last);

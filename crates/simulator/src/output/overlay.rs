@@ -4,16 +4,16 @@
 //!
 //! The colours are those of the palette. Active regions also have an outline.
 
-use foveate_camera::{RegionAction, Camera};
+use foveate_camera::{Camera, RegionAction};
 use foveate_frame::{ByteFrame, convert_depth};
 use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 
+use super::activity_chart::ActivityChart;
 use super::canvas::{PictureCanvas, PictureLayout, TEXT};
 use super::font;
 use super::picture_series::PicturePainter;
 use super::raw_image::to_byte;
 use super::sink::SinkFrame;
-use super::activity_chart::ActivityChart;
 
 /// Regions with smaller sides are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
@@ -41,7 +41,12 @@ impl PicturePainter for OverlayPainter {
     }
 }
 
-fn draw_frame(canvas: &mut PictureCanvas, frame: &ByteFrame, step: &SinkFrame<'_>, layout: PictureLayout) {
+fn draw_frame(
+    canvas: &mut PictureCanvas,
+    frame: &ByteFrame,
+    step: &SinkFrame<'_>,
+    layout: PictureLayout,
+) {
     let side = step.camera.region_size();
     let cell = side * layout.scale;
     for y in 0..frame.height() {

@@ -4,11 +4,13 @@
 
 use std::path::Path;
 
-use foveate_camera::{RegionAction, Camera, Payload};
+use foveate_camera::{Camera, Payload, RegionAction};
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_frame::ByteFrame;
-use foveate_packets::{RegionDecision, EndPacket, PacketLayout, PacketError, RegionFlags, packet_writer};
+use foveate_packets::{
+    EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_writer,
+};
 use foveate_staging::GrowingFile;
 
 use super::PacketContent;

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use foveate_engine::{EventColumn, EventColumnType, EventTable, EventValue, EventFrame};
+use foveate_engine::{EventColumn, EventColumnType, EventFrame, EventTable, EventValue};
 use foveate_files::tables::{Column, ColumnType, ParquetWriter, TableValue};
 
 use super::cannot_write;

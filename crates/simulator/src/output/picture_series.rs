@@ -8,9 +8,9 @@ use foveate_toolchain::Interrupt;
 
 use super::PictureFormat;
 use super::canvas::PictureCanvas;
+use super::png_series::PngSeries;
 use super::png_writers::PngWriters;
 use super::raw_image::RawImage;
-use super::png_series::PngSeries;
 use super::sink::{FrameSink, SinkFrame};
 use super::video_file::VideoFile;
 use crate::SimulatorError;
@@ -40,7 +40,10 @@ impl PictureSeriesSink {
         medium: PictureFormat,
         interrupt: &Interrupt,
     ) -> Result<Self, SimulatorError> {
-        Ok(Self { painter: None, series: SeriesFiles::create(folder, "rendered", medium, interrupt)? })
+        Ok(Self {
+            painter: None,
+            series: SeriesFiles::create(folder, "rendered", medium, interrupt)?,
+        })
     }
 
     pub(super) fn with_painter(
@@ -78,7 +81,9 @@ impl FrameSink for PictureSeriesSink {
         // A painted picture has a footer below the frame, and is larger if the frame is small.
         let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
         match &self.series {
-            SeriesFiles::Folder(_) => PngWriters::max_bytes_in_work(camera.width(), camera.height() + lines, samples),
+            SeriesFiles::Folder(_) => {
+                PngWriters::max_bytes_in_work(camera.width(), camera.height() + lines, samples)
+            }
             SeriesFiles::Video(_) => 0,
         }
     }

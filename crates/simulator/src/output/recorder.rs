@@ -12,15 +12,15 @@ use rayon::prelude::*;
 
 use super::arrays::ArraySink;
 use super::data_set::{self, DataSetPaths};
-use super::picture_series::PictureSeriesSink;
+use super::frame_table::{FrameRow, FrameTable};
 use super::heatmap::HeatmapPainter;
 use super::overlay::OverlayPainter;
 use super::packet_file::PacketFileSink;
+use super::picture_series::PictureSeriesSink;
 use super::pixel_event_files::PixelEventFiles;
 use super::sink::{FrameSink, SinkFrame};
-use super::summary::SentCounts;
 use super::summary::RunTotals;
-use super::frame_table::{FrameRow, FrameTable};
+use super::summary::SentCounts;
 use super::{RunOptions, RunSummary, event_files};
 use crate::SimulatorError;
 use foveate_footage::{SetForm, SourceFrame};
@@ -80,7 +80,12 @@ impl RunRecorder {
         }
         if let Some(medium) = options.heatmap {
             for (name, map) in HeatmapPainter::all_maps(design) {
-                sinks.push(Box::new(PictureSeriesSink::with_painter(folder, &name, (medium, interrupt), map)?));
+                sinks.push(Box::new(PictureSeriesSink::with_painter(
+                    folder,
+                    &name,
+                    (medium, interrupt),
+                    map,
+                )?));
             }
         }
         let table = FrameTable::create(&folder.join("frames.csv"), design)?;
@@ -176,8 +181,9 @@ impl RunRecorder {
         // Files that other programs write are ended first, because they would use the space that
         // the others need.
         drop(self.video_reserve.take());
-        let (apart, sinks): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.sinks).into_iter().partition(|sink| sink.is_written_by_other_program());
+        let (apart, sinks): (Vec<_>, Vec<_>) = std::mem::take(&mut self.sinks)
+            .into_iter()
+            .partition(|sink| sink.is_written_by_other_program());
         finish_expendable(apart, &lost, &mut problem)?;
         drop(self.reserve.take());
         let (expendable, needed) =

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_engine::{EventTable, EventFrame};
+use foveate_engine::{EventFrame, EventTable};
 
 use super::csv::CsvFile;
 use crate::SimulatorError;

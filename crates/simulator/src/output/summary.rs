@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_design::{RegionAction, Camera, DesignConfig, Design};
+use foveate_design::{Camera, Design, DesignConfig, RegionAction};
 use serde::Serialize;
 
 use super::bandwidth::{BandwidthComparison, TrafficSums};
@@ -181,7 +181,10 @@ impl RunTotals {
             active_share: share(self.active, all),
             srs_share: share(self.srs, all),
             trs_share: share(self.trs, all),
-            active_share_per_frame: ValueRange { min: share(min, regions), max: share(max, regions) },
+            active_share_per_frame: ValueRange {
+                min: share(min, regions),
+                max: share(max, regions),
+            },
             pixels_in: self.frames * u64::from(design.width()) * u64::from(design.height()),
             pixels_forwarded: self.sent.pixels,
             summaries_sent: design.periphery().map(|_| self.sent.summaries),

@@ -8,7 +8,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use foveate_staging::has_room;
-use foveate_toolchain::{ProgramWriter, Interrupt, Invocation, Tool, ToolError, Toolchain};
+use foveate_toolchain::{Interrupt, Invocation, ProgramWriter, Tool, ToolError, Toolchain};
 
 use super::raw_image::{RawImage, SampleFormat};
 use crate::SimulatorError;
@@ -76,7 +76,9 @@ impl VideoFile {
 
     /// Checks that ffmpeg has taken all pictures so far.
     pub(super) fn check_encoder(&self) -> Result<(), SimulatorError> {
-        let EncoderState::Failed(EncoderFailure { said, is_full }) = &self.encoder else { return Ok(()) };
+        let EncoderState::Failed(EncoderFailure { said, is_full }) = &self.encoder else {
+            return Ok(());
+        };
         let (path, problem) = (self.path.clone(), said.clone());
         Err(SimulatorError::VideoOutput { path, problem, is_full: *is_full })
     }
@@ -119,7 +121,9 @@ impl VideoFile {
         match (lossless, samples) {
             (true, SampleFormat::Rgb8) => &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0"],
             (true, SampleFormat::Grey8) => &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "gray"],
-            (true, SampleFormat::Grey16) => &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "gray16le"],
+            (true, SampleFormat::Grey16) => {
+                &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "gray16le"]
+            }
             // Many players support only 4:2:0, which needs even sides.
             (false, _) => &[
                 "-vf",
@@ -136,12 +140,19 @@ impl VideoFile {
         }
     }
 
-    fn feed(&self, mut feeder: ProgramWriter, picture: &RawImage) -> Result<EncoderState, SimulatorError> {
+    fn feed(
+        &self,
+        mut feeder: ProgramWriter,
+        picture: &RawImage,
+    ) -> Result<EncoderState, SimulatorError> {
         if feeder.write_all(&picture.bytes).is_ok() {
             return Ok(EncoderState::Running(feeder));
         }
         // ffmpeg has ended, or has taken no data since an interrupt.
-        Ok(feeder.finish_after_failed_write().map_or_else(|error| EncoderState::of_tool_error(&error), |said| self.failed_state(said)))
+        Ok(feeder.finish_after_failed_write().map_or_else(
+            |error| EncoderState::of_tool_error(&error),
+            |said| self.failed_state(said),
+        ))
     }
 
     /// Makes the failed state. The last message of ffmpeg may not be the reason for its end, so the
@@ -150,7 +161,8 @@ impl VideoFile {
         let said = said.map(|line| line.trim().to_owned());
         let said = said.unwrap_or_else(|| "ffmpeg ended too early".to_owned());
         let words = ["No space left on device", "Disk quota exceeded"];
-        let has_room = || self.path.parent().is_none_or(|folder| has_room(folder, ENCODER_SPACE_BYTES));
+        let has_room =
+            || self.path.parent().is_none_or(|folder| has_room(folder, ENCODER_SPACE_BYTES));
         let is_full = words.iter().any(|words| said.contains(words)) || !has_room();
         EncoderState::Failed(EncoderFailure { said, is_full })
     }

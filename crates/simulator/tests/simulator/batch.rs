@@ -73,8 +73,10 @@ fn a_tree_gives_its_clips_at_their_places_with_labels() {
     let dir = tempfile::tempdir().unwrap();
     tree(dir.path());
     let clips = planned(&[dir.path()]);
-    let seen: Vec<_> =
-        clips.iter().map(|clip| (clip.output_folder.to_str().unwrap(), clip.label.as_deref())).collect();
+    let seen: Vec<_> = clips
+        .iter()
+        .map(|clip| (clip.output_folder.to_str().unwrap(), clip.label.as_deref()))
+        .collect();
     let expected = [
         ("alone", None),
         ("cars/a", Some("cars")),

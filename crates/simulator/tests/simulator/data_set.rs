@@ -142,7 +142,8 @@ fn a_clip_is_no_set_and_the_message_says_what_is() {
     let path = grey(&dir.path().join("a.png"), 8, 8, |_, _| 0);
     let out = dir.path().join("out");
     for input in [path.to_str().unwrap(), "scene:street"] {
-        let error = made(&[input], &[], &InputOptions::default(), &out, &mut SilentHooks).unwrap_err();
+        let error =
+            made(&[input], &[], &InputOptions::default(), &out, &mut SilentHooks).unwrap_err();
         let said = error.to_string();
         assert!(said.starts_with(input) && said.contains("--images set"), "{said}");
         assert!(!said.contains('\n') && !out.exists());
@@ -176,7 +177,8 @@ fn mnist_becomes_mnist() {
     let out = dir.path().join("out");
     let name = "t10k-images-idx3-ubyte.gz";
     let input = InputOptions { frames: Some(200), ..InputOptions::default() };
-    let summary = made(&[data.join("mnist").join(name)], &[], &input, &out, &mut SilentHooks).unwrap();
+    let summary =
+        made(&[data.join("mnist").join(name)], &[], &input, &out, &mut SilentHooks).unwrap();
     assert_eq!(summary.frames, 200);
     let original = unpacked_any(&data.join("mnist").join(name));
     let digits = original[16..].chunks(784).take(200).map(<[u8]>::to_vec);

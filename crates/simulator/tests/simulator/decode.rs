@@ -7,7 +7,8 @@ use std::path::Path;
 
 use foveate_design::DesignConfig;
 use foveate_simulator::{
-    DecodedRecording, PictureFormat, PacketContent, PixelEventOptions, PacketRecording, RunOptions, SilentHooks, SimulatorError,
+    DecodedRecording, PacketContent, PacketRecording, PictureFormat, PixelEventOptions, RunOptions,
+    SilentHooks, SimulatorError,
 };
 
 use crate::packets::{DESIGNS, crc, options};
@@ -59,7 +60,10 @@ fn what_comes_back_is_what_was_simulated() {
     for (number, overrides) in DESIGNS.into_iter().enumerate() {
         let folder = tempfile::tempdir().unwrap();
         let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
-        let heat = RunOptions { heatmap: Some(PictureFormat::Png), ..options(Some(PacketContent::WithScores)) };
+        let heat = RunOptions {
+            heatmap: Some(PictureFormat::Png),
+            ..options(Some(PacketContent::WithScores))
+        };
         let summary = street(&sent, overrides, &heat);
         let stream = fs::read(sent.join("packets.bin")).unwrap();
         let decoded =

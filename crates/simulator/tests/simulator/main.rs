@@ -3,19 +3,19 @@
 //! that faults leave.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod output_folder;
 mod batch;
 mod data_set;
 mod decode;
 mod explain;
-mod wrong_numbers;
 mod inputs;
+mod output_folder;
 mod outputs;
 mod packets;
 mod periphery;
+mod pictures;
 mod pixel_events;
 mod sets;
-mod pictures;
 mod support;
 mod tables;
 mod video_faults;
+mod wrong_numbers;

@@ -6,9 +6,11 @@ use std::path::Path;
 
 use crate::support::{NpyArray, grey, names, run};
 use foveate_design::DesignConfig;
-use foveate_footage::{FootageError, InputOptions, FrameSource, SourceFrame, open};
+use foveate_footage::{FootageError, FrameSource, InputOptions, SourceFrame, open};
 use foveate_frame::Frame;
-use foveate_simulator::{RunHooks, RunProgress, RunOptions, SilentHooks, Simulation, SimulatorError};
+use foveate_simulator::{
+    RunHooks, RunOptions, RunProgress, SilentHooks, Simulation, SimulatorError,
+};
 use foveate_staging::StagingError;
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
@@ -119,7 +121,8 @@ fn progress_counts_every_frame() {
     let folder = tempfile::tempdir().unwrap();
     let mut hooks = CancelAfterFrames { frames: 99, progress: Vec::new() };
     run_with(&folder.path().join("out"), &mut hooks).unwrap();
-    let expected: Vec<RunProgress> = (1..=4).map(|done| RunProgress { done, total: Some(4) }).collect();
+    let expected: Vec<RunProgress> =
+        (1..=4).map(|done| RunProgress { done, total: Some(4) }).collect();
     assert_eq!(hooks.progress, expected);
     run_with(&folder.path().join("silent"), &mut SilentHooks).unwrap();
 }
@@ -181,7 +184,10 @@ fn places_that_cannot_be_written_are_named() {
     }
     for output in ["", "/"] {
         let error = zero(Path::new(output), &overwrite()).unwrap_err();
-        assert!(matches!(error, SimulatorError::Output(StagingError::InvalidPath { .. })), "{error}");
+        assert!(
+            matches!(error, SimulatorError::Output(StagingError::InvalidPath { .. })),
+            "{error}"
+        );
     }
 }
 

@@ -145,7 +145,11 @@ fn every_scene_runs_and_runs_the_same_twice() {
             overlay: Some(PictureFormat::Png),
             heatmap: Some(PictureFormat::Png),
             events: EventTableOptions { csv: true, parquet: true, only_active: false },
-            pixel_events: PixelEventOptions { npz: true, csv: true, ..PixelEventOptions::default() },
+            pixel_events: PixelEventOptions {
+                npz: true,
+                csv: true,
+                ..PixelEventOptions::default()
+            },
             ..RunOptions::default()
         };
         let input = format!("scene:{scene}");

@@ -3,9 +3,9 @@
 
 use std::fs;
 
-use foveate_design::{RegionAction, Design, Payload};
+use foveate_design::{Design, Payload, RegionAction};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_simulator::{EventTableOptions, PictureFormat, PacketContent, RunOptions};
+use foveate_simulator::{EventTableOptions, PacketContent, PictureFormat, RunOptions};
 
 use crate::support::{design, frames, street};
 

@@ -28,9 +28,12 @@ fn every_output_counts_what_regions_send() {
     let options = RunOptions { events, ..RunOptions::default() };
     let summary = street(&output, &overrides(), &options);
     let (design, outcomes) = (design(&overrides()), outcomes(&overrides()));
-    let sends = |action: &RegionAction| matches!(action, RegionAction::Forward | RegionAction::Summarize);
-    let count = |of: RegionAction| outcomes.iter().flat_map(|o| &o.actions).filter(|&&a| a == of).count();
-    let (active, summaries) = (count(RegionAction::Forward) as u64, count(RegionAction::Summarize) as u64);
+    let sends =
+        |action: &RegionAction| matches!(action, RegionAction::Forward | RegionAction::Summarize);
+    let count =
+        |of: RegionAction| outcomes.iter().flat_map(|o| &o.actions).filter(|&&a| a == of).count();
+    let (active, summaries) =
+        (count(RegionAction::Forward) as u64, count(RegionAction::Summarize) as u64);
     assert!(active > 10 && summaries > 10, "{active} {summaries}");
 
     assert_eq!(summary.summaries_sent, Some(summaries));
@@ -45,7 +48,8 @@ fn every_output_counts_what_regions_send() {
     let mut lines = text.lines();
     assert!(lines.next().unwrap().ends_with(",pixels_forwarded,summaries_sent"));
     for (line, outcome) in lines.zip(&outcomes) {
-        let sent = outcome.actions.iter().filter(|&&action| action == RegionAction::Summarize).count();
+        let sent =
+            outcome.actions.iter().filter(|&&action| action == RegionAction::Summarize).count();
         let pixels: u64 = (0..30)
             .filter(|&region| outcome.active[region as usize])
             .map(|region| design.pixels_inside(region))

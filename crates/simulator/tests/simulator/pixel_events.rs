@@ -13,7 +13,7 @@ use foveate_design::Decimal;
 use foveate_footage::FrameRate;
 use foveate_frame::Frame;
 use foveate_simulator::{
-    PIXEL_EVENT_BYTES, PixelCamera, PixelEventOptions, RunOptions, SimulatorError, RunSummary,
+    PIXEL_EVENT_BYTES, PixelCamera, PixelEventOptions, RunOptions, RunSummary, SimulatorError,
 };
 
 /// An event: x, y, t and p.
@@ -135,7 +135,8 @@ fn events_are_those_of_a_naive_camera() {
         let level = if bits.ends_with("=1") { "temporal.level=0" } else { "temporal.level=8" };
         let design = design(&[&overrides[..], &[level]].concat());
         let contrast = contrast.map(|contrast| Decimal::from_f64(contrast).unwrap());
-        let options = PixelEventOptions { contrast, is_logarithmic: log, ..PixelEventOptions::default() };
+        let options =
+            PixelEventOptions { contrast, is_logarithmic: log, ..PixelEventOptions::default() };
         let mut camera = PixelCamera::new(&design, options).unwrap();
         let frames: Vec<Frame> = frames(&design).collect();
         let mut events: Vec<EventTuple> = Vec::new();
@@ -154,7 +155,10 @@ fn events_are_those_of_a_naive_camera() {
 #[test]
 fn a_step_brings_one_event_per_contrast_and_what_is_left_counts_on() {
     let design = design(&["frame.width=1", "frame.height=1"]);
-    let options = PixelEventOptions { contrast: Some(Decimal::from_whole(10)), ..PixelEventOptions::default() };
+    let options = PixelEventOptions {
+        contrast: Some(Decimal::from_whole(10)),
+        ..PixelEventOptions::default()
+    };
     let mut camera = PixelCamera::new(&design, options).unwrap();
     let mut counts = Vec::new();
     for value in [100, 109, 110, 135, 139, 140, 100, 100] {
@@ -207,7 +211,12 @@ fn a_still_clip_gives_files_without_events() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let image = support::grey(&folder.path().join("a.png"), 9, 9, |x, _| u8::try_from(x).unwrap());
-    let pixel_events = PixelEventOptions { npz: true, csv: true, is_logarithmic: true, ..PixelEventOptions::default() };
+    let pixel_events = PixelEventOptions {
+        npz: true,
+        csv: true,
+        is_logarithmic: true,
+        ..PixelEventOptions::default()
+    };
     let options = RunOptions { pixel_events, ..RunOptions::default() };
     support::run(&[&image, &image], &[], &output, &options).unwrap();
     let files = unzip(&fs::read(output.join("pixel_events.npz")).unwrap());

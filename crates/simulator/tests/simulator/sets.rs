@@ -11,7 +11,9 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use foveate_camera::CameraConfig;
 use foveate_design::DesignConfig;
-use foveate_footage::{FootageError, ImageRelation, InputOptions, SourceKind, FrameSelection, SourceFrame, open};
+use foveate_footage::{
+    FootageError, FrameSelection, ImageRelation, InputOptions, SourceFrame, SourceKind, open,
+};
 use foveate_frame::luma;
 use foveate_simulator::{RunOptions, SilentHooks, Simulation};
 

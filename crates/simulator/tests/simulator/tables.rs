@@ -86,7 +86,8 @@ fn csv_and_parquet_hold_every_region_of_every_frame() {
 fn only_active_regions_agree_with_arrays_and_summary() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let summary = simulate(&output, EventTableOptions { csv: true, parquet: true, only_active: true });
+    let summary =
+        simulate(&output, EventTableOptions { csv: true, parquet: true, only_active: true });
     let (_, rows) = parquet_lines(&output.join("events.parquet"));
     assert_eq!(rows, expected(true));
     let csv = fs::read_to_string(output.join("events.csv")).unwrap();

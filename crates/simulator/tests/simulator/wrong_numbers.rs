@@ -9,8 +9,8 @@ use fastrand::Rng;
 use foveate_design::DesignConfig;
 use foveate_packets::{PacketLayout, StreamLoss, packet_writer};
 use foveate_simulator::{
-    MAX_CLAIMED_PIXELS, DecodedRecording, RunHooks, PacketContent, RunProgress, StreamItem, PacketRecording, RunOptions, ShownFrame,
-    SilentHooks, SimulatorError, PacketStream,
+    DecodedRecording, MAX_CLAIMED_PIXELS, PacketContent, PacketRecording, PacketStream, RunHooks,
+    RunOptions, RunProgress, ShownFrame, SilentHooks, SimulatorError, StreamItem,
 };
 
 use crate::packets::{DESIGNS, crc, options};
@@ -70,11 +70,16 @@ fn receive(bytes: &[u8]) -> (Vec<ShownFrame>, Vec<StreamLoss>, Vec<String>) {
     }
 }
 
-fn decode(bytes: &[u8], output: &Path, hooks: &mut dyn RunHooks) -> Result<DecodedRecording, SimulatorError> {
+fn decode(
+    bytes: &[u8],
+    output: &Path,
+    hooks: &mut dyn RunHooks,
+) -> Result<DecodedRecording, SimulatorError> {
     let mut stream = bytes;
     let options = RunOptions { packets: None, ..options(None) };
     let config = config(DESIGNS[0]);
-    PacketRecording { config: &config, stream: &mut stream, name: "sent" }.decode(output, &options, hooks)
+    PacketRecording { config: &config, stream: &mut stream, name: "sent" }
+        .decode(output, &options, hooks)
 }
 
 #[test]
@@ -135,7 +140,8 @@ fn a_frame_of_another_camera_on_the_way_costs_no_more_than_itself() {
     // The first FRAME packet decides whether the configuration is that of the camera.
     let mut forged = sent;
     forged[0] = with_word(&forged[0], FINGERPRINT, 0x0123_4567_89AB_CDEF);
-    let refused = decode(&forged.concat(), &folder.path().join("none"), &mut SilentHooks).unwrap_err();
+    let refused =
+        decode(&forged.concat(), &folder.path().join("none"), &mut SilentHooks).unwrap_err();
     assert!(refused.to_string().contains("0123456789abcdef"), "{refused}");
 }
 
@@ -147,7 +153,12 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
         let own: Vec<&str> = given.iter().map(String::as_str).chain(["region.size=64"]).collect();
         let design = config(&own).validate().unwrap();
         let mut bytes = Vec::new();
-        packet_writer::append_frame(&mut bytes, &PacketLayout::new(&design, false, 1_000_000).unwrap(), 0, (0, true));
+        packet_writer::append_frame(
+            &mut bytes,
+            &PacketLayout::new(&design, false, 1_000_000).unwrap(),
+            0,
+            (0, true),
+        );
         let refusal = |overrides: &[&str]| {
             let mut stream = PacketStream::new(&config(overrides));
             stream.feed(&bytes);

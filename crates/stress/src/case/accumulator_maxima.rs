@@ -30,7 +30,8 @@ fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     // For an odd n, the best split has one pixel more on one side. The derivation of the width decides
     // which side it is; the case tries both, so that it does not depend on the derivation.
     let scores = [n / 2, n.div_ceil(2)].map(|ones| {
-        let half = frame_from_fn((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });
+        let half =
+            frame_from_fn((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });
         let clear = FunctionalCamera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
         let fast = Engine::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
         // If the two disagree, the score is not valid.
@@ -40,7 +41,8 @@ fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     let observed = low.max(high);
     let tight = bits_for(observed) == feature.score_bits();
     let designs = format!("{kind}, N {side}, P {bits}: {} bits", feature.score_bits());
-    let row = CaseRow::for_equal_numbers("largest score reached", designs, feature.score_max(), observed);
+    let row =
+        CaseRow::for_equal_numbers("largest score reached", designs, feature.score_max(), observed);
     CaseRow { is_as_expected: row.is_as_expected && tight, ..row }
 }
 

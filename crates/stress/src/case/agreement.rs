@@ -6,8 +6,8 @@ use foveate_scenes::{Scene, SceneParameters};
 use rayon::prelude::*;
 
 use crate::designs::{design_matrix, designs_with_means};
-use crate::test_frames::RandomNumbers;
 use crate::model_comparison::{AgreementTally, compare_models};
+use crate::test_frames::RandomNumbers;
 use crate::{CaseRow, RunDepth};
 
 fn agreement_row(case: &'static str, designs: String, tally: AgreementTally) -> CaseRow {
@@ -35,7 +35,8 @@ pub(crate) fn scenes(depth: RunDepth) -> Vec<CaseRow> {
     let run = |&scene: &Scene| {
         let frames = depth.choose(6, scene.default_frames());
         let size = SceneParameters { width, height, bits: 8, region_size: 8, frames };
-        let tally = compare_designs(&designs, |design| compare_models(design, scene.frames(size), false));
+        let tally =
+            compare_designs(&designs, |design| compare_models(design, scene.frames(size), false));
         agreement_row("models agree: scene", format!("{scene}, {} designs", designs.len()), tally)
     };
     Scene::ALL.iter().map(run).collect()
@@ -56,7 +57,9 @@ pub(crate) fn sizes(depth: RunDepth) -> Vec<CaseRow> {
     ]
     .map(|(side, size)| {
         let designs = design_matrix(size, side, 8);
-        let tally = compare_designs(&designs, |design| compare_models(design, random_frames(size, 8, frames), false));
+        let tally = compare_designs(&designs, |design| {
+            compare_models(design, random_frames(size, 8, frames), false)
+        });
         let (width, height) = size;
         let designs = format!("N {side}, frame {width}x{height}, {} designs", designs.len());
         agreement_row("models agree: size", designs, tally)
@@ -70,9 +73,14 @@ pub(crate) fn depths(depth: RunDepth) -> Vec<CaseRow> {
     [1, 10, 12, 16]
         .map(|bits| {
             let designs = design_matrix((24, 16), 8, bits);
-            let tally =
-                compare_designs(&designs, |design| compare_models(design, random_frames((24, 16), bits, frames), false));
-            agreement_row("models agree: depth", format!("P {bits}, {} designs", designs.len()), tally)
+            let tally = compare_designs(&designs, |design| {
+                compare_models(design, random_frames((24, 16), bits, frames), false)
+            });
+            agreement_row(
+                "models agree: depth",
+                format!("P {bits}, {} designs", designs.len()),
+                tally,
+            )
         })
         .into()
 }
@@ -81,8 +89,14 @@ pub(crate) fn depths(depth: RunDepth) -> Vec<CaseRow> {
 pub(crate) fn gaps_and_resets(depth: RunDepth) -> Vec<CaseRow> {
     let frames = depth.choose(18, 200);
     let designs = design_matrix((24, 16), 8, 8);
-    let tally = compare_designs(&designs, |design| compare_models(design, random_frames((24, 16), 8, frames), true));
-    vec![agreement_row("models agree: gaps and resets", format!("{} designs", designs.len()), tally)]
+    let tally = compare_designs(&designs, |design| {
+        compare_models(design, random_frames((24, 16), 8, frames), true)
+    });
+    vec![agreement_row(
+        "models agree: gaps and resets",
+        format!("{} designs", designs.len()),
+        tally,
+    )]
 }
 
 /// Compares the models with irrelevant regions that show the means of blocks, on frames that end
@@ -92,8 +106,9 @@ pub(crate) fn means(depth: RunDepth) -> Vec<CaseRow> {
     [(8, 8), (4, 12), (20, 8)]
         .map(|(side, bits)| {
             let designs = designs_with_means((27, 18), side, bits);
-            let tally =
-                compare_designs(&designs, |design| compare_models(design, random_frames((27, 18), bits, frames), true));
+            let tally = compare_designs(&designs, |design| {
+                compare_models(design, random_frames((27, 18), bits, frames), true)
+            });
             let designs = format!("N {side}, P {bits}, {} designs", designs.len());
             agreement_row("models agree: means", designs, tally)
         })
@@ -101,7 +116,11 @@ pub(crate) fn means(depth: RunDepth) -> Vec<CaseRow> {
 }
 
 /// Returns random frames. Every second one repeats the upper half of the frame before it.
-fn random_frames(size: (u32, u32), bits: u32, frames: u64) -> impl Iterator<Item = foveate_frame::Frame> {
+fn random_frames(
+    size: (u32, u32),
+    bits: u32,
+    frames: u64,
+) -> impl Iterator<Item = foveate_frame::Frame> {
     (0..frames).map(move |t| {
         let now = RandomNumbers::new(t).frame(size, bits);
         let before = RandomNumbers::new(t.saturating_sub(1)).frame(size, bits);

@@ -3,8 +3,8 @@
 //! 16 bits, in case a counter is too narrow.
 
 use crate::designs::design_matrix;
-use crate::test_frames::RandomNumbers;
 use crate::model_comparison::{AgreementTally, compare_models};
+use crate::test_frames::RandomNumbers;
 use crate::{CaseRow, RunDepth};
 
 /// Runs more frames than 8 bits can count, and in the full depth more than 16 bits can count.
@@ -12,7 +12,8 @@ pub(crate) fn long_runs(depth: RunDepth) -> Vec<CaseRow> {
     let frames = depth.choose(300, 66_000);
     let designs = design_matrix((4, 2), 2, 8);
     // Random frames alternate with long pauses without changes.
-    let frame = |t: u64| RandomNumbers::new(if t % 100 < 40 { t } else { t / 100 }).frame((4, 2), 8);
+    let frame =
+        |t: u64| RandomNumbers::new(if t % 100 < 40 { t } else { t / 100 }).frame((4, 2), 8);
     let picked = [0, 5, 10, 15].map(|at: usize| &designs[at.min(designs.len() - 1)]);
     let tally = picked
         .iter()
@@ -20,5 +21,11 @@ pub(crate) fn long_runs(depth: RunDepth) -> Vec<CaseRow> {
         .fold(AgreementTally::default(), AgreementTally::add);
     let designs = format!("{} designs, N 2, {frames} frames", picked.len());
     let counts = (tally.differing, tally.compared);
-    vec![CaseRow::for_no_errors("long runs", designs, "values differ", counts, u8::from(tally.differing > 0))]
+    vec![CaseRow::for_no_errors(
+        "long runs",
+        designs,
+        "values differ",
+        counts,
+        u8::from(tally.differing > 0),
+    )]
 }

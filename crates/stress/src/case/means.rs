@@ -24,7 +24,8 @@ fn around_halves(side: u32) -> CaseRow {
     for base in [0, 1, 127, 253] {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
             // `above` pixels are one level higher, so the mean is base + above / n.
-            let region = frame_from_fn((side, side), 8, |x, y| base + u32::from(y * side + x < above));
+            let region =
+                frame_from_fn((side, side), 8, |x, y| base + u32::from(y * side + x < above));
             let mean = base + u32::from(2 * above >= n);
             let expected: u64 = region
                 .pixels()

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cases, one file for each group, in the order of the table.
 
-mod agreement;
-mod variance_cancellation;
-mod division;
 mod accumulator_maxima;
+mod agreement;
+mod division;
+mod long_runs;
 mod means;
 mod references;
 mod summaries;
 mod thresholds;
-mod long_runs;
+mod variance_cancellation;
 
 use crate::{CaseRow, RunDepth};
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The difference between the screen and the scene over long runs.
 
-use foveate_design::{DesignConfig, Design, FeatureKind, DenoiseFilter, ReferencePolicy};
+use foveate_design::{DenoiseFilter, Design, DesignConfig, FeatureKind, ReferencePolicy};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_scenes::{Scene, SceneParameters};
@@ -79,14 +79,25 @@ fn screen_errors(design: &Design, frames: impl Iterator<Item = Frame>) -> Screen
 /// Makes the row of a case that tests the promise of `last-sent`.
 fn last_sent_row(case: &'static str, designs: String, worst: ScreenErrors) -> CaseRow {
     let tally = (worst.off_regions, worst.compared_regions);
-    CaseRow::for_no_errors(case, designs, "regions off by min_count pixels", tally, worst.difference)
+    CaseRow::for_no_errors(
+        case,
+        designs,
+        "regions off by min_count pixels",
+        tally,
+        worst.difference,
+    )
 }
 
 /// Tests a fade of one level per frame, up and down.
 pub(crate) fn slow_fade(depth: RunDepth) -> Vec<CaseRow> {
     let frames = depth.choose(600, 10_000);
     let light = |t: u32| if (t / 150).is_multiple_of(2) { t % 150 } else { 150 - t % 150 };
-    let run = |reference| screen_errors(&design(&config_with_reference(reference)), (0..frames).map(|t| textured(light(t))));
+    let run = |reference| {
+        screen_errors(
+            &design(&config_with_reference(reference)),
+            (0..frames).map(|t| textured(light(t))),
+        )
+    };
     let designs = |reference| format!("{reference}, level 8, {frames} frames");
     let drift = run(ReferencePolicy::Previous);
     vec![
@@ -114,7 +125,8 @@ pub(crate) fn flicker(depth: RunDepth) -> Vec<CaseRow> {
     amplitudes
         .map(|amplitude| {
             let frames = (0..frames).map(|t| textured(20 + amplitude * (t % 2)));
-            let worst = screen_errors(&design(&config_with_reference(ReferencePolicy::LastSent)), frames);
+            let worst =
+                screen_errors(&design(&config_with_reference(ReferencePolicy::LastSent)), frames);
             let designs = format!("last-sent, level 8, amplitude {amplitude}");
             last_sent_row("flicker", designs, worst)
         })
@@ -151,7 +163,8 @@ pub(crate) fn relevance_returns(_: RunDepth) -> Vec<CaseRow> {
         // The contrast falls below the level of an edge by less than the temporal level, and
         // returns.
         for contrast in [100, 95, 100] {
-            let frame = frame_from_fn(SIZE, 8, |x, y| if (x / 2 + y / 2) % 2 == 0 { 0 } else { contrast });
+            let frame =
+                frame_from_fn(SIZE, 8, |x, y| if (x / 2 + y / 2) % 2 == 0 { 0 } else { contrast });
             if let Ok(outcome) = camera.step(&frame) {
                 shown = outcome.rendered.pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
             }

@@ -2,7 +2,9 @@
 //! The means of blocks that irrelevant regions show: they are rounded correctly, and stay near the
 //! scene.
 
-use foveate_design::{DesignConfig, FeatureKind, DenoiseFilter, IrrelevantRendering, SUMMARY_BLOCKS};
+use foveate_design::{
+    DenoiseFilter, DesignConfig, FeatureKind, IrrelevantRendering, SUMMARY_BLOCKS,
+};
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
@@ -12,7 +14,13 @@ use crate::{CaseRow, RunDepth};
 
 /// Returns a configuration in which regions whose pixels differ by one level are irrelevant, and
 /// show the means of blocks.
-fn config_with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -> DesignConfig {
+fn config_with_means(
+    size: (u32, u32),
+    side: u32,
+    bits: u32,
+    blocks: u32,
+    level: u32,
+) -> DesignConfig {
     let mut config = config(size, side, bits, &[FeatureKind::Edge]);
     config.camera.denoise.filter = DenoiseFilter::None;
     config.camera.render.irrelevant = IrrelevantRendering::Mean;
@@ -39,7 +47,8 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
             // In every block `above` pixels are one level higher, so its mean is base + above / n.
             let place = |x, y| (y % block) * block + x % block;
-            let region = frame_from_fn((side, side), bits, |x, y| base + u32::from(place(x, y) < above));
+            let region =
+                frame_from_fn((side, side), bits, |x, y| base + u32::from(place(x, y) < above));
             let mean = base + u32::from(2 * above >= n);
             let mut camera = FunctionalCamera::new(&design);
             let outcome = camera.step(&region).expect("the region is a frame of the design");
@@ -51,7 +60,13 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
         }
     }
     let designs = format!("N {side}, P {bits}, {blocks}x{blocks} means");
-    CaseRow::for_no_errors("means of blocks on one half", designs, "pixels wrong", (wrong, tried), worst)
+    CaseRow::for_no_errors(
+        "means of blocks on one half",
+        designs,
+        "pixels wrong",
+        (wrong, tried),
+        worst,
+    )
 }
 
 /// Tests a fade of one level per frame, up and down, and jumps. In every frame, the value that a
@@ -91,5 +106,11 @@ fn fade_row(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
     }
     let frames = lights.len();
     let designs = format!("{name}, {blocks}x{blocks} means, level {level}, {frames} frames");
-    CaseRow::for_no_errors("means follow the scene", designs, "pixels off by more", (wrong, tried), worst)
+    CaseRow::for_no_errors(
+        "means follow the scene",
+        designs,
+        "pixels off by more",
+        (wrong, tried),
+        worst,
+    )
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds at a measured value, one below and one above it.
 
-use foveate_design::{DesignConfig, Decimal, FeatureKind, DenoiseFilter};
+use foveate_design::{Decimal, DenoiseFilter, DesignConfig, FeatureKind};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
@@ -61,7 +61,8 @@ fn score_thresholds(kind: FeatureKind, rounds: u64) -> CaseRow {
         let frame = RandomNumbers::new(seed).frame((SIDE, SIDE), 8);
         let mut config = config_without_filter(kind);
         config.camera.spatial[0].level = Some(40);
-        let score = compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+        let score =
+            compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
         let Some(score) = score else {
             answers.push(false);
             continue;
@@ -83,11 +84,13 @@ fn edge_levels(rounds: u64) -> CaseRow {
         let step = u32::try_from(step).expect("at most 255");
         // At a vertical step of brightness, |Gx| is four times its height in the two columns beside
         // it.
-        let frame = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
+        let frame =
+            crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
         for level in [4 * step - 1, 4 * step, 4 * step + 1] {
             let mut config = config_without_filter(FeatureKind::Edge);
             config.camera.spatial[0].level = Some(level);
-            let hits = compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+            let hits =
+                compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
             let expected = if 4 * step > level { 2 * SIDE } else { 0 };
             answers.push(hits == Some(expected.into()));
         }

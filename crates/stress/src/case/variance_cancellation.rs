@@ -13,7 +13,10 @@ use crate::{CaseRow, RunDepth};
 /// Compares our integers and a single-pass variance in f32 with two passes in f64.
 pub(crate) fn large_mean_variance(depth: RunDepth) -> Vec<CaseRow> {
     let regions = depth.choose(200, 5_000);
-    [(8, 8), (32, 8), (8, 16), (64, 16)].into_iter().flat_map(|size| integer_and_f32_rows(size, regions)).collect()
+    [(8, 8), (32, 8), (8, 16), (64, 16)]
+        .into_iter()
+        .flat_map(|size| integer_and_f32_rows(size, regions))
+        .collect()
 }
 
 fn integer_and_f32_rows((side, bits): (u32, u32), regions: u32) -> [CaseRow; 2] {

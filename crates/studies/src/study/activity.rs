@@ -4,14 +4,14 @@
 use std::slice::from_ref;
 
 use super::{Study, refuse_data_sets};
-use foveate_pictures::chart::{Chart, ChartSeries, ChartData};
+use foveate_pictures::chart::{Chart, ChartData, ChartSeries};
 
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::number::{percent, share_text};
+use crate::runner::StudyRunner;
 use crate::table::StudyTable;
 use crate::tally::RegionCounts;
-use crate::runner::StudyRunner;
 
 const COLUMNS: [&str; 6] = ["clip", "frame", "t_us", "active_share", "srs_share", "trs_share"];
 
@@ -27,9 +27,10 @@ const VIEWS: [ActivityChart; 3] = [
 ];
 
 pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError> {
-    let watched = watcher.run_clips(from_ref(watcher.config), |series: &mut ActivitySeries, _, seen| {
-        series.push((seen.time_us, RegionCounts::of_frame(seen)));
-    })?;
+    let watched =
+        watcher.run_clips(from_ref(watcher.config), |series: &mut ActivitySeries, _, seen| {
+            series.push((seen.time_us, RegionCounts::of_frame(seen)));
+        })?;
     refuse_data_sets(Study::Activity, &watched)?;
     let mut table = StudyTable::new(&COLUMNS);
     for clip in &watched {

@@ -3,14 +3,14 @@
 //! full scale, which is the largest possible value. At 8 bits a bin is one grey level wide.
 
 use foveate_design::{Design, FeatureKind, SpatialConfig};
-use foveate_pictures::chart::{Chart, ChartSeries, ChartData};
+use foveate_pictures::chart::{Chart, ChartData, ChartSeries};
 
 use super::Study;
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::number::{coordinate, percent, share_text};
-use crate::table::StudyTable;
 use crate::runner::StudyRunner;
+use crate::table::StudyTable;
 
 const COLUMNS: [&str; 6] = ["set", "mad_from", "mad_to", "regions", "share", "design"];
 const BINS: u64 = 128;
@@ -26,13 +26,14 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     let mad = own.cloned().unwrap_or_else(|| SpatialConfig::new(FeatureKind::Mad));
     let mut config = watcher.config.clone();
     config.camera.spatial = vec![mad];
-    let watched = watcher.run_clips(&[config], |histogram: &mut DeviationHistogram, design, seen| {
-        histogram.bins.resize(usize::try_from(BINS).expect("BINS are few"), 0);
-        for &score in seen.outcome.scores.iter().flatten() {
-            histogram.all += 1;
-            histogram.bins[bin(design, score)] += 1;
-        }
-    })?;
+    let watched =
+        watcher.run_clips(&[config], |histogram: &mut DeviationHistogram, design, seen| {
+            histogram.bins.resize(usize::try_from(BINS).expect("BINS are few"), 0);
+            for &score in seen.outcome.scores.iter().flatten() {
+                histogram.all += 1;
+                histogram.bins[bin(design, score)] += 1;
+            }
+        })?;
     let mut table = StudyTable::new(&COLUMNS);
     let mut lines = Vec::new();
     for set in &watched {
@@ -54,7 +55,11 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
                 let height = percent(count, histogram.all);
                 [(f64::from(at) * width, height), (f64::from(at + 1) * width, height)]
             });
-            lines.push(ChartSeries { name: set.name.clone(), points: steps.collect(), ..ChartSeries::default() });
+            lines.push(ChartSeries {
+                name: set.name.clone(),
+                points: steps.collect(),
+                ..ChartSeries::default()
+            });
         }
     }
     let mut findings = StudyFindings::new(Study::MadHistogram, &watched, table);

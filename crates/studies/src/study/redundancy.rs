@@ -9,8 +9,8 @@ use super::Study;
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::number::{percent, share_text};
-use crate::table::StudyTable;
 use crate::runner::StudyRunner;
+use crate::table::StudyTable;
 
 /// The columns before and after those of the features.
 const COLUMNS: ([&str; 3], [&str; 1]) = (["set", "images", "regions"], ["design"]);

@@ -16,8 +16,8 @@ use super::{Study, refuse_data_sets};
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::rank::spearman;
-use crate::table::StudyTable;
 use crate::runner::StudyRunner;
+use crate::table::StudyTable;
 
 const COLUMNS: [&str; 5] = ["count_per_region", "spearman", "regions", "sensor_events", "design"];
 
@@ -41,27 +41,29 @@ pub(crate) fn run(
     if watcher.subjects.len() != 1 {
         return Err(StudyError::SeveralClips { clips: watcher.subjects.len() });
     }
-    let watched = watcher.run_clips(from_ref(watcher.config), |counts: &mut ModelCounts, _, seen| {
-        let outcome = seen.outcome;
-        for (sums, votes) in
-            [(&mut counts.active, &outcome.active), (&mut counts.changed, &outcome.trs)]
-        {
-            sums.resize(votes.len(), 0);
-            for (sum, &vote) in sums.iter_mut().zip(votes) {
-                *sum += u64::from(vote && !seen.is_without_reference);
+    let watched =
+        watcher.run_clips(from_ref(watcher.config), |counts: &mut ModelCounts, _, seen| {
+            let outcome = seen.outcome;
+            for (sums, votes) in
+                [(&mut counts.active, &outcome.active), (&mut counts.changed, &outcome.trs)]
+            {
+                sums.resize(votes.len(), 0);
+                for (sum, &vote) in sums.iter_mut().zip(votes) {
+                    *sum += u64::from(vote && !seen.is_without_reference);
+                }
             }
-        }
-        counts.pixels.resize(outcome.temporal_count.len(), 0);
-        for (sum, &count) in counts.pixels.iter_mut().zip(&outcome.temporal_count) {
-            *sum += if seen.is_without_reference { 0 } else { u64::from(count) };
-        }
-        counts.last_us = seen.time_us;
-    })?;
+            counts.pixels.resize(outcome.temporal_count.len(), 0);
+            for (sum, &count) in counts.pixels.iter_mut().zip(&outcome.temporal_count) {
+                *sum += if seen.is_without_reference { 0 } else { u64::from(count) };
+            }
+            counts.last_us = seen.time_us;
+        })?;
     refuse_data_sets(Study::Sensor, &watched)?;
     let mut table = StudyTable::new(&COLUMNS);
     for (design, counts) in watched.iter().flat_map(|clip| &clip.points) {
         let times = (start, start.saturating_add(counts.last_us));
-        let events = read_recording(path, design, times)?.into_events_per_region(path, times, design)?;
+        let events =
+            read_recording(path, design, times)?.into_events_per_region(path, times, design)?;
         for (name, own) in [
             ("active frames", &counts.active),
             ("frames with TRS", &counts.changed),
@@ -125,7 +127,11 @@ impl SensorRecording {
 
 /// Reads a recording. Events with first < t <= last count for their region, unless they are outside
 /// of the frame.
-fn read_recording(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<SensorRecording, StudyError> {
+fn read_recording(
+    path: &Path,
+    design: &Design,
+    (first, last): (u64, u64),
+) -> Result<SensorRecording, StudyError> {
     let wrong = |problem: String| StudyError::SensorEvents { path: path.to_owned(), problem };
     let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
     let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));

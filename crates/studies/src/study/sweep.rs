@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The active share over one setting of the design: the region size, or each threshold by itself.
 
-use foveate_design::{DesignConfig, Decimal, FeatureKind, ScoreUnit};
+use foveate_design::{Decimal, DesignConfig, FeatureKind, ScoreUnit};
 use foveate_footage::SourceKind;
-use foveate_pictures::chart::{Chart, ChartSeries, ChartData};
+use foveate_pictures::chart::{Chart, ChartData, ChartSeries};
 
 use super::Study;
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::number::{coordinate, percent, share_text};
-use crate::table::StudyTable;
-use crate::tally::{RegionTally, RegionCounts};
 use crate::runner::{ClipResult, StudyRunner};
+use crate::table::StudyTable;
+use crate::tally::{RegionCounts, RegionTally};
 
 const COLUMNS: [&str; 7] =
     ["clip", "key", "value", "active_share", "srs_share", "trs_share", "design"];
@@ -138,11 +138,17 @@ fn scaled_to_depth(values: &[u64], config: &DesignConfig) -> Vec<u64> {
     )
 }
 
-fn run(study: Study, watcher: &StudyRunner<'_>, keys: &[SweptKey]) -> Result<StudyFindings, StudyError> {
+fn run(
+    study: Study,
+    watcher: &StudyRunner<'_>,
+    keys: &[SweptKey],
+) -> Result<StudyFindings, StudyError> {
     // The unchanged design comes first, for the notes.
     let points = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
-    let configs: Vec<DesignConfig> = std::iter::once(watcher.config.clone()).chain(points).collect();
-    let watched = watcher.run_clips(&configs, |tally: &mut RegionTally, _, seen| tally.add(seen))?;
+    let configs: Vec<DesignConfig> =
+        std::iter::once(watcher.config.clone()).chain(points).collect();
+    let watched =
+        watcher.run_clips(&configs, |tally: &mut RegionTally, _, seen| tally.add(seen))?;
     let mut table = StudyTable::new(&COLUMNS);
     let mut charts = Vec::new();
     let mut first = 1;
@@ -150,7 +156,8 @@ fn run(study: Study, watcher: &StudyRunner<'_>, keys: &[SweptKey]) -> Result<Stu
         let range = first..first + key.points.len();
         first = range.end;
         let mut lines = Vec::new();
-        for clip in watched.iter().filter(|clip| !key.is_temporal || clip.kind == SourceKind::Clip) {
+        for clip in watched.iter().filter(|clip| !key.is_temporal || clip.kind == SourceKind::Clip)
+        {
             let points = &clip.points[range.clone()];
             for ((value, _), (design, tally)) in key.points.iter().zip(points) {
                 let sum = tally.sum();

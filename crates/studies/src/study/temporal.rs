@@ -10,9 +10,9 @@ use super::{Study, refuse_data_sets};
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::number::{percent, share_text};
-use crate::table::StudyTable;
-use crate::tally::{RegionTally, RegionCounts};
 use crate::runner::StudyRunner;
+use crate::table::StudyTable;
+use crate::tally::{RegionCounts, RegionTally};
 
 const COLUMNS: [&str; 9] = [
     "clip",

@@ -7,7 +7,7 @@ use crate::support::{SilentHooks, cells, run};
 use foveate_design::DesignConfig;
 use foveate_footage::{FrameRate, ImageRelation, InputOptions};
 use foveate_simulator::{BatchHooks, BatchProgress};
-use foveate_studies::{StudyRequest, Study, StudyError, analyze};
+use foveate_studies::{Study, StudyError, StudyRequest, analyze};
 
 #[test]
 fn what_cannot_be_studied_is_refused_and_leaves_nothing() {

@@ -29,7 +29,9 @@ struct EvictionCandidate {
 /// Removes the least recently used entries until `goal` bytes are left, if there are more than
 /// `limit`. More bytes may be left, because entries that a process holds are not removed.
 pub(super) fn evict(root: &Path, limit: u64, goal: u64) {
-    let Ok(gate) = File::options().create(true).append(true).open(root.join(LOCK_FILE)) else { return };
+    let Ok(gate) = File::options().create(true).append(true).open(root.join(LOCK_FILE)) else {
+        return;
+    };
     if gate.try_lock().is_err() {
         return;
     }
@@ -56,7 +58,10 @@ pub(super) fn remove_stale_builds(root: &Path) {
         let name = name.to_string_lossy();
         let rest = name.starts_with(BUILDING_PREFIX) || name.starts_with(REMOVING_PREFIX);
         let age = last_use(&entry).and_then(|time| SystemTime::now().duration_since(time).ok());
-        if rest && age.is_some_and(|age| age > STALE_AGE) && FolderLock::exclusive(&entry.path()).is_some() {
+        if rest
+            && age.is_some_and(|age| age > STALE_AGE)
+            && FolderLock::exclusive(&entry.path()).is_some()
+        {
             let _ = fs::remove_dir_all(entry.path());
         }
     }
@@ -81,7 +86,11 @@ fn eviction_candidates(root: &Path) -> Vec<EvictionCandidate> {
     };
     // Other files in the folder do not belong to the cache.
     let named = |entry: &DirEntry, end: &str| {
-        entry.file_name().to_str().and_then(|name| name.strip_suffix(end)).is_some_and(CacheKey::is_key_name)
+        entry
+            .file_name()
+            .to_str()
+            .and_then(|name| name.strip_suffix(end))
+            .is_some_and(CacheKey::is_key_name)
     };
     let built = entries(root).filter(|entry| named(entry, ""));
     let logs = entries(&root.join(LOG_FOLDER)).filter(|entry| named(entry, ".log"));

@@ -268,7 +268,11 @@ const HOLDER: &str = "FOVEATE_TEST_HOLDER";
 #[test]
 fn entry_holder_process() {
     let Some(root) = std::env::var_os(HOLDER) else { return };
-    let entry = limited_cache(Path::new(&root), 10_000).get_or_build(&key("held"), "file", build_of_size(6000));
+    let entry = limited_cache(Path::new(&root), 10_000).get_or_build(
+        &key("held"),
+        "file",
+        build_of_size(6000),
+    );
     println!("\nholding");
     let _ = std::io::stdin().read_line(&mut String::new());
     drop(entry);

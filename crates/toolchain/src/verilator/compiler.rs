@@ -16,10 +16,10 @@ use std::time::Duration;
 
 use super::makefile::MakefileLists;
 use crate::cache::Cache;
-use crate::error::ToolError;
-use crate::source_files;
-use crate::invocation::Invocation;
 use crate::cache_key::{CacheKey, CacheKeyBuilder};
+use crate::error::ToolError;
+use crate::invocation::Invocation;
+use crate::source_files;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
@@ -107,7 +107,10 @@ impl<'a> ModelCompiler<'a> {
             cache.keep_or_build(&key, &object, |dir| {
                 let source = self.include.join(format!("{name}.cpp"));
                 let object = dir.join(&object);
-                self.compile(dir, &CompilationUnit { source, object, flag: RUN_TIME_FLAG, header: None })
+                self.compile(
+                    dir,
+                    &CompilationUnit { source, object, flag: RUN_TIME_FLAG, header: None },
+                )
             })
         })
     }
@@ -314,7 +317,8 @@ mod tests {
     fn work_is_done_in_order() {
         let items: Vec<usize> = (0..100).collect();
         assert_eq!(in_parallel(&items, |i| Ok(i * 2)).unwrap()[99], 198);
-        let error = in_parallel(&items, |i| if *i == 7 { Err(ToolError::NoCacheFolder) } else { Ok(()) });
+        let error =
+            in_parallel(&items, |i| if *i == 7 { Err(ToolError::NoCacheFolder) } else { Ok(()) });
         assert!(matches!(error, Err(ToolError::NoCacheFolder)));
     }
 

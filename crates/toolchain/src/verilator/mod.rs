@@ -14,15 +14,15 @@ use std::path::{Path, PathBuf};
 use foveate_staging::ScratchFolder;
 
 use crate::cache::Cache;
-use crate::error::ToolError;
-use crate::source_files::{self, Source};
-use crate::invocation::Invocation;
 use crate::cache_key::CacheKey;
+use crate::error::ToolError;
+use crate::invocation::Invocation;
 use crate::port_widths::{self, PortBits};
+use crate::source_files::{self, Source};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 pub use compiler::OptimizationLevel;
-use compiler::{ModelCompiler, EXECUTABLE, LIMIT, MAIN, tools_key};
+use compiler::{EXECUTABLE, LIMIT, MAIN, ModelCompiler, tools_key};
 use makefile::MakefileLists;
 
 const WAIVERS: &str = "waivers.vlt";

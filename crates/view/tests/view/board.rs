@@ -90,7 +90,10 @@ fn answers_that_are_lost_or_of_others_are_asked_for_again() {
         }
         1 => {
             let mut other = Vec::new();
-            packet_writer::append_register(&mut other, RegisterPacket { address: 0x40, is_write: false, value: 9 });
+            packet_writer::append_register(
+                &mut other,
+                RegisterPacket { address: 0x40, is_write: false, value: 9 },
+            );
             [other, bytes].concat()
         }
         _ => bytes,

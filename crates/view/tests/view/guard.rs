@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use foveate_design::DesignConfig;
 use foveate_view::{PlayMode, View, ViewError, ViewOptions};
 
-use crate::client::{get, open, link_parts, request};
+use crate::client::{get, link_parts, open, request};
 use crate::sent::{CORE, street_stream};
 
 fn view(folder: &Path) -> View {

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::PathBuf;
 
-use foveate_packets::{StreamItem, Packet, RegisterPacket, PacketSplitter};
+use foveate_packets::{Packet, PacketSplitter, RegisterPacket, StreamItem};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
 /// The board's end of the line.

@@ -5,7 +5,9 @@ use std::fs;
 
 use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, open};
-use foveate_simulator::{EventTableOptions, PictureFormat, PacketContent, RunOptions, SilentHooks, Simulation};
+use foveate_simulator::{
+    EventTableOptions, PacketContent, PictureFormat, RunOptions, SilentHooks, Simulation,
+};
 
 /// A stream, and what the page must show of it.
 pub(crate) struct SentStream {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use foveate_view::PlayMode;
 
-use crate::client::{get, page_after, open, link_parts, wait_for};
+use crate::client::{get, link_parts, open, page_after, wait_for};
 use crate::line::SerialLine;
 use crate::sent::{CORE, SentStream, street_stream};
 

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use foveate_footage::InputOptions;
 use foveate_view::{PlayMode, Player, PlayerOptions};
 
-use crate::client::{get, open, link_parts, request};
+use crate::client::{get, link_parts, open, request};
 use crate::sent::{CORE, street_stream};
 
 /// The number of foreign connections, which is more than the server keeps.

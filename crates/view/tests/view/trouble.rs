@@ -74,8 +74,9 @@ fn another_design_is_refused_until_the_right_one_comes() {
     let (own, foreign) = (street_stream(&CORE, 1), street_stream(&other, 2));
     let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
-    let print =
-        |set: &[&str]| DesignConfig::from_toml_with("", set).unwrap().validate().unwrap().fingerprint();
+    let print = |set: &[&str]| {
+        DesignConfig::from_toml_with("", set).unwrap().validate().unwrap().fingerprint()
+    };
     line.send(&foreign.bytes());
     let parts = [&*print(&CORE), &*print(&other)];
     let both = |text: &str| parts.iter().all(|part| text.contains(part));

@@ -60,7 +60,10 @@ fn every_camera_equals_the_model() {
                     .collect::<Vec<_>>(),
                 expected.scores
             );
-            assert_eq!(sent.bits, design.bits_sent(1, design.values_sent_per_frame(&expected.actions)));
+            assert_eq!(
+                sent.bits,
+                design.bits_sent(1, design.values_sent_per_frame(&expected.actions))
+            );
             let count =
                 |bits: &[bool]| u32::try_from(bits.iter().filter(|&&bit| bit).count()).unwrap();
             assert_eq!(

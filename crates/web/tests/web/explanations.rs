@@ -4,7 +4,7 @@
 
 use crate::cameras::{SIZE, configurations, frame, grey};
 use foveate_model::FunctionalCamera;
-use foveate_model::explanation::{RegionExplanation, FrameIdentification};
+use foveate_model::explanation::{FrameIdentification, RegionExplanation};
 use foveate_web::PageCameras;
 
 #[test]
@@ -22,10 +22,14 @@ fn every_region_of_every_frame_is_explained_as_by_the_model() {
             let before: Vec<_> =
                 (0..design.regions()).map(|region| model.region_memory(region)).collect();
             let outcome = model.step(&frame(&grey, design.pixel_bits())).unwrap();
-            let moment =
-                FrameIdentification { number: number.into(), name: "here", t_us: u64::from(number) * 7 };
+            let moment = FrameIdentification {
+                number: number.into(),
+                name: "here",
+                t_us: u64::from(number) * 7,
+            };
             for (region, before) in (0..).zip(before) {
-                let expected = RegionExplanation::from_outcome(&design, moment, region, before, outcome);
+                let expected =
+                    RegionExplanation::from_outcome(&design, moment, region, before, outcome);
                 let place = (region % design.columns(), region / design.columns());
                 let told = camera.explain(place, "here").unwrap();
                 assert_eq!(told, expected, "{toml}");

@@ -6,7 +6,7 @@ use foveate_network::onnx::{
     AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
     TensorTypeProto, TypeProto, ValueInfoProto, data_type,
 };
-use foveate_web::{PageCameras, NetworkComparison, PageNetwork};
+use foveate_web::{NetworkComparison, PageCameras, PageNetwork};
 use prost::Message as _;
 use serde_json::{Value, json};
 
@@ -73,7 +73,12 @@ fn open_network(bits: u32) -> (PageNetwork, Value) {
     (desk, told)
 }
 
-fn look(desk: &PageNetwork, whole: &[u16], seen: &[u16], bits: u32) -> Result<NetworkComparison, String> {
+fn look(
+    desk: &PageNetwork,
+    whole: &[u16],
+    seen: &[u16],
+    bits: u32,
+) -> Result<NetworkComparison, String> {
     let pixels = whole.iter().chain(seen);
     let bytes: Vec<u8> = if bits <= 8 {
         pixels.map(|pixel| pixel.to_le_bytes()[0]).collect()

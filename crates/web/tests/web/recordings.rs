@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that a recording holds whole frames, and has a limit.
 
-use foveate_web::{PageCameras, MAX_RECORDING};
+use foveate_web::{MAX_RECORDING, PageCameras};
 
 #[test]
 fn a_recording_has_a_row_per_region_and_frame_until_it_is_full() {

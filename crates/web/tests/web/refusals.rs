@@ -2,7 +2,7 @@
 //! Tests that wrong input gives a message with the fault and with what would be right, and changes
 //! nothing.
 
-use foveate_web::{PageCameras, MAX_CAMERAS};
+use foveate_web::{MAX_CAMERAS, PageCameras};
 
 fn refused<T>(result: Result<T, foveate_web::WebError>) -> String {
     result.err().map(|error| error.to_string()).unwrap()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The report of a bench as a table: in lines as wide as the terminal, or in Markdown.
 
-use foveate_bench::{BenchmarkReport, BenchmarkLevel, LevelRow, LevelMeasurement};
+use foveate_bench::{BenchmarkLevel, BenchmarkReport, LevelMeasurement, LevelRow};
 
 const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
 /// The number of leading headings that count per second.
@@ -86,7 +86,16 @@ fn cells(row: &LevelMeasurement) -> [String; 7] {
 
 /// Returns the notes below the table: which levels are compared, and what the figures include.
 fn notes(report: &BenchmarkReport) -> Vec<String> {
-    let BenchmarkReport { design, organization, regions, size, frames, streamed_frames: streamed, clocks, .. } = report;
+    let BenchmarkReport {
+        design,
+        organization,
+        regions,
+        size,
+        frames,
+        streamed_frames: streamed,
+        clocks,
+        ..
+    } = report;
     let mut notes = vec![format!(
         "design {design}, {organization}, {regions} regions, {} x {} pixels, {frames} frames; with clocks \
          {streamed} frames in {clocks} clocks; one thread, {}",
@@ -106,7 +115,9 @@ fn notes(report: &BenchmarkReport) -> Vec<String> {
     );
     let rtl = report.rows.iter().find(|row| row.level == BenchmarkLevel::Rtl);
     if let Some(LevelMeasurement {
-        files_clocks_per_second: Some(files), unpacking_share: Some(unpacking), ..
+        files_clocks_per_second: Some(files),
+        unpacking_share: Some(unpacking),
+        ..
     }) = rtl.and_then(|row| row.measured.as_ref())
     {
         notes.push(format!(

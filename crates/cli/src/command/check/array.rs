@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card about area and speed: lanes, memory, frames per second and folds.
 
-use foveate_design::{SlotArea, Decimal, Design, LaneMemory, MemoryChoice, SerialDesign};
+use foveate_design::{Decimal, Design, LaneMemory, MemoryChoice, SerialDesign, SlotArea};
 use serde::Serialize;
 
 use crate::args::{ClockFrequency, FramesPerSecond};
@@ -136,15 +136,21 @@ impl RequiredClock {
 impl FoldProposal {
     /// Proposes a fold for a design that folds, whatever its own fold. For any other design, it
     /// states whether the design reaches the rate as it is.
-    pub(super) fn for_design(design: &Design, rate: FramesPerSecond, clock: ClockFrequency) -> Result<Self, CliError> {
+    pub(super) fn for_design(
+        design: &Design,
+        rate: FramesPerSecond,
+        clock: ClockFrequency,
+    ) -> Result<Self, CliError> {
         let (most, folds) = (rate.max_clocks(clock), design.organization().has_folding());
         let reaches = design.timing().clocks_per_frame() <= most;
         let found = if folds { design.largest_fold(most) } else { reaches.then_some(1) };
         let fold = found.unwrap_or(1);
         let best = design.with_fold(fold)?;
         let clocks = best.timing().clocks_per_frame();
-        let reach =
-            format!("{clocks} clocks per frame, {} frames/s at {clock}", frames_per_second_text(clock, clocks));
+        let reach = format!(
+            "{clocks} clocks per frame, {} frames/s at {clock}",
+            frames_per_second_text(clock, clocks)
+        );
         let lanes = best.regions().div_ceil(fold);
         let wanted = rate.0;
         let text = match found {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The card: all values that follow from a configuration, in the form of its JSON.
 
-use foveate_design::{DesignConfig, Design, PortDirection, Hardware, Port, DesignTiming};
+use foveate_design::{Design, DesignConfig, DesignTiming, Hardware, Port, PortDirection};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::array::{LaneArray, ReachedFrameRate, RequiredClock, FoldProposal};
+use super::array::{FoldProposal, LaneArray, ReachedFrameRate, RequiredClock};
 use crate::args::{ClockFrequency, FramesPerSecond};
 use crate::error::CliError;
 

@@ -69,7 +69,13 @@ pub(super) fn plan(args: &CosimArgs) -> Result<CosimPlan, CliError> {
         // The whole frame is simulated in addition to a small frame, to which all sequences are
         // applied.
         let enough = (!args.full && level == CosimLevel::Full).then_some(ENOUGH_CLOCKS);
-        let stimulus = Stimulus { level, seed: args.seed, rounds, frames: frames.clone(), sufficient_clocks: enough };
+        let stimulus = Stimulus {
+            level,
+            seed: args.seed,
+            rounds,
+            frames: frames.clone(),
+            sufficient_clocks: enough,
+        };
         let mut job = CosimJob::new(&design, stimulus, &args.replay)?;
         job.simulator = match args.simulator {
             SimulatorChoice::Verilator => Simulator::Verilator,
@@ -81,7 +87,8 @@ pub(super) fn plan(args: &CosimArgs) -> Result<CosimPlan, CliError> {
         Ok(PlannedCosim::Array(Box::new(job)))
     };
     let levels = array_levels(args, &design, rtl.as_deref(), &prefix)?;
-    let mut works: Vec<PlannedCosim> = levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
+    let mut works: Vec<PlannedCosim> =
+        levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
     if let Some(mut job) = axi_job(args, &design)? {
         job.seed = args.seed;
         job.rounds = args.rounds.unwrap_or(1);
@@ -131,7 +138,9 @@ fn array_levels(
 ) -> Result<Vec<CosimLevel>, CliError> {
     let one = match (args.full, args.level, args.grid) {
         (true, ..) => CosimLevel::Full,
-        (false, Some(args::DesignPart::Rcm), Some((columns, rows))) => CosimLevel::Rcm { columns, rows },
+        (false, Some(args::DesignPart::Rcm), Some((columns, rows))) => {
+            CosimLevel::Rcm { columns, rows }
+        }
         (false, Some(args::DesignPart::Rcm), None) => CosimLevel::small_array(design),
         (false, _, Some(_)) => {
             let message = "--grid is for --level rcm; add it or leave --grid out";
@@ -178,8 +187,8 @@ fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
         if let (Some(name), true) = (name, path.extension().is_some_and(|e| e == "v")) {
             check_source_name(&name)
                 .map_err(|error| CliError::Usage(format!("{error}; rename the file of --rtl")))?;
-            let contents =
-                foveate_reading::read_text(&path, VERILOG_LIMIT).map_err(CliError::io("read", &path))?;
+            let contents = foveate_reading::read_text(&path, VERILOG_LIMIT)
+                .map_err(CliError::io("read", &path))?;
             files.push(SourceFile { path: format!("rtl/{name}"), contents });
         }
     }

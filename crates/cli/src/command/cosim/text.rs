@@ -12,7 +12,12 @@ pub(super) fn summary_text(told: &CosimOutput<'_>, width: usize) -> String {
     for report in &summary.runs {
         push_paragraph(&mut text, &report.to_string(), "", width);
         if let Some(mismatch) = &report.mismatch {
-            push_paragraph(&mut text, "ports that differ before the sequence ends, from:", "  ", width);
+            push_paragraph(
+                &mut text,
+                "ports that differ before the sequence ends, from:",
+                "  ",
+                width,
+            );
             for port in &mismatch.ports {
                 push_paragraph(&mut text, &port.to_string(), "    ", width);
             }
@@ -33,7 +38,12 @@ pub(super) fn summary_text(told: &CosimOutput<'_>, width: usize) -> String {
         push_paragraph(&mut text, &format!("situations  {}", summary.situations), "", width);
     }
     for name in &summary.not_run {
-        push_paragraph(&mut text, &format!("{name}: not run, because of the mismatch above"), "", width);
+        push_paragraph(
+            &mut text,
+            &format!("{name}: not run, because of the mismatch above"),
+            "",
+            width,
+        );
     }
     for left_out in &summary.not_simulated {
         push_paragraph(&mut text, &format!("not simulated: {left_out}"), "", width);

@@ -2,7 +2,8 @@
 //! `foveate estimate --compare`: the designs of the table.
 
 use foveate_design::{
-    DesignConfig, ConfigError, Design, FeatureKind, PixelFeed, DenoiseFilter, Organization, SpatialConfig,
+    ConfigError, DenoiseFilter, Design, DesignConfig, FeatureKind, Organization, PixelFeed,
+    SpatialConfig,
 };
 use foveate_estimate::{DesignComparison, FoldCost, SkippedDesign, cheapest_fold};
 
@@ -96,7 +97,12 @@ fn with_feature(base: &DesignConfig, kind: FeatureKind, filter: DenoiseFilter) -
 
 /// Returns the row of a serial array with the median, the default feature and raster feed, in the
 /// cheapest number of lanes that reaches `rate` frames per second.
-fn folded_row(base: &DesignConfig, rate: u64, given: Option<f64>, flow: &SynthesisTools) -> Result<PlannedRow, CliError> {
+fn folded_row(
+    base: &DesignConfig,
+    rate: u64,
+    given: Option<f64>,
+    flow: &SynthesisTools,
+) -> Result<PlannedRow, CliError> {
     let feature = FeatureKind::default();
     let mut config = with_feature(base, feature, DenoiseFilter::Median3x3);
     config.hardware.organization = Organization::Serial;

@@ -6,7 +6,7 @@ use foveate_emit::Top;
 use foveate_estimate::{RouteJob, place_and_route, render_routes_markdown, render_routes_text};
 
 use super::synthesis::SynthesisTools;
-use crate::args::{EstimateArgs, DesignPart};
+use crate::args::{DesignPart, EstimateArgs};
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Progress;

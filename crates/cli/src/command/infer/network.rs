@@ -19,12 +19,17 @@ use crate::error::CliError;
 use crate::output;
 
 /// The arguments that are valid for arrays, too.
-const ARRAY_ARGUMENTS: [&str; 7] = ["network", "inputs", "output", "force", "json", "quiet", "threads"];
+const ARRAY_ARGUMENTS: [&str; 7] =
+    ["network", "inputs", "output", "force", "json", "quiet", "threads"];
 /// The arguments that are valid for a check, too.
 const CHECK_ARGUMENTS: [&str; 5] = ["network", "check", "json", "resize", "threads"];
 
 /// Runs the network on arrays.
-pub(super) fn run_arrays(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
+pub(super) fn run_arrays(
+    args: &InferArgs,
+    words: &[OsString],
+    folder: &Path,
+) -> Result<(), CliError> {
     if let Some(other) = args.inputs.iter().find(|input| !is_array(input)) {
         return Err(CliError::Usage(format!(
             "`{}` is no array (.npy), but other inputs are; give arrays alone, one for each input of the network, or clips alone",
@@ -61,7 +66,11 @@ pub(super) fn run_check(args: &InferArgs, words: &[OsString]) -> Result<(), CliE
 
 /// Fails if an argument outside of `allowed` is given. `here` names the use of the command in the
 /// message.
-fn refuse_other_arguments(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError> {
+fn refuse_other_arguments(
+    words: &[OsString],
+    allowed: &[&str],
+    here: &str,
+) -> Result<(), CliError> {
     let command = Cli::command();
     let matches = command.clone().get_matches_from(words);
     let Some((name, matches)) = matches.subcommand() else { return Ok(()) };

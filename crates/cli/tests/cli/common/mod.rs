@@ -53,7 +53,12 @@ pub(crate) fn run_successfully(folder: &Path, args: &[&str]) -> String {
 
 /// Runs the command in `folder`, and expects the exit code `code` and one line on standard error,
 /// besides warnings, that contains all of `parts`.
-pub(crate) fn expect_failure(folder: &Path, code: i32, args: &[&str], parts: &[&str]) -> CommandOutput {
+pub(crate) fn expect_failure(
+    folder: &Path,
+    code: i32,
+    args: &[&str],
+    parts: &[&str],
+) -> CommandOutput {
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, code, "{args:?}: {}", outcome.stderr);
     let errors = outcome.stderr.lines().filter(|line| !line.starts_with("foveate: warning: "));

@@ -6,10 +6,10 @@ mod pipelined;
 mod raster;
 mod serial;
 
-use super::threshold_aimer::ThresholdAim;
 use super::faulty_store::StoreFault;
-use super::stimulus_pattern::StimulusPattern;
 use super::random::Random;
+use super::stimulus_pattern::StimulusPattern;
+use super::threshold_aimer::ThresholdAim;
 use foveate_design::{Design, Hardware};
 
 /// A sequence of frames with one property in common.
@@ -64,7 +64,11 @@ impl FrameSequence {
     }
 
     /// A sequence like that of `mixed`, with another choice of thresholds.
-    const fn with_aim(aim: ThresholdAim, name: &'static str, motifs: &'static [StimulusPattern]) -> Self {
+    const fn with_aim(
+        aim: ThresholdAim,
+        name: &'static str,
+        motifs: &'static [StimulusPattern],
+    ) -> Self {
         Self {
             name,
             patterns: motifs,
@@ -77,7 +81,11 @@ impl FrameSequence {
     }
 
     /// A sequence with as many relevant regions as possible, which ends at `end`.
-    const fn ending_at(name: &'static str, motifs: &'static [StimulusPattern], end: SequenceEnd) -> Self {
+    const fn ending_at(
+        name: &'static str,
+        motifs: &'static [StimulusPattern],
+        end: SequenceEnd,
+    ) -> Self {
         Self { end, ..Self::with_aim(ThresholdAim::Smallest, name, motifs) }
     }
 }

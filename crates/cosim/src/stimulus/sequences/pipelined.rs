@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a pipelined RPU, and of an array of them.
 
-use super::super::threshold_aimer::ThresholdAim;
-use super::super::stimulus_pattern::StimulusPattern::*;
 use super::super::drain_timing::settling_clocks;
-use super::{SequenceEnd, FrameSequence, mean_sequences_around_reset};
+use super::super::stimulus_pattern::StimulusPattern::*;
+use super::super::threshold_aimer::ThresholdAim;
+use super::{FrameSequence, SequenceEnd, mean_sequences_around_reset};
 use foveate_design::PipelinedDesign;
 
 /// Returns all sequences, the most telling first.
@@ -53,7 +53,11 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<FrameSequence> {
             ),
             aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
             mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
-            aimed(ThresholdAim::HeldRegions, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
+            aimed(
+                ThresholdAim::HeldRegions,
+                "means held",
+                &[Noise, Same, Same, MeanStep, Same, MeanStep],
+            ),
         ]);
         list.extend(mean_sequences_around_reset());
     }

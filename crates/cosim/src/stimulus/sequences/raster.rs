@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a raster core.
 
-use super::super::threshold_aimer::ThresholdAim;
 use super::super::faulty_store::StoreFault;
 use super::super::stimulus_pattern::StimulusPattern::*;
-use super::{SequenceEnd, FrameSequence, mean_sequences_around_reset};
+use super::super::threshold_aimer::ThresholdAim;
+use super::{FrameSequence, SequenceEnd, mean_sequences_around_reset};
 use foveate_design::{RasterDesign, RasterTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
 /// alternate with the others, so that the remaining state meets another kind of frame each time.
 pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<FrameSequence> {
-    let (mixed, aimed, cut) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
+    let (mixed, aimed, cut) =
+        (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
     let loading = SequenceEnd::Loading(2);
     let timing = RasterTiming::from_design(design);
     let flushing = SequenceEnd::Flushing(timing.edges_to_ready());
     let leaving = SequenceEnd::Leaving(2 * u64::from(timing.region_words));
     let mut sequences = vec![
-        FrameSequence { is_mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+        FrameSequence {
+            is_mixed: false,
+            ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint])
+        },
         cut("reset while loading", &[Noise, Ramp], loading),
         FrameSequence {
             sink_stalls: true,
@@ -24,13 +28,23 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<FrameSequence> {
         },
         cut("reset in the flush", &[Noise, Binary], flushing),
         mixed("steps", &[Step, Ring, HotCorner, Ramp]),
-        FrameSequence { sink_stalls: true, ..cut("reset after losses", &[Noise, Max, Binary], leaving) },
-        FrameSequence { sink_stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], SequenceEnd::BeforeLoss) },
+        FrameSequence {
+            sink_stalls: true,
+            ..cut("reset after losses", &[Noise, Max, Binary], leaving)
+        },
+        FrameSequence {
+            sink_stalls: true,
+            ..cut("reset at a loss", &[Noise, Binary, Max], SequenceEnd::BeforeLoss)
+        },
         mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
         cut("reset while pixels leave", &[Noise], leaving),
         aimed(ThresholdAim::Configured, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
         cut("reset after one frame", &[TwoPoint], flushing),
-        aimed(ThresholdAim::Smallest, "blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel]),
+        aimed(
+            ThresholdAim::Smallest,
+            "blanked",
+            &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel],
+        ),
         FrameSequence {
             sink_stalls: true,
             ..aimed(
@@ -80,7 +94,11 @@ fn mean_sequences() -> [FrameSequence; 6] {
         },
         aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
         mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
-        aimed(ThresholdAim::HeldRegions, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
+        aimed(
+            ThresholdAim::HeldRegions,
+            "means held",
+            &[Noise, Same, Same, MeanStep, Same, MeanStep],
+        ),
         FrameSequence {
             is_mixed: false,
             ..aimed(
@@ -94,7 +112,8 @@ fn mean_sequences() -> [FrameSequence; 6] {
 
 /// Returns the sequences with a faulty external frame store.
 fn store_fault_sequences(flushing: SequenceEnd) -> [FrameSequence; 7] {
-    let (mixed, aimed, cut) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
+    let (mixed, aimed, cut) =
+        (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
     let loading = SequenceEnd::Loading(2);
     [
         FrameSequence {
@@ -117,7 +136,11 @@ fn store_fault_sequences(flushing: SequenceEnd) -> [FrameSequence; 7] {
         FrameSequence {
             store_fault: StoreFault::Wrong,
             is_mixed: false,
-            ..aimed(ThresholdAim::Configured, "wrong references of extremes", &[Max, Max, Zero, Zero])
+            ..aimed(
+                ThresholdAim::Configured,
+                "wrong references of extremes",
+                &[Max, Max, Zero, Zero],
+            )
         },
         cut("reset after wrong references", &[Smooth, Same], flushing),
     ]

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a serial array.
 
-use super::super::threshold_aimer::ThresholdAim;
 use super::super::stimulus_pattern::StimulusPattern::*;
-use super::{SequenceEnd, FrameSequence, mean_sequences_around_reset};
-use foveate_design::{SerialPhase, SerialDesign, SerialTiming};
+use super::super::threshold_aimer::ThresholdAim;
+use super::{FrameSequence, SequenceEnd, mean_sequences_around_reset};
+use foveate_design::{SerialDesign, SerialPhase, SerialTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
 /// alternate with the others, so that the remaining state meets another kind of frame each time.
 pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
-    let (mixed, aimed, cut) = (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
+    let (mixed, aimed, cut) =
+        (FrameSequence::with_exact_thresholds, FrameSequence::with_aim, FrameSequence::ending_at);
     let loading = SequenceEnd::Loading(2);
     let timing = SerialTiming::from_design(design);
     let before = |&&(phase, _): &&(SerialPhase, u64)| phase != SerialPhase::RotateCount;
@@ -20,11 +21,16 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
     // The pixels of the last slot leave last.
     let unloading = SequenceEnd::Finishing(timing.phases().last().expect("a frame has phases").1);
     let ready = SequenceEnd::Finishing(2);
-    let passes = |&&(phase, _): &&(SerialPhase, u64)| matches!(phase, SerialPhase::RotateCount | SerialPhase::ComputeMeans);
+    let passes = |&&(phase, _): &&(SerialPhase, u64)| {
+        matches!(phase, SerialPhase::RotateCount | SerialPhase::ComputeMeans)
+    };
     let passing =
         SequenceEnd::Rotating(timing.phases().iter().filter(passes).map(|&(_, steps)| steps).sum());
     let mut list = vec![
-        FrameSequence { is_mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
+        FrameSequence {
+            is_mixed: false,
+            ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint])
+        },
         cut("reset while loading", &[Noise, Ramp], loading),
         mixed("steps", &[Step, Ring, HotCorner, Ramp]),
         cut("reset at the start", &[Binary], SequenceEnd::LanesStarted),

@@ -4,9 +4,9 @@
 pub(crate) mod faults;
 
 use crate::common::{in_parallel, sampled_faults};
-use faults::{FAULTS, BusFault};
+use faults::{BusFault, FAULTS};
 use foveate_cosim::{BusJob, CosimReport};
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;
@@ -140,7 +140,8 @@ fn the_designs_of_the_bus_faults_pass_without_a_fault() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let designs = [faults::SMALL, faults::ODD, faults::MEANS, faults::LAST_SENT, faults::SHORT_REGIONS];
+    let designs =
+        [faults::SMALL, faults::ODD, faults::MEANS, faults::LAST_SENT, faults::SHORT_REGIONS];
     let failures = in_parallel(&designs, |keys| {
         let design = axi_design(keys);
         let report = run_bus_job(&design, &output.path().join(design.fingerprint()), |_| {})?;

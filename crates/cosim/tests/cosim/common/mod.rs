@@ -4,9 +4,9 @@
 pub(crate) mod serial;
 pub(crate) mod vectors;
 
-use foveate_cosim::{CosimError, CosimReport, CosimJob, CosimLevel, Simulator, Stimulus};
-use foveate_design::{DesignConfig, Design, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::{sampling_step, require_tools, takes_whole_lists};
+use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimReport, Simulator, Stimulus};
+use foveate_design::{Design, DesignConfig, FeatureKind, SpatialConfig};
+use foveate_toolchain::testing::{require_tools, sampling_step, takes_whole_lists};
 use foveate_toolchain::{Cache, Toolchain};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -129,8 +129,8 @@ pub(crate) fn check_agreement(
 pub(crate) fn sampled_faults<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
-    let taken =
-        numbered.filter(|(number, fault)| seen.insert(module(fault)) || number % sampling_step(8) == 0);
+    let taken = numbered
+        .filter(|(number, fault)| seen.insert(module(fault)) || number % sampling_step(8) == 0);
     taken.map(|(_, fault)| fault).collect()
 }
 

@@ -4,11 +4,14 @@
 
 use crate::bus::axi_design;
 use crate::common::{in_parallel, sampled_faults};
-use foveate_design::{RegionAction, Design};
+use foveate_design::{Design, RegionAction};
 use foveate_emit::{AXI_TOP, FieldKind, axi_modules, axi_registers, axi_software};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
-use foveate_packets::{RegionDecision, EndPacket, StreamItem, PacketLayout, Packet, RegionFlags, PacketSplitter, packet_writer};
+use foveate_packets::{
+    EndPacket, Packet, PacketLayout, PacketSplitter, RegionDecision, RegionFlags, StreamItem,
+    packet_writer,
+};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::verilator::{self, LintMode, VerilatorJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
@@ -22,7 +25,8 @@ const STREAM_SOURCE: &str = include_str!("stream.c");
 /// The C compiler, which is installed together with that of C++.
 const COMPILER: &str = "cc";
 /// The flags with which the driver must compile without a warning.
-const STRICT_FLAGS: &[&str] = &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+const STRICT_FLAGS: &[&str] =
+    &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
 /// Each design, with the thresholds that the software sets.
 const DESIGNS: &[(&[&str], &[&str])] = &[
     (
@@ -45,7 +49,8 @@ type DriverFault = Option<(&'static str, &'static str)>;
 
 /// Returns a design with other settings.
 fn with_settings(design: &Design, keys: &[&str]) -> Design {
-    let config = foveate_design::DesignConfig::from_toml_with(&design.config().to_toml(), keys).unwrap();
+    let config =
+        foveate_design::DesignConfig::from_toml_with(&design.config().to_toml(), keys).unwrap();
     config.validate().unwrap()
 }
 
@@ -225,7 +230,8 @@ fn software_with_the_driver_runs_a_core_and_shows_what_the_model_shows() {
     }
     let failures = in_parallel(DESIGNS, |(keys, changes)| {
         let design = axi_design(keys);
-        check_screen(&design, &with_settings(&design, changes), None).map_err(|error| format!("{keys:?}: {error}"))
+        check_screen(&design, &with_settings(&design, changes), None)
+            .map_err(|error| format!("{keys:?}: {error}"))
     });
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
@@ -237,7 +243,12 @@ fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
     let columns = design.columns();
     for (number, frame) in (0..).zip(test_frames(design, 4)) {
         let seen = model.step(&frame).unwrap().clone();
-        packet_writer::append_frame(&mut bytes, layout, number, (1000 * u64::from(number), number == 0));
+        packet_writer::append_frame(
+            &mut bytes,
+            layout,
+            number,
+            (1000 * u64::from(number), number == 0),
+        );
         let mut sent = 0;
         for row in 0..design.rows() {
             let at = |column: u32| (row * columns + column) as usize;
@@ -262,7 +273,14 @@ fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
                     (false, false) => continue,
                 };
                 let flags = RegionFlags { raw: layout.info().raw, summary };
-                packet_writer::append_region(&mut bytes, layout, number, (row, column), (flags, &values)).unwrap();
+                packet_writer::append_region(
+                    &mut bytes,
+                    layout,
+                    number,
+                    (row, column),
+                    (flags, &values),
+                )
+                .unwrap();
                 sent += 1;
             }
         }
@@ -362,7 +380,8 @@ fn forge_packet(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) 
 
 /// Returns the offsets of the packets in a stream without damage.
 fn packet_offsets(bytes: &[u8]) -> Vec<usize> {
-    let next = |&at: &usize| Some(at + 8 * packet_words(&bytes[at..])).filter(|&at| at < bytes.len());
+    let next =
+        |&at: &usize| Some(at + 8 * packet_words(&bytes[at..])).filter(|&at| at < bytes.len());
     std::iter::successors(Some(0), next).collect()
 }
 
@@ -416,7 +435,8 @@ fn the_driver_finds_in_damaged_streams_what_the_receiver_finds() {
         return;
     }
     for (keys, _) in DESIGNS {
-        check_damaged_streams(&axi_design(keys), None).unwrap_or_else(|error| panic!("{keys:?}: {error}"));
+        check_damaged_streams(&axi_design(keys), None)
+            .unwrap_or_else(|error| panic!("{keys:?}: {error}"));
     }
 }
 

@@ -2,10 +2,10 @@
 //! The faults of deep designs: a missing register, an additional one, or one that forgets its
 //! reset.
 
-use super::faults::{RtlFault, fault};
 use super::fault_designs::FaultDesign::{
     Deep, DeepMadVariance, DeepSent, SerialDeep, SerialDeepSent as SerialSent,
 };
+use super::faults::{RtlFault, fault};
 
 /// All faults, by module.
 #[rustfmt::skip]

@@ -3,7 +3,7 @@
 
 use crate::common::design;
 use foveate_cosim::{CosimLevel, Simulator};
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 
 /// A design in which faults are planted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -127,7 +127,9 @@ impl FaultDesign {
                 "[region]\nsize = 5\n[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 1\n\
                  [temporal]\nreference = \"last-sent\"\n"
             }
-            Self::LastSent => "[temporal]\nreference = \"last-sent\"\n[render]\npayload = \"raw\"\n",
+            Self::LastSent => {
+                "[temporal]\nreference = \"last-sent\"\n[render]\npayload = \"raw\"\n"
+            }
             Self::Banked => "[region]\nsize = 17\n",
             Self::Shared => "[region]\nneighborhood = \"shared\"\n",
             Self::Constant => "[region]\nsize = 5\n[hardware]\nthresholds = \"constant\"\n",

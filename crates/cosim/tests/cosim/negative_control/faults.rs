@@ -3,7 +3,7 @@
 //! found is replaced by one with the same effect.
 
 use super::fault_designs::FaultDesign::{
-    self, Banked, Constant, Corner, MadSent, MadVariance, Paper, LastSent, Shared, Variance,
+    self, Banked, Constant, Corner, LastSent, MadSent, MadVariance, Paper, Shared, Variance,
 };
 
 /// A fault: one edit of one file.

@@ -3,20 +3,22 @@
 //! must still compile, and every edit must be found.
 
 mod deep_faults;
-mod faults;
 mod fault_designs;
+mod faults;
 mod raster_faults;
 mod serial_faults;
 mod serial_summary_faults;
 mod summary_faults;
 mod sync_faults;
 
-use crate::common::{check_agreement, cosimulate, directed_stimulus, in_parallel, sampled_faults, has_simulators};
-use faults::RtlFault;
-use foveate_cosim::{CosimReport, CosimJob, CosimLevel, Recording, Simulator};
-use foveate_toolchain::testing::{sampling_step, require_tools};
-use foveate_toolchain::{Cache, Toolchain};
+use crate::common::{
+    check_agreement, cosimulate, directed_stimulus, has_simulators, in_parallel, sampled_faults,
+};
 use fault_designs::FaultDesign;
+use faults::RtlFault;
+use foveate_cosim::{CosimJob, CosimLevel, CosimReport, Recording, Simulator};
+use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_toolchain::{Cache, Toolchain};
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::process::Command;
@@ -31,18 +33,29 @@ struct DesignVectors(Mutex<HashMap<(FaultDesign, CosimLevel), SharedRecording>>)
 
 impl DesignVectors {
     /// Calls `work` with the vectors of a design at a level.
-    fn with_recording<T>(&self, planted: FaultDesign, level: CosimLevel, work: impl FnOnce(&Recording) -> T) -> T {
+    fn with_recording<T>(
+        &self,
+        planted: FaultDesign,
+        level: CosimLevel,
+        work: impl FnOnce(&Recording) -> T,
+    ) -> T {
         let slot = Arc::clone(self.0.lock().unwrap().entry((planted, level)).or_default());
-        let make = || directed_stimulus(level, 1).record(&planted.design(), &mut |_, _| {}).unwrap();
+        let make =
+            || directed_stimulus(level, 1).record(&planted.design(), &mut |_, _| {}).unwrap();
         work(slot.get_or_init(make))
     }
 }
 
-fn run_with_fault(fault: &RtlFault, vectors: &DesignVectors, output: &Path) -> Result<CosimReport, String> {
+fn run_with_fault(
+    fault: &RtlFault,
+    vectors: &DesignVectors,
+    output: &Path,
+) -> Result<CosimReport, String> {
     let RtlFault { kind: what, module, from, to, .. } = fault;
     let path = format!("rtl/{module}.v");
     let level = fault.design.level(module);
-    let mut job = CosimJob::new(&fault.design.design(), directed_stimulus(level, 1), output).unwrap();
+    let mut job =
+        CosimJob::new(&fault.design.design(), directed_stimulus(level, 1), output).unwrap();
     job.simulator = fault.design.simulator();
     match job.sources.iter_mut().find(|file| file.path == path) {
         None => return Err(format!("{module}: not in this design")),
@@ -201,7 +214,8 @@ fn the_replay_of_a_fault_shows_it_again() {
         };
         let design = FaultDesign::Constant.design();
         let report =
-            cosimulate(&design, simulator, directed_stimulus(CosimLevel::Rpu, 1), &folder, edit).unwrap();
+            cosimulate(&design, simulator, directed_stimulus(CosimLevel::Rpu, 1), &folder, edit)
+                .unwrap();
         let mismatch = report.mismatch.unwrap();
         assert!(folder.join("waves.fst").is_file());
         let readme = std::fs::read_to_string(folder.join("README.md")).unwrap();

@@ -4,11 +4,11 @@
 //! The flags of the lower border have no faults here. They change nothing in frames that the core
 //! completes below, because the rows that it adds repeat the last one.
 
-use super::faults::{RtlFault, fault};
 use super::fault_designs::FaultDesign::{
-    RasterBanks as Banks, RasterLost as Lost, RasterMadVariance as Moments, RasterExternal as Outside,
-    RasterPairs as Pairs, RasterPaper as Paper, RasterSent as Sent,
+    RasterBanks as Banks, RasterExternal as Outside, RasterLost as Lost,
+    RasterMadVariance as Moments, RasterPairs as Pairs, RasterPaper as Paper, RasterSent as Sent,
 };
+use super::faults::{RtlFault, fault};
 
 /// All faults, by module.
 #[rustfmt::skip]

@@ -6,12 +6,12 @@
 //! that is written to a wrong place after a reset is overwritten by the next frame. The candidate
 //! of a median is never negative, so all its signs are equal.
 
-use super::faults::{RtlFault, fault};
 use super::fault_designs::FaultDesign::{
     SerialBlock as Block, SerialConstant as Constant, SerialCorner as Corner, SerialEdge as Edge,
     SerialFold as Fold, SerialMad as Mad, SerialMany as Many, SerialPaper as Paper,
     SerialRaster as Raster, SerialSent as Sent, SerialVariance as Variance,
 };
+use super::faults::{RtlFault, fault};
 
 /// All faults, by module.
 #[rustfmt::skip]

@@ -4,10 +4,10 @@
 //! A sum that passes during a reset is compared and written all the same. This is never visible,
 //! because the next frame starts over.
 
-use super::faults::{RtlFault, fault};
 use super::fault_designs::FaultDesign::{
     SerialMeans as Means, SerialMeansMany as Many, SerialMeansRaster as Raster,
 };
+use super::faults::{RtlFault, fault};
 
 /// All faults, by module.
 #[rustfmt::skip]

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of summaries in the pipelined and raster organizations.
 
-use super::faults::{RtlFault, fault};
 use super::fault_designs::FaultDesign::{
     Means, MeansDeep, MeansOne, MeansPixel, MeansSecond, RasterMeans, RasterMeansDeep,
     RasterMeansOne, RasterMeansSent,
 };
+use super::faults::{RtlFault, fault};
 
 /// All faults of the pipelined organization, by module.
 #[rustfmt::skip]

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of the frame synchronization, in front of each organization.
 
-use super::faults::{RtlFault, fault};
 use super::fault_designs::FaultDesign::{
     SyncPipelined as Pipelined, SyncRaster as Raster, SyncSerial as Serial,
 };
+use super::faults::{RtlFault, fault};
 
 /// All faults, by module.
 #[rustfmt::skip]

@@ -3,7 +3,7 @@
 
 use super::{config, design, refusal};
 use crate::raster::RasterTiming;
-use crate::{Design, PortDirection, PortRole, OutputQualifier, FrameStoreKind};
+use crate::{Design, FrameStoreKind, OutputQualifier, PortDirection, PortRole};
 
 const LAST_SENT: &str = "temporal.reference=last-sent";
 
@@ -62,7 +62,9 @@ fn forwarding_is_the_default_and_changes_no_fingerprint() {
     assert_eq!((named.fingerprint(), named.config()), (plain.fingerprint(), plain.config()));
     assert!(plain.has_forwarding() && !plain.config().to_toml().contains("forward"));
     let alone = design(&["hardware.forward=false", "hardware.store=external"]);
-    assert!(!alone.has_forwarding() && alone.as_raster().unwrap().store() == FrameStoreKind::External);
+    assert!(
+        !alone.has_forwarding() && alone.as_raster().unwrap().store() == FrameStoreKind::External
+    );
     assert_eq!(
         alone.config().hardware.description(),
         "raster, 1 pixel per clock, plain pipelining, external store, no forwarding"
@@ -199,5 +201,7 @@ fn numbers_follow_the_store_and_forwarding() {
 #[test]
 fn the_lone_core_keeps_its_store() {
     let lone = design(&["hardware.store=external", "hardware.forward=false"]).lone_unit();
-    assert!(!lone.has_forwarding() && lone.as_raster().unwrap().store() == FrameStoreKind::External);
+    assert!(
+        !lone.has_forwarding() && lone.as_raster().unwrap().store() == FrameStoreKind::External
+    );
 }

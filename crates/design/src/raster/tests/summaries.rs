@@ -3,7 +3,7 @@
 
 use super::{config, design, refusal};
 use crate::raster::{RasterMemory, RasterStreamTiming, RasterTiming};
-use crate::{RegionAction, PortDirection, PortRole, OutputQualifier};
+use crate::{OutputQualifier, PortDirection, PortRole, RegionAction};
 
 const MEAN: &str = "render.irrelevant=mean";
 
@@ -50,7 +50,13 @@ fn a_word_lies_in_one_block_and_means_have_to_leave() {
 #[test]
 fn ports_tell_means_from_pixels() {
     let own = [
-        ("summary_level_i", PortDirection::Input, PortRole::SummaryLevel, OutputQualifier::Always, 8),
+        (
+            "summary_level_i",
+            PortDirection::Input,
+            PortRole::SummaryLevel,
+            OutputQualifier::Always,
+            8,
+        ),
         ("summary_o", PortDirection::Output, PortRole::Summary, OutputQualifier::Always, 1),
         (
             "forward_summary_o",
@@ -133,7 +139,8 @@ fn a_summary_has_no_more_words_than_a_region() {
 fn memories_of_means() {
     let of = |more: &[&str]| {
         let frame = ["frame.width=64", "frame.height=64"];
-        let memories = RasterMemory::all_memories(design(&[&frame, more].concat()).as_raster().unwrap());
+        let memories =
+            RasterMemory::all_memories(design(&[&frame, more].concat()).as_raster().unwrap());
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
     let plain = of(&[]);

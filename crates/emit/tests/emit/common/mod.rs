@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Designs to emit: every value of the configuration occurs with every other at least once.
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_toolchain::testing::takes_whole_lists;
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};

@@ -12,8 +12,8 @@ use std::path::Path;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::image_name::comparison_name;
+use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
 
@@ -73,7 +73,9 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, Box
 }
 
 /// Deserializes a list of at most [`MAX_BOXES`] items.
-fn deserialize_limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+fn deserialize_limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+) -> Result<Vec<T>, D::Error> {
     struct LimitedListVisitor<T>(PhantomData<T>);
 
     impl<'de, T: Deserialize<'de>> Visitor<'de> for LimitedListVisitor<T> {

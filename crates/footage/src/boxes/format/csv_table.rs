@@ -8,8 +8,8 @@ use std::path::Path;
 use csv::{ReaderBuilder, Trim};
 
 use super::field::{error_in_line, parse_numbers, unreadable_record};
-use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::image_name::comparison_name;
+use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
 
@@ -56,7 +56,8 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, Box
         let [name, corners @ ..] = fields;
         let names = [COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4]];
         let rect = parse_numbers(names, corners).and_then(Rect::from_corners).map_err(wrong)?;
-        let name = comparison_name(name).ok_or_else(|| wrong("the name of the image is missing".to_owned()))?;
+        let name = comparison_name(name)
+            .ok_or_else(|| wrong("the name of the image is missing".to_owned()))?;
         images.entry(name).or_default().push(LabelledBox { rect, track: None });
     }
     Ok(images)

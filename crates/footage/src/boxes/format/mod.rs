@@ -2,9 +2,9 @@
 //! The formats of box files. The content of a file decides its format, not its name.
 
 pub(crate) mod coco;
+pub(crate) mod csv_table;
 pub(crate) mod field;
 pub(crate) mod mot;
-pub(crate) mod csv_table;
 pub(crate) mod yolo;
 
 use std::io::Read;

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::field::{error_in_line, parse_numbers, unreadable_record, parse_whole};
+use super::field::{error_in_line, parse_numbers, parse_whole, unreadable_record};
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;

@@ -39,7 +39,10 @@ impl FrameHeader {
     /// Reads the segment of a marker SOF0, SOF1 or SOF2. Returns `None` for pictures that this
     /// check does not follow: other depths than 8 bits, a height that comes later, and sizes beyond
     /// the limits.
-    pub(super) fn read(process: CodingProcess, segment: &[u8]) -> Result<Option<Self>, PictureFault> {
+    pub(super) fn read(
+        process: CodingProcess,
+        segment: &[u8],
+    ) -> Result<Option<Self>, PictureFault> {
         let wrong = || PictureFault::damaged("the header of its frame (SOF) is wrong");
         let [depth, h1, h0, w1, w0, count, rest @ ..] = segment else { return Err(wrong()) };
         let (height, width) = (u16::from_be_bytes([*h1, *h0]), u16::from_be_bytes([*w1, *w0]));
@@ -66,7 +69,8 @@ impl FrameHeader {
             }
             let side = |size: u32, own: u32, most: u32| (size * own).div_ceil(most).div_ceil(8);
             let stride = units.0 * across;
-            let kept = if process == CodingProcess::Progressive { stride * units.1 * down } else { 0 };
+            let kept =
+                if process == CodingProcess::Progressive { stride * units.1 * down } else { 0 };
             components.push(FrameComponent {
                 id: part[0],
                 sampling: (across, down),

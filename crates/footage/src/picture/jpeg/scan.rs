@@ -3,7 +3,7 @@
 
 use super::bits::{BitReader, marker_at};
 use super::block::{BlockChecker, SpectralBand};
-use super::frame::{FrameHeader, CodingProcess};
+use super::frame::{CodingProcess, FrameHeader};
 use super::huffman::HuffmanTable;
 use crate::picture::damage::PictureFault;
 
@@ -51,7 +51,9 @@ impl ScanHeader {
             parts.push(ScanComponent { component, dc, ac });
         }
         let band = match frame.process {
-            CodingProcess::Sequential => SpectralBand { first: 0, last: 63, previous_low_bit: 0, low_bit: 0 },
+            CodingProcess::Sequential => {
+                SpectralBand { first: 0, last: 63, previous_low_bit: 0, low_bit: 0 }
+            }
             CodingProcess::Progressive => {
                 let band = SpectralBand {
                     first: last[0],
@@ -60,8 +62,13 @@ impl ScanHeader {
                     low_bit: last[2] & 15,
                 };
                 let of_one = if band.first == 0 { band.last == 0 } else { count == 1 };
-                let refines = band.previous_low_bit == 0 || band.previous_low_bit == band.low_bit + 1;
-                if band.first > band.last || band.last > 63 || band.low_bit > 13 || !of_one || !refines
+                let refines =
+                    band.previous_low_bit == 0 || band.previous_low_bit == band.low_bit + 1;
+                if band.first > band.last
+                    || band.last > 63
+                    || band.low_bit > 13
+                    || !of_one
+                    || !refines
                 {
                     return Err(wrong());
                 }
@@ -155,7 +162,11 @@ impl ScanHeader {
 }
 
 /// Skips the restart marker with this number. Returns the position after it.
-fn skip_restart_marker(bits: &mut BitReader<'_>, bytes: &[u8], number: u8) -> Result<usize, PictureFault> {
+fn skip_restart_marker(
+    bits: &mut BitReader<'_>,
+    bytes: &[u8],
+    number: u8,
+) -> Result<usize, PictureFault> {
     match marker_at(bytes, bits.end_run()?) {
         Some((marker, next)) if marker == 0xD0 + number => Ok(next),
         Some((marker, _)) => Err(PictureFault::damaged(format!(

@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 use super::*;
 use crate::video::VideoMedium;
-use crate::video::decoder::{VideoDecoder, DecodingParameters};
+use crate::video::decoder::{DecodingParameters, VideoDecoder};
 
 const WIDTH: usize = 16;
 const HEIGHT: usize = 8;
@@ -160,7 +160,9 @@ fn decoded(ffmpeg: &DecodingParameters, name: &str, file: &Path) -> Result<Vec<u
         .args(["-f", "rawvideo", "-pixel_format", name, "-video_size", &size, "-i"])
         .arg(file)
         .args(["-frames:v", "1"]);
-    let mut decoder = VideoDecoder::from_invocation(&ffmpeg.with_frame_output(input), &Interrupt::default()).unwrap();
+    let mut decoder =
+        VideoDecoder::from_invocation(&ffmpeg.with_frame_output(input), &Interrupt::default())
+            .unwrap();
     let Some(shown) = decoder.next_announced().unwrap() else {
         return Err(decoder.finish().unwrap().unwrap_or_default());
     };

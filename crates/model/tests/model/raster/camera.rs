@@ -2,14 +2,14 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{RegionAction, Design, Payload, FrameStoreKind};
+use foveate_design::{Design, FrameStoreKind, Payload, RegionAction};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
 
-use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, RasterTrace};
+use super::driver::{RasterDriver, RasterStimulus, RasterTrace, RasterTraffic};
 use super::raster_parameters::{PlantedMisreading, RasterParameters};
 use crate::hard_cases::hard_frames;
-use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 use crate::screen::ReceiverScreen;
 
 /// Checks that the decision on the ports is that of the camera.
@@ -41,7 +41,12 @@ fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &RasterT
 
 /// Writes the pixels of an active region to the screen for a core without forwarding. A receiver
 /// gets them from its own copy of the frame, raw or as it is scored.
-fn show_active_region(screen: &mut ReceiverScreen, driver: &RasterDriver, frame: &Frame, region: u32) {
+fn show_active_region(
+    screen: &mut ReceiverScreen,
+    driver: &RasterDriver,
+    frame: &Frame,
+    region: u32,
+) {
     let scored = driver.rcm.reference(region).unwrap();
     let width = screen.design.columns() * screen.design.region_size();
     for (position, &pixel) in (0..).zip(scored) {
@@ -65,7 +70,8 @@ fn check(recipe: &RasterParameters, film: &[Frame]) {
     let rest = 2 * recipe.words() + 100;
     for frame in film {
         let outcome = camera.step(frame).unwrap();
-        let trace = driver.run(&[RasterStimulus { frame: frame.clone(), thresholds }], rest, i64::MAX);
+        let trace =
+            driver.run(&[RasterStimulus { frame: frame.clone(), thresholds }], rest, i64::MAX);
         driver.restart_trace();
         let mut decisions = 0;
         for shown in &trace.shown[1..] {
@@ -161,7 +167,9 @@ fn a_core_with_any_store_shows_what_the_camera_shows() {
     for number in 0..56 {
         let mut recipe = recipe(number);
         recipe.base.last_sent = false;
-        recipe.store = [FrameStoreKind::External, FrameStoreKind::SinglePort, FrameStoreKind::External][number % 3];
+        recipe.store =
+            [FrameStoreKind::External, FrameStoreKind::SinglePort, FrameStoreKind::External]
+                [number % 3];
         recipe.forward = number % 5 > 1 || recipe.base.periphery.is_some();
         let film = hard_frames(&recipe.base);
         check(&recipe, &film);

@@ -4,7 +4,7 @@
 
 use std::collections::VecDeque;
 
-use foveate_design::{RegionAction, RasterStreamTiming, RasterTiming, RowDeparture};
+use foveate_design::{RasterStreamTiming, RasterTiming, RegionAction, RowDeparture};
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
@@ -38,9 +38,13 @@ fn sensor_stream(recipe: &RasterParameters, film: &[Frame], paces: &[SensorPace]
 }
 
 /// Returns the outputs of the core after every edge until nothing is under way.
-fn core_outputs(recipe: &RasterParameters, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<RasterOutput> {
+fn core_outputs(
+    recipe: &RasterParameters,
+    mut words: VecDeque<(u64, Vec<u16>)>,
+) -> Vec<RasterOutput> {
     let design = recipe.design();
-    let (mut rcm, thresholds) = (RasterRcm::new(design.as_raster().unwrap()), ThresholdInputs::from_camera(&design));
+    let (mut rcm, thresholds) =
+        (RasterRcm::new(design.as_raster().unwrap()), ThresholdInputs::from_camera(&design));
     let nothing = vec![0; recipe.word_pixels as usize];
     let mut shown = vec![rcm.output().clone()];
     let mut left = RasterTiming::from_design(design.as_raster().unwrap()).edges_to_ready() + 5;
@@ -123,7 +127,8 @@ fn check(recipe: &RasterParameters, film: &[Frame], paces: &[SensorPace], rows: 
     let sensor = sensor_stream(recipe, film, paces);
     let seen = observed_frames(recipe, &core_outputs(recipe, sensor.words));
     assert_eq!(seen.len(), film.len());
-    let mut stream = RasterStreamTiming::new(RasterTiming::from_design(recipe.design().as_raster().unwrap()), 1);
+    let mut stream =
+        RasterStreamTiming::new(RasterTiming::from_design(recipe.design().as_raster().unwrap()), 1);
     for (seen, (begin, (word, _))) in seen.iter().zip(sensor.begins) {
         let of_row = word * recipe.taken_row_words() as u64;
         let read = |row: u32| {

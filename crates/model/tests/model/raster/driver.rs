@@ -6,7 +6,7 @@ use foveate_design::FeatureKind;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
-use super::memory::{MemoryFaultRates, ExternalMemory};
+use super::memory::{ExternalMemory, MemoryFaultRates};
 use super::raster_parameters::RasterParameters;
 use crate::frames::SeededRandom;
 
@@ -241,12 +241,19 @@ impl RasterDriver {
 }
 
 /// Returns the words of a frame. Pixels beyond its right border are random.
-pub(crate) fn frame_words(recipe: &RasterParameters, frame: &Frame, random: &mut SeededRandom) -> Vec<Vec<u16>> {
+pub(crate) fn frame_words(
+    recipe: &RasterParameters,
+    frame: &Frame,
+    random: &mut SeededRandom,
+) -> Vec<Vec<u16>> {
     let top = recipe.base.pixel_max() + 1;
     let mut words = Vec::new();
     for y in 0..frame.height() {
         let mut row = frame.row(y).to_vec();
-        row.resize((recipe.taken_row_words() * recipe.word_pixels) as usize, random.below(top) as u16);
+        row.resize(
+            (recipe.taken_row_words() * recipe.word_pixels) as usize,
+            random.below(top) as u16,
+        );
         words.extend(row.chunks_exact(recipe.word_pixels as usize).map(<[u16]>::to_vec));
     }
     words

@@ -4,7 +4,7 @@
 
 use std::ops::RangeInclusive;
 
-use foveate_design::{DesignConfig, Design, RasterTiming};
+use foveate_design::{Design, DesignConfig, RasterTiming};
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
 /// Returns a design with one feature, in which all regions are active in every frame.
@@ -122,7 +122,10 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
     let most = |design| RasterTiming::from_design(design).max_clocks_per_frame();
-    assert_eq!((most(previous.as_raster().unwrap()), most(last_sent.as_raster().unwrap())), (158, 279));
+    assert_eq!(
+        (most(previous.as_raster().unwrap()), most(last_sent.as_raster().unwrap())),
+        (158, 279)
+    );
 }
 
 /// The first word of row of regions g is stored at edge 64 g + 21. The sink is not ready before

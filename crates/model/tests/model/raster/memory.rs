@@ -60,7 +60,9 @@ impl ExternalMemory {
         }
         match self.queue.pop_front() {
             None => (false, self.random_word()),
-            Some(_) if chance < self.faults.missing + self.faults.wrong => (true, self.random_word()),
+            Some(_) if chance < self.faults.missing + self.faults.wrong => {
+                (true, self.random_word())
+            }
             Some(word) => (true, word),
         }
     }

@@ -3,15 +3,15 @@
 //! against waveforms that are computed by hand, and against the functional camera.
 
 mod camera;
-mod planted_faults;
 mod departure;
 mod driver;
 mod examples;
-mod raster_oracle;
 mod memory;
+mod planted_faults;
 mod properties;
-mod readout;
+mod raster_oracle;
 mod raster_parameters;
+mod readout;
 mod stores;
 mod streams;
 mod summaries;

@@ -7,12 +7,12 @@ use std::collections::BTreeSet;
 use foveate_design::FrameStoreKind;
 
 use super::driver::{RasterDriver, RasterTraffic, SinkPattern};
-use super::raster_oracle::{RasterCheckResult, RasterOracle};
 use super::memory::MemoryFaultRates;
 use super::properties::RasterClip;
+use super::raster_oracle::{RasterCheckResult, RasterOracle};
 use super::raster_parameters::{PlantedMisreading, RasterParameters};
-use crate::frames::{FrameContent, ClipScript};
-use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::frames::{ClipScript, FrameContent};
+use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 
 fn feature(name: &'static str, level: i64, min_milli: i64) -> FeatureParameters {
     FeatureParameters { name, level, min_milli, fraction_bits: 1 }
@@ -48,19 +48,30 @@ fn recipe(last: FeatureParameters) -> RasterParameters {
 }
 
 fn script() -> ClipScript {
-    use FrameContent::{AlmostFlat, Noise, Repeat, FewChanges};
-    let contents = [Noise, FewChanges, Repeat, AlmostFlat, FewChanges, Noise, FewChanges, Repeat, FewChanges, Repeat];
+    use FrameContent::{AlmostFlat, FewChanges, Noise, Repeat};
+    let contents = [
+        Noise, FewChanges, Repeat, AlmostFlat, FewChanges, Noise, FewChanges, Repeat, FewChanges,
+        Repeat,
+    ];
     contents.into_iter().zip(5..).collect()
 }
 
 /// A sink that loses regions.
-const SLOW_SINK: RasterTraffic =
-    RasterTraffic { gaps: 3, pushing: 50, sink: SinkPattern::Percent(45), faults: FEW_FAULTS, ..RasterTraffic::DENSE };
+const SLOW_SINK: RasterTraffic = RasterTraffic {
+    gaps: 3,
+    pushing: 50,
+    sink: SinkPattern::Percent(45),
+    faults: FEW_FAULTS,
+    ..RasterTraffic::DENSE
+};
 /// An external memory that fails occasionally.
 const FEW_FAULTS: MemoryFaultRates = MemoryFaultRates { missing: 4, wrong: 4 };
 
 /// Runs the core of `built`, and checks it against the changed expectations.
-fn check_with_change(built: &RasterParameters, change: impl Fn(&mut RasterParameters)) -> RasterCheckResult {
+fn check_with_change(
+    built: &RasterParameters,
+    change: impl Fn(&mut RasterParameters),
+) -> RasterCheckResult {
     check_clip_with_change(built, &script(), SLOW_SINK, change)
 }
 
@@ -117,7 +128,10 @@ fn every_planted_fault_is_noticed() {
         }
     }
     assert!(check_with_change(&mad, |recipe| recipe.misread.pass = 1).is_err(), "second pass");
-    assert!(check_with_change(&mad, |recipe| recipe.base.features[1].fraction_bits = 2).is_err(), "fraction");
+    assert!(
+        check_with_change(&mad, |recipe| recipe.base.features[1].fraction_bits = 2).is_err(),
+        "fraction"
+    );
 }
 
 /// The frames have words of two pixels and wait for pending regions.
@@ -161,7 +175,10 @@ fn faults_of_an_external_store_are_noticed() {
             for (fault, spoil) in faults {
                 assert!(check_with_change(&built, spoil).is_err(), "{fault} goes unnoticed");
             }
-            assert!(check_with_change(&built, |recipe| recipe.forward ^= true).is_err(), "forwarding");
+            assert!(
+                check_with_change(&built, |recipe| recipe.forward ^= true).is_err(),
+                "forwarding"
+            );
         }
     }
 }
@@ -179,14 +196,15 @@ fn with_summaries(pixels: i64) -> RasterParameters {
 
 /// Returns a script of flat and busy regions, some of which do not change.
 fn flat_script() -> ClipScript {
-    use FrameContent::{AlmostFlat, Noise, SmallSteps, Repeat, FewChanges};
+    use FrameContent::{AlmostFlat, FewChanges, Noise, Repeat, SmallSteps};
     let contents =
         [AlmostFlat, SmallSteps, Repeat, Noise, AlmostFlat, Repeat, FewChanges, Repeat, AlmostFlat];
     contents.into_iter().zip(5..).collect()
 }
 
 /// A sink that loses summaries.
-const SUMMARY_LOSING_SINK: RasterTraffic = RasterTraffic { sink: SinkPattern::Alternating(2000), ..SLOW_SINK };
+const SUMMARY_LOSING_SINK: RasterTraffic =
+    RasterTraffic { sink: SinkPattern::Alternating(2000), ..SLOW_SINK };
 
 #[test]
 fn faults_of_summaries_are_noticed() {

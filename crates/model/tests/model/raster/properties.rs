@@ -9,10 +9,10 @@ use foveate_model::ThresholdInputs;
 use proptest::prelude::*;
 
 use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, SinkPattern};
-use super::raster_oracle::{RasterCheckResult, RasterOracle};
 use super::memory::MemoryFaultRates;
+use super::raster_oracle::{RasterCheckResult, RasterOracle};
 use super::raster_parameters::{RasterParameters, arbitrary_raster_parameters};
-use crate::frames::{SeededRandom, ClipScript, make_clip, arbitrary_scripts};
+use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
 
 fn arbitrary_traffic() -> impl Strategy<Value = RasterTraffic> {
     let gaps = prop_oneof![3 => Just(0i64), 1 => 1i64..70];
@@ -99,7 +99,12 @@ impl RasterClip {
 }
 
 /// Plays frames after a reset, and stops after some clocks.
-fn check_sequence(driver: &mut RasterDriver, recipe: &RasterParameters, script: &ClipScript, clocks: i64) -> RasterCheckResult {
+fn check_sequence(
+    driver: &mut RasterDriver,
+    recipe: &RasterParameters,
+    script: &ClipScript,
+    clocks: i64,
+) -> RasterCheckResult {
     let film = RasterClip::new(recipe, script);
     let rest = 40 + recipe.words() / 2;
     let trace = driver.run(&film.stimuli(), rest, clocks);

@@ -8,10 +8,10 @@ use foveate_frame::Frame;
 use foveate_model::RasterOutput;
 
 use super::driver::RasterTrace;
-use super::readout::ReadoutHistory;
 use super::raster_parameters::RasterParameters;
+use super::readout::ReadoutHistory;
 use super::streams::ExternalStoreStreams;
-use crate::oracle::{OracleOutcome, outcome_without_regions, oracle_region};
+use crate::oracle::{OracleOutcome, oracle_region, outcome_without_regions};
 
 /// The result of a check: a description of the first difference, if there is one.
 pub(crate) type RasterCheckResult = Result<(), String>;
@@ -83,8 +83,8 @@ impl<'a> RasterOracle<'a> {
         }
         self.history.push(seen);
         for row in 0..recipe.base.rows() {
-            let stored =
-                tail(row * recipe.base.side * recipe.row_words()).map(|edge| edge + recipe.store_latency());
+            let stored = tail(row * recipe.base.side * recipe.row_words())
+                .map(|edge| edge + recipe.store_latency());
             self.row_store_edges.extend(stored);
         }
         for region in 0..recipe.base.columns() * recipe.base.rows() {
@@ -193,7 +193,8 @@ impl<'a> RasterOracle<'a> {
     /// Sets the edges from which on regions are stale, as far as they are known.
     fn update_staleness(&mut self) {
         let rows = self.recipe.base.rows();
-        for reading in self.readouts.regions.iter_mut().filter(|reading| reading.stale == i64::MAX) {
+        for reading in self.readouts.regions.iter_mut().filter(|reading| reading.stale == i64::MAX)
+        {
             let row = reading.frame as i64 * rows + reading.region / self.recipe.base.columns();
             let over = (row + self.recipe.buffer_rows()) as usize;
             reading.stale = self.row_store_edges.get(over).copied().unwrap_or(i64::MAX);
@@ -218,7 +219,8 @@ impl<'a> RasterOracle<'a> {
 
     fn compare_loss(&self, edge: i64, got: &RasterOutput) -> RasterCheckResult {
         let due = self.readouts.lost_at(edge);
-        let due: Vec<_> = due.iter().map(|lost| (lost.region, self.frame_number_on_port(lost.frame))).collect();
+        let due: Vec<_> =
+            due.iter().map(|lost| (lost.region, self.frame_number_on_port(lost.frame))).collect();
         let shown = (i64::from(got.lost_region), i64::from(got.lost_frame));
         let shown = if got.lost_valid { vec![shown] } else { Vec::new() };
         let agrees = shown == due;
@@ -267,7 +269,10 @@ impl<'a> RasterOracle<'a> {
             (position, vec![seen.means[word as usize]; self.recipe.word_pixels as usize])
         } else {
             let position = word * self.recipe.word_pixels;
-            (position, seen.payload[position as usize..][..self.recipe.word_pixels as usize].to_vec())
+            (
+                position,
+                seen.payload[position as usize..][..self.recipe.word_pixels as usize].to_vec(),
+            )
         };
         let ends = !self.recipe.misread.drops_aborts;
         let whole = word + 1 == reading.words;

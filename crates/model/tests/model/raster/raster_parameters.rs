@@ -2,7 +2,7 @@
 //! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow from
 //! it.
 
-use foveate_design::{Design, Organization, Pipelining, FrameStoreKind};
+use foveate_design::{Design, FrameStoreKind, Organization, Pipelining};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -103,7 +103,9 @@ impl RasterParameters {
     /// Returns the clocks from T0 to the last advance, Z.
     pub(crate) fn flush_clocks(&self) -> i64 {
         let below = self.base.rows() * self.base.side - self.base.height;
-        (self.row_words() - self.taken_row_words()) + below * self.row_words() + self.flush_advances()
+        (self.row_words() - self.taken_row_words())
+            + below * self.row_words()
+            + self.flush_advances()
     }
 
     /// Returns the clocks from the tail to the store, S.
@@ -137,7 +139,10 @@ impl RasterParameters {
     /// Returns the clocks from e(a(i)) to the first edge of the second pass, if the pass does not
     /// wait.
     pub(crate) fn pass_latency(&self) -> i64 {
-        self.misread.pass + self.store_latency() + if self.deep { 9 } else { 8 } + self.variance_latency()
+        self.misread.pass
+            + self.store_latency()
+            + if self.deep { 9 } else { 8 }
+            + self.variance_latency()
     }
 
     /// Returns the clocks from the last edge of the second pass to the decision.
@@ -191,7 +196,12 @@ impl RasterParameters {
 pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParameters> {
     let sides = prop_oneof![6 => select(vec![2i64, 3, 4, 4, 5, 6, 8, 8]), 1 => 2i64..=9];
     let size = (0i64..=100, 0i64..=100, 0i64..=1);
-    let stores = select(vec![FrameStoreKind::Block, FrameStoreKind::Ultra, FrameStoreKind::SinglePort, FrameStoreKind::External]);
+    let stores = select(vec![
+        FrameStoreKind::Block,
+        FrameStoreKind::Ultra,
+        FrameStoreKind::SinglePort,
+        FrameStoreKind::External,
+    ]);
     let built = (any::<bool>(), stores, select(vec![true, true, false]));
     (arbitrary_parameters_with_sides(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
         |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
@@ -204,8 +214,16 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
             // The frame has up to five rows of regions.
             base.height = 1 + high % (5 * side);
             // All other designs need the reference `previous`.
-            base.last_sent &= forward && matches!(store, FrameStoreKind::Block | FrameStoreKind::Ultra);
-            RasterParameters { base, word_pixels: pixels, deep, store, forward, misread: PlantedMisreading::default() }
+            base.last_sent &=
+                forward && matches!(store, FrameStoreKind::Block | FrameStoreKind::Ultra);
+            RasterParameters {
+                base,
+                word_pixels: pixels,
+                deep,
+                store,
+                forward,
+                misread: PlantedMisreading::default(),
+            }
         },
     )
 }

@@ -56,7 +56,13 @@ impl ReadoutHistory {
     /// latencies.
     pub(crate) fn new(deep: bool, wrong: i64) -> Self {
         let (rest, wait) = (2 + wrong, if deep { 3 } else { 2 } + wrong);
-        Self { hold_interval: rest, queue_latency: wait, shown: vec![None], lost_counts: vec![0], ..Self::default() }
+        Self {
+            hold_interval: rest,
+            queue_latency: wait,
+            shown: vec![None],
+            lost_counts: vec![0],
+            ..Self::default()
+        }
     }
 
     /// Appends a region of which `words` words leave. Its decision is on the ports after edge
@@ -64,7 +70,16 @@ impl ReadoutHistory {
     pub(crate) fn enqueue(&mut self, frame: usize, region: i64, words: i64, decided: i64) {
         let (held, fetched) = (None, Vec::new());
         let (stale, lost) = (i64::MAX, None);
-        self.regions.push(RegionReadout { frame, region, words, decided, stale, held, fetched, lost });
+        self.regions.push(RegionReadout {
+            frame,
+            region,
+            words,
+            decided,
+            stale,
+            held,
+            fetched,
+            lost,
+        });
     }
 
     /// Processes the next edge.
@@ -119,7 +134,8 @@ impl ReadoutHistory {
     /// Returns true if a region is pending after the last edge that was processed.
     pub(crate) fn is_pending(&self) -> bool {
         let is_shown = self.shown.last().is_some_and(Option::is_some);
-        let is_left = |reading: &RegionReadout| reading.lost.is_none() && !reading.is_fully_fetched();
+        let is_left =
+            |reading: &RegionReadout| reading.lost.is_none() && !reading.is_fully_fetched();
         self.regions.iter().any(is_left) || self.fetched.is_some() || is_shown
     }
 }

@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
 
 /// Returns a design with one feature and regions of 4x4 pixels, all of which are relevant.
@@ -222,12 +222,14 @@ fn what_comes_from_outside_is_what_counts() {
         play.run(320, &[], |_| 1, fault);
         (play.counts(8), play.edges(|output| output.underrun))
     };
-    let wrong = counts(&|edge| if edge == 177 { MemoryFault::Wrong(200) } else { MemoryFault::None });
+    let wrong =
+        counts(&|edge| if edge == 177 { MemoryFault::Wrong(200) } else { MemoryFault::None });
     assert_eq!(wrong, (vec![0, 1, 0, 0, 0, 0, 0, 0], vec![]));
     // The level is 8, so a reference of 9 is no change from 1. At edges 171 and 300 the core takes
     // no reference.
     for (edge, pixel) in [(177, 9), (171, 200), (300, 200)] {
-        let same = counts(&|at| if at == edge { MemoryFault::Wrong(pixel) } else { MemoryFault::None });
+        let same =
+            counts(&|at| if at == edge { MemoryFault::Wrong(pixel) } else { MemoryFault::None });
         assert_eq!(same, (vec![0; 8], vec![]), "{edge}");
     }
 }
@@ -239,7 +241,12 @@ fn what_comes_from_outside_is_what_counts() {
 fn a_reference_that_is_late_shifts_all_that_follow() {
     let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
     let picture = |x| if x == 3 { 200 } else { 1 };
-    play.run(320, &[], picture, |edge| if edge == 172 { MemoryFault::Late } else { MemoryFault::None });
+    play.run(
+        320,
+        &[],
+        picture,
+        |edge| if edge == 172 { MemoryFault::Late } else { MemoryFault::None },
+    );
     assert_eq!(play.counts(8), [4, 4, 0, 0, 4, 4, 0, 0]);
     // `underrun_o` is 1 from the edge on that took the missing reference.
     assert_eq!(play.edges(|output| output.underrun), edge_list(&[172..=320]));
@@ -248,7 +255,9 @@ fn a_reference_that_is_late_shifts_all_that_follow() {
     // 299.
     for (late, first) in [(171, None), (299, Some(299)), (300, None)] {
         let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
-        play.run(320, &[], picture, |edge| if edge == late { MemoryFault::Late } else { MemoryFault::None });
+        play.run(320, &[], picture, |edge| {
+            if edge == late { MemoryFault::Late } else { MemoryFault::None }
+        });
         assert_eq!(play.edges(|output| output.underrun).first().copied(), first, "{late}");
     }
 }
@@ -256,11 +265,18 @@ fn a_reference_that_is_late_shifts_all_that_follow() {
 #[test]
 fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
     let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
-    play.run(200, &[], |_| 1, |edge| if edge == 180 { MemoryFault::Late } else { MemoryFault::None });
+    play.run(
+        200,
+        &[],
+        |_| 1,
+        |edge| if edge == 180 { MemoryFault::Late } else { MemoryFault::None },
+    );
     let shown = &play.outputs[200];
     assert!(shown.reference_ready && shown.store_valid && shown.underrun);
     play.reset();
-    let fresh = RasterRcm::new(external_store_design("edge", (16, 8), &[]).as_raster().unwrap()).output().clone();
+    let fresh = RasterRcm::new(external_store_design("edge", (16, 8), &[]).as_raster().unwrap())
+        .output()
+        .clone();
     assert_eq!(play.outputs[0], fresh);
     assert!(!fresh.reference_ready && !fresh.store_valid && !fresh.underrun);
     // The frame after the reset is a first frame.

@@ -36,7 +36,8 @@ impl ExternalStoreStreams {
         let mut given = denoised.clone();
         for word in 0..recipe.words() {
             let Some(edge) = tail(word) else { break };
-            let (y, x) = (word / recipe.row_words(), word % recipe.row_words() * recipe.word_pixels);
+            let (y, x) =
+                (word / recipe.row_words(), word % recipe.row_words() * recipe.word_pixels);
             let place = |x: i64| (x as usize, y as usize);
             let pixels = (x..x + recipe.word_pixels).map(place);
             let due = pixels.clone().map(|(x, y)| denoised[y][x]).collect();

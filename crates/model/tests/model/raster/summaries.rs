@@ -2,7 +2,7 @@
 //! Tests of means that leave, with every clock computed by hand from `docs/raster.md`. The edge
 //! that takes the first word has number 1.
 
-use super::examples::{decisions, design, edges, edge_list, play};
+use super::examples::{decisions, design, edge_list, edges, play};
 
 /// A feature for which no region of a flat frame is relevant.
 const IRRELEVANT: &str = "spatial=[{feature=\"edge\",min_score=1}]";

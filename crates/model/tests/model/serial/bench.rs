@@ -5,8 +5,8 @@ use foveate_design::FeatureKind;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, SerialRcm, ThresholdInputs, pad, region_stream};
 
+use super::expected_outputs::{ExpectedTimeline, MeaningfulOutputs, RegionResults};
 use super::serial_parameters::SerialParameters;
-use super::expected_outputs::{RegionResults, MeaningfulOutputs, ExpectedTimeline};
 use crate::frames::SeededRandom;
 
 /// The pattern in which pixels come.
@@ -24,7 +24,8 @@ pub(crate) struct SerialTraffic {
 }
 
 impl SerialTraffic {
-    pub(crate) const DENSE: Self = Self { gaps: 0, max_pause: 0, pushing: 0, skips: false, seed: 0 };
+    pub(crate) const DENSE: Self =
+        Self { gaps: 0, max_pause: 0, pushing: 0, skips: false, seed: 0 };
 }
 
 /// The pixels of a frame in the order of the ports, and the expected results.
@@ -141,7 +142,13 @@ impl SerialBench {
         self.step(true, valid, &junk, &self.noise.clone())
     }
 
-    fn step(&mut self, reset: bool, valid: bool, pixels: &[u16], thresholds: &ThresholdInputs) -> SerialCheckResult {
+    fn step(
+        &mut self,
+        reset: bool,
+        valid: bool,
+        pixels: &[u16],
+        thresholds: &ThresholdInputs,
+    ) -> SerialCheckResult {
         self.edge += 1;
         self.rcm.step(&CoreInput { reset, valid, ..CoreInput::idle(pixels, thresholds) });
         self.compare()
@@ -158,7 +165,8 @@ impl SerialBench {
         if output.ready != self.timeline.is_ready(edge) {
             return Err(format!("ready_o is {} after edge {edge}", output.ready));
         }
-        let (shown, due) = (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge - self.late));
+        let (shown, due) =
+            (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge - self.late));
         if shown != due {
             return Err(format!("after edge {edge}: {shown:?}, due is {due:?}"));
         }

@@ -2,7 +2,7 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{RegionAction, Design};
+use foveate_design::{Design, RegionAction};
 use foveate_frame::Frame;
 use foveate_model::{
     CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, ThresholdInputs,
@@ -12,7 +12,7 @@ use foveate_model::{
 use super::bench::port_pixels;
 use super::serial_parameters::SerialParameters;
 use crate::hard_cases::hard_frames;
-use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 use crate::screen::ReceiverScreen;
 
 /// Feeds a frame as fast as it is taken. Returns the number of clocks until the array is ready
@@ -80,7 +80,8 @@ fn play(
 
 /// Checks that the scorer knows the results of a frame before the frame is fed.
 fn check_prediction(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: &Design) {
-    let (thresholds, mut scorer) = (ThresholdInputs::from_camera(design), RegionScorer::new(design));
+    let (thresholds, mut scorer) =
+        (ThresholdInputs::from_camera(design), RegionScorer::new(design));
     for region in 0..design.regions() {
         let mut stream = Vec::new();
         region_stream(design, frame, region, &mut stream);

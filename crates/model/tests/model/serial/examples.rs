@@ -4,7 +4,7 @@
 
 use std::ops::RangeInclusive;
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_model::{CoreInput, SerialOutput, SerialRcm, ThresholdInputs};
 
 fn design(toml: &str) -> Design {
@@ -307,11 +307,16 @@ fn decisions_and_pixels_leave_when_the_design_says() {
             let decided = since(last.unwrap().0);
             assert_eq!(decided, departure.decision_clocks + wait, "{hardware}, slot {slot}");
             let end = departure.forward_clocks + wait;
-            let left = forwarding_edges(&outputs).into_iter().map(since).filter(|&edge| edge <= end);
+            let left =
+                forwarding_edges(&outputs).into_iter().map(since).filter(|&edge| edge <= end);
             assert_eq!(left.max(), Some(end), "{hardware}, slot {slot}");
         }
         let after =
             departure.forward_clocks + u64::from(design.slots() - 1) * departure.slot_clocks;
-        assert_eq!(forwarding_edges(&outputs).into_iter().map(since).max(), Some(after), "{hardware}");
+        assert_eq!(
+            forwarding_edges(&outputs).into_iter().map(since).max(),
+            Some(after),
+            "{hardware}"
+        );
     }
 }

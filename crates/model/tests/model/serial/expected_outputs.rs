@@ -88,7 +88,10 @@ impl MeaningfulOutputs {
 
 /// Returns the outputs of the steps of a frame, by number of the step. Steps without outputs are
 /// left out.
-pub(crate) fn step_outputs(recipe: &SerialParameters, facts: &[RegionResults]) -> Vec<(i64, MeaningfulOutputs)> {
+pub(crate) fn step_outputs(
+    recipe: &SerialParameters,
+    facts: &[RegionResults],
+) -> Vec<(i64, MeaningfulOutputs)> {
     let mut shown = Vec::new();
     let mut start = 0;
     for slot in 0..recipe.fold {
@@ -130,7 +133,11 @@ fn rotation_outputs(
         let score = Some((number as u32, region as u32, facts.scores[number]));
         (
             start + recipe.settling_steps() + lane,
-            MeaningfulOutputs { score, decision: last.then_some(decision), ..MeaningfulOutputs::default() },
+            MeaningfulOutputs {
+                score,
+                decision: last.then_some(decision),
+                ..MeaningfulOutputs::default()
+            },
         )
     };
     served_regions(recipe, slot).into_iter().map(score).collect()
@@ -150,12 +157,19 @@ fn unload_outputs(
         let mut together = Vec::new();
         for (lane, region) in served_regions(recipe, slot) {
             let facts = &facts[region as usize];
-            let leaving = if phase == ExpectedPhase::Unload { facts.sent_pixels() } else { facts.sent_means() };
+            let leaving = if phase == ExpectedPhase::Unload {
+                facts.sent_pixels()
+            } else {
+                facts.sent_means()
+            };
             let Some(&pixel) = leaving.get(number as usize) else { continue };
             if recipe.raster {
                 let (pixels, place) = (vec![(0, pixel)], Some((position, 0, region as u32)));
                 let step = start + number * round + 1 + lane;
-                shown.push((step, MeaningfulOutputs { pixels, place, ..MeaningfulOutputs::default() }));
+                shown.push((
+                    step,
+                    MeaningfulOutputs { pixels, place, ..MeaningfulOutputs::default() },
+                ));
             } else {
                 together.push((lane as usize, pixel));
             }
@@ -172,7 +186,8 @@ fn unload_outputs(
 /// Returns the position of pixel or mean `number`. That of a mean is the position of the last pixel
 /// of its block.
 fn forward_position(recipe: &SerialParameters, phase: ExpectedPhase, number: i64) -> i64 {
-    let Some(periphery) = recipe.base.periphery.filter(|_| phase == ExpectedPhase::UnloadMeans) else {
+    let Some(periphery) = recipe.base.periphery.filter(|_| phase == ExpectedPhase::UnloadMeans)
+    else {
         return number;
     };
     let side = recipe.base.side / periphery.blocks;
@@ -220,7 +235,8 @@ impl ExpectedTimeline {
         if let Some(facts) = facts {
             self.ready_from = taken + 1 + recipe.steps_per_frame();
             let first = taken + 1 + recipe.read_latency();
-            let due = step_outputs(recipe, facts).into_iter().map(|(step, shown)| (first + step, shown));
+            let due =
+                step_outputs(recipe, facts).into_iter().map(|(step, shown)| (first + step, shown));
             self.shown.extend(due);
         }
     }

@@ -4,9 +4,9 @@
 
 mod bench;
 mod camera;
-mod planted_faults;
 mod examples;
+mod expected_outputs;
+mod planted_faults;
 mod properties;
 mod serial_parameters;
 mod streams;
-mod expected_outputs;

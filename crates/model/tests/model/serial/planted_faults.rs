@@ -4,11 +4,11 @@
 use foveate_model::SerialRcm;
 
 use super::bench::{SerialBench, SerialCheckResult, SerialTraffic};
+use super::expected_outputs::RegionResults;
 use super::properties::stimuli;
 use super::serial_parameters::SerialParameters;
-use super::expected_outputs::RegionResults;
 use crate::frames::FrameContent;
-use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters};
+use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 
 fn recipe() -> SerialParameters {
     let feature =
@@ -40,7 +40,7 @@ fn recipe() -> SerialParameters {
 /// Runs the array of `built` against expectations with the fault `spoil`, which changes the recipe
 /// or the expected results of the frames.
 fn check_with_fault(built: &SerialParameters, spoil: &SerialFault) -> SerialCheckResult {
-    use FrameContent::{AlmostFlat, Noise, SmallSteps, Repeat, FewChanges};
+    use FrameContent::{AlmostFlat, FewChanges, Noise, Repeat, SmallSteps};
     let contents = [Noise, FewChanges, Repeat, AlmostFlat, SmallSteps, FewChanges, Noise];
     let script = contents.into_iter().zip(5..).collect();
     let mut expected = built.clone();
@@ -51,12 +51,17 @@ fn check_with_fault(built: &SerialParameters, spoil: &SerialFault) -> SerialChec
             job.facts = other.facts;
         }
     }
-    let mut bench =
-        SerialBench::new(&expected, SerialRcm::new(built.design().as_serial().unwrap()), SerialTraffic::DENSE);
+    let mut bench = SerialBench::new(
+        &expected,
+        SerialRcm::new(built.design().as_serial().unwrap()),
+        SerialTraffic::DENSE,
+    );
     match spoil {
         SerialFault::None | SerialFault::Recipe(_) => {}
         SerialFault::Clock => bench.late = 1,
-        SerialFault::Facts(change) => jobs_of_both.iter_mut().for_each(|job| change(&mut job.facts)),
+        SerialFault::Facts(change) => {
+            jobs_of_both.iter_mut().for_each(|job| change(&mut job.facts))
+        }
     }
     bench.run(&jobs_of_both)
 }

@@ -7,9 +7,9 @@ use foveate_model::{CoreInput, SerialRcm, ThresholdInputs};
 use proptest::prelude::*;
 
 use super::bench::{SerialBench, SerialCheckResult, SerialStimulus, SerialTraffic, port_pixels};
-use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
 use super::expected_outputs::region_results;
-use crate::frames::{SeededRandom, ClipScript, make_clip, arbitrary_scripts};
+use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
+use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
 use crate::oracle::oracle_history_with_thresholds;
 use crate::parameters::DesignParameters;
 
@@ -17,7 +17,13 @@ fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     let gaps = prop_oneof![2 => Just(0i64), 1 => 1i64..70];
     let pushing = prop_oneof![Just(0i64), Just(50), Just(100)];
     (gaps, 0i64..20, pushing, any::<bool>(), any::<u64>()).prop_map(
-        |(gaps, between, pushing, skips, seed)| SerialTraffic { gaps, max_pause: between, pushing, skips, seed },
+        |(gaps, between, pushing, skips, seed)| SerialTraffic {
+            gaps,
+            max_pause: between,
+            pushing,
+            skips,
+            seed,
+        },
     )
 }
 
@@ -71,7 +77,13 @@ pub(crate) fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<Ser
 }
 
 /// Runs some edges, resets the array, and runs a new clip from its start.
-fn run_with_reset(bench: &mut SerialBench, before: &[SerialStimulus], after: &[SerialStimulus], edges: i64, held: bool) -> SerialCheckResult {
+fn run_with_reset(
+    bench: &mut SerialBench,
+    before: &[SerialStimulus],
+    after: &[SerialStimulus],
+    edges: i64,
+    held: bool,
+) -> SerialCheckResult {
     bench.stop_after(edges);
     bench.run(before)?;
     bench.stop_after(i64::MAX);

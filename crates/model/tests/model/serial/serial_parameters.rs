@@ -2,11 +2,13 @@
 //! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow from
 //! it.
 
-use foveate_design::{Design, PixelFeed, Organization};
+use foveate_design::{Design, Organization, PixelFeed};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::parameters::{FeatureParameters, PeripheryParameters, DesignParameters, arbitrary_parameters_with_sides};
+use crate::parameters::{
+    DesignParameters, FeatureParameters, PeripheryParameters, arbitrary_parameters_with_sides,
+};
 
 #[derive(Clone, Debug)]
 pub(crate) struct SerialParameters {
@@ -28,7 +30,8 @@ impl SerialParameters {
     pub(crate) fn design(&self) -> Design {
         let mut config = self.base.design().config();
         config.hardware.organization = Organization::Serial;
-        config.hardware.feed = Some(if self.raster { PixelFeed::Raster } else { PixelFeed::Parallel });
+        config.hardware.feed =
+            Some(if self.raster { PixelFeed::Raster } else { PixelFeed::Parallel });
         config.hardware.fold = self.fold as u32;
         config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
     }
@@ -88,7 +91,7 @@ impl SerialParameters {
 
     /// Returns the phases of a slot.
     pub(crate) fn phases(&self) -> Vec<ExpectedPhase> {
-        use ExpectedPhase::{WithoutOutput, Rotation, Unload, UnloadMeans};
+        use ExpectedPhase::{Rotation, Unload, UnloadMeans, WithoutOutput};
         let (n, p, q) = (self.base.region_pixels(), i64::from(self.base.bits), self.read_latency());
         let (median, last_sent) = (self.base.median, self.base.last_sent);
         let mut phases = Vec::new();
@@ -105,7 +108,9 @@ impl SerialParameters {
         phases.push(Rotation);
         if let Some(PeripheryParameters { blocks, .. }) = self.base.periphery {
             let pixels = (self.base.side / blocks).pow(2);
-            phases.push(WithoutOutput(blocks.pow(2) * (pixels + 2 + self.settling_steps() + self.lanes())));
+            phases.push(WithoutOutput(
+                blocks.pow(2) * (pixels + 2 + self.settling_steps() + self.lanes()),
+            ));
         }
         for feature in &self.base.features {
             phases.push(WithoutOutput(self.pass_steps(feature)));
@@ -192,8 +197,14 @@ impl SerialParameters {
 /// Generates every kind of serial design, with a few regions.
 pub(crate) fn arbitrary_serial_parameters() -> impl Strategy<Value = SerialParameters> {
     let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
-    (arbitrary_parameters_with_sides(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(|(base, [raster, deep], fold)| {
-        let regions = base.columns() * base.rows();
-        SerialParameters { fold: 1 + fold % regions, raster, base: DesignParameters { deep, ..base } }
-    })
+    (arbitrary_parameters_with_sides(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(
+        |(base, [raster, deep], fold)| {
+            let regions = base.columns() * base.rows();
+            SerialParameters {
+                fold: 1 + fold % regions,
+                raster,
+                base: DesignParameters { deep, ..base },
+            }
+        },
+    )
 }

@@ -6,8 +6,8 @@ use foveate_model::{CoreInput, PipelinedRcm, SerialRcm, ThresholdInputs};
 use proptest::prelude::*;
 
 use super::bench::{SerialBench, SerialStimulus, SerialTraffic, by_port};
-use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
 use super::expected_outputs::RegionResults;
+use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
 use crate::frames::SeededRandom;
 
 /// Returns streams by frame, region and position. Every frame keeps some pixels of the frame
@@ -31,7 +31,10 @@ fn streams(recipe: &SerialParameters, frames: usize, seed: u64) -> Vec<Vec<Vec<u
 }
 
 /// Returns the results of the pipelined array for every frame and region.
-fn pipelined_facts(recipe: &SerialParameters, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<RegionResults>> {
+fn pipelined_facts(
+    recipe: &SerialParameters,
+    streams: &[Vec<Vec<u16>>],
+) -> Vec<Vec<RegionResults>> {
     let design = recipe.base.design();
     let thresholds = ThresholdInputs::from_camera(&design);
     let (regions, places) = (design.regions() as usize, streams[0][0].len());

@@ -2,7 +2,7 @@
 //! An array of any organization, seen from its ports: the beats that it takes, and the decisions
 //! that it makes.
 
-use foveate_design::{Design, PixelFeed, Hardware};
+use foveate_design::{Design, Hardware, PixelFeed};
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, PipelinedRcm, RasterRcm, SerialRcm, ThresholdInputs};
 
@@ -35,9 +35,15 @@ pub(crate) struct ArrayOutputs {
 impl AnyArray {
     pub(crate) fn new(design: &Design) -> Self {
         match design.hardware() {
-            Hardware::Pipelined(own) => Self::Pipelined(PipelinedRcm::new(design.with_hardware(own))),
-            Hardware::Serial(own) => Self::Serial(Box::new(SerialRcm::new(design.with_hardware(own)))),
-            Hardware::Raster(own) => Self::Raster(Box::new(RasterRcm::new(design.with_hardware(own)))),
+            Hardware::Pipelined(own) => {
+                Self::Pipelined(PipelinedRcm::new(design.with_hardware(own)))
+            }
+            Hardware::Serial(own) => {
+                Self::Serial(Box::new(SerialRcm::new(design.with_hardware(own))))
+            }
+            Hardware::Raster(own) => {
+                Self::Raster(Box::new(RasterRcm::new(design.with_hardware(own))))
+            }
         }
     }
 

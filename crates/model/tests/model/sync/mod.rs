@@ -3,6 +3,6 @@
 //! beats that are errors.
 
 mod array;
+mod streams;
 mod sync_oracle;
 mod sync_states;
-mod streams;

@@ -3,10 +3,10 @@
 //! takes the frames that `docs/sync.md` defines, with their references, and errors must come after
 //! the edges that it names.
 
-use super::array::{ArrayDecision, AnyArray, frame_from_beats, beat_shape};
+use super::array::{AnyArray, ArrayDecision, beat_shape, frame_from_beats};
 use super::sync_oracle::{CutStream, StreamEdge, cut_stream};
 use crate::frames::SeededRandom;
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_model::{FunctionalCamera, ThresholdInputs};
 
 const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of `FrameSync` alone: the table of `docs/sync.md`, and designs without it.
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_model::FrameSync;
 
 fn design(more: &[&str]) -> Design {

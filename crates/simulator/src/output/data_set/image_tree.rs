@@ -10,8 +10,8 @@ use std::path::{Component, Path, PathBuf};
 use foveate_camera::Camera;
 
 use super::super::cannot_write;
-use super::super::png_writers::PngWriters;
 use super::super::csv::CsvFile;
+use super::super::png_writers::PngWriters;
 use super::super::raw_image::RawImage;
 use super::super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
@@ -54,7 +54,9 @@ impl ImageTreeSink {
         fs::create_dir_all(&folder).map_err(cannot_write(&folder))?;
         let number = format!("{:06}", step.number);
         let stem = match self.naming {
-            FileNaming::OfInputFile => Path::new(&step.source.name).file_stem().and_then(OsStr::to_str),
+            FileNaming::OfInputFile => {
+                Path::new(&step.source.name).file_stem().and_then(OsStr::to_str)
+            }
             FileNaming::Numbers => None,
         };
         let first = below.join(format!("{}.png", stem.unwrap_or(&number)));

@@ -13,7 +13,7 @@ use foveate_design::DesignConfig;
 use foveate_footage::{ImageRelation, InputOptions, open};
 use foveate_frame::{Frame, convert_depth};
 use foveate_model::FunctionalCamera;
-use foveate_simulator::{RunHooks, RunOptions, Simulation, SimulatorError, RunSummary};
+use foveate_simulator::{RunHooks, RunOptions, RunSummary, Simulation, SimulatorError};
 
 pub(crate) fn made<P: AsRef<Path>>(
     inputs: &[P],

@@ -8,12 +8,12 @@ pub(crate) mod data_sets;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use foveate_design::{DesignConfig, Design};
+use foveate_design::{Design, DesignConfig};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_scenes::{Scene, SceneParameters};
-use foveate_simulator::{RunOptions, SilentHooks, Simulation, SimulatorError, RunSummary};
+use foveate_simulator::{RunOptions, RunSummary, SilentHooks, Simulation, SimulatorError};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.
 pub(crate) fn run<P: AsRef<Path>>(

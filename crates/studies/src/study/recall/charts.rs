@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The charts of the study over all clips: recall over bytes, and recall by class.
 
-use foveate_pictures::chart::{BarSeries, Chart, ChartSeries, ChartData};
+use foveate_pictures::chart::{BarSeries, Chart, ChartData, ChartSeries};
 use foveate_pictures::palette::SERIES;
 
 use super::class::{CLASSES, UNKNOWN};
-use super::{SweptKey, RecallResult};
+use super::{RecallResult, SweptKey};
 use crate::number::{coordinate, percent};
 
 /// The names of the levels of `Shares::at_least`, in their order.
@@ -21,10 +21,12 @@ const GROUPS: [(&str, &str); 3] = [
 
 pub(super) fn recall_charts(keys: &[SweptKey], results: &[RecallResult]) -> Vec<Chart> {
     let last = results.last().map_or("", |result| result.clip.as_str());
-    let together: Vec<&RecallResult> = results.iter().filter(|result| result.clip == last).collect();
+    let together: Vec<&RecallResult> =
+        results.iter().filter(|result| result.clip == last).collect();
     let own = together.iter().find(|result| result.point == 0);
-    let by_class =
-        own.into_iter().flat_map(|own| GROUPS.iter().filter_map(|group| recall_by_class(own, *group)));
+    let by_class = own
+        .into_iter()
+        .flat_map(|own| GROUPS.iter().filter_map(|group| recall_by_class(own, *group)));
     std::iter::once(recall_over_bytes(keys, &together)).chain(by_class).collect()
 }
 

@@ -36,7 +36,8 @@ const CONTRASTS: [f64; 2] = [8.0, 32.0];
 pub(super) fn classes_of(rect: &Rect, speed: Option<f64>, contrast: Option<f64>) -> [usize; 4] {
     let size = 1 + reached_limits(rect.area(), &AREAS);
     let speed = 4 + speed.map_or(SPEEDS.len() + 1, |speed| reached_limits(speed, &SPEEDS));
-    let contrast = 9 + contrast.map_or(CONTRASTS.len() + 1, |value| reached_limits(value, &CONTRASTS));
+    let contrast =
+        9 + contrast.map_or(CONTRASTS.len() + 1, |value| reached_limits(value, &CONTRASTS));
     [0, size, speed, contrast]
 }
 

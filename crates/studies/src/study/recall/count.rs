@@ -62,8 +62,14 @@ pub(super) struct ObjectTally {
 }
 
 impl ObjectTally {
-    pub(super) fn add(&mut self, truth: &GroundTruthObjects, design: &Design, seen: &FrameResult<'_>) {
-        let sums = if seen.is_without_reference { &mut self.first_frame } else { &mut self.other_frames };
+    pub(super) fn add(
+        &mut self,
+        truth: &GroundTruthObjects,
+        design: &Design,
+        seen: &FrameResult<'_>,
+    ) {
+        let sums =
+            if seen.is_without_reference { &mut self.first_frame } else { &mut self.other_frames };
         sums.add(truth.objects(), design, seen);
     }
 
@@ -152,7 +158,9 @@ fn add(sums: &mut [u64; 3], more: [u64; 3]) {
 
 /// Counts tracks as objects by what each reached in at least one frame, and returns the longest gap
 /// of all tracks.
-pub(super) fn reached_at_least_once<'a>(tracks: impl Iterator<Item = &'a TrackCounts>) -> (ClassCounts, Option<u64>) {
+pub(super) fn reached_at_least_once<'a>(
+    tracks: impl Iterator<Item = &'a TrackCounts>,
+) -> (ClassCounts, Option<u64>) {
     let (mut count, mut longest) = (ClassCounts::default(), None);
     for track in tracks {
         count.objects += 1;

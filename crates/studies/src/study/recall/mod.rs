@@ -50,16 +50,21 @@ struct RecallResult {
     design: String,
 }
 
-pub(crate) fn run(watcher: &StudyRunner<'_>, files: &[PathBuf]) -> Result<StudyFindings, StudyError> {
+pub(crate) fn run(
+    watcher: &StudyRunner<'_>,
+    files: &[PathBuf],
+) -> Result<StudyFindings, StudyError> {
     if files.is_empty() {
         return Err(StudyError::NoBoxes);
     }
     let subjects = watcher.subjects;
-    let clips = subjects.iter().map(|clip| ClipToLabel { name: &clip.name, input: &clip.inputs[0] });
+    let clips =
+        subjects.iter().map(|clip| ClipToLabel { name: &clip.name, input: &clip.inputs[0] });
     let boxes = assign_boxes(files, &clips.collect::<Vec<_>>())?;
     let keys = swept_keys(watcher.config);
     let varied = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
-    let configs: Vec<DesignConfig> = std::iter::once(watcher.config.clone()).chain(varied).collect();
+    let configs: Vec<DesignConfig> =
+        std::iter::once(watcher.config.clone()).chain(varied).collect();
     let watched = watcher.run_annotated_clips(
         &configs,
         |clip| GroundTruthObjects::new(Arc::clone(&boxes[clip]), watcher.input.crop),
@@ -68,9 +73,11 @@ pub(crate) fn run(watcher: &StudyRunner<'_>, files: &[PathBuf]) -> Result<StudyF
     check_boxes(&watched)?;
     let points = recall_points(&keys);
     let results = recall_results(&watched, &points);
-    let mut findings = StudyFindings::new(Study::Recall, &watched, tables::whole_table(&points, &results));
+    let mut findings =
+        StudyFindings::new(Study::Recall, &watched, tables::whole_table(&points, &results));
     findings.printed = Some(tables::printed_table(&results));
-    findings.further_tables = tables::track_table(&watched).map(|table| ("tracks", table)).into_iter().collect();
+    findings.further_tables =
+        tables::track_table(&watched).map(|table| ("tracks", table)).into_iter().collect();
     findings.notes.extend(watched.iter().map(|clip| clip.annotator.note(&clip.name)));
     for chart in charts::recall_charts(&keys, &results) {
         findings.add_chart(chart, &watched);
@@ -81,7 +88,8 @@ pub(crate) fn run(watcher: &StudyRunner<'_>, files: &[PathBuf]) -> Result<StudyF
 /// Returns the keys that are varied. Invalid values, such as a count above the pixels of a small
 /// region, are left out.
 fn swept_keys(config: &DesignConfig) -> Vec<SweptKey> {
-    let mut keys: Vec<SweptKey> = threshold_keys(config).into_iter().chain([region_size_key(config)]).collect();
+    let mut keys: Vec<SweptKey> =
+        threshold_keys(config).into_iter().chain([region_size_key(config)]).collect();
     for key in &mut keys {
         // Only the camera is checked, because the hardware depends on the frame size, which is not
         // known yet.
@@ -123,17 +131,25 @@ fn recall_results(watched: &[RecallClip], points: &[RecallPoint]) -> Vec<RecallR
     let together = (watched.len() > 1).then(|| ("all clips".to_owned(), watched));
     let of = |(name, clips): (String, &[RecallClip])| {
         let numbered = points.iter().enumerate();
-        numbered.filter_map(|(at, point)| recall_result(&name, clips, at, point)).collect::<Vec<_>>()
+        numbered
+            .filter_map(|(at, point)| recall_result(&name, clips, at, point))
+            .collect::<Vec<_>>()
     };
     alone.chain(together).flat_map(of).collect()
 }
 
-fn recall_result(name: &str, clips: &[RecallClip], at: usize, point: &RecallPoint) -> Option<RecallResult> {
+fn recall_result(
+    name: &str,
+    clips: &[RecallClip],
+    at: usize,
+    point: &RecallPoint,
+) -> Option<RecallResult> {
     let clips = clips.iter().filter(|clip| !point.is_temporal || clip.kind == SourceKind::Clip);
     let seen: Vec<_> = clips.map(|clip| &clip.points[at]).collect();
     let mut sums = RecallSums::default();
     seen.iter().for_each(|(_, tally)| sums.merge(tally.sums()));
-    let tracks = reached_at_least_once(seen.iter().flat_map(|(_, tally)| tally.sums().tracks.values()));
+    let tracks =
+        reached_at_least_once(seen.iter().flat_map(|(_, tally)| tally.sums().tracks.values()));
     let (first, others) = seen.split_first()?;
     let design = first.0.fingerprint();
     let same = others.iter().all(|other| other.0.fingerprint() == design);

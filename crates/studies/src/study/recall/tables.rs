@@ -3,7 +3,7 @@
 
 use super::class::{ALL, CLASSES, UNKNOWN};
 use super::count::{ClassCounts, LevelCounts};
-use super::{RecallPoint, RecallResult, RecallClip};
+use super::{RecallClip, RecallPoint, RecallResult};
 use crate::number::{percent, share_text};
 use crate::table::StudyTable;
 
@@ -105,7 +105,8 @@ pub(super) fn track_table(watched: &[RecallClip]) -> Option<StudyTable> {
         let own = clip.points.first().into_iter();
         for (id, track) in own.flat_map(|(_, tally)| &tally.sums().tracks) {
             let [quarter, half, all] = track.at_least;
-            let numbers = [*id, track.frames, track.some_active, quarter, half, all, track.longest_gap];
+            let numbers =
+                [*id, track.frames, track.some_active, quarter, half, all, track.longest_gap];
             let numbers = numbers.map(|number| number.to_string());
             table.rows.push([clip.name.clone()].into_iter().chain(numbers).collect());
         }
@@ -114,7 +115,9 @@ pub(super) fn track_table(watched: &[RecallClip]) -> Option<StudyTable> {
 }
 
 /// Returns the classes that have an object.
-fn counted_classes(result: &RecallResult) -> impl Iterator<Item = ((&'static str, &'static str), ClassCounts)> {
+fn counted_classes(
+    result: &RecallResult,
+) -> impl Iterator<Item = ((&'static str, &'static str), ClassCounts)> {
     let counts = CLASSES.into_iter().enumerate().map(|(at, class)| (class, result.sums.count(at)));
     counts.filter(|(_, count)| count.objects > 0)
 }

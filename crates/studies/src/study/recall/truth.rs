@@ -5,8 +5,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use foveate_footage::boxes::{BoxError, BoxFile, FrameKey, BoxView};
-use foveate_footage::{CropRect, SourceKind, FrameSource, SourceFrame};
+use foveate_footage::boxes::{BoxError, BoxFile, BoxView, FrameKey};
+use foveate_footage::{CropRect, FrameSource, SourceFrame, SourceKind};
 use foveate_frame::Rect;
 
 use super::class::classes_of;
@@ -40,7 +40,15 @@ pub(super) struct GroundTruthObjects {
 impl GroundTruthObjects {
     pub(super) fn new(boxes: Arc<BoxFile>, crop: Option<CropRect>) -> Self {
         let (before, objects) = (HashMap::new(), Vec::new());
-        Self { boxes, crop, frames: 0, labelled_frames: 0, outside: 0, last_centres: before, objects }
+        Self {
+            boxes,
+            crop,
+            frames: 0,
+            labelled_frames: 0,
+            outside: 0,
+            last_centres: before,
+            objects,
+        }
     }
 
     pub(super) fn objects(&self) -> &[FrameObject] {
@@ -65,7 +73,11 @@ impl GroundTruthObjects {
 }
 
 impl FrameAnnotator for GroundTruthObjects {
-    fn annotate(&mut self, frame: &SourceFrame, source: &dyn FrameSource) -> Result<(), StudyError> {
+    fn annotate(
+        &mut self,
+        frame: &SourceFrame,
+        source: &dyn FrameSource,
+    ) -> Result<(), StudyError> {
         self.objects.clear();
         let origin = source.origin().expect("an input knows where its frames are from");
         let labelled = self.boxes.boxes_of_frame(&FrameKey::from_source_frame(frame, &origin))?;

@@ -10,7 +10,7 @@ use crate::support::{SilentHooks, cells};
 use foveate_design::DesignConfig;
 use foveate_engine::Engine;
 use foveate_footage::{InputOptions, open};
-use foveate_studies::{StudyRequest, Study, analyze};
+use foveate_studies::{Study, StudyRequest, analyze};
 
 #[test]
 fn objects_of_a_known_clip_are_counted() {

@@ -7,7 +7,7 @@ use std::slice::from_ref;
 
 use super::{check_known, frame, images, mot_rows, recall, recall_of, row};
 use foveate_design::DesignConfig;
-use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, FrameSelection};
+use foveate_footage::{CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions};
 
 #[test]
 fn boxes_are_cropped_and_scaled_with_the_frames() {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use crate::support::SilentHooks;
 use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
-use foveate_studies::{StudyRequest, Study, StudyError, StudyReport, analyze};
+use foveate_studies::{Study, StudyError, StudyReport, StudyRequest, analyze};
 
 /// The tracks and boxes of the objects, in frames of 4x2 regions: regions 0 and 1, region 6, and
 /// region 3.
@@ -83,7 +83,8 @@ fn recall_of(
     out: &Path,
 ) -> Result<StudyReport, StudyError> {
     let (study, sensor_events, sensor_start_us) = (Study::Recall, None, 0);
-    let request = StudyRequest { study, inputs, input, config, sensor_events, sensor_start_us, boxes };
+    let request =
+        StudyRequest { study, inputs, input, config, sensor_events, sensor_start_us, boxes };
     analyze(&request, out, true, &SilentHooks)
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
 use foveate_simulator::{BatchHooks, BatchProgress};
-use foveate_studies::{StudyRequest, Study, StudyError, StudyReport, analyze};
+use foveate_studies::{Study, StudyError, StudyReport, StudyRequest, analyze};
 
 pub(crate) struct SilentHooks;
 
