@@ -179,7 +179,7 @@ impl VideoFeed {
         let mut problem = self.decoder.finish()?;
         match &self.medium {
             VideoMedium::File(path) => {
-                problem = truncated_avi::truncation_problem(path).or(problem)
+                problem = truncated_avi::truncation_problem(path).or(problem);
             }
             // Messages of ffmpeg repeat the address and its parts.
             VideoMedium::Network(address) => problem = problem.map(|text| address.redact(&text)),

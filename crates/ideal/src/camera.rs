@@ -84,7 +84,7 @@ impl IdealCamera {
         match self.camera.filter() {
             DenoiseFilter::None => self.denoised.copy_from(&self.raw),
             DenoiseFilter::Median3x3 => {
-                filter_median(&self.raw, &mut self.denoised, &mut self.columns)
+                filter_median(&self.raw, &mut self.denoised, &mut self.columns);
             }
         }
         self.score();

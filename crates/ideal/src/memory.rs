@@ -61,7 +61,7 @@ impl ReferenceMemory {
             (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             // The screen no longer shows the pixels that were sent.
             (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
-                valid[region] = false
+                valid[region] = false;
             }
         }
     }

@@ -139,7 +139,7 @@ impl InstructionSet {
             // SAFETY: only `available` makes this value, as in `run`.
             #[cfg(target_arch = "x86_64")]
             InstructionSetKind::Avx512 => unsafe {
-                run_avx512(SizedPanelTask::<_, 32, true>(task))
+                run_avx512(SizedPanelTask::<_, 32, true>(task));
             },
         }
     }

@@ -73,7 +73,7 @@ impl PipelinedTiming {
     }
 
     /// Returns the timing in terms that every organization has.
-    pub(super) fn to_design_timing(&self) -> DesignTiming {
+    pub(super) fn to_design_timing(self) -> DesignTiming {
         let of = if self.decision_frames == 0 { "" } else { " of the next frame" };
         let which = if self.forward_frames == 1 { "next frame" } else { "next frame but one" };
         DesignTiming {

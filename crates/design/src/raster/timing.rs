@@ -234,7 +234,7 @@ impl RasterTiming {
     }
 
     /// Returns the timing in terms that every organization has.
-    pub(super) fn to_design_timing(&self) -> DesignTiming {
+    pub(super) fn to_design_timing(self) -> DesignTiming {
         let clocks = self.clocks_per_frame();
         let mut figures = vec![
             ("cycles_per_frame", clocks),
