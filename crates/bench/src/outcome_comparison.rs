@@ -68,7 +68,7 @@ impl<'a> OutcomeComparison<'a> {
         }
         match self.region_naming {
             BeatRegion::Number(role) => {
-                self.compare_scores(record, self.port_number(record, role), 0)
+                self.compare_scores(record, self.port_number(record, role), 0);
             }
             BeatRegion::Lane => {
                 for lane in 0..self.design.regions() {

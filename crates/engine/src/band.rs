@@ -157,7 +157,7 @@ impl<T: PixelLane> BandPass<'_, T> {
                     match &plan.seams {
                         None => count_window_features(plan, windows, SharedSides, columns, run),
                         Some(seams) => {
-                            count_window_features(plan, windows, seams.masks_of(run), columns, run)
+                            count_window_features(plan, windows, seams.masks_of(run), columns, run);
                         }
                     }
                 }
@@ -184,7 +184,7 @@ impl<T: PixelLane> BandPass<'_, T> {
         let store = row_blocks_mut(self.denoised, stride, row, run);
         match plan.reference {
             ReferencePolicy::Previous => {
-                temporal::count_and_replace(now, store, plan.level, changed)
+                temporal::count_and_replace(now, store, plan.level, changed);
             }
             ReferencePolicy::LastSent => {
                 let reference = row_blocks(self.reference, stride, row, run);

@@ -88,10 +88,10 @@ impl<T: PixelLane> CameraPlan<T> {
             let votes = scores.iter().map(|&score| score >= feature.min_score);
             match self.combine {
                 VoteCombination::Any => {
-                    srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote)
+                    srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs |= vote);
                 }
                 VoteCombination::All => {
-                    srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote)
+                    srs.iter_mut().zip(votes).for_each(|(srs, vote)| *srs &= vote);
                 }
             }
         }

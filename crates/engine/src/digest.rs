@@ -33,7 +33,7 @@ impl Engine {
         match self.rendered() {
             FramePixels::Bytes(pixels) => hash.update(pixels.iter().flat_map(|&pixel| [pixel, 0])),
             FramePixels::Words(pixels) => {
-                hash.update(pixels.iter().flat_map(|pixel| pixel.to_le_bytes()))
+                hash.update(pixels.iter().flat_map(|pixel| pixel.to_le_bytes()));
             }
         }
         let outcome = self.outcome();

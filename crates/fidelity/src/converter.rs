@@ -55,10 +55,10 @@ impl<T: PixelSample> FrameConverter<T> {
         } else {
             match screen {
                 FramePixels::Bytes(pixels) => {
-                    convert_screen(pixels, &self.depth_table, &mut self.screen)
+                    convert_screen(pixels, &self.depth_table, &mut self.screen);
                 }
                 FramePixels::Words(pixels) => {
-                    convert_screen(pixels, &self.depth_table, &mut self.screen)
+                    convert_screen(pixels, &self.depth_table, &mut self.screen);
                 }
             }
             &self.screen

@@ -156,7 +156,7 @@ pub fn append_register(out: &mut Vec<u8>, register: RegisterPacket) {
     let flags = register.is_write.into();
     let head = PacketFields { kind: REGISTER_TYPE, flags, row: register.address, column: 0 };
     append_packet(out, head, REGISTER_WORDS, 0, |out| {
-        out.extend(u64::from(register.value).to_le_bytes())
+        out.extend(u64::from(register.value).to_le_bytes());
     });
 }
 

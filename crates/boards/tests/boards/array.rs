@@ -212,7 +212,7 @@ fn answers(path: &Path) -> Vec<u32> {
     loop {
         match splitter.next(None) {
             StreamItem::Packet { packet: Packet::Register(answer), .. } => {
-                values.push(answer.value)
+                values.push(answer.value);
             }
             StreamItem::Pending => return values,
             _ => panic!("no answer"),

@@ -78,7 +78,7 @@ fn payload_means_something_with_its_own_beat() {
                 match port.qualifier {
                     OutputQualifier::Always => {}
                     OutputQualifier::WhileSet(role) => {
-                        assert_eq!(role, stream.valid.role, "{hardware}")
+                        assert_eq!(role, stream.valid.role, "{hardware}");
                     }
                 }
             }

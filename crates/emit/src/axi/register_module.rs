@@ -103,7 +103,7 @@ impl RegisterModule {
         match field.kind {
             FieldKind::Constant(_) => {}
             FieldKind::Status => {
-                self.add_port("input ", field.width, &format!("{name}_i"), &field.doc)
+                self.add_port("input ", field.width, &format!("{name}_i"), &field.doc);
             }
             FieldKind::Control { reset } => {
                 self.add_state(name.clone(), field.width, reset);

@@ -112,7 +112,7 @@ impl CycleModel for PipelinedRcm {
                 }
             }
             PortRole::TemporalCount => {
-                self.append_lanes(values, |shown| shown.temporal_count.into())
+                self.append_lanes(values, |shown| shown.temporal_count.into());
             }
             PortRole::ForwardValid => self.append_lanes(values, |shown| shown.forward_valid.into()),
             PortRole::ForwardPixel => self.append_lanes(values, |shown| shown.forward_pixel.into()),

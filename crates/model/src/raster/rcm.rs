@@ -192,7 +192,7 @@ impl RasterRcm {
         let complete = self.completed_region(place);
         match (&mut self.external_store, complete) {
             (Some(outside), _) => {
-                outside.push_word(self.now, place, complete, self.incoming_frame.padded())
+                outside.push_word(self.now, place, complete, self.incoming_frame.padded());
             }
             (None, Some(complete)) => self.score_region(complete, applied),
             (None, None) => {}

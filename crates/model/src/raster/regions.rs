@@ -101,7 +101,7 @@ impl RasterRegions {
             (ReferencePolicy::LastSent, RegionAction::Forward) => *referenced = true,
             // The screen no longer shows the pixels that were sent.
             (ReferencePolicy::LastSent, RegionAction::Blank | RegionAction::Summarize) => {
-                *referenced = false
+                *referenced = false;
             }
         }
         DecidedRasterRegion { judged, action }
@@ -119,7 +119,7 @@ impl RasterRegions {
         match self.camera.temporal().reference {
             ReferencePolicy::Previous => {}
             ReferencePolicy::LastSent => {
-                self.write_reference(word.region, word.position, &word.scored)
+                self.write_reference(word.region, word.position, &word.scored);
             }
         }
     }

@@ -225,12 +225,12 @@ fn copy_strided<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
 pub(super) fn copy_short_run<T: Copy>(from: &[T], to: &mut [T]) {
     match to.len() {
         length if length < CHUNK_POSITIONS / 2 => {
-            to.iter_mut().zip(from).for_each(|(to, &from)| *to = from)
+            to.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
         }
         length if length < CHUNK_POSITIONS => copy_ends::<_, { CHUNK_POSITIONS / 2 }>(from, to),
         length if length <= 2 * CHUNK_POSITIONS => copy_ends::<_, CHUNK_POSITIONS>(from, to),
         length if length <= 4 * CHUNK_POSITIONS => {
-            copy_ends::<_, { 2 * CHUNK_POSITIONS }>(from, to)
+            copy_ends::<_, { 2 * CHUNK_POSITIONS }>(from, to);
         }
         _ => {
             let (whole, _) = to.as_chunks_mut::<{ 2 * CHUNK_POSITIONS }>();

@@ -193,7 +193,7 @@ impl Operator for ActivationOperator {
             // A function that is known at compile time needs no choice in the loop.
             Activation::Sigmoid => apply_to_job(job, sigmoid),
             Activation::Swish { alpha } => {
-                apply_to_job(job, |x| Activation::Swish { alpha }.apply(x))
+                apply_to_job(job, |x| Activation::Swish { alpha }.apply(x));
             }
             Activation::HardSwish => apply_to_job(job, |x| Activation::HardSwish.apply(x)),
             Activation::Relu => apply_to_job(job, |x| Activation::Relu.apply(x)),

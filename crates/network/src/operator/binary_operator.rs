@@ -110,19 +110,19 @@ impl Operator for BinaryOperator {
         // An operation that is known at compile time needs no choice in the loop.
         match (self.kind, self.activation) {
             (ArithmeticKind::Add, Activation::Identity) => {
-                self.compute_lines(job, |a: f32, b| a + b)
+                self.compute_lines(job, |a: f32, b| a + b);
             }
             (ArithmeticKind::Add, Activation::Relu) => {
                 self.compute_lines(job, |a: f32, b| Activation::Relu.apply(a + b));
             }
             (ArithmeticKind::Sub, Activation::Identity) => {
-                self.compute_lines(job, |a: f32, b| a - b)
+                self.compute_lines(job, |a: f32, b| a - b);
             }
             (ArithmeticKind::Mul, Activation::Identity) => {
-                self.compute_lines(job, |a: f32, b| a * b)
+                self.compute_lines(job, |a: f32, b| a * b);
             }
             (ArithmeticKind::Div, Activation::Identity) => {
-                self.compute_lines(job, |a: f32, b| a / b)
+                self.compute_lines(job, |a: f32, b| a / b);
             }
             (kind, finish) => self.compute_lines(job, |a, b| finish.apply(kind.apply(a, b))),
         }

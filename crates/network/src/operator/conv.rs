@@ -84,7 +84,7 @@ impl Operator for Conv {
                 self.convolve(job, &chunks, |x| Activation::Swish { alpha }.apply(x));
             }
             Activation::HardSwish => {
-                self.convolve(job, &chunks, |x| Activation::HardSwish.apply(x))
+                self.convolve(job, &chunks, |x| Activation::HardSwish.apply(x));
             }
             finish => self.convolve(job, &chunks, |x| finish.apply(x)),
         }

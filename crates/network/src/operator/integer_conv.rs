@@ -135,7 +135,7 @@ impl IntegerConv {
                         [form.height(), form.width()],
                     );
                     threads::for_each_part(parts, &part);
-                })
+                });
             }
         }
     }

@@ -208,7 +208,7 @@ impl Operator for Pool {
     fn compute(&self, job: OperatorJob<'_>) {
         match self.kind {
             PoolKind::Max => {
-                with_element_type!(job.form.encoding().element, T => self.compute_max::<T>(job))
+                with_element_type!(job.form.encoding().element, T => self.compute_max::<T>(job));
             }
             PoolKind::Average { with_padding } => self.compute_average(job, with_padding),
         }

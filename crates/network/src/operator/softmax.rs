@@ -98,7 +98,7 @@ impl QuantizedSoftmax {
             let from: Vec<f32> = from.iter().map(real).collect();
             let mut shares = vec![0.0; from.len()];
             (0..step).for_each(|first| {
-                self.softmax.compute_line(&from[first..], &mut shares[first..], step)
+                self.softmax.compute_line(&from[first..], &mut shares[first..], step);
             });
             let stored = |share: f32| quantize_steps(share / self.to.scale, self.to.zero_point);
             to.iter_mut().zip(shares).for_each(|(to, share)| *to = stored(share));

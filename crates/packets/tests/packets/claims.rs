@@ -57,7 +57,7 @@ fn receive(layout: &PacketLayout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<Stre
         match splitter.next(Some(layout)) {
             StreamItem::Pending => break,
             StreamItem::Skipped { offset, bytes } => {
-                assembler.add_loss(StreamLoss::Bytes { offset, bytes })
+                assembler.add_loss(StreamLoss::Bytes { offset, bytes });
             }
             StreamItem::Packet { frame, packet } => {
                 let ended = assembler.push(frame, packet).unwrap_or_default();

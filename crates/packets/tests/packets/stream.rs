@@ -109,7 +109,7 @@ pub(crate) fn read_stream(
             match splitter.next(Some(layout)) {
                 StreamItem::Pending => break,
                 StreamItem::Skipped { offset, bytes } => {
-                    assembler.add_loss(StreamLoss::Bytes { offset, bytes })
+                    assembler.add_loss(StreamLoss::Bytes { offset, bytes });
                 }
                 StreamItem::Packet { frame, packet } => {
                     let ended = assembler.push(frame, packet).unwrap();

@@ -60,7 +60,7 @@ fn check_with_fault(built: &SerialParameters, spoil: &SerialFault) -> SerialChec
         SerialFault::None | SerialFault::Recipe(_) => {}
         SerialFault::Clock => bench.late = 1,
         SerialFault::Facts(change) => {
-            jobs_of_both.iter_mut().for_each(|job| change(&mut job.facts))
+            jobs_of_both.iter_mut().for_each(|job| change(&mut job.facts));
         }
     }
     bench.run(&jobs_of_both)
