@@ -2,7 +2,7 @@
 //! Benchmarks: the same frames run through every level of a design. The result is the cost of each
 //! level, and whether the levels agree.
 //!
-//! A [`Bench`] goes from whole frames down to gates. Each level runs on one thread, one after the
+//! A [`Benchmark`] goes from whole frames down to gates. Each level runs on one thread, one after the
 //! other, and is compared with a level above it:
 //!
 //! ```text

@@ -4,7 +4,7 @@
 use foveate_cosim::OutputAgreement;
 use serde::Serialize;
 
-/// The version of [`BenchReport`] as JSON. It changes when a field changes its meaning or is
+/// The version of [`BenchmarkReport`] as JSON. It changes when a field changes its meaning or is
 /// removed.
 pub const FORMAT_VERSION: u32 = 2;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial features with their thresholds as integers, and the widths of their scores. The
-//! differences between kinds of features are in [`crate::kind`].
+//! differences between kinds of features are in [`crate::feature_kind`].
 
 use std::fmt::Display;
 

@@ -21,7 +21,7 @@ pub trait TomlConfig: Serialize + Sized {
     fn from_table(table: Table) -> Result<Self, ConfigError>;
 
     /// Returns the configuration at `bits` bits per pixel, scaled by the rules of
-    /// [`CameraConfig::at_depth`].
+    /// [`CameraConfig::scaled_to_depth`].
     #[must_use]
     fn scaled_to_depth(&self, bits: u32) -> Self;
 }

@@ -2,7 +2,7 @@
 //! The signals that ask the program to stop: Ctrl-C, SIGTERM (containers, Slurm, systemd) and
 //! SIGHUP (a terminal that is closed). A thread receives them, whatever the command waits for.
 //!
-//! * Before [`flag`] is called, a command has nothing to keep, and the first signal ends it and its
+//! * Before [`stop_flag`] is called, a command has nothing to keep, and the first signal ends it and its
 //!   tools at once.
 //! * After that, the first signal only makes a request. The command then keeps what is done, and
 //!   ends by itself.
@@ -52,7 +52,7 @@ fn signal_history() -> MutexGuard<'static, SignalHistory> {
     SIGNAL_HISTORY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Starts to listen for signals. Until [`flag`] is called, the first signal ends the process.
+/// Starts to listen for signals. Until [`stop_flag`] is called, the first signal ends the process.
 pub(crate) fn listen() -> Result<(), SignalError> {
     static LISTENING: OnceLock<Result<(), String>> = OnceLock::new();
     let listening = LISTENING.get_or_init(|| start_listener().map_err(|error| error.to_string()));

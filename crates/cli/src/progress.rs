@@ -57,7 +57,7 @@ impl Progress {
     }
 
     /// Reports that `done` of `all` steps are done, such as `designs over clips`. If there are no
-    /// steps, this is the same as [`Progress::work`].
+    /// steps, this is the same as [`Progress::report_work`].
     pub(crate) fn report_steps(&self, what: &str, done: u64, all: u64) {
         if all == 0 {
             return self.report_work(what);

@@ -10,7 +10,7 @@ use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, ConfigKey, toml_tex
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
-/// A whole configuration file. [`Config::validate`] checks it.
+/// A whole configuration file. [`DesignConfig::validate`] checks it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DesignConfig {
     /// The tables that say what is computed: every table except `[hardware]`.
@@ -46,7 +46,7 @@ impl DesignConfig {
     }
 
     /// Returns the configuration at `bits` bits per pixel, scaled by the rules of
-    /// [`CameraConfig::at_depth`].
+    /// [`CameraConfig::scaled_to_depth`].
     #[must_use]
     pub fn scaled_to_depth(&self, bits: u32) -> Self {
         Self { camera: self.camera.scaled_to_depth(bits), hardware: self.hardware.clone() }

@@ -27,7 +27,7 @@ impl Deref for Design {
 }
 
 impl Design {
-    /// Makes a design of parts that [`Config::validate`] has checked and completed.
+    /// Makes a design of parts that [`DesignConfig::validate`] has checked and completed.
     pub(crate) fn new(
         camera: Camera,
         hardware: Hardware,
@@ -46,7 +46,7 @@ impl Design {
     /// Returns the configuration that describes this design. Every key of the camera that applies
     /// is filled in. Keys of `[hardware]` are left out where another organization has them, and
     /// `memory`, `pipelining`, `forward`, `interface` and `sync` may be left out while they have
-    /// their defaults. [`Design::spelled_out`] fills in two of them.
+    /// their defaults. [`Design::complete_config`] fills in two of them.
     #[must_use]
     pub fn config(&self) -> DesignConfig {
         let hardware = HardwareConfig {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Views of a design whose organization is known.
 //!
-//! The properties of one organization are methods of a [`DesignOn`] its hardware. So the lanes of a
+//! The properties of one organization are methods of a [`DesignWithHardware`] its hardware. So the lanes of a
 //! pipelined array or the frame store of a serial array cannot be asked for.
 
 use std::ops::Deref;

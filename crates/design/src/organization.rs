@@ -2,7 +2,7 @@
 //! The cameras that an organization can compute, and the unit, the timing and the ports of a
 //! design.
 //!
-//! Each organization implements [`crate::rules::Rules`] in its own module, which defines these
+//! Each organization implements [`crate::rules::OrganizationRules`] in its own module, which defines these
 //! properties.
 
 use crate::pipelined::PipelinedHardware;
@@ -38,7 +38,7 @@ impl Organization {
 
     /// Returns true if the organization supports the features of a camera, its reference and the
     /// rendering of its irrelevant regions. Sizes and keys of `[hardware]` may still be refused by
-    /// [`crate::Config::validate`].
+    /// [`crate::DesignConfig::validate`].
     #[must_use]
     pub fn takes(self, camera: &CameraConfig) -> bool {
         self.taken().takes(camera)

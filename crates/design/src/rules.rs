@@ -32,7 +32,7 @@ pub struct ArrayUnit {
     pub area_module: &'static str,
 }
 
-/// The properties of a [`crate::DesignOn`] the hardware of one organization.
+/// The properties of a [`crate::DesignWithHardware`] the hardware of one organization.
 pub(crate) trait OrganizationRules {
     /// Returns the unit that the array repeats.
     fn unit(&self) -> ArrayUnit;

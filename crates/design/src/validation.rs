@@ -17,14 +17,14 @@ impl DesignConfig {
     /// Returns the design for inputs of `width` x `height` pixels.
     ///
     /// # Errors
-    /// Returns the errors of [`foveate_camera::CameraConfig::fit_frame`] and [`Config::validate`].
+    /// Returns the errors of [`foveate_camera::CameraConfig::fit_frame`] and [`DesignConfig::validate`].
     pub fn validate_for_frames(&self, width: u32, height: u32) -> Result<Design, ConfigError> {
         let mut config = self.clone();
         config.camera.fit_frame(width, height)?;
         config.validate()
     }
 
-    /// Checks as [`Config::validate`] does, for frames with sides up to `max_side` pixels.
+    /// Checks as [`DesignConfig::validate`] does, for frames with sides up to `max_side` pixels.
     pub(crate) fn validate_up_to(&self, max_side: u32) -> Result<Design, ConfigError> {
         let camera = self.camera.validate_up_to(max_side)?;
         let asked = &self.hardware;

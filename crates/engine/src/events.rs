@@ -36,13 +36,13 @@ pub enum EventColumnType {
 /// column but the action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventValue {
-    /// A value of a column of type [`EventKind::Long`].
+    /// A value of a column of type [`EventColumnType::Long`].
     Long(i64),
-    /// A value of a column of type [`EventKind::Int`].
+    /// A value of a column of type [`EventColumnType::Int`].
     Int(i32),
-    /// A value of a column of type [`EventKind::Flag`].
+    /// A value of a column of type [`EventColumnType::Flag`].
     Flag(bool),
-    /// A value of a column of type [`EventKind::Text`].
+    /// A value of a column of type [`EventColumnType::Text`].
     Text(&'static str),
 }
 

@@ -11,7 +11,7 @@ use crate::state_copy::RegionStateBefore;
 
 impl Engine {
     /// Turns the copy of the state before every frame on or off, from the next frame on. It costs a
-    /// copy of two or three planes. [`Engine::before`] returns the state.
+    /// copy of two or three planes. [`Engine::region_state_before`] returns the state.
     pub fn set_state_copying(&mut self, on: bool) {
         match &mut self.lanes {
             LaneCore::Bytes(core) => core.set_state_copying(on),

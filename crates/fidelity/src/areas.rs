@@ -28,7 +28,7 @@ pub(crate) fn decision_state(srs: bool, trs: bool, action: RegionAction) -> u8 {
     (u8::from(srs) * SRS) | (u8::from(trs) * TRS) | action
 }
 
-/// Returns the index of a pair of states in a [`Table`].
+/// Returns the index of a pair of states in a [`StateAreas`].
 pub(crate) fn state_pair_index(ideal: u8, candidate: u8) -> usize {
     usize::from(ideal) << STATE_BITS | usize::from(candidate)
 }

@@ -4,7 +4,7 @@
 //! A [`Fidelity`] gets each input frame with the results of the ideal camera
 //! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`ErrorTally`] holds only
 //! whole numbers, so tallies of clips can be stored, and their sum has the same bits in any order.
-//! [`Figures`] are for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no
+//! [`FidelityFigures`] are for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no
 //! I/O.
 #![forbid(unsafe_code)]
 

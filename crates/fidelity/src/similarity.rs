@@ -51,13 +51,13 @@ impl FrameSimilarity {
         self.frames
     }
 
-    /// Returns the PSNR, defined like [`Figures::psnr_input`](crate::Figures::psnr_input).
+    /// Returns the PSNR, defined like [`Figures::psnr_input`](crate::FidelityFigures::psnr_input).
     #[must_use]
     pub fn psnr(&self) -> Option<f64> {
         self.tally.psnr(self.frames * self.pixels as u64, u8::MAX.into())
     }
 
-    /// Returns the SSIM, defined like [`Figures::ssim_input`](crate::Figures::ssim_input).
+    /// Returns the SSIM, defined like [`Figures::ssim_input`](crate::FidelityFigures::ssim_input).
     #[must_use]
     pub fn ssim(&self) -> f64 {
         self.tally.ssim(self.frames)

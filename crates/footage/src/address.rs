@@ -54,7 +54,7 @@ impl CameraAddress {
         text_without_secrets(&text)
     }
 
-    /// Returns everything that [`shown_url`] hides, the longest secret first.
+    /// Returns everything that [`url_without_secrets`] hides, the longest secret first.
     fn secrets(&self) -> Vec<String> {
         let rest = self.url.split_once("://").map_or("", |(_, rest)| rest);
         let mut found = Vec::new();

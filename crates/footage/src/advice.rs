@@ -65,7 +65,7 @@ fn skipped_of(input: &Path, images: ImageRelation) -> Vec<SkippedInput> {
     found
 }
 
-/// Describes the [`skipped`] entries: one sentence for each reason, with the number of entries and
+/// Describes the [`skipped_inputs`] entries: one sentence for each reason, with the number of entries and
 /// one example.
 #[must_use]
 pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {

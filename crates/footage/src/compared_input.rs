@@ -21,7 +21,7 @@ pub struct ComparedInput {
 /// sheets of many images. Every other input is a clip or set of its own.
 ///
 /// # Errors
-/// The errors are those of [`plan`].
+/// The errors are those of [`plan`](fn@crate::plan).
 pub fn subjects(
     inputs: &[PathBuf],
     options: &InputOptions,

@@ -10,7 +10,7 @@
 //!   repeating or dropping frames.
 //! * Only [`formats`] that hold their frames themselves are read: a file that is a list of other
 //!   files is refused.
-//! * A late start uses a seek if that gives the same frames, see [`seek`].
+//! * A late start uses a seek if that gives the same frames, see [`late_start`].
 //! * Rotation is ignored, as is the EXIF orientation of images.
 
 mod decoder;

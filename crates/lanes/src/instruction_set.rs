@@ -2,13 +2,13 @@
 //! The vector instruction sets for which the inner loops are compiled; one is chosen at run time.
 //!
 //! The kernels are plain loops over blocks of a fixed number of lanes. They are fast because the
-//! compiler may use vector instructions for them. A [`Task`] is compiled once per [`Level`]. It is
+//! compiler may use vector instructions for them. A [`VectorTask`] is compiled once per [`InstructionSet`]. It is
 //! entered through a function that has the level's target features, into which everything that the
 //! task calls is inlined.
 //!
 //! This is the only module with `unsafe`: calling a function with target features is sound only on
-//! a processor that has them. [`Level::available`] asks the processor, and the private field of
-//! [`Level`] makes sure that no other code can create a level.
+//! a processor that has them. [`InstructionSet::available`] asks the processor, and the private field of
+//! [`InstructionSet`] makes sure that no other code can create a level.
 #![allow(unsafe_code, reason = "entering code compiled for an instruction set that was detected")]
 
 /// Work whose `run` (with everything that it calls) is marked `#[inline(always)]`, so that it is
@@ -19,7 +19,7 @@ pub trait VectorTask {
 }
 
 /// Work over panels of 32-bit values, each as wide as two vector registers. It is inlined like a
-/// [`Task`]. For each level it is compiled only with the panel size of that level.
+/// [`VectorTask`]. For each level it is compiled only with the panel size of that level.
 pub trait PanelTask {
     /// Does the work on panels of `LANES` values. `FUSED` says that a product is multiplied and
     /// added in one instruction, which rounds once.
@@ -129,7 +129,7 @@ impl InstructionSet {
         2 * self.register_bits() / 32
     }
 
-    /// Runs a task with these instructions and with panels of [`Level::panel_lanes`] values.
+    /// Runs a task with these instructions and with panels of [`InstructionSet::panel_lanes`] values.
     pub fn run_panels(self, task: impl PanelTask) {
         match self.0 {
             InstructionSetKind::Portable => SizedPanelTask::<_, 8, false>(task).run(),

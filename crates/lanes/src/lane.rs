@@ -2,7 +2,7 @@
 //! The two lane types of a pixel, and the types of their sums.
 //!
 //! A pixel of up to 8 bits is a byte, a wider one is a 16-bit word. The kernels are generic over
-//! both. Loops run over blocks of [`BLOCK`] lanes, so that no loop has a remainder.
+//! both. Loops run over blocks of [`BLOCK_LANES`] lanes, so that no loop has a remainder.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Neg, Sub};
@@ -60,7 +60,7 @@ pub trait PixelLane:
 
     /// Returns `self - other`, at least 0.
     fn saturating_minus(self, other: Self) -> Self;
-    /// Returns `self + other`, at most [`Lane::MAX`].
+    /// Returns `self + other`, at most [`PixelLane::MAX`].
     fn saturating_plus(self, other: Self) -> Self;
     /// Returns `|self - other|`.
     fn absolute_difference(self, other: Self) -> Self;

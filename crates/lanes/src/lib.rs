@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pixels in vector lanes, shared by the engine and the executor of networks.
 //!
-//! * [`Level`]: a set of vector instructions that is chosen at run time. A [`Task`] is compiled
+//! * [`InstructionSet`]: a set of vector instructions that is chosen at run time. A [`VectorTask`] is compiled
 //!   once per level. A [`PanelTask`] is also compiled for the panel size of that level.
-//! * [`Lane`]: a pixel as a byte or a word, with the arithmetic on it that vectorizes. [`Block`]:
+//! * [`PixelLane`]: a pixel as a byte or a word, with the arithmetic on it that vectorizes. [`Block`]:
 //!   the lanes of one full register.
-//! * [`Aligned`]: a buffer whose blocks are cache lines.
+//! * [`AlignedBuffer`]: a buffer whose blocks are cache lines.
 //! * [`best_arc`]: FAST 5/8 as a network of minima and maxima.
 
 mod aligned_buffer;

@@ -10,7 +10,7 @@
 //!
 //! *By rows* means that every row of regions is an array of its own. It takes pixels as they are
 //! read, and its pixels are available when the decision falls. *Array* is the generated `rcm`,
-//! whose times [`Departure`] describes. It may take a frame when all of it has been read, and send
+//! whose times [`DepartureTiming`] describes. It may take a frame when all of it has been read, and send
 //! decisions and pixels slot by slot. Or it takes pixels as they are read, and sends one row of
 //! regions after the other: the decisions of a row when the last of them falls, and the pixels when
 //! the last word is out. A decision has two bits.
@@ -63,7 +63,7 @@ pub struct SenderCameras<'a> {
 
 impl<'a> SenderCameras<'a> {
     /// Creates cameras with an array at a clock of `clock_hz`. Without a clock the array takes no
-    /// time, and [`Self::own_clocks`] returns the clocks that are left out.
+    /// time, and [`Self::added_clocks`] returns the clocks that are left out.
     ///
     /// # Errors
     /// Fails if the array is not done with a frame when the next one comes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An array that takes pixels as the sensor reads them, on the timeline of a clip.
 //!
-//! [`RasterStream`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz, so
+//! [`RasterStreamTiming`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz, so
 //! that nanoseconds and clocks are whole numbers of ticks. Without a clock the array takes no time,
 //! and a tick is a nanosecond.
 

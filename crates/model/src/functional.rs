@@ -33,7 +33,7 @@ pub struct FunctionalOutcome {
     /// Scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
     /// Means of the blocks, region by region. They are empty if irrelevant regions send no means.
-    /// Only the means of regions with [`Action::Summarize`] were sent.
+    /// Only the means of regions with [`RegionAction::Summarize`] were sent.
     pub means: Vec<Vec<u16>>,
     /// The padded frame.
     pub padded: Frame,

@@ -35,7 +35,7 @@ impl PixelSquare {
         (margin..margin + inner).flat_map(move |y| self.row(y)[margin..][..inner].iter().copied())
     }
 
-    /// Returns the windows around the pixels of [`Square::middle`]. Beyond this square they see its
+    /// Returns the windows around the pixels of [`PixelSquare::inner_pixels`]. Beyond this square they see its
     /// nearest pixel. That happens only without a margin, in isolated regions.
     pub(crate) fn inner_windows(&self, inner: usize) -> impl Iterator<Item = PixelWindow> + '_ {
         let (margin, last) = ((self.side - inner) / 2, self.side - 1);

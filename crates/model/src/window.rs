@@ -4,7 +4,7 @@
 /// Nine pixels in row-major order. The center has number 4.
 pub type PixelWindow = [u16; 9];
 
-/// Number of the center in a [`Window`].
+/// Number of the center in a [`PixelWindow`].
 pub const CENTER: usize = 4;
 
 /// The rectangle that windows must not leave. A position outside of it is moved to the nearest one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The types in which values of a tensor are stored, and the real numbers that they stand for.
 
-/// Evaluates an expression with the Rust type of an [`Element`].
+/// Evaluates an expression with the Rust type of an [`ElementType`].
 macro_rules! with_element_type {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
@@ -25,7 +25,7 @@ macro_rules! with_element_type {
     };
 }
 
-/// Evaluates an expression with the Rust type of an [`Element`] of 8 bits.
+/// Evaluates an expression with the Rust type of an [`ElementType`] of 8 bits.
 macro_rules! with_byte_type {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {

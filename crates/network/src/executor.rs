@@ -19,10 +19,10 @@ pub enum ExecutionMode {
     /// Every position is computed.
     Dense,
     /// Every output whose window holds an input that may have changed is computed. Results are
-    /// equal to [`Mode::Dense`] bit for bit.
+    /// equal to [`ExecutionMode::Dense`] bit for bit.
     Exact,
-    /// Computes what [`Mode::Exact`] does, but an output that is equal to its kept value does not
-    /// count as changed. Results are equal to [`Mode::Dense`] bit for bit.
+    /// Computes what [`ExecutionMode::Exact`] does, but an output that is equal to its kept value does not
+    /// count as changed. Results are equal to [`ExecutionMode::Dense`] bit for bit.
     Compare,
     /// A position keeps the values that it passed on last while each of its new values is within
     /// this limit of them. Integers are compared as the real numbers that they stand for if their
@@ -104,7 +104,7 @@ impl<'a> Executor<'a> {
         }
     }
 
-    /// Returns an executor in [`Mode::Truncate`] with a separate limit for each node.
+    /// Returns an executor in [`ExecutionMode::Truncate`] with a separate limit for each node.
     ///
     /// # Panics
     /// Panics if the number of limits is not the number of nodes.

@@ -4,10 +4,10 @@
 //! A [`Network`] is read from an ONNX file. An [`Executor`] runs it frame by frame and keeps every
 //! tensor. It takes the positions of the frame that may have changed, derives from them layer by
 //! layer the positions of each tensor that may have changed (a [`Mask`]), and computes only these.
-//! In the exact [`Mode`]s the result is equal to that of a dense computation bit for bit: each
+//! In the exact [`ExecutionMode`]s the result is equal to that of a dense computation bit for bit: each
 //! value is summed in one fixed order, whichever positions are computed.
 //!
-//! [`sight`] converts frames to the input of a network and reads detections from its outputs.
+//! [`vision`] converts frames to the input of a network and reads detections from its outputs.
 
 mod comparison;
 mod element;

@@ -18,7 +18,7 @@ pub(crate) fn checked_element_count(shape: &[usize]) -> Option<usize> {
 /// features of a convolution have their channels outside (NCHW). After a transposition to NHWC
 /// their channels are inside. A tensor without positions, such as the logits of a classifier, has a
 /// single position that stands for all of it. Values are floating-point ones unless
-/// [`Form::encoding`] says otherwise.
+/// [`TensorForm::encoding`] says otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TensorForm {
     shape: Vec<usize>,

@@ -24,7 +24,7 @@ impl TensorValues {
     }
 }
 
-/// A number of the type of an [`Element`].
+/// A number of the type of an [`ElementType`].
 pub(crate) trait TensorNumber:
     Copy + Default + Debug + PartialOrd + Send + Sync + 'static
 {

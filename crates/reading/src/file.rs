@@ -25,7 +25,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
 /// or accelerator.
 ///
 /// # Errors
-/// Fails like [`text`].
+/// Fails like [`read_text`].
 pub fn read_settings(path: &Path) -> io::Result<String> {
     read_text(path, SETTINGS_LIMIT)
 }
@@ -33,7 +33,7 @@ pub fn read_settings(path: &Path) -> io::Result<String> {
 /// Reads a UTF-8 text of at most `limit` bytes.
 ///
 /// # Errors
-/// Fails like [`bytes`], and if the file is not text ([`io::ErrorKind::InvalidData`]).
+/// Fails like [`read_bytes`], and if the file is not text ([`io::ErrorKind::InvalidData`]).
 pub fn read_text(path: &Path, limit: u64) -> io::Result<String> {
     String::from_utf8(read_bytes(path, limit)?).map_err(|error| {
         let place = error.utf8_error().valid_up_to();

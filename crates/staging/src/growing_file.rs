@@ -69,7 +69,7 @@ impl GrowingFile {
     /// Writes all pending bytes, and then overwrites bytes at the offset `at`.
     ///
     /// # Errors
-    /// Fails like [`GrowingFile::write_out`].
+    /// Fails like [`GrowingFile::write_pending`].
     pub fn overwrite(&mut self, at: u64, bytes: &[u8]) -> Result<(), StagingError> {
         self.write_pending(true)?;
         self.file

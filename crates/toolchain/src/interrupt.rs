@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A request to stop, which is checked during every wait: in reads of pipes, runs of tools, and
 //! FIFOs without a writer. Each wait consists of short steps, so that a request is noticed within
-//! [`STEP`].
+//! [`POLL_STEP`].
 
 use std::fmt;
 use std::fs::File;

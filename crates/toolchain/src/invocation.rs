@@ -99,7 +99,7 @@ impl Invocation {
         self
     }
 
-    /// Sends the standard output to a file; [`Output::stdout`] is then empty.
+    /// Sends the standard output to a file; [`ProgramOutput::stdout`] is then empty.
     #[must_use]
     pub fn stdout_file(mut self, path: impl Into<PathBuf>) -> Self {
         self.stdout = Some(path.into());

@@ -4,7 +4,7 @@
 //! A [`Toolchain`] finds each [`Tool`] once, refuses versions that are too old, and runs
 //! [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all their inputs. The modules
 //! [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`] each run one tool; [`SynthesisJob`]
-//! synthesizes with Yosys for a Xilinx device. [`text`] escapes user text in scripts.
+//! synthesizes with Yosys for a Xilinx device. [`escaping`] escapes user text in scripts.
 
 pub mod cache;
 mod cache_key;

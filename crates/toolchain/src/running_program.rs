@@ -4,7 +4,7 @@
 //! line.
 //!
 //! The program cannot block forever: a thread always empties its standard error, and the pipe fills
-//! up only while its reader is slower. The program does not outlive its [`Stream`] or [`Feeder`].
+//! up only while its reader is slower. The program does not outlive its [`ProgramReader`] or [`ProgramWriter`].
 //! Ctrl-C in the terminal does not reach it, so this process decides how it ends. Every wait for it
 //! ends on an [`Interrupt`].
 
@@ -133,7 +133,7 @@ impl ProgramWriter {
     /// otherwise, and returns the last line of its messages.
     ///
     /// # Errors
-    /// Fails like [`Feeder::finish`].
+    /// Fails like [`ProgramWriter::finish`].
     pub fn finish_after_failed_write(&mut self) -> Result<Option<String>, ToolError> {
         drop(self.stdin.take());
         if self.running.interrupt.is_set() {

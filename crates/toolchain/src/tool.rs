@@ -118,7 +118,7 @@ impl Tool {
         }
     }
 
-    /// Returns the program that installs [`Tool::package`], with its sub-command.
+    /// Returns the program that installs [`Tool::package_name`], with its sub-command.
     #[must_use]
     pub const fn install_command(self) -> &'static str {
         match self {

@@ -115,7 +115,7 @@ impl Toolchain {
     ///
     /// # Errors
     /// Fails if the program cannot be started, the time limit is reached, or the flag of
-    /// [`Toolchain::cancelled_by`] is set.
+    /// [`Toolchain::with_cancel_flag`] is set.
     pub fn run(&self, invocation: &Invocation) -> Result<ProgramOutput, ToolError> {
         self.host.run_until(invocation, &self.cancel)
     }

@@ -157,7 +157,7 @@ fn read_request(stream: &mut impl BufRead) -> io::Result<Option<HttpRequest>> {
     Ok(Some(HttpRequest { method, target, host: host.unwrap_or_default(), body }))
 }
 
-/// Parses the length of a body, up to [`BODY`].
+/// Parses the length of a body, up to [`BODY_LIMIT`].
 fn parse_body_length(text: &str) -> io::Result<usize> {
     let digits = text.bytes().all(|byte| byte.is_ascii_digit());
     let length: Option<usize> = if digits { text.parse().ok() } else { None };

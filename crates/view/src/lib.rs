@@ -6,7 +6,7 @@
 //! A [`View`] has three threads. One reads the stream and never waits for a browser. One asks the
 //! board for its registers. One accepts browsers on this machine, each of which asks for the newest
 //! frame when it has drawn the one before. The library never prints: its messages are fetched with
-//! [`View::news`].
+//! [`View::take_messages`].
 
 mod board;
 mod camera_page;

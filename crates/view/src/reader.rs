@@ -150,7 +150,7 @@ struct PlaybackClock {
 }
 
 impl PlaybackClock {
-    /// Waits until the time of a frame has come, but no longer than [`PAUSE`] after the frame
+    /// Waits until the time of a frame has come, but no longer than [`LONGEST_PAUSE`] after the frame
     /// before.
     fn wait_for_frame(&mut self, frame: &ShownFrame, live: &SharedStream) {
         let Some(time_us) = frame.time_us else { return };

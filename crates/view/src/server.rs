@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A server of a page for browsers of this machine. Without the link a browser gets nothing: every
 //! path begins with a random token. The name of the host must be the server's, so that a foreign
-//! page cannot reach it under another name. A [`Site`] provides the content.
+//! page cannot reach it under another name. A [`PageSite`] provides the content.
 
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;

@@ -44,7 +44,7 @@ pub(crate) enum StreamStatus {
 /// The figures of a frame.
 #[derive(Clone, Debug, Serialize)]
 struct FrameFigures {
-    /// The [`Change`] that added the frame.
+    /// The [`ChangeCount`] that added the frame.
     #[serde(skip)]
     change: u64,
     number: u32,
@@ -189,7 +189,7 @@ impl SharedStream {
     }
 
     /// Notes that a FRAME packet cannot be read. This is reported once until a frame is shown, and
-    /// at most [`TOLD`] times.
+    /// at most [`REPORTED_LIMIT`] times.
     pub(crate) fn note_refusal(&self, text: String) {
         let mut state = self.lock();
         if state.refused.is_none() && state.refusals < REPORTED_LIMIT {

@@ -102,7 +102,7 @@ impl PageNetwork {
         Ok(())
     }
 
-    /// Makes the network of the file for frames of this size and depth. `wishes` is a [`Wishes`] as
+    /// Makes the network of the file for frames of this size and depth. `wishes` is a [`NetworkSettings`] as
     /// JSON. Returns the facts about the network.
     ///
     /// # Errors

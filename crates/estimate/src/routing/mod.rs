@@ -5,7 +5,7 @@
 //! Each device gets the synthesis of its family, and several seeds, because the result of one
 //! placement is random. Cores have more ports than a device has pins, and in use their ports
 //! connect to other logic, not to pins. So every port bit gets a flip-flop of its own, only the
-//! clock has a pin, and these flip-flops are not counted. See [`ports`].
+//! clock has a pin, and these flip-flops are not counted. See [`port_registers`].
 
 mod critical_path;
 mod device;

@@ -105,7 +105,7 @@ impl PlacementNetlist {
         })
     }
 
-    /// Returns the name of a net in the source, at the place where it is driven; see [`rank`].
+    /// Returns the name of a net in the source, at the place where it is driven; see [`name_rank`].
     pub(super) fn name(&self, net: u32) -> Option<String> {
         let names = self.netnames.iter().filter(|(_, known)| known.hide_name == 0);
         let best = names

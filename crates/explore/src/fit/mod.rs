@@ -5,17 +5,17 @@
 //! 1. If a share of active regions is wanted, the task's thresholds are set for it ([`target`]).
 //! 2. The search tries cameras. A camera says what is computed, and not how it is built. The search
 //!    tries region sizes and features, each with the thresholds that agree best with the ideal. For
-//!    the best of them it tries all depths, windows, filters and references ([`looks`]). With a
+//!    the best of them it tries all depths, windows, filters and references ([`search`]). With a
 //!    network, the search is a descent from the task instead: the network must agree, behind the
 //!    camera, with its outputs for whole frames ([`descent`], [`network`]).
 //! 3. Of the cameras that meet the limits, only the simplest are built: a camera is dropped if a
 //!    simpler one also meets the limits. Each is built with every feed and with the folds that are
 //!    fast enough and may be the cheapest, or pipelined if no serial array is fast enough; and as a
 //!    raster core, if one is fast enough ([`build`]). The most promising designs are synthesized
-//!    first ([`rough`]). If no clock is given, a planned clock decides which designs are tried. The
+//!    first ([`rough_cost`]). If no clock is given, a planned clock decides which designs are tried. The
 //!    clock that is estimated from the netlist decides whether they are fast enough, and which are
 //!    folded again ([`plan`]).
-//! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
+//! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`reasons`]).
 
 mod agreement;
 mod build;

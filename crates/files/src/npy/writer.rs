@@ -77,7 +77,7 @@ impl NpyWriter {
     /// Writes the number of frames into the header.
     ///
     /// # Errors
-    /// Fails like [`NpyWriter::write_out`].
+    /// Fails like [`NpyWriter::write_pending`].
     pub fn finish(mut self) -> Result<(), StagingError> {
         let header = self.header();
         self.file.overwrite(0, &header)

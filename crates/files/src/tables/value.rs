@@ -34,15 +34,15 @@ pub enum ColumnType {
 pub enum TableValue<'a> {
     /// No value: null in Parquet, and empty as text.
     None,
-    /// A value of [`Kind::Long`].
+    /// A value of [`ColumnType::Long`].
     Long(i64),
-    /// A value of [`Kind::Int`].
+    /// A value of [`ColumnType::Int`].
     Int(i32),
-    /// A value of [`Kind::Real`].
+    /// A value of [`ColumnType::Real`].
     Real(f64),
-    /// A value of [`Kind::Flag`].
+    /// A value of [`ColumnType::Flag`].
     Flag(bool),
-    /// A value of [`Kind::Text`].
+    /// A value of [`ColumnType::Text`].
     Text(&'a str),
 }
 

@@ -126,7 +126,7 @@ impl BoxFile {
     /// frame.
     ///
     /// # Errors
-    /// The errors are those of [`Boxes::at`].
+    /// The errors are those of [`BoxFile::boxes_of_frame`].
     pub fn object_rects(
         &self,
         frame: &SourceFrame,

@@ -21,7 +21,7 @@ pub struct ReadAheadFrames {
 }
 
 impl ReadAheadFrames {
-    /// Returns the next frame and its origin, as [`Source::origin`] gives it, or `None` after the
+    /// Returns the next frame and its origin, as [`FrameSource::origin`] gives it, or `None` after the
     /// last frame.
     ///
     /// # Errors

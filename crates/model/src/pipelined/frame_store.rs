@@ -49,7 +49,7 @@ impl RegionFrameStore {
     }
 
     /// Makes the frame that has just been decided the one that was sent last. Must be called before
-    /// [`Store::rotate`].
+    /// [`RegionFrameStore::rotate`].
     pub(super) fn send_decided(&mut self, plan: &RpuParameters) {
         let decided = if plan.second_pass { &self.previous } else { &self.current };
         self.sent.clone_from(decided);

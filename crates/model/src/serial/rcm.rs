@@ -45,7 +45,7 @@ impl SerialStage {
 }
 
 impl SerialRcm {
-    /// Makes the array of the design. The array of [`SerialDesign::one_lane`] is the core of one
+    /// Makes the array of the design. The array of [`SerialDesign::single_lane_design`] is the core of one
     /// RPU.
     #[must_use]
     pub fn new(design: SerialDesign<'_>) -> Self {

@@ -7,7 +7,7 @@ use std::ops::Range;
 /// The number of neighboring positions of a row that are computed at once.
 pub(crate) const CHUNK_POSITIONS: usize = 8;
 
-/// The first of [`CHUNK`] neighboring positions. In a narrower row the chunk is the row.
+/// The first of [`CHUNK_POSITIONS`] neighboring positions. In a narrower row the chunk is the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PositionChunk {
     pub(crate) x: usize,

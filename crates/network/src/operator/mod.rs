@@ -201,7 +201,7 @@ impl OperatorJob<'_> {
         self.fill_dyn(&fill);
     }
 
-    /// Calls `fill` as [`Job::fill`] does, but is compiled once for each type of values.
+    /// Calls `fill` as [`OperatorJob::fill`] does, but is compiled once for each type of values.
     fn fill_dyn<T: TensorNumber>(self, fill: &(dyn Fn(Range<usize>, &mut [T]) + Sync)) {
         let Self { form, output, positions: at, .. } = self;
         let output = output_values(output, form);

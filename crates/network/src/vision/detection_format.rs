@@ -131,7 +131,7 @@ impl DetectionFormat {
     }
 
     /// Decodes the detections with a score of at least `least`: the most likely class of every
-    /// cell, in pixels of the input. The outputs must have passed [`Head::check`].
+    /// cell, in pixels of the input. The outputs must have passed [`DetectionFormat::check`].
     #[must_use]
     pub fn decode(
         self,

@@ -74,10 +74,10 @@ impl VisionNetwork {
         Self::read_with(|size| Network::read(path, size), frame, viewing)
     }
 
-    /// Reads a network as [`Witness::read`] does, from the content of the file `path`.
+    /// Reads a network as [`VisionNetwork::read`] does, from the content of the file `path`.
     ///
     /// # Errors
-    /// Fails as [`Witness::read`] does.
+    /// Fails as [`VisionNetwork::read`] does.
     pub fn parse(
         bytes: &[u8],
         path: &Path,
@@ -218,7 +218,7 @@ impl<'a> std::iter::Sum<&'a OutputAgreement> for OutputAgreement {
 }
 
 impl OutputAgreement {
-    /// The agreement as one number from 0 to 1, as [`Sums::agreement`] defines it.
+    /// The agreement as one number from 0 to 1, as [`AgreementSums::agreement`] defines it.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.0.agreement()

@@ -9,7 +9,7 @@ use crate::palette::{ChartStyle, Colour, SERIES};
 pub const COLOUR_COUNT: usize = SERIES.len();
 
 /// Returns the class of a group's colour and the shape of its marks. Groups beyond twice
-/// [`COLOURS`] are grey.
+/// [`COLOUR_COUNT`] are grey.
 #[must_use]
 pub fn group_look(group: usize) -> (String, &'static str) {
     let shape = if (COLOUR_COUNT..2 * COLOUR_COUNT).contains(&group) { "box" } else { "dot" };

@@ -12,9 +12,9 @@ use crate::SimulatorError;
 pub(super) trait RowWriter: Send {
     /// Appends the rows of a frame.
     fn rows(&mut self, table: &EventTable, moment: &EventFrame<'_>);
-    /// Writes the buffered data, as [`super::sink::Sink::write_out`] does.
+    /// Writes the buffered data, as [`super::sink::FrameSink::write_out`] does.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
-    /// Returns the path that can be given up, as [`super::sink::Sink::expendable`] does.
+    /// Returns the path that can be given up, as [`super::sink::FrameSink::expendable_path`] does.
     fn expendable(&self) -> Option<PathBuf> {
         None
     }

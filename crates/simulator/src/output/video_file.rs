@@ -56,7 +56,7 @@ impl VideoFile {
         &self.path
     }
 
-    /// Takes the next picture. If ffmpeg fails, [`VideoFile::check`] returns the error.
+    /// Takes the next picture. If ffmpeg fails, [`VideoFile::check_encoder`] returns the error.
     pub(super) fn push(&mut self, picture: RawImage, time_us: u64) -> Result<(), SimulatorError> {
         self.encoder = match std::mem::replace(&mut self.encoder, EncoderState::Empty) {
             EncoderState::Empty => EncoderState::OnePicture(picture, time_us),
