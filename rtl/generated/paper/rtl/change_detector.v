@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Hit when a pixel differs from its reference by more than level.
+// Compares a pixel with its reference: a hit is a difference of more than level_i. Combinational.
 `default_nettype none
 
 module change_detector #(
     parameter WIDTH = 8  // bits of a pixel
 ) (
-    input  wire [WIDTH-1:0] pixel_i,      // of this frame
-    input  wire [WIDTH-1:0] reference_i,  // its reference
-    input  wire [WIDTH-1:0] level_i,      // a change is more than this
+    input  wire [WIDTH-1:0] pixel_i,      // pixel of this frame
+    input  wire [WIDTH-1:0] reference_i,  // reference of that pixel
+    input  wire [WIDTH-1:0] level_i,      // a difference above this level is a change
     output wire             hit_o         // |pixel_i - reference_i| > level_i
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate

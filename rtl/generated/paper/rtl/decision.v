@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// SRS from the votes of the features, active from SRS and TRS (the paper's Table I). The decision
-// stands for one clock on the outputs and, as forward_o, until the next one is made.
+// Makes SRS from the votes of the features, and the decision from SRS and TRS (Table I of the paper). The decision is on
+// srs_o, trs_o and active_o in the clock of valid_i; forward_o keeps active_o until the next decision.
 `default_nettype none
 
 module decision #(
@@ -9,16 +9,16 @@ module decision #(
 ) (
     input  wire                clk_i,     // clock, rising edge
     input  wire                rst_i,     // synchronous reset, active high
-    input  wire                valid_i,   // the votes are those of a whole frame
-    input  wire [FEATURES-1:0] votes_i,   // of the features
-    input  wire                trs_i,     // temporal relevance
-    output wire                srs_o,     // spatial relevance; 0 unless valid_i
-    output wire                trs_o,     // temporal relevance; 0 unless valid_i
-    output wire                active_o,  // both; 0 unless valid_i
-    output wire                forward_o  // the frame decided last is active
+    input  wire                valid_i,   // the votes and trs_i are those of a whole frame
+    input  wire [FEATURES-1:0] votes_i,   // votes of the features
+    input  wire                trs_i,     // TRS, the temporal relevance
+    output wire                srs_o,     // SRS, the spatial relevance; 0 unless valid_i
+    output wire                trs_o,     // TRS, the temporal relevance; 0 unless valid_i
+    output wire                active_o,  // SRS and TRS are both 1; 0 unless valid_i
+    output wire                forward_o  // the last decision was active, the one of this clock included
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The output register of the pixels that leave: those of an active frame, zero otherwise.
+// The output register of a region's pixels. After each edge it holds the pixel of an active frame, otherwise zeros.
 `default_nettype none
 
 module forward_gate #(
@@ -8,13 +8,13 @@ module forward_gate #(
     input  wire             clk_i,      // clock, rising edge
     input  wire             rst_i,      // synchronous reset, active high
     input  wire             step_i,     // a pixel comes out of the store
-    input  wire             forward_i,  // its frame was active
-    input  wire [WIDTH-1:0] pixel_i,    // that pixel
+    input  wire             forward_i,  // the frame of that pixel was active
+    input  wire [WIDTH-1:0] pixel_i,    // the pixel that comes out of the store
     output reg              valid_o,    // a pixel of an active frame leaves
-    output reg  [WIDTH-1:0] pixel_o     // that pixel, else 0
+    output reg  [WIDTH-1:0] pixel_o     // the pixel that leaves, otherwise 0
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Tells where the tail is in the sequence of frames since reset.
+// Follows the frames that pass the tail since reset. All outputs are registers, valid after the edge of the step they
+// follow from.
 `default_nettype none
 
 module frame_progress (
@@ -7,9 +8,9 @@ module frame_progress (
     input  wire rst_i,     // synchronous reset, active high
     input  wire step_i,    // a pixel enters the store
     input  wire last_i,    // the pixel is the last of the frame
-    output reg  done_o,    // for one clock: the counts are those of a whole frame
+    output reg  done_o,    // the counts are those of a whole frame, for one clock
     output reg  stored_o,  // the store holds a whole frame
-    output reg  second_o   // with done_o: it is not the first frame
+    output reg  second_o   // with done_o: the frame is not the first since reset
 );
 
     always @(posedge clk_i) begin

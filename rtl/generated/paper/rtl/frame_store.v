@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One region of pixels in distributed RAM with a single port: what is read is what the same step
-// overwrites, the pixel of one frame ago. It is reference, second pass and output buffer at once.
+// Stores the pixels of one region in distributed RAM with a single port. A read is combinational and shows the word before
+// the write of the same edge: the pixel of the frame before. The store is reference, input of the second pass and output
+// buffer at once.
 //
-// Banks of 256 words, the largest single-port primitive that synthesis maps reliably; a last one of
-// at most 128 words is made smaller.
+// It has banks of 256 words, the largest single-port primitive that synthesis maps reliably. A last bank of at most 128
+// words is made smaller.
 `default_nettype none
 
 module frame_store #(
@@ -13,12 +14,12 @@ module frame_store #(
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    write_i,    // write data_i at this edge
-    input  wire [ADDRESS_BITS-1:0] address_i,  // of the word, 0..PIXELS-1
+    input  wire [ADDRESS_BITS-1:0] address_i,  // address of the word, 0..PIXELS-1
     input  wire [       WIDTH-1:0] data_i,     // the word that is written
-    output wire [       WIDTH-1:0] data_o      // before the write
+    output wire [       WIDTH-1:0] data_o      // the stored word, before the write of this edge
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end

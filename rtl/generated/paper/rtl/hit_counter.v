@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Counts the hits of a frame. The clock after a frame's last step shows its count; the edge that
-// ends that clock restarts the count, with the first hit of the next frame if there is one.
+// Counts the hits of a frame. In the clock after a frame's last step count_o is the count of that frame. The edge that ends
+// this clock restarts the count, with the first hit of the next frame if it comes at that edge.
 `default_nettype none
 
 module hit_counter #(
@@ -9,11 +9,11 @@ module hit_counter #(
     input  wire             clk_i,      // clock, rising edge
     input  wire             rst_i,      // synchronous reset, active high
     input  wire             restart_i,  // the count is that of a whole frame
-    input  wire             hit_i,      // count one
+    input  wire             hit_i,      // adds one to the count
     output reg  [WIDTH-1:0] count_o     // hits so far
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Delays data by DEPTH advances. No reset, so that it maps to shift-register LUTs.
+// Delays a word by DEPTH advances. It has no reset, so that it maps to shift-register LUTs.
 `default_nettype none
 
 module line_delay #(
@@ -12,7 +12,7 @@ module line_delay #(
     output wire [WIDTH-1:0] data_o      // data_i of DEPTH advances ago
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (DEPTH < 1) begin : g_depth DEPTH_must_be_1_or_more u_refused (); end

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The fifth of the nine sorted pixels of a 3x3 window, two clocks after its step.
+// Computes the median, the fifth of the nine sorted pixels of a 3x3 window. The result comes two clocks after its step.
 //
-// Each column is sorted once, as it comes in. The median of nine is then the median of the largest
-// of the three low pixels, the median of the three middle ones and the smallest of the three high
-// ones.
+// Each column is sorted once, when it comes in. The median of nine is the median of three values: the largest of the
+// three low pixels, the median of the three middle pixels, and the smallest of the three high pixels.
 `default_nettype none
 
 module median3x3 #(
@@ -11,18 +10,18 @@ module median3x3 #(
 ) (
     input  wire             clk_i,      // clock, rising edge
     input  wire             rst_i,      // synchronous reset, active high
-    input  wire             advance_i,  // the window moves by one column
+    input  wire             advance_i,  // the window moves by one column at this edge
     input  wire             step_i,     // the window is complete with the incoming column
     input  wire             left_i,     // the incoming column is the first of its row
     input  wire             right_i,    // the center is the last of its row
-    input  wire [WIDTH-1:0] upper_i,    // the incoming column, top
-    input  wire [WIDTH-1:0] middle_i,   // ... middle
-    input  wire [WIDTH-1:0] lower_i,    // ... bottom
-    output reg              valid_o,    // a result, two clocks after step_i
-    output reg  [WIDTH-1:0] median_o    // that result
+    input  wire [WIDTH-1:0] upper_i,    // upper pixel of the incoming column
+    input  wire [WIDTH-1:0] middle_i,   // middle pixel of the incoming column
+    input  wire [WIDTH-1:0] lower_i,    // lower pixel of the incoming column
+    output reg              valid_o,    // a median is on median_o, two clocks after step_i
+    output reg  [WIDTH-1:0] median_o    // the median
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate
@@ -41,12 +40,12 @@ module median3x3 #(
         middle_of = greater(lesser(a, b), lesser(greater(a, b), c));
     endfunction
 
-    // Sorted columns: right is the newest, then center, then left.
+    // The sorted columns. `right` is the newest, then `center`, then `left`.
     reg [WIDTH-1:0] right_low_q, right_mid_q, right_high_q;
     reg [WIDTH-1:0] center_low_q, center_mid_q, center_high_q;
     reg [WIDTH-1:0] left_low_q, left_mid_q, left_high_q;
-    reg row_start_q;  // the column in right is the first of its row
-    reg clamp_q;      // the center's column stands for its right neighbor too
+    reg row_start_q;  // the column in `right` is the first of its row
+    reg clamp_q;      // the center's column is used in place of its right neighbor
     reg step_q;
 
     always @(posedge clk_i) begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The incoming column of a 3x3 window: the newest pixel and those one and two rows above it, with
-// the upper or lower one replaced by the middle at a border.
+// Makes the incoming column of a 3x3 window: the newest pixel and the pixels one and two rows above it. At a border the
+// middle pixel is used in place of the upper or the lower one. The column is combinational from pixel_i.
 `default_nettype none
 
 module window_column #(
@@ -8,17 +8,17 @@ module window_column #(
     parameter SIDE = 8    // pixels of a row of the stream
 ) (
     input  wire             clk_i,      // clock, rising edge
-    input  wire             advance_i,  // the window moves by one column
-    input  wire             top_i,      // no row above the middle
-    input  wire             bottom_i,   // no row below the middle
+    input  wire             advance_i,  // the window moves by one column at this edge
+    input  wire             top_i,      // there is no row above the middle
+    input  wire             bottom_i,   // there is no row below the middle
     input  wire [WIDTH-1:0] pixel_i,    // the newest pixel
-    output wire [WIDTH-1:0] upper_o,    // the column, top
-    output wire [WIDTH-1:0] middle_o,   // ... middle
-    output wire [WIDTH-1:0] lower_o,    // ... bottom
-    output wire [WIDTH-1:0] center_o    // the middle one advance ago: the center of the window
+    output wire [WIDTH-1:0] upper_o,    // upper pixel of the column
+    output wire [WIDTH-1:0] middle_o,   // middle pixel of the column
+    output wire [WIDTH-1:0] lower_o,    // lower pixel of the column
+    output wire [WIDTH-1:0] center_o    // the middle pixel of the advance before, which is the center of the window
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 2) begin : g_side SIDE_must_be_2_or_more u_refused (); end
     endgenerate

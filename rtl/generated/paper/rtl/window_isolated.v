@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Control of a 3x3 window over an isolated region: SIDE x SIDE pixels in, as many centers out.
+// Control of a 3x3 window over an isolated region: it takes SIDE x SIDE pixels and gives as many centers.
 //
-// The newest pixel is the lower right neighbor of the center, so a center steps SIDE + 1 advances
-// behind its pixel. The window advances with every pixel and, between frames, by itself until the
-// last center is out; a new frame ends such a flush and pushes the rest out with its own pixels.
+// The newest pixel is the lower right neighbor of the center, so a center steps SIDE + 1 advances after its pixel. The window
+// advances with every pixel and, between frames, by itself until the last center is out. A new frame ends such a flush, and
+// its pixels push the remaining centers out.
 //
-// The middle of the incoming column is at `middle_q`, one pixel ahead of the center. The clamps of
-// that column (top, bottom) and of its neighbors (left, right) follow from it alone.
+// The middle of the incoming column is at `middle_q`, one pixel ahead of the center. The borders of that column (top, bottom)
+// and of its neighbors (left, right) follow from `middle_q` alone.
 `default_nettype none
 
 module window_isolated #(
@@ -16,17 +16,17 @@ module window_isolated #(
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
     input  wire                    valid_i,    // a pixel comes in
-    output wire                    advance_o,  // lines and columns move at this edge
-    output wire                    step_o,     // with it a center is complete
-    output wire [ADDRESS_BITS-1:0] address_o,  // number of the next center of a region, 0 with the last
+    output wire                    advance_o,  // the line memories and the columns move at this edge
+    output wire                    step_o,     // with advance_o: a center is complete
+    output wire [ADDRESS_BITS-1:0] address_o,  // number of the next center of the region; 0 with the last center
     output wire                    last_o,     // the center is the last of the frame
-    output wire                    top_o,      // the incoming column is centered on the first row
-    output wire                    bottom_o,   // ... on the last row
+    output wire                    top_o,      // the middle of the incoming column is in the first row
+    output wire                    bottom_o,   // the middle of the incoming column is in the last row
     output wire                    left_o,     // the incoming column is the first of its row
     output wire                    right_o     // the center is the last of its row
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 2) begin : g_side SIDE_must_be_2_or_more u_refused (); end
         if (ADDRESS_BITS != $clog2(SIDE * SIDE)) begin : g_address_bits
@@ -39,11 +39,11 @@ module window_isolated #(
     localparam [ADDRESS_BITS-1:0] LEAD = SIDE;
     localparam [ADDRESS_BITS-1:0] LAST_ROW = PIXELS - SIDE;
 
-    reg  [ADDRESS_BITS-1:0] taken_q;   // pixels taken of the current frame
-    // The initial value keeps synthesis from moving this register into the store's address port,
-    // which would cost the store a second port.
+    reg  [ADDRESS_BITS-1:0] taken_q;   // number of pixels taken of the current frame
+    // The initial value keeps synthesis from moving this register into the address port of the store, which would give the
+    // store a second port.
     reg [ADDRESS_BITS-1:0] middle_q = {ADDRESS_BITS{1'b0}};  // position of the middle of the incoming column
-    reg                  center_q;  // there is a center, one pixel behind
+    reg                  center_q;  // the window has a center, one pixel behind the middle
 
     wire middle_first = middle_q == {ADDRESS_BITS{1'b0}};
     wire between = taken_q == {ADDRESS_BITS{1'b0}};
@@ -67,7 +67,7 @@ module window_isolated #(
         end
     end
 
-    // The column of the middle: its low bits, or a counter where SIDE is no power of two.
+    // The column of the middle: its low bits, or a counter if SIDE is not a power of two.
     wire row_start;
     generate
         if ((SIDE & (SIDE - 1)) == 0) begin : g_power_of_two

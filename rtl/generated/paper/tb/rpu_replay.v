@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Replays recorded vectors through `rpu` and compares every output at every clock, bit by bit
-// and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
-// where that bit is expected.
+// Replays recorded vectors through `rpu` and compares every output at every clock, bit by bit and with four states: an X
+// is a mismatch. An output that means something only with a valid bit is compared at the clocks at which the vectors expect
+// that bit.
 //
 // The vectors show 22 frames of 1 x 1 regions.
 // Decisions: 5 active, 11 held, 6 blank; 14 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
-//                  a line has a bit for each value that differs from the line before: bit 0 for the first
-//                  input declared below, then the others, then the expected outputs. These values
-//                  follow. The bit above them all says that the number of clocks comes first for which
-//                  the line is good; without it that is one. A line 0 is the end.
-//                  Inputs are applied, and outputs are expected after the rising edge with these inputs
+//                  a line has one bit for each value that differs from the line before: bit 0 for the first
+//                  input declared below, then the other inputs, then the expected outputs. These values
+//                  follow. If the bit above all of these is 1, the second number is the number of clocks for
+//                  which the line holds; otherwise it holds for one clock. A line 0 is the end.
+//                  Inputs are applied before a rising edge. Outputs are expected after it, with these inputs
 //                  still applied.
 //   +stop          ends at the first mismatch
-//   +ends=FILE     with a mismatch, ends after as many clocks as the next of these numbers, hexadecimal and growing
-//   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
+//    +ends=FILE     after a mismatch, ends at the next clock in this list of growing hexadecimal numbers
+//    +waves=FILE    writes the waves of all signals: VCD, or FST with `vvp SIMULATION -fst`
 //
-// Prints the first mismatch of each output, then a line that starts with PASS, FAIL or INCOMPLETE (no mismatch,
-// but the vectors do not show everything). The simulator's exit code is 0 only with PASS.
+// Prints the first mismatch of each output, then a line that starts with PASS, FAIL or INCOMPLETE (no mismatch, but the
+// vectors do not cover everything). The simulator's exit code is 0 only with PASS.
 
 `default_nettype none
 
 module rpu_replay;
 
-  // Inputs, and what the vectors say that they are next. ($fscanf does not write to inputs itself
-  // because Verilator 5.006 overlooks that they change then.)
+  // Inputs, and their next values in the vectors. ($fscanf does not write to inputs itself, because Verilator 5.006 then
+  // overlooks that they change.)
   reg clk_i = 1'b0;
   reg rst_i;
   reg valid_i;
@@ -42,7 +42,7 @@ module rpu_replay;
   reg [7:0] temporal_level_i_next;
   reg [6:0] temporal_min_i_next;
 
-  // Outputs, what they should be, and whether they have been wrong.
+  // Outputs, their expected values, and flags of those that have been wrong.
   wire decision_valid_o;
   wire srs_o;
   wire trs_o;
@@ -92,13 +92,13 @@ module rpu_replay;
   integer ends;
   integer failures;
   reg [63:0] clocks;
-  reg [63:0] last;  // with a mismatch, the run ends after so many clocks
-  reg [31:0] run;  // clocks for which the line is good
+  reg [63:0] last;  // after a mismatch, the run ends at this clock
+  reg [31:0] run;  // number of clocks for which the line holds
   reg [15:0] changes;  // the first number of the line
-  reg is_whole;  // whether every value of the line was there
+  reg is_whole;  // every value of the line could be read
   reg has_passed = 1'b0;
 
-  // The next line of the vectors.
+  // Reads the next line of the vectors.
   task read_line;
     begin
       changes = 16'd0;
@@ -123,7 +123,7 @@ module rpu_replay;
     end
   endtask
 
-  // Where a run ends that has no mismatch yet.
+  // Decides where a run without a mismatch ends.
   task read_end;
     begin
       if ($fscanf(ends, "%h", last) != 1) last = {64{1'b1}};

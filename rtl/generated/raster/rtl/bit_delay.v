@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A bit, DEPTH clocks later; forgotten by a reset.
+// Delays a bit by DEPTH clocks. A reset clears the bits under way.
 `default_nettype none
 
 module bit_delay #(
-    parameter DEPTH = 4  // clocks
+    parameter DEPTH = 4  // clocks from bit_i to bit_o; 0 is a wire
 ) (
     input  wire clk_i,  // clock, rising edge
     input  wire rst_i,  // synchronous reset, active high
-    input  wire bit_i,  // comes in
-    output wire bit_o   // and out
+    input  wire bit_i,  // the bit that enters
+    output wire bit_o   // bit_i of DEPTH clocks ago, 0 if a reset came since
 );
 
     generate

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Finds the frames of a stream whose first beats are marked, and gives whole ones to the core behind it; see docs/sync.md.
-// Pixels do not pass here: the core takes what stands on its pixel port at every edge at which valid_o and its ready are 1.
+// Finds the frames of a stream whose first beats are marked, and gives only whole frames to the core behind it
+// (docs/sync.md). Pixels do not pass through this module: the core takes its pixel port at every edge at which valid_o
+// and the core's ready are 1. The handshake is combinational; error_o is a register.
 `default_nettype none
 
 module frame_sync #(
-    parameter BEATS = 64,    // of a frame, 2 or more
+    parameter BEATS = 64,    // beats of a frame, at least 2
     parameter BEAT_BITS = 6  // ceil(log2(BEATS))
 ) (
     input  wire clk_i,    // clock, rising edge
     input  wire rst_i,    // synchronous reset, active high
     input  wire valid_i,  // a beat comes from outside
-    input  wire sof_i,    // the beat is the first of a frame; only with valid_i
-    input  wire open_i,   // the core takes a beat at this edge, if there is one
+    input  wire sof_i,    // the beat is the first of a frame; means something only with valid_i
+    input  wire open_i,   // the core would take a beat at this edge
     output wire ready_o,  // a beat from outside would be taken
-    output wire valid_o,  // a beat for the core
+    output wire valid_o,  // a beat is there for the core
     output wire error_o   // a beat came that fits no frame
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (BEATS < 2) begin : g_beats BEATS_must_be_2_or_more u_refused (); end
         if (BEAT_BITS != $clog2(BEATS)) begin : g_beat_bits BEAT_BITS_must_be_clog2_of_BEATS u_refused (); end
@@ -26,13 +27,13 @@ module frame_sync #(
     localparam BEFORE_LAST = BEATS - 2;
 
     reg inside_q;                // a frame is under way
-    reg fill_q;                  // ... and the core completes it by itself
-    reg start_q;                 // a frame has just had all its beats
+    reg fill_q;                  // a frame was cut short, and the core completes it without beats from outside
+    reg start_q;                 // a frame has just received all its beats
     reg error_q;
-    reg [BEAT_BITS-1:0] beat_q;  // the next beat of the frame under way; 0 where there is none
-    reg last_q;                  // the next beat is the last
+    reg [BEAT_BITS-1:0] beat_q;  // number of the next beat of the current frame; 0 without a frame
+    reg last_q;                  // the next beat is the last of its frame
 
-    // With a frame under way a beat must not be a first one, else it must.
+    // Inside a frame a beat must not be a first one. Between two frames it must be one.
     wire fits = inside_q != sof_i;
     wire comes = open_i && valid_i && !fill_q;
     wire passes = open_i && valid_o;

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// |value| > level, with one carry chain.
+// Compares the magnitude of a signed value with a level, with one carry chain. Combinational.
 //
-// The bits of a negative value are inverted, which gives |value| - 1; the lowest bit of the comparison
-// makes up for the missing one.
+// The bits of a negative value are inverted, which gives |value| - 1. The lowest bit of the comparison adds the missing one.
 `default_nettype none
 
 module magnitude_above #(
-    parameter WIDTH = 9,  // bits of the value, which is signed; the level has one less
-    parameter BORROW = 0  // 1: a bit of the difference is the result, for a short path; 0: a comparison, for few LUTs
+    parameter WIDTH = 9,  // 0: the result is a comparison (few LUTs); 1: it is a bit of a difference (a short path)
+    parameter BORROW = 0  // 0: the result is a comparison, which takes few LUTs; 1: the result is a bit of a difference, which makes a short path
 ) (
-    input  wire [WIDTH-1:0] value_i,  // signed
-    input  wire [WIDTH-2:0] level_i,  // unsigned
+    input  wire [WIDTH-1:0] value_i,  // the signed value
+    input  wire [WIDTH-2:0] level_i,  // the unsigned level
     output wire             above_o   // |value_i| > level_i
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 2) begin : g_width WIDTH_must_be_2_or_more u_refused (); end
     endgenerate
@@ -22,7 +21,7 @@ module magnitude_above #(
     wire negative = value_i[WIDTH-1];
     wire [WIDTH-2:0] inverted = value_i[WIDTH-2:0] ^ {(WIDTH - 1) {negative}};
 
-    // Synthesis makes LUTs of the comparison where it can, and of the difference a carry chain with nothing behind it.
+    // Synthesis may build the comparison of LUTs. It builds the difference as a carry chain with no logic behind it.
     wire [WIDTH:0] missing = {1'b0, level_i, !negative} - {1'b0, inverted, 1'b1};
 
     assign above_o = BORROW ? missing[WIDTH] : {inverted, 1'b1} > {level_i, !negative};

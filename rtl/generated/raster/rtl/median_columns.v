@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The fifth of the nine sorted pixels of 3x3 windows, for every pixel of a word at once.
+// Computes the medians of 3x3 windows for every pixel of a word at once: the fifth of the nine sorted pixels. The result
+// comes three clocks after its step, with DEEP six.
 //
-// Each column is sorted once, as it comes in. The median of nine is then the median of the largest of the
-// three low pixels, the median of the three middle ones and the smallest of the three high ones. Three pixels
-// are put in order by three comparisons side by side and one LUT for each bit of a result. Columns that are
-// neighbors are compared once, though two windows ask. A window that lacks a column at the border needs no
-// selection of pixels: it is enough to say how the comparisons would end if the center's column stood there.
+// Each column is sorted once, when it comes in. The median of nine is the median of three values: the largest of the three
+// low pixels, the median of the three middle pixels, and the smallest of the three high pixels. Three parallel comparisons
+// and one LUT per result bit sort three pixels. Neighboring columns are compared once, although two windows use the result.
+// A window that lacks a column at the border selects no pixels: the results of the comparisons are set to those that the
+// center's column would give there.
 `default_nettype none
 
 module median_columns #(
     parameter WIDTH = 8,  // bits of a pixel
     parameter LANES = 1,  // pixels of a word
-    parameter DEEP = 0    // 0: a result three clocks after its step; 1: six
+    parameter DEEP = 0    // 0: the result comes three clocks after its step; 1: six clocks
 ) (
     input  wire                   clk_i,     // clock, rising edge
-    input  wire                   step_i,    // columns come in; the centers are those of the step earlier
+    input  wire                   step_i,    // columns come in; the centers are the columns of the step before
     input  wire                   left_i,    // the first center has nothing on its left
     input  wire                   right_i,   // the last center has nothing on its right
-    input  wire                   top_i,     // the incoming columns have nothing at the top: any word is in upper_i
-    input  wire                   bottom_i,  // ... at the bottom: in lower_i
-    input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
-    input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
-    input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
-    output reg  [LANES*WIDTH-1:0] median_o   // of the centers
+    input  wire                   top_i,     // the incoming columns have nothing at the top: upper_i may hold any word
+    input  wire                   bottom_i,  // the incoming columns have nothing at the bottom: lower_i may hold any word
+    input  wire [LANES*WIDTH-1:0] upper_i,   // upper pixels of the incoming columns
+    input  wire [LANES*WIDTH-1:0] middle_i,  // middle pixels of the incoming columns
+    input  wire [LANES*WIDTH-1:0] lower_i,   // lower pixels of the incoming columns
+    output reg  [LANES*WIDTH-1:0] median_o   // medians of the centers, one per pixel of the word
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (LANES < 1) begin : g_lanes LANES_must_be_1_or_more u_refused (); end
     endgenerate
 
-    // Three pixels a, b, c in order, as a > b, b > c and a > c tell.
+    // Each of these functions returns one of three sorted pixels a, b, c. The comparisons are a > b, b > c and a > c.
     function [WIDTH-1:0] low_of(
         input ab, input bc, input ac, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
     );
@@ -50,7 +51,7 @@ module median_columns #(
         high_of = ab ? (ac ? a : c) : (bc ? b : c);
     endfunction
 
-    // Of a, b and c: 0: a, 1: b, 2 or 3: c.
+    // Selects one of three pixels. A choice of 0 is a, 1 is b, 2 or 3 is c.
     function [WIDTH-1:0] chosen(
         input [1:0] choice, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
     );
@@ -59,12 +60,12 @@ module median_columns #(
 
     localparam COLUMN = 3 * WIDTH;
 
-    // Sorted columns {high, mid, low}: the newest word, the centers, and the one on their left.
+    // Sorted columns {high, mid, low}: the newest word, the centers, and the column on their left.
     reg  [LANES*COLUMN-1:0] newest_q;
     reg  [LANES*COLUMN-1:0] center_q;
     reg  [      COLUMN-1:0] left_q;
     reg  merge_left_q;   // the first center has nothing on its left
-    reg  merge_right_q;  // the last one has nothing on its right
+    reg  merge_right_q;  // the last center has nothing on its right
     wire sort_step, sort_left, sort_right;
     genvar lane, level;
 
@@ -81,7 +82,8 @@ module median_columns #(
             wire bc = b > c;
             wire [COLUMN-1:0] sorted;  // {high, mid, low}
             if (DEEP) begin : g_deep
-                // If there is nothing at the top, a is not chosen; at the bottom, c; then b is the mid one.
+                // Without a row at the top, `a` is not chosen; without a row at the bottom, `c` is not chosen. In both cases `b` is
+                // the middle pixel.
                 reg [WIDTH-1:0] a_q, b_q, c_q;
                 reg ab_q, bc_q, ac_q, top_q, bottom_q;
                 always @(posedge clk_i) begin
@@ -96,7 +98,7 @@ module median_columns #(
             end else begin : g_plain
                 wire [WIDTH-1:0] top = top_i ? b : a;
                 wire [WIDTH-1:0] bottom = bottom_i ? b : c;
-                // How a comparison of two that are the same ends does not matter, so that no selection stands before it.
+                // Equal pixels may compare either way, so no selection is needed in front of this comparison.
                 wire ac = top > bottom;
                 assign sorted = {
                     high_of(ab, bc, ac, top, b, bottom), mid_of(ab, bc, ac, top, b, bottom),
@@ -117,16 +119,16 @@ module median_columns #(
         end
     end
 
-    // A window's columns side by side: left, the centers, the first of the newest word.
+    // The columns of the windows side by side: the left column, the centers, the first column of the newest word.
     wire [(LANES+2)*COLUMN-1:0] columns = {newest_q[COLUMN-1:0], center_q, left_q};
 
-    // For low, mid and high pixels: a > b, b > c and a > c of a column, the next and the next but one. At a
-    // border they are made to end so that the column that is not there is never chosen. The column on the
-    // right of a border has nothing on its left, so what it finds in last_q is made at the step earlier.
+    // Comparisons for the low, mid and high pixels: a > b, b > c and a > c of a column, the next one and the one after that.
+    // At a border their results are set so that the missing column is never chosen. The column to the right of a border has
+    // no left neighbor, so its entry in last_q is set one step earlier.
     wire [3*LANES-1:0] left_above;
     wire [3*LANES-1:0] next_above;
     wire [3*LANES-1:0] skip_above;
-    reg  [2:0] last_q;  // b > c of the last column, one step ago
+    reg  [2:0] last_q;  // b > c of the last column, of the step before
 
     always @(posedge clk_i) begin
         if (sort_step) begin
@@ -178,7 +180,7 @@ module median_columns #(
             wire [COLUMN-1:0] left = merged[lane*COLUMN+:COLUMN];
             wire [COLUMN-1:0] center = merged[(lane+1)*COLUMN+:COLUMN];
             wire [COLUMN-1:0] right = merged[(lane+2)*COLUMN+:COLUMN];
-            // The middle one of three is b if the comparisons of neighbors end alike, or in ab alone.
+            // mid_of gives b if ab and bc are equal. At a border bc is set equal to ab, so that the center is chosen.
             wire mid_bc = (lane == 0 && row_left)
                           || (lane == LANES - 1 && row_right ? row_ab[3*lane+1] : row_next[3*lane+1]);
             reg [WIDTH-1:0] x_q, y_q, z_q;

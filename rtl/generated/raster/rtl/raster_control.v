@@ -1,45 +1,45 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// When the core of `raster` advances, and where in the frame it is.
+// Decides when the `raster` core advances, and follows its place in the frame (docs/raster.md).
 //
-// The flags of a word travel with its advance: those of windows and tail are the flags of earlier words,
-// held back by as many advances and rows as the windows lag behind.
+// The flags of a word leave with its advance. Those of the windows and of the tail are the flags of earlier words, delayed
+// by as many advances and rows as the windows lag behind.
 `default_nettype none
 
 module raster_control #(
     parameter ROW_WORDS = 240,    // words of a row of the padded frame
-    parameter TAKEN_WORDS = 240,  // of them taken, at most ROW_WORDS
+    parameter TAKEN_WORDS = 240,  // words of a row that are taken, at most ROW_WORDS
     parameter ROWS = 1080,        // rows of the padded frame
-    parameter TAKEN_ROWS = 1080,  // of them taken, at most ROWS
+    parameter TAKEN_ROWS = 1080,  // rows that are taken, at most ROWS
     parameter WORD_BITS = 8,      // ceil(log2(ROW_WORDS))
     parameter ROW_BITS = 11,      // ceil(log2(ROWS))
     parameter SIDE = 8,           // rows of a region
     parameter SIDE_BITS = 3,      // ceil(log2(SIDE))
     parameter SEGMENT = 8,        // words of a row of a region
     parameter SEGMENT_BITS = 3,   // ceil(log2(SEGMENT)), at least 1
-    parameter ISOLATED = 0,       // 1: windows end at the borders of regions, not of the frame
-    parameter WINDOWS = 2,        // windows one behind the other, 0 to 2
+    parameter ISOLATED = 0,       // 1: windows end at the borders of regions; 0: at those of the frame
+    parameter WINDOWS = 2,        // number of windows, one behind the other, 0 to 2
     parameter SETTLE = 20,        // clocks from the last advance of a frame until the next may begin
     parameter SETTLE_BITS = 5     // ceil(log2(SETTLE))
 ) (
     input  wire clk_i,            // clock, rising edge
     input  wire rst_i,            // synchronous reset, active high
-    input  wire valid_i,          // a word may be taken
+    input  wire valid_i,          // a word is offered
     input  wire busy_i,           // the next frame may not begin yet
-    output reg  ready_o,          // a word would be taken
-    output wire step_o,           // the core advances at this edge; with it:
-    output wire pad_o,            // the word is made of the last pixel of its row
-    output wire taken_end_o,      // the word is the last one taken of its row
-    output wire repeat_o,         // the word is the one above it
-    output wire [1:0] left_o,     // of each window: the center has nothing on its left
-    output wire [1:0] right_o,    // ... on its right
-    output wire [1:0] top_o,      // ... above it
-    output wire [1:0] bottom_o,   // ... below it
+    output reg  ready_o,          // the offered word is taken
+    output wire step_o,           // the core advances at this edge; the ports below belong to this advance
+    output wire pad_o,            // the word is a copy of the last pixel of its row
+    output wire taken_end_o,      // the word is the last that is taken of its row
+    output wire repeat_o,         // the word is a copy of the word above it
+    output wire [1:0] left_o,     // one bit per window: the center has nothing on its left
+    output wire [1:0] right_o,    // one bit per window: the center has nothing on its right
+    output wire [1:0] top_o,      // one bit per window: the center has nothing above it
+    output wire [1:0] bottom_o,   // one bit per window: the center has nothing below it
     output wire tail_o,           // a word of the frame reaches the tail
     output wire segment_end_o,    // the word is the last of a row of its region
-    output wire row_end_o,        // ... of its row
+    output wire row_end_o,        // the word is the last of its row of the frame
     output wire region_top_o,     // the word is in the first row of its region
-    output wire region_bottom_o,  // ... in the last row
-    output wire frame_over_o      // at this edge a frame is over: the next may begin
+    output wire region_bottom_o,  // the word is in the last row of its region
+    output wire frame_over_o      // a frame is over at this edge, and the next may begin
 );
 
     localparam LAST_SETTLE = SETTLE - 1;
@@ -50,7 +50,7 @@ module raster_control #(
     localparam BEFORE_LAST_SIDE = SIDE - 2;
     localparam BEFORE_LAST_IN_SEGMENT = SEGMENT - 2;
 
-    // The word of the next advance: its place, and whether that is a last one.
+    // The word of the next advance: its place, and flags of its being a last one.
     reg [WORD_BITS-1:0] word_q;
     reg [ROW_BITS-1:0]  row_q;
     reg [SIDE_BITS-1:0] side_q;
@@ -58,10 +58,10 @@ module raster_control #(
     reg                 taken_end_q, taken_bottom_q, taken_row_q;
     wire                segment_end;
 
-    reg own_q;  // the core advances by itself
-    reg settling_q;                     // the frame's last advance has been, the next frame waits
-    reg [SETTLE_BITS-1:0] settle_q;     // for so many clocks
-    reg settled_q;                      // for none: a register, so that no comparison stands before ready_o
+    reg own_q;  // the core advances without a word from outside
+    reg settling_q;                     // the last advance of the frame is done, and the next frame waits
+    reg [SETTLE_BITS-1:0] settle_q;     // number of clocks that it still waits
+    reg settled_q;                      // this number is 0; a register, so that no comparison is in front of ready_o
 
     wire step = own_q || (ready_o && valid_i);
     wire next_row = step && row_end_q;
@@ -69,8 +69,8 @@ module raster_control #(
     // Flags of earlier words and rows.
     reg [3:1] unit_end_q, old_segment_end_q, old_row_end_q;
     reg [2:1] old_top_q, old_bottom_q, old_real_q, old_region_top_q, old_region_bottom_q;
-    wire frame_last;  // an advance would be the frame's last
-    wire frame_ends;  // it is now
+    wire frame_last;  // the next advance would be the last of the frame
+    wire frame_ends;  // the last advance of the frame happens at this edge
     wire unused_late = old_segment_end_q[3] || old_row_end_q[3] || old_top_q[2] || old_bottom_q[2] || old_real_q[2]
                        || old_region_top_q[2] || old_region_bottom_q[2];
     wire unit_end = (ISOLATED ? segment_end : row_end_q) || frame_last;
@@ -100,7 +100,7 @@ module raster_control #(
             assign frame_last = row_end_q && bottom_row_q;
             assign frame_ends = step && frame_last;
         end else begin : g_windows
-            // Behind the last row the core advances by itself, at every clock.
+            // Behind the last row the core advances at every clock, without words from outside.
             assign frame_last = !real_q && !old_real_q[WINDOWS] && old_row_end_q[WINDOWS];
             assign frame_ends = frame_last;
         end
@@ -151,7 +151,7 @@ module raster_control #(
         end
     end
 
-    // Who decides about the next advance.
+    // Decides whether the next advance takes a word or happens without one.
     wire last_taken = TAKEN_WORDS == ROW_WORDS ? row_end_q && taken_bottom_q : taken_end_q;
     always @(posedge clk_i) begin
         if (ready_o && valid_i && last_taken) begin
@@ -208,7 +208,7 @@ module raster_control #(
             assign region_top_o = region_top_q;
             assign region_bottom_o = region_bottom_q;
         end else begin : g_tail_late
-            // Held back by as many advances as there are windows.
+            // The flags are delayed by as many advances as there are windows.
             reg [2:0] held_q, held_2q;
             wire [2:0] held = WINDOWS == 1 ? held_q : held_2q;
             always @(posedge clk_i) begin

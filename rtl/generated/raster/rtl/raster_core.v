@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The whole camera for a frame that comes row by row, LANES pixels at every clock: windows, scores, decisions,
-// the pixels of active regions, and the means of others.
+// The whole camera for a frame that comes row by row, LANES pixels per clock: windows, scores, decisions, the pixels of
+// active regions, and the means of irrelevant ones. docs/raster.md defines each output at each clock.
 //
 //     word -> rows -> median -> rows -> edge, corner -> counts -> votes -> decision
 //                                  `-> center -> change <-> frame store
 //                                          `-> buffer -> readout of active regions
-//
-// docs/raster.md says what happens when.
 `default_nettype none
 
 // Parts that the design does not elaborate are left out, so some parameters have no use.
@@ -17,86 +15,86 @@ module raster_core #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
-    parameter COLUMNS = 4,           // regions side by side
-    parameter ROWS = 3,              // regions one below the other
+    parameter COLUMNS = 4,           // regions in a row of regions
+    parameter ROWS = 3,              // rows of regions
     parameter FRAME_WIDTH = 32,      // pixels of a row of the frame
     parameter FRAME_HEIGHT = 24,     // rows of the frame
-    parameter ISOLATED = 1,          // 1: windows end at the borders of regions, not of the frame
+    parameter ISOLATED = 1,          // 1: windows end at the borders of regions; 0: at those of the frame
     parameter MEDIAN = 1,            // 1: pixels are denoised
     parameter FEATURES = 1,          // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,    // two bits for each, the first lowest: edge, corner, mad, variance; counts first, mad last
+    parameter [7:0] KINDS = 8'd0,    // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance; counts first, mad last
     parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 1,            // 1: a region without SRS loses its reference (LAST_SENT)
     parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
     parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
-    parameter STORE = 0,             // references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside
+    parameter STORE = 0,             // the references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside the core
     parameter DEEP = 0,              // 1: more registers, for a faster clock
     parameter SETTLE = 11,           // clocks from the last advance of a frame to its last decision
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
-    parameter SCORE_BITS = 14,       // bits of all scores of a region: the changed pixels lowest, then every feature
-    parameter [32*FEATURES+31:0] ENDS = {32'd14, 32'd7},        // where each of them ends in these, the first lowest
+    parameter SCORE_BITS = 14,       // bits of all scores of a region: the temporal count lowest, then every feature
+    parameter [32*FEATURES+31:0] ENDS = {32'd14, 32'd7},        // 32 bits per score, the first lowest: the bit behind its end in the scores
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 4,       // ceil(log2(COLUMNS * ROWS))
-    parameter FRAME_BITS = 8,        // bits of the number of a frame, 2 or more (FORWARD)
+    parameter FRAME_BITS = 8,        // bits of the number of a frame, at least 2 (FORWARD)
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
     parameter FRACTION = 0,          // fraction bits of the mean (mad)
-    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum + half of the pixels
+    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum plus half of the pixels
     parameter MEAN_BITS = 8,         // bits of the mean
     parameter FACTOR_BITS = 1,       // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // dividend * FACTOR >> SHIFT is dividend / pixels
-    parameter SHIFT = 6,             // bits that are dropped of the product
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT is the dividend divided by the pixels of a region
+    parameter SHIFT = 6,             // bits of the product that are dropped
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (variance)
-    parameter PRODUCT_BITS = 28,     // bits of its products
-    parameter BLOCKS = 0,            // regions without SRS send the means of BLOCKS * BLOCKS blocks; 0: they do not
-    parameter BLOCK_SUM_BITS = 12,   // bits of the sum of a block and half of its pixels (BLOCKS)
+    parameter PRODUCT_BITS = 28,     // bits of the products of the variance
+    parameter BLOCKS = 0,            // regions without SRS send the means of BLOCKS * BLOCKS blocks; 0: they send nothing
+    parameter BLOCK_SUM_BITS = 12,   // bits of the sum of a block plus half of its pixels (BLOCKS)
     parameter BLOCK_FACTOR_BITS = 1, // bits of BLOCK_FACTOR
-    parameter [BLOCK_FACTOR_BITS-1:0] BLOCK_FACTOR = 1,  // sum * BLOCK_FACTOR >> BLOCK_SHIFT is sum / pixels of a block
-    parameter BLOCK_SHIFT = 4        // bits that are dropped of the product
+    parameter [BLOCK_FACTOR_BITS-1:0] BLOCK_FACTOR = 1,  // (sum * BLOCK_FACTOR) >> BLOCK_SHIFT divides by the pixels of a block
+    parameter BLOCK_SHIFT = 4        // bits of the product that are dropped
 ) (
     input  wire                       clk_i,               // clock, rising edge
     input  wire                       rst_i,               // synchronous reset, active high
-    input  wire                       valid_i,             // a word is taken at this edge, if ready_o
-    input  wire [    LANES*WIDTH-1:0] pixel_i,             // the word, its left pixel in the lowest bits
-    output wire                       ready_o,             // a word would be taken
-    input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a pixel is an edge above this
-    input  wire [          WIDTH-1:0] corner_level_i,      // ... a corner
-    input  wire [          WIDTH-1:0] temporal_level_i,    // ... has changed
-    input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more is sent again (BLOCKS)
-    input  wire [     SCORE_BITS-1:0] minima_i,            // from which on each score votes, that of the changed pixels for TRS
-    output wire                       decision_valid_o,    // the decision for region_o
+    input  wire                       valid_i,             // a word is offered, and is taken with ready_o
+    input  wire [    LANES*WIDTH-1:0] pixel_i,             // the word that comes in, its left pixel in the lowest bits
+    output wire                       ready_o,             // the offered word is taken
+    input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a gradient above this level is a hit of `edge`
+    input  wire [          WIDTH-1:0] corner_level_i,      // a neighbor differs from its center above this level (`corner`)
+    input  wire [          WIDTH-1:0] temporal_level_i,    // a pixel has changed above this difference
+    input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more than this level is sent again (BLOCKS)
+    input  wire [     SCORE_BITS-1:0] minima_i,            // smallest value of each score that votes; the lowest belongs to TRS
+    output wire                       decision_valid_o,    // the decision for region_o is on the ports
     output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
-    output wire                       srs_o,               // spatial relevance
-    output wire                       trs_o,               // temporal relevance
-    output wire                       active_o,            // both
-    output wire                       summary_o,           // its means leave (BLOCKS)
-    output wire [     SCORE_BITS-1:0] scores_o,            // its scores
+    output wire                       srs_o,               // SRS, the spatial relevance of the region
+    output wire                       trs_o,               // TRS, the temporal relevance of the region
+    output wire                       active_o,            // SRS and TRS are both 1
+    output wire                       summary_o,           // the means of region_o are sent (BLOCKS)
+    output wire [     SCORE_BITS-1:0] scores_o,            // scores of region_o
     output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
     input  wire                       reference_valid_i,   // a reference is on the port
-    input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // that reference
+    input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // the reference on the port
     output wire                       store_valid_o,       // a word is to be stored (STORE 3)
-    output wire [    LANES*WIDTH-1:0] store_pixel_o,       // that word
-    output wire                       store_last_o,        // the word is the last of a row
-    output wire                       underrun_o,          // a reference was not there since reset (STORE 3)
-    input  wire                       forward_ready_i,     // the word on the port is taken
-    output wire                       forward_valid_o,     // a word of an active region leaves
-    output wire [    REGION_BITS-1:0] forward_region_o,    // its region
-    output wire [  POSITION_BITS-1:0] forward_position_o,  // number in its region of its first pixel
-    output wire [    LANES*WIDTH-1:0] forward_pixel_o,     // that word
-    output wire                       forward_first_o,     // the first of its region
-    output wire                       forward_last_o,      // the last that comes of its region
-    output wire                       forward_abort_o,     // the last, because its region was lost in the middle
-    output wire [     FRAME_BITS-1:0] forward_frame_o,     // number of the frame of its region since reset
-    output wire                       forward_summary_o,   // the word is the mean of a block (BLOCKS)
-    output wire                       lost_o,              // a region was lost since reset
-    output wire [               15:0] lost_count_o,        // how many, up to the largest number
-    output wire                       lost_valid_o,        // a region was lost at the edge before
-    output wire [    REGION_BITS-1:0] lost_region_o,       // which
-    output wire [     FRAME_BITS-1:0] lost_frame_o         // number of its frame since reset
+    output wire [    LANES*WIDTH-1:0] store_pixel_o,       // the word to be stored
+    output wire                       store_last_o,        // the word to be stored is the last of a row
+    output wire                       underrun_o,          // a reference was missing at least once since reset (STORE 3)
+    input  wire                       forward_ready_i,     // the word on the forward ports is taken
+    output wire                       forward_valid_o,     // a word is on the forward ports
+    output wire [    REGION_BITS-1:0] forward_region_o,    // number of the region of the forwarded word
+    output wire [  POSITION_BITS-1:0] forward_position_o,  // position in its region of the first pixel of the word
+    output wire [    LANES*WIDTH-1:0] forward_pixel_o,     // the forwarded word
+    output wire                       forward_first_o,     // the forwarded word is the first of its region
+    output wire                       forward_last_o,      // the forwarded word is the last that comes of its region
+    output wire                       forward_abort_o,     // the forwarded word is the last because its region was lost in the middle
+    output wire [     FRAME_BITS-1:0] forward_frame_o,     // number since reset of the frame of the forwarded region
+    output wire                       forward_summary_o,   // the forwarded word is the mean of a block (BLOCKS)
+    output wire                       lost_o,              // at least one region was lost since reset
+    output wire [               15:0] lost_count_o,        // number of lost regions, up to the largest number of this width
+    output wire                       lost_valid_o,        // a region was lost at the last edge
+    output wire [    REGION_BITS-1:0] lost_region_o,       // number of the lost region
+    output wire [     FRAME_BITS-1:0] lost_frame_o         // number since reset of the frame of the lost region
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (LANES != 1 && LANES != 2 && LANES != 4) begin : g_lanes LANES_must_be_1_2_or_4 u_refused (); end
         if (SIDE % LANES != 0) begin : g_side SIDE_must_be_a_multiple_of_LANES u_refused (); end
@@ -132,13 +130,13 @@ module raster_core #(
     localparam TAKEN_WORDS = (FRAME_WIDTH + LANES - 1) / LANES;
     localparam REGIONS = COLUMNS * ROWS;
     localparam WORD_BITS = $clog2(ROW_WORDS);
-    // The list of features: counts of hits, then the sums. The score of mad comes last, that of variance before it.
-    localparam [9:0] KINDS_BEFORE = {KINDS, 2'd0};  // of the features before each
+    // The list of features: counts of hits first, then sums. The score of mad is the last, that of variance the one before it.
+    localparam [9:0] KINDS_BEFORE = {KINDS, 2'd0};  // kinds of the features before each feature
     localparam MAD = KINDS_BEFORE[2*FEATURES+:2] == 2 ? 1 : 0;
     localparam VARIANCE = KINDS_BEFORE[2*(FEATURES-MAD)+:2] == 3 ? 1 : 0;
     localparam HITS = FEATURES - MAD - VARIANCE;
     localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
-    localparam integer SETTLED_BITS = ENDS[32*(FEATURES-MAD)+:32];  // of all scores but that of mad
+    localparam integer SETTLED_BITS = ENDS[32*(FEATURES-MAD)+:32];  // bits of all scores except that of mad
     localparam VARIANCE_BITS = VARIANCE ? SETTLED_BITS - COUNTS_BITS : 1;
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
     localparam BANKS = MAD ? 3 : 2;
@@ -150,15 +148,15 @@ module raster_core #(
     localparam REGION_COLUMN_BITS = $clog2(COLUMNS);
     localparam NUMBER_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;  // bits of the number of a block
 
-    // Clocks from one place to another; see docs/raster.md.
-    localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to the column of its window
+    // Clocks from one place in the pipeline to another; see docs/raster.md.
+    localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to its column of the window
     localparam MEDIAN_CLOCKS = MEDIAN ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
-    localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (HITS > 0 ? COLUMN_CLOCKS : 0);  // ... to the center of the last window
-    localparam STORE_CLOCKS = 2 + DEEP;                                // from there to the stores
-    localparam HIT_CLOCKS = 4 + DEEP;                                  // ... to the hits
+    localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (HITS > 0 ? COLUMN_CLOCKS : 0);  // from a word to the center of the last window
+    localparam STORE_CLOCKS = 2 + DEEP;                                // from the center to the stores
+    localparam HIT_CLOCKS = 4 + DEEP;                                  // from the center to the hits
 
-    // A large store is made of groups of banks if it has to be fast. References come in order, so that they can be asked
-    // for as early as it takes them to pass the groups: at the earliest at the advance with which their word reaches the tail.
+    // With DEEP a large store is made of groups of banks. References come in order, so a reference can be requested early
+    // enough to pass the groups: at the earliest at the advance with which its word reaches the tail.
     localparam BANK_BITS = 14;
     localparam STORE_BANKS = (FRAME_WORDS + (1 << BANK_BITS) - 1) >> BANK_BITS;
     localparam IN_GROUPS = DEEP && STORE == 0 && !LAST_SENT && STORE_BANKS > 1 && CENTER_CLOCKS > 2;
@@ -167,7 +165,7 @@ module raster_core #(
     localparam GROUP_BITS = LEAST_GROUP_BITS > 1 ? LEAST_GROUP_BITS : 1;
     localparam GROUPS = IN_GROUPS ? (STORE_BANKS + (1 << GROUP_BITS) - 1) >> GROUP_BITS : 0;
 
-    // ---- When and where
+    // ---- Advances and the place in the frame
     wire advance, pad, taken_end, repeated, in_tail;
     wire advance_segment_end, advance_row_end, advance_region_top, advance_region_bottom;
     wire [1:0] advance_left, advance_right, advance_top, advance_bottom;
@@ -194,7 +192,7 @@ module raster_core #(
         .clk_i(clk_i), .step_i(advance), .pad_i(pad), .end_i(taken_end), .word_i(pixel_i), .word_o(made)
     );
 
-    // ---- The words of the frame, a clock later if deep
+    // ---- The words of the frame, one clock later with DEEP
     wire step, tail, segment_end, row_end, region_top, region_bottom, row_repeated;
     wire [1:0] left, right, top, bottom;
     wire [WORD-1:0] word;
@@ -208,10 +206,10 @@ module raster_core #(
         .data_o({word, left, right, top, bottom, row_repeated, segment_end, row_end, region_top, region_bottom})
     );
 
-    // ---- Denoise
-    wire scored_step;              // the word of the last window
+    // ---- Denoising
+    wire scored_step;              // a word enters the last window
     wire [WORD-1:0] scored_word;
-    wire [WORD-1:0] scored_raw;    // the same word before the filter (RAW)
+    wire [WORD-1:0] scored_raw;    // that word before the filter (RAW)
     wire scored_repeated;
     generate
         if (MEDIAN) begin : g_median
@@ -241,7 +239,7 @@ module raster_core #(
             if (RAW) begin : g_raw
                 reg [WORD-1:0] raw_q;
                 always @(posedge clk_i) if (column_step) raw_q <= middle;
-                // With the step that makes a word the center its column is in raw_q a clock later.
+                // In the step that makes a word the center, its column is in raw_q one clock later.
                 word_delay #(.WIDTH(WORD), .DEPTH(MEDIAN_CLOCKS - COLUMN_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(raw_q), .data_o(scored_raw)
                 );
@@ -264,7 +262,7 @@ module raster_core #(
     endgenerate
 
     // ---- The windows of the features
-    wire [(HITS+1)*LANES-1:0] hits;  // changed pixels lowest, then those of every feature that counts
+    wire [(HITS+1)*LANES-1:0] hits;  // the changed pixels lowest, then the hits of every feature that counts
     wire [WORD-1:0] center_word;     // the center of the last window
     wire unused_levels = |edge_level_i || |corner_level_i;
     genvar i;
@@ -315,7 +313,7 @@ module raster_core #(
         end
     endgenerate
 
-    // ---- The center of the last window, its place in the frame, and the frame before
+    // ---- The center of the last window, its place in the frame, and its reference
     wire [WORD-1:0] center;
     wire center_step, store_step, arriving_step, hit_step;
 
@@ -403,7 +401,7 @@ module raster_core #(
 
     localparam VARIANCE_CLOCKS = VARIANCE ? 3 : 0;
     wire [SUM_BITS-1:0] sum;
-    wire settled;  // all scores but that of mad are there
+    wire settled;  // all scores except that of mad are there
     wire [SETTLED_BITS-1:0] settled_scores;
     bit_delay #(.DEPTH(VARIANCE_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
     word_delay #(.WIDTH(COUNTS_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
@@ -412,7 +410,7 @@ module raster_core #(
     generate
         if (MAD || VARIANCE) begin : g_moments
             wire [VARIANCE_BITS-1:0] variance;
-            // Hits come two clocks behind the center.
+            // Hits come two clocks after the center.
             raster_moments #(
                 .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .COLUMNS(COLUMNS), .VARIANCE(VARIANCE),
                 .SUM_BITS(SUM_BITS), .SQUARE_SUM_BITS(SQUARE_SUM_BITS), .PRODUCT_BITS(PRODUCT_BITS),
@@ -431,7 +429,7 @@ module raster_core #(
         end
     endgenerate
 
-    // Where in the buffer of rows of regions the word goes that is stored.
+    // The place in the ring buffer of rows of regions where a word is stored.
     wire [START_BITS-1:0] store_place;
     generate
         if (FORWARD || MAD) begin : g_ring
@@ -444,7 +442,7 @@ module raster_core #(
         end
     endgenerate
 
-    // Whether a mean of a region differs, and whether its summary is shown, comes with its counts.
+    // Two bits come with the counts of a region: a mean of it differs, and its summary is shown.
     localparam OTHER_BITS = SETTLED_BITS + (BLOCKS > 0 ? 2 : 0);
     wire differs, settled_differs, judged_differs;
     wire shown, settled_shown, judged_shown;
@@ -452,7 +450,7 @@ module raster_core #(
         .clk_i(clk_i), .data_i({differs, shown}), .data_o({settled_differs, settled_shown})
     );
 
-    wire judged;  // all scores are there
+    wire judged;  // all scores of a region are there
     wire [SCORE_BITS-1:0] scores;
     generate
         if (MAD) begin : g_deviation
@@ -486,12 +484,12 @@ module raster_core #(
     // ---- Decision
     wire decided;       // a region is decided
     wire will_be_active;
-    wire will_be_sent;  // its summary is
-    wire mark;          // travels with it (LAST_SENT)
-    wire will_be_shown; // the screen shows its summary
+    wire will_be_sent;  // the summary of this region is sent
+    wire mark;          // a mark that stays with the region (LAST_SENT)
+    wire will_be_shown; // the screen shows the summary of this region
     wire [REGION_BITS-1:0] decided_region;
-    wire last_region;   // with the decision: the last of the frame
-    wire lost_reference;  // a region is lost, and its reference with it
+    wire last_region;   // with the decision: the region is the last of the frame
+    wire lost_reference;  // a region is lost, so that its reference is no longer valid
     wire [REGION_BITS-1:0] lost_reference_region;
     wire lost_mark;
 
@@ -534,7 +532,7 @@ module raster_core #(
                 assign stored_raw = {WORD{1'b0}};
             end
 
-            // The means of regions that send them.
+            // The means of regions that send a summary.
             wire mean_valid, sent, done_sending, done_lost;
             wire [REGION_COLUMN_BITS-1:0] mean_region;
             wire [1:0] mean_row;
@@ -601,13 +599,13 @@ module raster_core #(
         end
     endgenerate
 
-    // With few rows of regions the next frame waits until no region is under way.
+    // With few rows of regions, the next frame waits until no region is under way.
     generate
         if ((LAST_SENT || BLOCKS > 0) && ROWS <= BANKS) begin : g_waits
             wire undecided;
             if (MAD) begin : g_undecided
                 localparam REGIONS_BITS = $clog2(BANKS * COLUMNS) + 1;
-                reg [REGIONS_BITS-1:0] regions_q;  // regions that wait for their second pass, and are in it
+                reg [REGIONS_BITS-1:0] regions_q;  // number of regions that wait for their second pass or are in it
                 wire [REGIONS_BITS-1:0] waiting = regions_q - {{(REGIONS_BITS - 1) {1'b0}}, decided};
                 always @(posedge clk_i) begin
                     if (rst_i) regions_q <= {REGIONS_BITS{1'b0}};

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Counts the hits of regions, of all features side by side. A row of regions is under way at a time.
+// Counts the hits of regions, all features in parallel. done_o and counts_o come two clocks after the last hits of a region,
+// with DEEP three. The regions of one row of regions are counted at a time.
 //
-// The hits of a row of a region are counted in registers, and added to those of the rows above it from a
-// memory with a word for each column of regions. The sum of a region's last row is never written, so a word
-// of the memory has no room for it.
+// The hits of a row of a region are counted in registers, and added to those of the rows above it from a memory with one
+// word per column of regions. The sum of a region's last row is never written, so the words of the memory are too narrow
+// for it.
 `default_nettype none
 
 module raster_counts #(
     parameter LANES = 1,        // pixels of a word
-    parameter FEATURES = 2,     // hits that are counted side by side
+    parameter FEATURES = 2,     // number of hits that are counted in parallel
     parameter SIDE = 8,         // rows of a region
     parameter COUNT_BITS = 7,   // bits of a count, 0..SIDE * SIDE
-    parameter COLUMNS = 240,    // regions side by side
+    parameter COLUMNS = 240,    // regions in a row of regions
     parameter COLUMN_BITS = 8,  // ceil(log2(COLUMNS))
-    parameter DEEP = 0          // 0: counts two clocks after their last hits; 1: three
+    parameter DEEP = 0          // 0: counts come two clocks after the last hits; 1: three clocks
 ) (
     input  wire                           clk_i,            // clock, rising edge
     input  wire                           rst_i,            // synchronous reset, active high
-    input  wire                           step_i,           // hits of a word come in
-    input  wire [     FEATURES*LANES-1:0] hits_i,           // the hits
+    input  wire                           step_i,           // the hits of a word come in
+    input  wire [     FEATURES*LANES-1:0] hits_i,           // hits of the word: LANES bits per feature, the first feature lowest
     input  wire                           segment_end_i,    // the word is the last of a row of its region
-    input  wire                           row_end_i,        // ... of its row
+    input  wire                           row_end_i,        // the word is the last of its row of the frame
     input  wire                           region_top_i,     // the word is in the first row of its region
-    input  wire                           region_bottom_i,  // ... in the last row
-    output wire                           done_o,           // the counts are those of a whole region
-    output wire [FEATURES*COUNT_BITS-1:0] counts_o          // of one region
+    input  wire                           region_bottom_i,  // the word is in the last row of its region
+    output wire                           done_o,           // counts_o is that of a whole region
+    output wire [FEATURES*COUNT_BITS-1:0] counts_o          // counts of that region, the first feature lowest
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COUNT_BITS != $clog2(SIDE * SIDE + 1)) begin : g_count_bits
             COUNT_BITS_must_hold_SIDE_squared u_refused ();
@@ -35,11 +36,11 @@ module raster_counts #(
         if (COLUMNS < 4) begin : g_columns COLUMNS_must_be_4_or_more u_refused (); end
     endgenerate
 
-    localparam ROW_BITS = $clog2(SIDE + 1);                 // hits of a row of a region
-    localparam KEPT_BITS = $clog2((SIDE - 1) * SIDE + 1);   // ... of all rows but the last
-    localparam EARLY = SIDE > LANES;                        // a row of a region is more than a word
+    localparam ROW_BITS = $clog2(SIDE + 1);                 // bits of the hits of a row of a region
+    localparam KEPT_BITS = $clog2((SIDE - 1) * SIDE + 1);   // bits of the hits of all rows except the last
+    localparam EARLY = SIDE > LANES;                        // 1: a row of a region takes more than one word
 
-    // The hits of a row of a region.
+    // The hits of the current row of a region.
     reg [FEATURES*ROW_BITS-1:0] row_q;
     reg fresh_q;  // the next word is the first of a row of its region
     reg ended_q, top_q, bottom_q;
@@ -71,7 +72,7 @@ module raster_counts #(
         end
     end
 
-    // Those of the rows above it.
+    // The hits of the rows above it.
     wire [FEATURES*KEPT_BITS-1:0] kept_above;
     wire [FEATURES*KEPT_BITS-1:0] above;
     wire [FEATURES*KEPT_BITS-1:0] kept;
@@ -84,8 +85,8 @@ module raster_counts #(
         .clk_i(clk_i), .write_i(write), .write_address_i(write_column), .data_i(kept),
         .read_i(1'b1), .read_address_i(column_q), .output_i(1'b1), .data_o(kept_above)
     );
-    // Nothing is above a region's first row. Where a row of a region takes several words, its place is known early, and
-    // the memory, which may stand far from here, has a clock for the way.
+    // Nothing is above the first row of a region. If a row of a region takes several words, its column is known early, and the
+    // memory, which may be far from here, has one clock for the way.
     wire top;
     word_delay #(.WIDTH(1), .DEPTH(DEEP && !EARLY ? 1 : 0)) u_top (.clk_i(clk_i), .data_i(top_q), .data_o(top));
     word_delay #(.WIDTH(FEATURES * KEPT_BITS), .DEPTH(DEEP && EARLY ? 1 : 0)) u_above (

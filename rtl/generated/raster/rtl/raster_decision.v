@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The decision for a region whose scores are there: votes, SRS, TRS, and whether its reference is valid.
-// Regions come in their order. A clock later (deep: two) their decision is on the ports.
+// Makes the decision of a region from its scores: votes, SRS, TRS, active, and the validity of its reference. Regions come
+// in order. The decision is on the ports one clock after judged_i, with DEEP two.
 `default_nettype none
 
 // Parts that the design does not elaborate are left out, so some parameters have no use.
@@ -12,41 +12,41 @@ module raster_decision #(
     parameter LAST_SENT = 0,     // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,        // 1: a region without SRS loses its reference (LAST_SENT)
     parameter SUMMARIES = 0,     // 1: a region without SRS may send its summary
-    parameter DEEP = 0,          // 1: a register more, for a faster clock
+    parameter DEEP = 0,          // 1: one more register, for a faster clock
     parameter PIXELS = 64,       // pixels of a region
     parameter COUNT_BITS = 7,    // bits of a count, 0..PIXELS
     parameter REGIONS = 32400,   // regions of the frame
     parameter REGION_BITS = 15,  // ceil(log2(REGIONS))
-    parameter SCORE_BITS = 14,   // bits of all scores of a region: the changed pixels lowest, then every feature
-    parameter [32*FEATURES+31:0] ENDS = 64'h0000000E_00000007  // where each of them ends in these, the first lowest
+    parameter SCORE_BITS = 14,   // bits of all scores of a region: the temporal count lowest, then every feature
+    parameter [32*FEATURES+31:0] ENDS = 64'h0000000E_00000007  // 32 bits per score, the first lowest: the bit behind its end in the scores
 ) (
     input  wire                   clk_i,             // clock, rising edge
     input  wire                   rst_i,             // synchronous reset, active high
-    input  wire                   judged_i,          // the scores of a region are there
-    input  wire [ SCORE_BITS-1:0] scores_i,          // they; changed pixels as against the reference, valid or not
+    input  wire                   judged_i,          // all scores of a region are there
+    input  wire [ SCORE_BITS-1:0] scores_i,          // scores of that region; the temporal count assumes a valid reference
     input  wire [ SCORE_BITS-1:0] minima_i,          // from which on each votes, that of the changed pixels for TRS
-    input  wire                   shown_i,           // the screen shows its summary (SUMMARIES)
-    input  wire                   differs_i,         // a mean of it differs from the one sent last (SUMMARIES)
-    input  wire                   lost_i,            // a region is lost, and its reference with it
-    input  wire [REGION_BITS-1:0] lost_region_i,     // which
-    input  wire                   lost_mark_i,       // its mark
+    input  wire                   shown_i,           // the screen shows the summary of this region (SUMMARIES)
+    input  wire                   differs_i,         // a mean of this region differs from the one that was sent last (SUMMARIES)
+    input  wire                   lost_i,            // a region is lost, so that its reference is no longer valid
+    input  wire [REGION_BITS-1:0] lost_region_i,     // number of the lost region
+    input  wire                   lost_mark_i,       // mark_o of the lost region
     output wire                   decided_o,         // the decision is on the ports after the next edge
-    output wire                   will_be_active_o,  // and active_o with it
-    output wire                   will_be_sent_o,    // or summary_o
+    output wire                   will_be_active_o,  // with decided_o: the region will be active
+    output wire                   will_be_sent_o,    // with decided_o: the summary of the region will be sent
     output wire                   will_be_shown_o,   // with decided_o: the screen shows the region's summary from now on (SUMMARIES)
-    output wire [REGION_BITS-1:0] decided_region_o,  // with decided_o: the region
-    output wire                   mark_o,            // with the decision: what comes back if the region is lost
-    output reg                    decision_valid_o,  // the decision for region_o
+    output wire [REGION_BITS-1:0] decided_region_o,  // with decided_o: number of the region
+    output wire                   mark_o,            // with the decision: the mark that must come back if the region is lost
+    output reg                    decision_valid_o,  // the decision for region_o is on the ports
     output reg  [REGION_BITS-1:0] region_o,          // the region that is decided
-    output reg                    last_region_o,     // with the decision: the last region of the frame
-    output reg                    srs_o,             // spatial relevance
-    output reg                    trs_o,             // temporal relevance
-    output reg                    active_o,          // both
-    output wire                   summary_o,         // its summary is sent (SUMMARIES)
-    output reg  [ SCORE_BITS-1:0] scores_o           // its scores
+    output reg                    last_region_o,     // with the decision: the region is the last of the frame
+    output reg                    srs_o,             // SRS, the spatial relevance of the region
+    output reg                    trs_o,             // TRS, the temporal relevance of the region
+    output reg                    active_o,          // SRS and TRS are both 1
+    output wire                   summary_o,         // the summary of region_o is sent (SUMMARIES)
+    output reg  [ SCORE_BITS-1:0] scores_o           // scores of region_o
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (ENDS[31:0] != COUNT_BITS[31:0] || ENDS[32*FEATURES+:32] != SCORE_BITS[31:0]) begin : g_ends
             ENDS_must_be_from_COUNT_BITS_to_SCORE_BITS u_refused ();
@@ -56,13 +56,13 @@ module raster_decision #(
     localparam BEFORE_LAST = REGIONS - 2;
     localparam [32*FEATURES+63:0] STARTS = {ENDS, 32'd0};
 
-    reg [REGION_BITS-1:0] region_q;  // the region that is judged
+    reg [REGION_BITS-1:0] region_q;  // number of the region that is judged
     reg last_region_q;
-    reg no_reference_q;              // in the first frame no region has one
+    reg no_reference_q;              // this is the first frame, in which no region has a reference
     wire [REGION_BITS-1:0] next_region = last_region_q ? {REGION_BITS{1'b0}} : region_q + 1'b1;
-    wire reference_valid;            // of that region (LAST_SENT)
+    wire reference_valid;            // this region has a valid reference (LAST_SENT)
 
-    // Without a reference all pixels have changed.
+    // Without a valid reference all pixels count as changed.
     wire [COUNT_BITS-1:0] changes =
         !LAST_SENT || reference_valid ? scores_i[COUNT_BITS-1:0] : PIXELS[COUNT_BITS-1:0];
     wire [SCORE_BITS-1:0] scores = {scores_i[SCORE_BITS-1:COUNT_BITS], changes};
@@ -81,8 +81,8 @@ module raster_decision #(
     wire [FEATURES:0] decided_votes;
     wire [SCORE_BITS-1:0] decided_scores;
     wire [REGION_BITS-1:0] decided_region;
-    wire decided_valid;  // its reference was valid
-    wire decided_last;   // the region is the last of the frame
+    wire decided_valid;  // the reference of the decided region was valid
+    wire decided_last;   // the decided region is the last of the frame
     bit_delay #(.DEPTH(DEEP)) u_decided (.clk_i(clk_i), .rst_i(rst_i), .bit_i(judged_i), .bit_o(decided_o));
     word_delay #(.WIDTH(FEATURES + 3 + REGION_BITS + SCORE_BITS), .DEPTH(DEEP)) u_judged (
         .clk_i(clk_i), .data_i({votes, reference_valid, last_region_q, region_q, scores}),

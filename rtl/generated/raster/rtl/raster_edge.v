@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// 3x3 Sobel for every pixel of a word at once: hit when |Gx| + |Gy| > level.
+// Detects edges by the 3x3 Sobel operator for every pixel of a word at once: a hit if |Gx| + |Gy| > level_i. hit_o comes
+// four clocks after its step, with DEEP five.
 //
-// |Gx| + |Gy| is the larger of |Gx + Gy| and |Gx - Gy|. With the sums upper = top + middle and lower = middle +
-// bottom of each column, and those of the columns left, center and right,
+// |Gx| + |Gy| is the larger of |Gx + Gy| and |Gx - Gy|. With the sums upper = top + middle and lower = middle + bottom of
+// the columns left, center and right,
 //
 //     (Gx + Gy) / 2 = (lower of center + lower of right) - (upper of left + upper of center)
 //     (Gx - Gy) / 2 = (upper of center + upper of right) - (lower of left + lower of center)
 //
-// so two sums of neighbors serve the windows on both sides of them. Each magnitude is compared with
-// floor(level / 2).
+// So the sums of two neighboring columns serve the windows on both sides of them. Each magnitude is compared with
+// floor(level_i / 2).
 `default_nettype none
 
 module raster_edge #(
     parameter WIDTH = 8,       // bits of a pixel
     parameter LANES = 1,       // pixels of a word
     parameter LEVEL_BITS = 11, // bits of the level, at most WIDTH + 3
-    parameter DEEP = 0         // 0: a hit four clocks after its step; 1: five
+    parameter DEEP = 0         // 0: hit_o comes four clocks after its step; 1: five clocks
 ) (
     input  wire                   clk_i,     // clock, rising edge
-    input  wire                   step_i,    // columns come in; the centers are those of the step before
+    input  wire                   step_i,    // columns come in; the centers are the columns of the step before
     input  wire                   left_i,    // the first center has nothing on its left
     input  wire                   right_i,   // the last center has nothing on its right
-    input  wire                   top_i,     // the incoming columns have nothing at the top: any word is in upper_i
-    input  wire                   bottom_i,  // ... at the bottom: in lower_i
-    input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
-    input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
-    input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
-    input  wire [ LEVEL_BITS-1:0] level_i,   // a hit is more than this
-    output wire [      LANES-1:0] hit_o      // of the centers
+    input  wire                   top_i,     // the incoming columns have nothing at the top: upper_i may hold any word
+    input  wire                   bottom_i,  // the incoming columns have nothing at the bottom: lower_i may hold any word
+    input  wire [LANES*WIDTH-1:0] upper_i,   // upper pixels of the incoming columns
+    input  wire [LANES*WIDTH-1:0] middle_i,  // middle pixels of the incoming columns
+    input  wire [LANES*WIDTH-1:0] lower_i,   // lower pixels of the incoming columns
+    input  wire [ LEVEL_BITS-1:0] level_i,   // a magnitude above this level is a hit
+    output wire [      LANES-1:0] hit_o      // hits of the centers, one per pixel of the word
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (LANES < 1) begin : g_lanes LANES_must_be_1_or_more u_refused (); end
@@ -40,16 +41,16 @@ module raster_edge #(
     endgenerate
 
     localparam PAIR = WIDTH + 1;  // bits of the sum of two pixels
-    localparam FOUR = WIDTH + 2;  // ... of four
-    localparam SUM = WIDTH + 3;   // ... of the difference of two such sums, signed
+    localparam FOUR = WIDTH + 2;  // bits of the sum of four pixels
+    localparam SUM = WIDTH + 3;   // bits of the difference of two such sums, signed
 
-    // Columns, at the first edge: the newest word and the centers.
+    // The first edge: the columns of the newest word and of the centers.
     reg [LANES*PAIR-1:0] newest_upper_q, newest_lower_q;
     reg [LANES*PAIR-1:0] center_upper_q, center_lower_q;
     reg step_q, left_q, right_q;
 
-    // Neighbors, at the second: element 0 is the first center with its left, element j + 1 center j with its
-    // right. The centers' own columns stand for what is not there.
+    // The second edge: sums of neighboring columns. Element 0 is the first center with its left column, element j + 1 center j
+    // with its right column. At a border the center's own column is used in place of the missing one.
     reg [(LANES+1)*FOUR-1:0] upper_2q, lower_2q;
     reg [PAIR-1:0] first_upper_2q, first_lower_2q;
     reg left_2q;
@@ -117,7 +118,7 @@ module raster_edge #(
                 assign lower_before = lower_2q[lane*FOUR+:FOUR];
             end
 
-            // Doubled sums are even, so the lowest bit of the level decides nothing.
+            // Twice a sum is even, so the lowest bit of the level makes no difference.
             reg  [SUM-1:0] sum_3q;   // (Gx + Gy) / 2
             reg  [SUM-1:0] diff_3q;  // (Gx - Gy) / 2
             wire sum_above, diff_above;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The pixels of active regions leave, from a buffer that holds the last rows of regions. With LAST_SENT what
-// leaves becomes the reference, a clock after it was fetched. With BLOCKS the means of other regions leave, too, from a
-// buffer beside it. The register of the port is that of the buffer's memory, if nothing else asks what was read.
+// Sends the pixels of active regions from a buffer that holds the last rows of regions. With LAST_SENT a word becomes the
+// reference one clock after it was fetched. With BLOCKS it also sends the means of irrelevant regions, from a second buffer.
+// The output register is that of the buffer's memory, if nothing else uses the word that was read (READ_FOR_ITSELF).
 `default_nettype none
 
 module raster_forward #(
@@ -9,88 +9,88 @@ module raster_forward #(
     parameter LANES = 1,           // pixels of a word
     parameter SIDE = 8,            // rows of a region
     parameter SEGMENT = 8,         // words of a row of a region: SIDE / LANES
-    parameter COLUMNS = 240,       // regions side by side
-    parameter ROWS = 135,          // regions one below the other
+    parameter COLUMNS = 240,       // regions in a row of regions
+    parameter ROWS = 135,          // rows of regions
     parameter ROW_WORDS = 1920,    // words of a row of the frame
     parameter BANKS = 2,           // rows of regions in the buffer, 2 or 3
-    parameter RAW = 0,             // 1: raw pixels leave; 0: what was scored
+    parameter RAW = 0,             // 1: raw pixels leave; 0: the pixels that were scored
     parameter LAST_SENT = 0,       // 1: the reference is what was last sent
     parameter DEEP = 0,            // 1: one more register behind the queue of regions
     parameter POSITION_BITS = 6,   // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,    // ceil(log2(COLUMNS * ROWS))
-    parameter FRAME_BITS = 8,      // bits of the number of a frame, 2 or more
+    parameter FRAME_BITS = 8,      // bits of the number of a frame, at least 2
     parameter START_BITS = 15,     // ceil(log2(BANKS * SIDE * ROW_WORDS))
     parameter PLACE_BITS = 21,     // ceil(log2(ROW_WORDS * ROWS * SIDE))
-    parameter BLOCKS = 0,          // blocks of a region's side; 0: no means leave
+    parameter BLOCKS = 0,          // blocks of a region's side; 0: no means are sent
     parameter COLUMN_BITS = 8,     // ceil(log2(COLUMNS))
     parameter MEAN_BITS = 1        // ceil(log2(BLOCKS * BLOCKS)), at least 1
 ) (
     input  wire                     clk_i,                    // clock, rising edge
     input  wire                     rst_i,                    // synchronous reset, active high
     input  wire                     store_i,                  // a word is stored at this edge
-    input  wire [   START_BITS-1:0] store_place_i,            // where in the buffer
-    input  wire [    WORD_BITS-1:0] scored_i,                 // the word, as it was scored
-    input  wire [    WORD_BITS-1:0] raw_i,                    // and raw (RAW)
+    input  wire [   START_BITS-1:0] store_place_i,            // place in the buffer of that word
+    input  wire [    WORD_BITS-1:0] scored_i,                 // the word that is stored, as it was scored
+    input  wire [    WORD_BITS-1:0] raw_i,                    // the same word before the filter (RAW)
     input  wire                     arriving_i,               // a word is stored at the next edge
-    input  wire                     rows_end_i,               // the word is the last of a row of regions
+    input  wire                     rows_end_i,               // that word is the last of a row of regions
     input  wire                     decision_i,               // a region is decided, in the order of the regions
-    input  wire                     active_i,                 // the region is active: its pixels leave
-    input  wire [  REGION_BITS-1:0] region_i,                 // which
-    input  wire                     last_region_i,            // the last of its frame
-    input  wire                     mark_i,                   // travels with it
-    input  wire                     summary_i,                // its means leave (BLOCKS)
+    input  wire                     active_i,                 // the decided region is active, so that its pixels leave
+    input  wire [  REGION_BITS-1:0] region_i,                 // number of the decided region
+    input  wire                     last_region_i,            // the decided region is the last of its frame
+    input  wire                     mark_i,                   // a mark that stays with the region
+    input  wire                     summary_i,                // the means of the decided region are sent (BLOCKS)
     input  wire                     mean_valid_i,             // a mean is stored at this edge (BLOCKS)
-    input  wire [  COLUMN_BITS-1:0] mean_region_i,            // low bits of the region that it is in
-    input  wire [              1:0] mean_row_i,               // the row of regions, modulo 4
-    input  wire [    MEAN_BITS-1:0] mean_number_i,            // number of its block in the region
-    input  wire [WORD_BITS/LANES-1:0] mean_i,                 // that mean
-    input  wire                     ready_i,                  // the word on the port is taken
-    output wire                     valid_o,                  // a word of an active region leaves
-    output wire [  REGION_BITS-1:0] region_o,                 // its region
-    output wire [POSITION_BITS-1:0] position_o,               // number in its region of its first pixel
-    output wire [    WORD_BITS-1:0] pixel_o,                  // that word
-    output wire                     first_o,                  // the first of its region
-    output wire                     last_o,                   // the last that comes of its region
-    output wire                     abort_o,                  // the last, because its region was lost in the middle
-    output wire [   FRAME_BITS-1:0] frame_o,                  // number of the frame of its region since reset
-    output wire                     summary_o,                // the word is a mean (BLOCKS)
-    output reg                      lost_o,                   // a region was lost since reset
+    input  wire [  COLUMN_BITS-1:0] mean_region_i,            // low bits of the number of the region of that mean
+    input  wire [              1:0] mean_row_i,               // row of regions of that mean, modulo 4
+    input  wire [    MEAN_BITS-1:0] mean_number_i,            // number of the block of that mean in its region
+    input  wire [WORD_BITS/LANES-1:0] mean_i,                 // the mean that is stored
+    input  wire                     ready_i,                  // the sink takes the word on the port
+    output wire                     valid_o,                  // a word is on the port
+    output wire [  REGION_BITS-1:0] region_o,                 // number of the region of the word on the port
+    output wire [POSITION_BITS-1:0] position_o,               // position in its region of the first pixel of the word
+    output wire [    WORD_BITS-1:0] pixel_o,                  // the word on the port
+    output wire                     first_o,                  // the word on the port is the first of its region
+    output wire                     last_o,                   // the word on the port is the last that comes of its region
+    output wire                     abort_o,                  // the word on the port is the last because its region was lost in the middle
+    output wire [   FRAME_BITS-1:0] frame_o,                  // number since reset of the frame of the word's region
+    output wire                     summary_o,                // the word on the port is a mean (BLOCKS)
+    output reg                      lost_o,                   // at least one region was lost since reset
     output reg  [             15:0] lost_count_o,             // how many, up to the largest number
-    output reg                      lost_valid_o,             // a region was lost at the edge before
-    output wire [  REGION_BITS-1:0] lost_region_o,            // which
-    output wire [   FRAME_BITS-1:0] lost_frame_o,             // number of its frame
+    output reg                      lost_valid_o,             // a region was lost at the last edge
+    output wire [  REGION_BITS-1:0] lost_region_o,            // number of the lost region
+    output wire [   FRAME_BITS-1:0] lost_frame_o,             // number since reset of the frame of the lost region
     output wire                     idle_o,                   // after this edge nothing waits, is held, fetched or on the port
-    output wire                     reference_write_o,        // a word becomes a reference (LAST_SENT)
-    output wire [   PLACE_BITS-1:0] reference_place_o,        // its number in the frame
-    output wire [    WORD_BITS-1:0] reference_word_o,         // that word
+    output wire                     reference_write_o,        // a word that was fetched becomes a reference (LAST_SENT)
+    output wire [   PLACE_BITS-1:0] reference_place_o,        // number of that word in the frame
+    output wire [    WORD_BITS-1:0] reference_word_o,         // the word that becomes a reference
     output wire                     lost_reference_o,         // a region is lost at this edge (LAST_SENT)
-    output wire [  REGION_BITS-1:0] lost_reference_region_o,  // which
-    output wire                     lost_mark_o,              // the mark that came with the region
-    output wire                     done_o,                   // all words of a region are fetched, or it was lost a clock ago (BLOCKS)
-    output wire                     done_lost_o,              // it was lost
-    output wire [  REGION_BITS-1:0] done_region_o,            // which
+    output wire [  REGION_BITS-1:0] lost_reference_region_o,  // number of the lost region
+    output wire                     lost_mark_o,              // mark_i of the lost region
+    output wire                     done_o,                   // all words of a region are fetched, or it was lost one clock ago (BLOCKS)
+    output wire                     done_lost_o,              // with done_o: the region was lost
+    output wire [  REGION_BITS-1:0] done_region_o,            // number of that region
     output wire                     sent_o,                   // a mean was fetched two clocks ago (BLOCKS)
-    output wire [  REGION_BITS-1:0] sent_region_o,            // of which region
-    output wire [    MEAN_BITS-1:0] sent_number_o,            // of which block of it
-    output wire [WORD_BITS/LANES-1:0] sent_mean_o             // that mean
+    output wire [  REGION_BITS-1:0] sent_region_o,            // number of the region of that mean
+    output wire [    MEAN_BITS-1:0] sent_number_o,            // number of the block of that mean in its region
+    output wire [WORD_BITS/LANES-1:0] sent_mean_o             // the mean that was fetched
 );
 
     localparam WORDS = BANKS * SIDE * ROW_WORDS;
-    localparam READ_FOR_ITSELF = !LAST_SENT || RAW;  // what the buffer has read is for the port alone
-    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions in the buffer may wait
+    localparam READ_FOR_ITSELF = !LAST_SENT || RAW;  // 1: only the port uses the word that the buffer reads
+    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // log2 of the regions in the buffer: all of them may wait
     localparam FRAME_PLACE_BITS = LAST_SENT ? PLACE_BITS : 1;
-    // The low bits of the number of its frame wait with a region. The row of regions that is decided is at most BANKS behind
-    // it until the region is held or lost, so that the others are known.
+    // A waiting region keeps only the low bits of its frame's number. Until it is held or lost, the row of regions that is decided
+    // is at most BANKS rows after it, so that the other bits are known.
     localparam LOW_BITS = ROWS < BANKS ? 2 : 1;
     localparam PIXEL_BITS = LOW_BITS + (LAST_SENT ? PLACE_BITS + 1 : 0);
     localparam EXTRA_BITS = PIXEL_BITS + (BLOCKS > 0 ? 1 : 0);
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (FRAME_BITS < 2) begin : g_frame_bits FRAME_BITS_must_be_2_or_more u_refused (); end
     endgenerate
 
-    // In which row of regions the word is that is stored, modulo 8.
+    // The row of regions of the word that is stored, modulo 8.
     reg fresh_row_q;  // the next word is the first of a row of regions
     reg [2:0] stored_row_q;
     always @(posedge clk_i) begin
@@ -104,7 +104,7 @@ module raster_forward #(
         end
     end
 
-    // Where in the buffer and in the frame the region starts that is decided.
+    // The places in the buffer and in the frame where the decided region starts.
     wire [2:0] decided_row;
     wire [START_BITS-1:0] decided_start;
     wire [FRAME_PLACE_BITS-1:0] decided_place;
@@ -118,7 +118,7 @@ module raster_forward #(
         .place_o(decided_place)
     );
 
-    // Of which frame the region is that is decided, and the one that is held or was lost.
+    // The frame of the decided region, and the frame of the region that is held or was lost.
     reg [FRAME_BITS-1:0] frame_q;
     wire [LOW_BITS-1:0] frames_ago = frame_q[LOW_BITS-1:0] - held_extra[LOW_BITS-1:0];
     wire [FRAME_BITS-1:0] held_frame = frame_q - {{(FRAME_BITS - LOW_BITS) {1'b0}}, frames_ago};
@@ -147,7 +147,7 @@ module raster_forward #(
         .segment_end_o(fetch_segment_end), .fetch_last_o(fetch_last), .idle_o(idle_o)
     );
 
-    // Whether a word is fetched comes late in a clock: so one is read at every step.
+    // The condition for a fetch comes late in a clock, so a word is read at every step.
     wire [WORD_BITS-1:0] pixel;
     raster_memory #(
         .WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS), .OUTPUT_STAGE(READ_FOR_ITSELF)
@@ -184,7 +184,7 @@ module raster_forward #(
             wire unused_raw = |raw_i;
         end
         if (LAST_SENT) begin : g_sent
-            // What is fetched while means leave is no pixel that was sent: the walk through them leaves the region, too.
+            // A word fetched while means leave is not a sent pixel. The walk through the words also runs beyond the region then.
             wire means = BLOCKS > 0 && held_extra[EXTRA_BITS-1];
             reg fetched_q;
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
@@ -222,9 +222,9 @@ module raster_forward #(
         end
     endgenerate
 
-    // The means; the low bits of its number tell regions of a row apart. A word is chosen behind the registers: what a memory
-    // has read comes late in a clock. What is fetched of a region that sends pixels goes where the means are that it sent, too:
-    // it shows none, so they mean nothing.
+    // The means. The low bits of its number distinguish the regions of a row. The word for the port is selected behind the
+    // registers, because the word that a memory has read comes late in a clock. A fetch of a region that sends pixels also
+    // writes where its sent means are kept. The screen shows no summary of such a region, so these means are not used.
     generate
         if (BLOCKS > 0) begin : g_means
             localparam WIDTH = WORD_BITS / LANES;
@@ -233,10 +233,10 @@ module raster_forward #(
             localparam AT_BITS = $clog2(MEANS);
             wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] stored_at = {mean_row_i[ROW_BITS-1:0], mean_region_i, mean_number_i};
             wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] fetched_at = {held_row[ROW_BITS-1:0], lost_region_o[COLUMN_BITS-1:0], fetch_mean};
-            // With one block there is no number of a mean.
+            // With one block, a mean has no number.
             wire unused_bits = |mean_row_i || |held_row || stored_at[0] || fetched_at[0] || held_extra[EXTRA_BITS-1];
             localparam LOWEST = BLOCKS == 1 ? MEAN_BITS : 0;
-            // What the memory has read goes on at every clock, to where means are that were sent; so the port keeps it.
+            // The word that the memory has read goes on, at every clock, to the sent means. So the port keeps its own copy.
             wire [WIDTH-1:0] mean;
             reg [WIDTH-1:0] kept_q;
             reg stepped_q;
@@ -256,7 +256,7 @@ module raster_forward #(
             );
             assign pixel_o = summary_o ? {LANES{shown}} : pixel;
             assign entered_extra[EXTRA_BITS-1] = summary_i;
-            // A region that was lost is held no more a clock later, and its number is still there.
+            // One clock after its loss a lost region is no longer held, but its number is still there.
             assign done_o = fetch_last || lost_valid_o;
             assign done_lost_o = lost_valid_o;
             assign done_region_o = lost_region_o;

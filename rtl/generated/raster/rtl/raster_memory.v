@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Memory with a port to write and a port to read. A word that is written and read at one edge is read
-// as it was before.
+// Memory with a port to write and a port to read. data_o is the word of the last read edge, with OUTPUT_STAGE one edge
+// later. A word that is written and read at one edge is read as it was before.
 //
-// With FOVEATE_ECP5 defined, a memory with OUTPUT_STAGE is built of blocks of the Lattice ECP5, DP16KD: the second register
-// is that of the block, which synth_ecp5 never uses. A block without it takes most of a clock to show what it has read. Words
-// that one block cannot have stand in banks, one of which is chosen behind these registers. A word that is written and read
-// at one edge is undefined then; nothing here does that.
+// With FOVEATE_ECP5 defined, a memory with OUTPUT_STAGE is built of blocks of the Lattice ECP5, DP16KD. Its second register
+// is the output register of the block, which synth_ecp5 never uses by itself; a block without it takes most of a clock to
+// show a word that it has read. Words that do not fit into one block are in banks, and a bank is selected behind these
+// registers. A word that is written and read at one edge is then undefined; no module here does that.
 `default_nettype none
 
 module raster_memory #(
     parameter WIDTH = 16,         // bits of a word
     parameter WORDS = 240,        // words, at least 2
     parameter ADDRESS_BITS = 8,   // ceil(log2(WORDS))
-    parameter OUTPUT_STAGE = 0,   // 1: a word is on data_o two edges after its address, not one
+    parameter OUTPUT_STAGE = 0,   // 0: a word is on data_o one edge after its address; 1: two edges
     parameter STYLE = "block"     // of what it is built: "block" or "ultra" RAM
 ) (
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    write_i,          // write at this edge
-    input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
+    input  wire [ADDRESS_BITS-1:0] write_address_i,  // address of the word that is written
     input  wire [       WIDTH-1:0] data_i,           // the word that is written
-    input  wire                    read_i,           // read at this edge; otherwise the memory's register stays
-    input  wire [ADDRESS_BITS-1:0] read_address_i,   // where
-    input  wire                    output_i,         // the second register takes what was read; otherwise it stays (OUTPUT_STAGE)
+    input  wire                    read_i,           // read at this edge; otherwise the memory's register keeps its word
+    input  wire [ADDRESS_BITS-1:0] read_address_i,   // address of the word that is read
+    input  wire                    output_i,         // the second register takes the word that was read; otherwise it stays (OUTPUT_STAGE)
     output wire [       WIDTH-1:0] data_o            // the word that was read
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
         if (ADDRESS_BITS != $clog2(WORDS)) begin : g_address_bits
@@ -64,9 +64,9 @@ module raster_memory #(
         end
 `ifdef FOVEATE_ECP5
         else begin : g_blocks
-            // A block has 2^14 words of 1 bit, 2^13 of 2, 2^12 of 4, 2^11 of 9 or 2^10 of 18. The words are as wide as takes the
-            // fewest blocks, in 8 banks at most, and then the fewest banks. The address is that of a bit, so that wide words
-            // leave its lowest bits out. Of 18 bits, the two lowest enable the halves that are written.
+            // A block has 2^14 words of 1 bit, 2^13 of 2, 2^12 of 4, 2^11 of 9 or 2^10 of 18. The chosen width needs the
+            // fewest blocks, with at most 8 banks, and among these the fewest banks. The address of a block is that of a bit,
+            // so wide words leave out its lowest bits. With 18 bits, the two lowest bits enable the halves that are written.
             localparam BANKS_1 = (WORDS + (1 << 14) - 1) >> 14, BLOCKS_1 = BANKS_1 * WIDTH;
             localparam BANKS_2 = (WORDS + (1 << 13) - 1) >> 13, BLOCKS_2 = BANKS_2 > 8 ? BLOCKS_1 : BANKS_2 * ((WIDTH + 1) / 2);
             localparam BANKS_4 = (WORDS + (1 << 12) - 1) >> 12, BLOCKS_4 = BANKS_4 > 8 ? BLOCKS_1 : BANKS_4 * ((WIDTH + 3) / 4);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Makes the words beyond the right border of a frame: its last pixel, repeated.
+// Makes the words beyond the right border of a frame: copies of the last pixel of the row. word_o belongs to the same step.
 `default_nettype none
 
 module raster_pad #(
     parameter WIDTH = 8,  // bits of a pixel
     parameter LANES = 1,  // pixels of a word
-    parameter REST = 0,   // pixels of the last word taken that lie in the frame; 0: all
-    parameter PADS = 0    // 1: there are words beyond the last one taken
+    parameter REST = 0,   // pixels of the last word taken that are in the frame; 0: all of them
+    parameter PADS = 0    // 1: the padded frame has words beyond the last one taken
 ) (
     input  wire                   clk_i,   // clock, rising edge
     input  wire                   step_i,  // the core advances
-    input  wire                   pad_i,   // with a word that is not taken
-    input  wire                   end_i,   // the word is the last one taken of its row
+    input  wire                   pad_i,   // the core advances without taking a word
+    input  wire                   end_i,   // the word is the last that is taken of its row
     input  wire [LANES*WIDTH-1:0] word_i,  // the word that is taken
     output wire [LANES*WIDTH-1:0] word_o   // the word of the padded frame
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (REST < 0 || REST >= LANES) begin : g_rest REST_must_be_0_to_LANES_less_1 u_refused (); end
     endgenerate

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A queue of regions, of which one less than 2^BITS may wait. Its oldest entry is read ahead: it is on the port from two
-// clocks (deep: three) after it entered on, and from two clocks after the one before was taken.
+// A queue of regions, of which up to 2^BITS - 1 may wait. Its oldest entry is read ahead: it is on oldest_o two clocks (DEEP:
+// three) after it entered, and not earlier than two clocks after the entry before it was taken.
 `default_nettype none
 
 module raster_queue #(
     parameter WIDTH = 32,  // bits of an entry
-    parameter BITS = 9,    // log2 of the entries
-    parameter DEEP = 0     // 1: the oldest entry has a register of its own, where nothing else is
+    parameter BITS = 9,    // log2 of the number of entries
+    parameter DEEP = 0     // 1: the oldest entry has a register of its own with no logic behind it
 ) (
     input  wire             clk_i,     // clock, rising edge
     input  wire             rst_i,     // synchronous reset, active high
     input  wire             enter_i,   // an entry enters
-    input  wire [WIDTH-1:0] entry_i,   // that entry
-    input  wire             take_i,    // the oldest entry is taken; only with valid_o
-    output wire             valid_o,   // the oldest entry is on the port
-    output wire [WIDTH-1:0] oldest_o,  // that entry
-    output wire             waits_o    // an entry waits, on the port or not
+    input  wire [WIDTH-1:0] entry_i,   // the entry that enters
+    input  wire             take_i,    // the oldest entry is taken; allowed only with valid_o
+    output wire             valid_o,   // the oldest entry is on oldest_o
+    output wire [WIDTH-1:0] oldest_o,  // the oldest entry
+    output wire             waits_o    // an entry waits, on the port or in the memory
 );
 
     reg [BITS-1:0] enter_q, leave_q;
     wire stored = enter_q != leave_q;  // an entry is in the memory
-    wire leave;                        // the oldest of the memory leaves it
-    wire read;                         // an entry is read; with leave, the oldest
-    wire move;                         // what was read becomes the oldest entry (DEEP)
+    wire leave;                        // the oldest entry of the memory leaves it
+    wire read;                         // an entry is read; with `leave`, it is the oldest
+    wire move;                         // the entry that was read becomes the oldest entry (DEEP)
     reg oldest_valid_q;
 
     raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BITS), .ADDRESS_BITS(BITS), .OUTPUT_STAGE(DEEP)) u_entries (
@@ -42,7 +42,7 @@ module raster_queue #(
                     oldest_valid_q <= 1'b0;
                 end
             end
-            // Whether there is one comes late in a clock: so one is read while none is kept.
+            // Whether an entry was stored is known late in a clock, so an entry is read at every clock until one is kept.
             assign read = !read_valid_q;
             assign leave = stored && !read_valid_q;
             assign waits_o = stored || read_valid_q || oldest_valid_q;

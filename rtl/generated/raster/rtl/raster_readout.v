@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The pixels of active regions leave, and the means of others: which region is next, and which of its words.
+// Chooses the next region whose pixels or means leave, and the next of its words.
 //
-// Regions that send something wait in a queue. One of them is held, and its words are fetched from the buffer, at every
-// step one; a step is an edge at which the port is free. A region of a row of regions whose place in the
-// buffer is being taken is stale: it is lost.
+// Regions that send something wait in a queue. One of them is held, and one of its words is fetched from the buffer at each
+// step; a step is an edge at which the port is free. A region is stale, and lost, once the place of its row of regions in the
+// buffer is reused. docs/raster.md defines each clock ("Pixels that leave").
 `default_nettype none
 
 module raster_readout #(
@@ -16,47 +16,47 @@ module raster_readout #(
     parameter START_BITS = 15,    // bits of a place in the buffer
     parameter BANKS = 2,          // rows of regions in the buffer, 2 or 3
     parameter FRAME_BITS = 8,     // bits of the number of a frame
-    parameter EXTRA_BITS = 1,     // bits that travel with a region
+    parameter EXTRA_BITS = 1,     // bits that stay with a region
     parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
-    parameter BLOCKS = 0,         // blocks of a region's side; 0: there are no means
+    parameter BLOCKS = 0,         // blocks of a region's side; 0: no means are sent
     parameter MEAN_BITS = 1,      // ceil(log2(BLOCKS * BLOCKS)), at least 1
     parameter DEEP = 0            // 0: a region can be held two clocks after it entered the queue; 1: three
 ) (
     input  wire                     clk_i,           // clock, rising edge
     input  wire                     rst_i,           // synchronous reset, active high
     input  wire                     enter_i,         // a region enters the queue
-    input  wire [              2:0] row_i,           // its row of regions, modulo 8
-    input  wire [  REGION_BITS-1:0] region_i,        // its number
-    input  wire [   START_BITS-1:0] start_i,         // where in the buffer its first word is
-    input  wire [   EXTRA_BITS-1:0] extra_i,         // bits that travel with the region; the highest: it sends means (BLOCKS)
+    input  wire [              2:0] row_i,           // row of regions of that region, modulo 8
+    input  wire [  REGION_BITS-1:0] region_i,        // number of that region
+    input  wire [   START_BITS-1:0] start_i,         // place in the buffer of the region's first word
+    input  wire [   EXTRA_BITS-1:0] extra_i,         // bits that stay with the region; the highest bit says that it sends means (BLOCKS)
     input  wire [              2:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 8
-    input  wire [   FRAME_BITS-1:0] frame_i,         // number of the frame of the region that is held
+    input  wire [   FRAME_BITS-1:0] frame_i,         // number of the frame of the held region
     input  wire                     ready_i,         // the sink takes the word on the port
     output wire                     fetch_o,         // a word is fetched at this edge
-    output wire [   START_BITS-1:0] place_o,         // where in the buffer it is
-    output wire [    MEAN_BITS-1:0] mean_o,          // or the number of the block of the mean (BLOCKS)
-    output wire                     step_o,          // the port takes what was fetched at the step before
+    output wire [   START_BITS-1:0] place_o,         // place in the buffer of the word that is fetched
+    output wire [    MEAN_BITS-1:0] mean_o,          // number of the block of the mean that is fetched (BLOCKS)
+    output wire                     step_o,          // the port takes the word that was fetched at the step before
     output reg                      valid_o,         // a word is on the port
-    output reg  [  REGION_BITS-1:0] region_o,        // its region
-    output reg  [POSITION_BITS-1:0] position_o,      // number in its region of its first pixel
-    output reg                      begin_o,         // the first of its region
-    output reg                      end_o,           // the last that comes of its region
-    output reg                      abort_o,         // the last, because its region was lost
-    output reg  [   FRAME_BITS-1:0] frame_o,         // number of the frame of its region
-    output wire                     summary_o,       // it is a mean (BLOCKS)
+    output reg  [  REGION_BITS-1:0] region_o,        // number of the region of the word on the port
+    output reg  [POSITION_BITS-1:0] position_o,      // position in its region of the first pixel of the word
+    output reg                      begin_o,         // the word on the port is the first of its region
+    output reg                      end_o,           // the word on the port is the last that comes of its region
+    output reg                      abort_o,         // the word on the port is the last because its region was lost
+    output reg  [   FRAME_BITS-1:0] frame_o,         // number of the frame of the word's region
+    output wire                     summary_o,       // the word on the port is a mean (BLOCKS)
     output wire                     lost_o,          // a region is lost at this edge
-    output wire [  REGION_BITS-1:0] lost_region_o,   // which
-    output wire [   EXTRA_BITS-1:0] lost_extra_o,    // the bits that came with the region
-    output wire [  REGION_BITS-1:0] held_region_o,   // the region that is held, or that was held or lost last
-    output wire [   EXTRA_BITS-1:0] held_extra_o,    // the bits that came with that region
-    output wire [              2:0] held_row_o,      // its row of regions, modulo 8
+    output wire [  REGION_BITS-1:0] lost_region_o,   // number of the lost region
+    output wire [   EXTRA_BITS-1:0] lost_extra_o,    // extra_i of the lost region
+    output wire [  REGION_BITS-1:0] held_region_o,   // number of the region that is held, or that was held or lost last
+    output wire [   EXTRA_BITS-1:0] held_extra_o,    // extra_i of that region
+    output wire [              2:0] held_row_o,      // row of regions of that region, modulo 8
     output wire                     first_o,         // the word that is fetched is the first of its region
-    output wire                     segment_end_o,   // ... the last of a row of its region
+    output wire                     segment_end_o,   // the word that is fetched is the last of a row of its region
     output wire                     fetch_last_o,    // the last word of a region is fetched at this edge
     output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (BANKS != 2 && BANKS != 3) begin : g_banks BANKS_must_be_2_or_3 u_refused (); end
     endgenerate
@@ -64,9 +64,9 @@ module raster_readout #(
     localparam ENTRY_BITS = 3 + REGION_BITS + START_BITS + EXTRA_BITS;
     localparam [2:0] AGE = BANKS;
 
-    // The queue.
+    // The queue of waiting regions.
     wire take;
-    wire queued;        // a region waits
+    wire queued;        // a region waits in the queue
     wire oldest_valid;
     wire [ENTRY_BITS-1:0] oldest;
 
@@ -116,11 +116,11 @@ module raster_readout #(
         if (rst_i) held_q <= 1'b0;
     end
 
-    // The word that was fetched, and the one on the port. While a region is held of which a word was fetched, the word that was
-    // fetched last is one of that region: so this word ends the region if the region is lost.
+    // The word that was fetched, and the word on the port. While a region is held of which a word was fetched, the last fetched
+    // word is of that region. So this word ends the region if it is lost.
     wire abort = held_stale && !first_o;
     reg fetched_q, fetched_first_q, fetched_last_q;
-    reg aborted_q;  // the region of the word that was fetched is lost
+    reg aborted_q;  // the region of the fetched word is lost
     reg [FRAME_BITS-1:0] fetched_frame_q;
     reg [REGION_BITS-1:0] fetched_region_q;
     reg [POSITION_BITS-1:0] fetched_at_q;

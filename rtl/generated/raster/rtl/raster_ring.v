@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The place of the next word in a memory whose words are taken in turn, round and round.
+// Counts the places of a memory whose words are used in turn, again and again. place_o is the place of the word of
+// step_i.
 `default_nettype none
 
 module raster_ring #(
@@ -9,10 +10,10 @@ module raster_ring #(
     input  wire                  clk_i,   // clock, rising edge
     input  wire                  rst_i,   // synchronous reset, active high
     input  wire                  step_i,  // a word is taken at this edge
-    output reg  [PLACE_BITS-1:0] place_o  // its place
+    output reg  [PLACE_BITS-1:0] place_o  // place of that word
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
         if (PLACE_BITS != $clog2(WORDS)) begin : g_place_bits PLACE_BITS_must_be_clog2_of_WORDS u_refused (); end

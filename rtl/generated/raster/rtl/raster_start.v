@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Where the first word of a region is: in the buffer, and in the frame. Regions come in their order.
+// Computes the places where the first word of a region is: in the buffer, and with FRAME in the frame. Regions come in
+// order. The outputs belong to the region that is next, and change at the edge of step_i.
 `default_nettype none
 
 module raster_start #(
-    parameter COLUMNS = 240,    // regions side by side
-    parameter ROWS = 135,       // regions one below the other
+    parameter COLUMNS = 240,    // regions in a row of regions
+    parameter ROWS = 135,       // rows of regions
     parameter SEGMENT = 8,      // words of a row of a region
     parameter SIDE = 8,         // rows of a region
     parameter BANKS = 2,        // rows of regions in the buffer
     parameter START_BITS = 15,  // ceil(log2(BANKS * SIDE * COLUMNS * SEGMENT))
-    parameter FRAME = 0,        // 1: the place in the frame is asked for
+    parameter FRAME = 0,        // 1: place_o is used
     parameter PLACE_BITS = 21   // ceil(log2(ROWS * SIDE * COLUMNS * SEGMENT)) (FRAME)
 ) (
     input  wire                  clk_i,    // clock, rising edge
     input  wire                  rst_i,    // synchronous reset, active high
-    input  wire                  step_i,   // the next region is next
-    output reg  [           2:0] row_o,    // row of regions of this one, modulo 8, counted through all frames
-    output reg  [START_BITS-1:0] start_o,  // where in the buffer its first word is
-    output wire [PLACE_BITS-1:0] place_o   // ... in the frame (FRAME)
+    input  wire                  step_i,   // moves on to the next region
+    output reg  [           2:0] row_o,    // row of regions of this region, modulo 8, counted through all frames
+    output reg  [START_BITS-1:0] start_o,  // place in the buffer of the region's first word
+    output wire [PLACE_BITS-1:0] place_o   // place in the frame of the region's first word (FRAME)
 );
 
     localparam COLUMN_BITS = $clog2(COLUMNS);

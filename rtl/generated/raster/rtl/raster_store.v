@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The frame store: references, read in the order of the frame. What is written comes in the same order, or to
-// places of its own.
+// The frame store inside the core. References are read in the order of the frame. Words are written in the same order, or
+// with RANDOM at given places. A reference comes one clock after its request, with DEEP two.
 `default_nettype none
 
 // Parts that the design does not elaborate are left out, so some parameters have no use.
@@ -11,22 +11,22 @@ module raster_store #(
     parameter WORDS = 2073600,    // words of a frame
     parameter ADDRESS_BITS = 21,  // ceil(log2(WORDS))
     parameter KIND = 0,           // 0: block RAM; 1: UltraRAM; 2: RAM of one port
-    parameter RANDOM = 0,         // 1: words are written where place_i says; 0: in the order of the frame
-    parameter DEEP = 0,           // 0: a reference one clock after it is asked for; 1: two
+    parameter RANDOM = 0,         // 1: words are written at place_i; 0: in the order of the frame
+    parameter DEEP = 0,           // 0: a reference comes one clock after its request; 1: two clocks
     parameter BANK_BITS = 14,     // log2 of the words of a bank (GROUPS)
     parameter GROUP_BITS = 2,     // log2 of the banks of a group (GROUPS)
-    parameter GROUPS = 0          // 0: one memory; more: groups of banks, and a reference GROUPS + 6 clocks after it is asked for
+    parameter GROUPS = 0          // 0: one memory; more: so many groups of banks, and a reference comes GROUPS + 6 clocks after its request
 ) (
     input  wire                    clk_i,        // clock, rising edge
     input  wire                    rst_i,        // synchronous reset, active high
-    input  wire                    read_i,       // the next reference is asked for
-    output wire [   WORD_BITS-1:0] reference_o,  // that reference
-    input  wire                    write_i,      // a word becomes a reference
-    input  wire [ADDRESS_BITS-1:0] place_i,      // where (RANDOM)
-    input  wire [   WORD_BITS-1:0] word_i        // that word
+    input  wire                    read_i,       // the next reference is requested
+    output wire [   WORD_BITS-1:0] reference_o,  // the requested reference
+    input  wire                    write_i,      // a word is stored as a reference
+    input  wire [ADDRESS_BITS-1:0] place_i,      // place of that word in the frame (RANDOM)
+    input  wire [   WORD_BITS-1:0] word_i        // the word that is stored
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (KIND < 0 || KIND > 2) begin : g_kind KIND_must_be_0_to_2 u_refused (); end
         if (GROUPS > 0 && (RANDOM || KIND != 0)) begin : g_groups GROUPS_must_be_0_here u_refused (); end

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Walks through the words of a region in the buffer, row by row; or through its means, block by block.
+// Walks through the words of a region in the buffer, row by row, or with means_i through its means, block by block. The
+// outputs belong to the word of this step.
 `default_nettype none
 
 module raster_walk #(
@@ -14,12 +15,12 @@ module raster_walk #(
 ) (
     input  wire                     clk_i,          // clock, rising edge
     input  wire                     begin_i,        // the walk begins at this edge
-    input  wire [   PLACE_BITS-1:0] start_i,        // where
-    input  wire                     step_i,         // on to the next word
-    input  wire                     means_i,        // the walk is one through means (BLOCKS)
-    output wire [   PLACE_BITS-1:0] place_o,        // where the word is
+    input  wire [   PLACE_BITS-1:0] start_i,        // place in the buffer of the region's first word
+    input  wire                     step_i,         // moves on to the next word
+    input  wire                     means_i,        // the walk goes through means (BLOCKS)
+    output wire [   PLACE_BITS-1:0] place_o,        // place in the buffer of the word
     output wire [    MEAN_BITS-1:0] mean_o,         // number of the block of the mean (BLOCKS)
-    output wire [POSITION_BITS-1:0] position_o,     // number in the region of its first pixel; of that of the block
+    output wire [POSITION_BITS-1:0] position_o,     // position in the region of the first pixel of the word, or of the block
     output wire                     first_o,        // the word is the first of the region
     output wire                     segment_end_o,  // the word is the last of a row of the region
     output wire                     last_o          // the word is the last of the region

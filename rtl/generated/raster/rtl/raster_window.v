@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The columns of 3x3 windows: words of a stream, each with the words one and two rows above it, and whether there is
-// such a row. Who takes a column puts the middle in the place of a word that is not there: there it often costs nothing.
+// Makes the columns of 3x3 windows from a stream of words: each word with the words one and two rows above it, and flags
+// for rows that do not exist. A column comes one clock after its word, with DEEP three. The module that takes a column uses
+// the middle word in place of a missing one, because there this often costs no logic.
 //
-// One memory holds both rows: a word is read with the one above it, and written back a row further down.
+// One memory holds both rows: a word is read together with the one above it, and written back one row further down.
 `default_nettype none
 
 module raster_window #(
@@ -10,31 +11,31 @@ module raster_window #(
     parameter ROW_WORDS = 240,  // words of a row, at least 8
     parameter ADDRESS_BITS = 8, // ceil(log2(ROW_WORDS))
     parameter REPEATS = 0,      // 1: rows may be repeated
-    parameter DEEP = 0          // 0: a column one clock after its word; 1: three clocks
+    parameter DEEP = 0          // 0: a column comes one clock after its word; 1: three clocks
 ) (
     input  wire                 clk_i,     // clock, rising edge
     input  wire                 rst_i,     // synchronous reset, active high
     input  wire                 step_i,    // a word comes in
-    input  wire [WORD_BITS-1:0] word_i,    // the word
+    input  wire [WORD_BITS-1:0] word_i,    // the word that comes in
     input  wire                 top_i,     // there is no row above the middle
     input  wire                 bottom_i,  // there is no row below the middle
     input  wire                 repeat_i,  // the word above comes in again, instead of word_i (REPEATS)
     output wire                 step_o,    // a column comes out
-    output wire                 top_o,     // there is no row above its middle
-    output wire                 bottom_o,  // ... below it
-    output wire [WORD_BITS-1:0] upper_o,   // the column: top, any word with top_o
-    output wire [WORD_BITS-1:0] middle_o,  // ... middle
-    output wire [WORD_BITS-1:0] lower_o    // ... bottom: any word with bottom_o
+    output wire                 top_o,     // there is no row above the middle of this column
+    output wire                 bottom_o,  // there is no row below the middle of this column
+    output wire [WORD_BITS-1:0] upper_o,   // upper word of the column; any word with top_o
+    output wire [WORD_BITS-1:0] middle_o,  // middle word of the column
+    output wire [WORD_BITS-1:0] lower_o    // lower word of the column; any word with bottom_o
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
     endgenerate
 
     localparam BEFORE_LAST = ROW_WORDS - 2;
 
-    // Where in the row: any place will do to begin with, as nothing of an earlier frame is ever seen.
+    // The place in the row. Any initial place is right, because words of an earlier frame are never used.
     reg [ADDRESS_BITS-1:0] place_q = {ADDRESS_BITS{1'b0}};
     reg at_end_q = 1'b0;
 

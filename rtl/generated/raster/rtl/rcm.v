@@ -6,12 +6,12 @@
 //   words    1 pixels, plain pipelining
 //   frame    3213 clocks, with the grid above
 //
-// Keep thresholds still from the first word of a frame until ready_o is 1 after its last.
+// Keep thresholds still from the first word of a frame until ready_o is 1 after its last word.
 `default_nettype none
 
 module rcm #(
-    parameter COLUMNS = 8,  // regions side by side
-    parameter ROWS = 6      // regions one below the other
+    parameter COLUMNS = 8,  // regions in a row of regions
+    parameter ROWS = 6      // rows of regions
 ) (
     input  wire                            clk_i,               // clock, rising edge
     input  wire                            rst_i,               // synchronous reset, active high

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A score votes when it reaches its minimum.
+// Compares a score with its minimum: the feature votes if the score reaches it. Combinational.
 `default_nettype none
 
 module vote #(
     parameter WIDTH = 7  // bits of the score
 ) (
-    input  wire [WIDTH-1:0] score_i,    // of the feature
-    input  wire [WIDTH-1:0] minimum_i,  // the feature votes from this score on
+    input  wire [WIDTH-1:0] score_i,    // score of the feature
+    input  wire [WIDTH-1:0] minimum_i,  // smallest score that votes
     output wire             vote_o      // the feature votes
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate

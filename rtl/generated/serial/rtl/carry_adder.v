@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// plain_i + other_i + carry_i, with plain_i on the direct input of the carry chain (see adder.v) and
-// the carry entering below its lowest bit: {a, 0} - {~b, ~c} is 2 * (a + b) + 1 + c.
+// Adds plain_i, other_i and carry_i. Combinational. plain_i is on the direct input of the carry chain (see adder.v), and
+// the carry enters below its lowest bit: {a, 0} - {~b, ~c} is 2 * (a + b) + 1 + c.
 `default_nettype none
 
 module carry_adder #(
@@ -8,11 +8,11 @@ module carry_adder #(
 ) (
     input  wire [WIDTH-1:0] plain_i,  // operand on the direct input of the carry chain
     input  wire [WIDTH-1:0] other_i,  // operand behind the LUT
-    input  wire             carry_i,  // adds one
-    output wire [WIDTH-1:0] sum_o     // modulo 2^WIDTH
+    input  wire             carry_i,  // 1: adds one
+    output wire [WIDTH-1:0] sum_o     // plain_i + other_i + carry_i, modulo 2^WIDTH
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate

@@ -6,13 +6,13 @@
 //   lanes    4 regions each, distributed RAM
 //   frame    256 clocks to take it and 25184 steps, with the grid above
 //
-// Outputs show registers, memories and, for the decision, threshold inputs. Keep thresholds still from the
-// first pixel of a frame until ready_o is 1 again.
+// Outputs follow registers and memories; those of the decision also depend on the threshold inputs at once. Keep thresholds
+// still from the first pixel of a frame until ready_o is 1 again.
 `default_nettype none
 
 module rcm #(
-    parameter COLUMNS = 8,  // regions side by side
-    parameter ROWS = 6      // regions one below the other
+    parameter COLUMNS = 8,  // regions in a row of regions
+    parameter ROWS = 6      // rows of regions
 ) (
     input  wire                                                     clk_i,               // clock, rising edge
     input  wire                                                     rst_i,               // synchronous reset, active high
@@ -37,7 +37,7 @@ module rcm #(
     output wire [1:0]                                               forward_slot_o       // slot of its region in its lane; only with forward_valid_o
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
@@ -49,7 +49,7 @@ module rcm #(
     endgenerate
 
     localparam LANES = ((COLUMNS*ROWS+3)/4);
-    localparam SLOTS = LANES*4;  // empty ones, too
+    localparam SLOTS = LANES*4;  // number of slots, empty ones included
 
     wire [(SLOTS > 1 ? $clog2(SLOTS) : 1)-1:0] region;
     wire [5:0] position;

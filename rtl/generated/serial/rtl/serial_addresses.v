@@ -1,45 +1,46 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Where a step of the serial array works: a pass walks over the centers of a square inside a larger square.
+// Computes the address of each step of the serial array: a pass walks over the centers of a square inside a larger square.
+// address_o belongs to the step of the same clock.
 //
-// `center_q` is the address of the center, neighbors lie at a constant distance from it. Where a window must not leave
-// the square the distance is cut.
+// `center_q` is the address of the center, and neighbors are at a constant distance from it. Where a window must not leave
+// the square, the distance is cut.
 `default_nettype none
 
 module serial_addresses #(
-    parameter SIDE = 8,             // of a region
-    parameter RAW_SIDE = 8,         // of the square that is loaded
-    parameter DENOISED_SIDE = 8,    // of the square that is denoised
+    parameter SIDE = 8,             // pixels of a side of a region
+    parameter RAW_SIDE = 8,         // side of the square that is loaded
+    parameter DENOISED_SIDE = 8,    // side of the square that is denoised
     parameter MEDIAN = 1,           // 1: pixels are denoised
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
-    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
-    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
-    parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
-    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
-    parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
-    parameter REFERENCE_BASE = 64,  // where the reference starts
-    parameter WORD_BITS = 7,        // of an address inside a slot
-    parameter POSITION_BITS = 6     // of the number of a pixel in the larger square of centers
+    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
+    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
+    parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
+    parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
+    parameter DENOISED_BASE = 64,   // address in a slot where the denoised square starts
+    parameter REFERENCE_BASE = 64,  // address in a slot where the reference starts
+    parameter WORD_BITS = 7,        // bits of an address inside a slot
+    parameter POSITION_BITS = 6     // bits of the number of a pixel in the larger square of centers
 ) (
     input  wire                     clk_i,          // clock, rising edge
-    input  wire [             33:0] step_i,         // what goes on, see serial_states
-    input  wire [              3:0] tap_i,          // number of the neighbor
-    input  wire [              1:0] part_i,         // half of a gradient, part of a ring's step, side of the border
-    input  wire                     walks_i,        // the next step is about the next center
-    input  wire                     slot_ends_i,    // ... about the next slot
+    input  wire [             33:0] step_i,         // the step: one bit for each action, in the order of serial_states
+    input  wire [              3:0] tap_i,          // number of the neighbor that is read
+    input  wire [              1:0] part_i,         // which half of a gradient, part of a ring's step, or side of the border
+    input  wire                     walks_i,        // the next step works on the next center
+    input  wire                     slot_ends_i,    // the next step works on the next slot
     input  wire                     last_lane_i,    // the score of the last lane passes
-    input  wire                     first_score_i,  // ... and the first score of the slot
-    input  wire                     last_score_i,   // ... and the last score of the slot
+    input  wire                     first_score_i,  // this score is the first of the slot
+    input  wire                     last_score_i,   // this score is the last of the slot
     input  wire [   BLOCK_BITS-1:0] block_i,        // number of the block
-    input  wire                     last_block_i,   // it is the last of the region
-    output wire [    WORD_BITS-1:0] address_o,      // of the word, inside the slot
-    output wire                     write_o,        // write the accumulator there
-    output wire [POSITION_BITS-1:0] position_o,     // number of the center in its square, or of the last of a block
-    output wire                     last_column_o,  // it is the last of its row
-    output wire                     last_center_o,  // ... of its square
-    output wire                     counts_o        // it is a pixel of the region
+    input  wire                     last_block_i,   // the block is the last of the region
+    output wire [    WORD_BITS-1:0] address_o,      // address of the word inside the slot
+    output wire                     write_o,        // the accumulator is written to this address
+    output wire [POSITION_BITS-1:0] position_o,     // number of the center in its square, or of the last pixel of a block
+    output wire                     last_column_o,  // the center is the last of its row
+    output wire                     last_center_o,  // the center is the last of its square
+    output wire                     counts_o        // the center is a pixel of the region
 );
 
-    localparam INNER = (DENOISED_SIDE - SIDE) / 2;  // the first center that is scored
+    localparam INNER = (DENOISED_SIDE - SIDE) / 2;  // distance from the denoised square's border to the first center that is scored
     localparam SCORED_SIDE = MEDIAN != 0 ? DENOISED_SIDE : RAW_SIDE;
     localparam LEAVING_SIDE = RAW_PAYLOAD != 0 ? RAW_SIDE : SCORED_SIDE;
     localparam SIDE_BITS = $clog2(DENOISED_SIDE);
@@ -47,9 +48,9 @@ module serial_addresses #(
     localparam SUMMARIES = BLOCKS != 0;
     localparam BLOCK = SIDE / (BLOCKS == 0 ? 1 : BLOCKS);
 
-    // Numbers that fit where they are put.
+    // Numbers that fit into their widths.
     /* verilator lint_off WIDTH */
-    // First centers of the passes; and a word that nothing needs when means leave, in the raw square.
+    // The first centers of the passes. While means leave, MEAN_AT is an address of the raw square that is not used otherwise.
     localparam [WORD_BITS-1:0] MEAN_AT = 0;
     localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - DENOISED_SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? DENOISED_BASE + INNER * (DENOISED_SIDE + 1)
@@ -61,7 +62,7 @@ module serial_addresses #(
     localparam [WORD_BITS-1:0] RIGHT_START = DENOISED_BASE + DENOISED_SIDE - 2;
     localparam [WORD_BITS-1:0] TOP_START = DENOISED_BASE + DENOISED_SIDE;
     localparam [WORD_BITS-1:0] BOTTOM_START = DENOISED_BASE + (DENOISED_SIDE - 2) * DENOISED_SIDE;
-    // From the last center of a row to the first of the next.
+    // The distances from the last center of a row to the first center of the next row.
     localparam [WORD_BITS-1:0] WINDOW_SKIP = RAW_SIDE - DENOISED_SIDE + 1;
     localparam [WORD_BITS-1:0] SCORED_SKIP = SCORED_SIDE - SIDE + 1;
     localparam [WORD_BITS-1:0] LEAVING_SKIP = LEAVING_SIDE - SIDE + 1;
@@ -70,7 +71,7 @@ module serial_addresses #(
     localparam [WORD_BITS-1:0] ONE = 1;
     localparam [WORD_BITS-1:0] WINDOW_STRIDE = RAW_SIDE;
     localparam [WORD_BITS-1:0] SCORED_STRIDE = SCORED_SIDE;
-    // Linear squares.
+    // Squares that are walked word by word.
     localparam [WORD_BITS-1:0] DENOISED_AT = DENOISED_BASE;
     localparam [WORD_BITS-1:0] REFERENCE_AT = REFERENCE_BASE;
     localparam [SIDE_BITS-1:0] LAST_WIDE = DENOISED_SIDE - 1;
@@ -79,7 +80,7 @@ module serial_addresses #(
     localparam [SIDE_BITS-1:0] LAST_OF_BLOCK = BLOCK - 1;
     /* verilator lint_on WIDTH */
 
-    // The step.
+    // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
@@ -101,7 +102,7 @@ module serial_addresses #(
     reg [WORD_BITS-1:0] center_q;
     reg [POSITION_BITS-1:0] position_q;
 
-    // Blocks.
+    // Places of the blocks.
     wire sums_start = SUMMARIES && first_score_i && !averaging;
     wire row_of_blocks_ends;
 
@@ -111,7 +112,7 @@ module serial_addresses #(
             wire [ROW_BITS-1:0] block_column = block_i[0+:ROW_BITS];
             wire [ROW_BITS-1:0] block_row = block_i[ROW_BITS+:ROW_BITS];
             assign row_of_blocks_ends = &block_column;
-            // The number of its last pixel.
+            // The number of the last pixel of a block.
             /* verilator lint_off WIDTH */
             wire [POSITION_BITS-1:0] last_of_block = block_row * (BLOCK * SIDE) + block_column * BLOCK
                 + ((BLOCK - 1) * SIDE + BLOCK - 1);
@@ -138,7 +139,7 @@ module serial_addresses #(
     wire [WORD_BITS-1:0] skip = denoising ? WINDOW_SKIP
         : (unloading || shifting) ? LEAVING_SKIP : SCORED_SKIP;
 
-    // From the last center of a row of a block, and of a block.
+    // The distances from the last center of a row of a block, and from the last center of a block.
     wire [WORD_BITS-1:0] block_skip = !last_row ? BLOCK_SKIP : row_of_blocks_ends ? LEAVING_SKIP : NEXT_BLOCK;
     wire [WORD_BITS-1:0] onward = !last_column ? ONE : averaging ? block_skip : skip;
 
@@ -173,7 +174,7 @@ module serial_addresses #(
         end
     end
 
-    // Neighbors, clockwise from above left; the last is the center itself.
+    // The neighbors, clockwise from the upper left one. The last number is the center itself.
     reg [3:0] neighbor;
     always @* begin
         if (searching) neighbor = tap_i;
@@ -219,7 +220,7 @@ module serial_addresses #(
     wire [WORD_BITS-1:0] near = WINDOW_STRIDE == SCORED_STRIDE || !searching
         ? distance(way, SCORED_STRIDE) : distance(way, WINDOW_STRIDE);
 
-    // Where the linear squares are.
+    // The addresses in squares that are walked word by word.
     wire [WORD_BITS-1:0] position;
     wire [WORD_BITS-1:0] reference;
 

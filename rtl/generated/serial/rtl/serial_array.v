@@ -1,82 +1,81 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The serial array: a feed, a sequencer, groups of registers, lanes in a ring, and one decision for
-// all of them. It only connects; every number comes from the design.
+// The serial array: a feed, a sequencer, groups of registers, lanes in a ring, and one decision for all of them. It only
+// connects these modules; the design gives every number. docs/serial.md defines each output at each clock.
 //
-// The scores of the lanes form a ring. In a rotation lane 0 holds the score that passes the decision;
-// what that gives back enters the last lane, and after as many steps as there are lanes it is where the
-// score was.
+// The scores of the lanes form a ring. In a rotation, lane 0 holds the score that passes the decision. The word that comes
+// back enters the last lane, and after as many steps as there are lanes it is in the place of the score.
 `default_nettype none
 
 // Parts that the design does not elaborate are left out, so some parameters have no use.
 // verilator lint_off UNUSEDPARAM
 
 module serial_array #(
-    parameter COLUMNS = 4,          // regions side by side
-    parameter ROWS = 1,             // regions one below the other
-    parameter FOLD = 4,             // regions of a lane: slots
-    parameter LANES = 1,            // lanes, as many as COLUMNS * ROWS regions need
+    parameter COLUMNS = 4,          // regions in a row of regions
+    parameter ROWS = 1,             // rows of regions
+    parameter FOLD = 4,             // number of regions of a lane, its slots
+    parameter LANES = 1,            // number of lanes that COLUMNS * ROWS regions need
     parameter WIDTH = 8,            // bits of a pixel, 1 to 16
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
-    parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE and twice the halo
-    parameter DENOISED_SIDE = 8,    // side of the square that is denoised; without a filter, SIDE
+    parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE plus twice the halo
+    parameter DENOISED_SIDE = 8,    // side of the square that is denoised; SIDE without a filter
     parameter MEDIAN = 1,           // 1: pixels are denoised
-    parameter SHARED = 0,           // 1: windows see neighboring regions, else their own border repeated
-    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
-    parameter BLANKS = 1,           // 1: irrelevant regions are shown as 0, else held
-    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
-    parameter RASTER = 0,           // 1: the frame enters row by row, else one pixel per lane
-    parameter BLOCK = 0,            // 1: the memories are block RAM, else distributed RAM
+    parameter SHARED = 0,           // 1: windows see neighboring regions; 0: windows repeat the region's own border
+    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
+    parameter BLANKS = 1,           // 1: irrelevant regions are shown as 0; 0: they are held
+    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
+    parameter RASTER = 0,           // 1: the frame enters row by row; 0: one pixel per lane
+    parameter BLOCK = 0,            // 1: the memories are block RAM; 0: distributed RAM
     parameter DEEP = 0,             // 1: more registers, for a faster clock
     parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
+    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
     parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
-    parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
+    parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
     parameter MEAN_DROPPED = 0,     // bits of a block's sum that stay in the lane
-    parameter MEAN_SUM_BITS = 8,    // bits of what leaves it
+    parameter MEAN_SUM_BITS = 8,    // bits of a block's sum that leave the lane
     parameter MEAN_FACTOR_BITS = 1, // bits of MEAN_FACTOR
-    parameter [MEAN_FACTOR_BITS-1:0] MEAN_FACTOR = 1,  // what leaves it * MEAN_FACTOR >> MEAN_SHIFT is the mean
-    parameter MEAN_SHIFT = 0,       // bits that are dropped of the product
-    parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
-    parameter REFERENCE_BASE = 0,   // where the reference starts in a slot
-    parameter WORD_BITS = 7,        // of an address inside a slot
-    parameter SLOT_BITS = 2,        // of the number of a slot, at least 1
-    parameter ADDRESS_BITS = 9,     // of an address in the memory of a lane: slot and word
-    parameter LANE_BITS = 1,        // of the number of a lane, at least 1
-    parameter REGION_BITS = 2,      // of the number of a region, empty slots included
-    parameter POSITION_BITS = 6,    // of the number of a pixel in the largest square of centers
-    parameter INDEX_BITS = 1,       // of the number of a score
-    parameter COUNT_BITS = 7,       // of a count of pixels, 0..SIDE * SIDE
-    parameter SCORE_BITS = 7,       // of the widest score
-    parameter SUM_BITS = 14,        // of the sum of a region
-    parameter SCALE_BITS = 8,       // of the constant that is shifted from step to step
-    parameter ACC_BITS = 11,        // of the accumulator, which is signed
-    parameter AUX_BITS = 2,         // of the second word of `mad` and `variance`, at least 2
-    parameter CHAIN_BITS = 7        // of the word that goes around the ring of lanes
+    parameter [MEAN_FACTOR_BITS-1:0] MEAN_FACTOR = 1,  // (sum from the lane * MEAN_FACTOR) >> MEAN_SHIFT is the mean
+    parameter MEAN_SHIFT = 0,       // bits of the product that are dropped
+    parameter DENOISED_BASE = 64,   // address in a slot where the denoised square starts
+    parameter REFERENCE_BASE = 0,   // address in a slot where the reference starts
+    parameter WORD_BITS = 7,        // bits of an address inside a slot
+    parameter SLOT_BITS = 2,        // bits of the number of a slot, at least 1
+    parameter ADDRESS_BITS = 9,     // bits of an address in the memory of a lane: slot and word
+    parameter LANE_BITS = 1,        // bits of the number of a lane, at least 1
+    parameter REGION_BITS = 2,      // bits of the number of a region, empty slots included
+    parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
+    parameter INDEX_BITS = 1,       // bits of the number of a score
+    parameter COUNT_BITS = 7,       // bits of a count of pixels, 0..SIDE * SIDE
+    parameter SCORE_BITS = 7,       // bits of the widest score
+    parameter SUM_BITS = 14,        // bits of the sum of a region
+    parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
+    parameter ACC_BITS = 11,        // bits of the accumulator, which is signed
+    parameter AUX_BITS = 2,         // bits of the second word of `mad` and `variance`, at least 2
+    parameter CHAIN_BITS = 7        // bits of the word that goes around the ring of lanes
 ) (
     input  wire                                       clk_i,              // clock, rising edge
     input  wire                                       rst_i,              // synchronous reset, active high
     input  wire                                       valid_i,            // a pixel comes in
     output wire                                       ready_o,            // a pixel would be taken at the next edge
-    input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,            // the pixel; `parallel`: one per lane, lane 0 lowest
+    input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,            // the pixel; `parallel`: one pixel per lane, lane 0 lowest
     input  wire [                          WIDTH-1:0] temporal_level_i,   // a pixel has changed above this difference
     input  wire [                          WIDTH+1:0] edge_half_i,        // half the level of `edge`, rounded down
     input  wire [                          WIDTH-1:0] corner_level_i,     // level of `corner`
-    input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // of the scores, that of the count lowest
-    input  wire [                          WIDTH-1:0] summary_level_i,    // means that differ by more are sent again
-    output wire                                       score_valid_o,      // a score of a region stands at the ports
-    output wire [                     INDEX_BITS-1:0] score_index_o,      // which: 0 the temporal count
-    output wire [                    REGION_BITS-1:0] region_o,           // whose
-    output wire [                     SCORE_BITS-1:0] score_o,            // that score
-    output wire                                       decision_valid_o,   // the decision for region_o
-    output wire                                       srs_o,              // spatial relevance, or 0
-    output wire                                       trs_o,              // temporal relevance, or 0
-    output wire                                       active_o,           // both
-    output wire                                       summary_o,          // its means are sent, or 0
-    output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,    // a pixel of an active region leaves, or a mean
-    output wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] forward_pixel_o,    // that pixel
-    output wire [                      SLOT_BITS-1:0] forward_slot_o,     // `parallel`: slot of its region in its lane
-    output wire [                  POSITION_BITS-1:0] forward_position_o  // number of that pixel in its region
+    input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // smallest scores that vote, that of TRS lowest
+    input  wire [                          WIDTH-1:0] summary_level_i,    // a mean that differs by more than this level is sent again
+    output wire                                       score_valid_o,      // a score of region_o is on the ports
+    output wire [                     INDEX_BITS-1:0] score_index_o,      // number of that score; 0 is the temporal count
+    output wire [                    REGION_BITS-1:0] region_o,           // number of the region of the score and of the decision
+    output wire [                     SCORE_BITS-1:0] score_o,            // the score
+    output wire                                       decision_valid_o,   // the decision for region_o is on the ports
+    output wire                                       srs_o,              // SRS, the spatial relevance; 0 unless decision_valid_o
+    output wire                                       trs_o,              // TRS, the temporal relevance; 0 unless decision_valid_o
+    output wire                                       active_o,           // SRS and TRS are both 1
+    output wire                                       summary_o,          // the means of region_o are sent; 0 unless decision_valid_o
+    output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,    // a pixel of an active region, or a mean, leaves
+    output wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] forward_pixel_o,    // the pixel or mean that leaves
+    output wire [                      SLOT_BITS-1:0] forward_slot_o,     // `parallel`: slot of that pixel's region in its lane
+    output wire [                  POSITION_BITS-1:0] forward_position_o  // position of that pixel in its region
 );
 
     // The areas of a slot: raw, denoised, reference.
@@ -86,7 +85,7 @@ module serial_array #(
     localparam DENOISED_END = DENOISED_BASE + DENOISED_SIDE * DENOISED_SIDE;
     localparam REFERENCE_END = REFERENCE_BASE + SIDE * SIDE;
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
         if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
@@ -140,7 +139,7 @@ module serial_array #(
         if (COUNT_BITS != $clog2(SIDE * SIDE + 1)) begin : g_count_bits
             COUNT_BITS_must_hold_the_pixels u_refused ();
         end
-        // The areas of a slot follow each other, and fit.
+        // The areas of a slot are one behind the other, and fit into it.
         if (HAS_DENOISED && DENOISED_BASE < RAW_END) begin : g_denoised_base
             DENOISED_BASE_must_lie_behind_the_raw_area u_refused ();
         end
@@ -166,8 +165,8 @@ module serial_array #(
     localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
     localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
     localparam BLOCK_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;
-    localparam CONTROL_BITS = 27;  // of the control word
-    // Clocks from an address to the word in hand, and to the accumulator.
+    localparam CONTROL_BITS = 27;  // bits of the control word
+    // Clocks from an address to its word, and from an address to the accumulator.
     localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
     localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE) ? 1 : 0);
 
@@ -234,7 +233,7 @@ module serial_array #(
         working ? {slot, word} : {place_slot, place_word};
     wire unused_slot = |full_address;
 
-    // The numbers that go with the scores and pixels at the ports.
+    // The numbers that belong to the scores and pixels at the ports.
     localparam SHOWN_BITS = REGION_BITS + BLOCK_BITS + SLOT_BITS + POSITION_BITS + INDEX_BITS + 4;
     wire [SHOWN_BITS-1:0] shown, next_shown;
     wire shown_rotate, shown_average, shown_return, shown_unload;

@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The constant of a step of the serial array: a level, or a number that is shifted from step to step until all of its
-// bits have been tried.
+// Makes the constant of each step of the serial array: a level, or a number that is shifted from step to step until all of
+// its bits have been used. constant_o belongs to the step of the same clock.
 `default_nettype none
 
 module serial_constant #(
     parameter WIDTH = 8,       // bits of a pixel
-    parameter SIDE = 8,        // of a region
+    parameter SIDE = 8,        // pixels of a side of a region
     parameter MEDIAN = 1,      // 1: pixels are denoised
     parameter MAD = 0,         // 1: the design has the feature `mad`
-    parameter VARIANCE = 0,    // ... `variance`
+    parameter VARIANCE = 0,    // 1: the design has the feature `variance`
     parameter FRACTION = 0,    // fraction bits of the mean of `mad`
-    parameter BLOCK = 1,       // pixels of a block of which the mean is sent
-    parameter SUM_BITS = 14,   // of the sum of a region
-    parameter COUNT_BITS = 7,  // of the pixels of a region
-    parameter SCALE_BITS = 8,  // of the number that is shifted
-    parameter ACC_BITS = 11    // of the accumulator
+    parameter BLOCK = 1,       // pixels of a block whose mean is sent; 1 without summaries
+    parameter SUM_BITS = 14,   // bits of the sum of a region
+    parameter COUNT_BITS = 7,  // bits of the number of pixels of a region
+    parameter SCALE_BITS = 8,  // bits of the shifted number
+    parameter ACC_BITS = 11    // bits of the accumulator
 ) (
     input  wire                clk_i,             // clock, rising edge
-    input  wire [        33:0] step_i,            // what goes on, see serial_states
+    input  wire [        33:0] step_i,            // the step: one bit for each action, in the order of serial_states
     input  wire                last_center_i,     // the center is the last of its square
     input  wire                squares_i,         // the feature under way is `variance`
     input  wire [   WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
     input  wire [   WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
     input  wire [   WIDTH-1:0] corner_level_i,    // level of `corner`
     output wire [ACC_BITS-1:0] constant_o,        // the constant
-    output wire                spent_o,           // the number is shifted out
-    output wire                divided_o,         // the quotient has all its bits
-    output wire                last_place_o,      // of `variance`: this is the last place of the sum
-    output wire                corrects_o,        // ... the square of the sum has a bit there
-    output wire                any_pairs_o,       // ... squares of words have
-    output wire                more_pairs_o       // ... another one than that under way
+    output wire                spent_o,           // the shifted number has no bits left
+    output wire                divided_o,         // the division has found all bits of the quotient
+    output wire                last_place_o,      // `variance`: the place under way is the last of the sum
+    output wire                corrects_o,        // `variance`: the square of the sum has a bit at this place
+    output wire                any_pairs_o,       // `variance`: the squares of words have pairs of bits at this place
+    output wire                more_pairs_o       // `variance`: another pair of bits follows at this place
 );
 
     localparam PIXELS = SIDE * SIDE;
-    localparam PLACES = WIDTH + COUNT_BITS;  // bits that the sum of `variance` has places for
+    localparam PLACES = WIDTH + COUNT_BITS;  // number of bit places of the sum of `variance`
     localparam SUMS = MAD || VARIANCE;
     /* verilator lint_off WIDTH */
     localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
@@ -43,7 +43,7 @@ module serial_constant #(
     localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
     /* verilator lint_on WIDTH */
 
-    // The step.
+    // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
@@ -61,8 +61,8 @@ module serial_constant #(
         || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
         || returning || storing || showing;
 
-    // The squares of `variance`: bit by bit of the result from above, all pairs of bits of n and of
-    // a word that meet there. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
+    // The squares of `variance`: the bits of the result from the highest on, and for each of them all pairs of bits of n and of
+    // a word that contribute to it. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
     reg [SCALE_BITS-1:0] scale_q;
     wire [WIDTH-1:0] lowest;
     wire             place_ends;
@@ -104,13 +104,13 @@ module serial_constant #(
         end
     endgenerate
 
-    // The number that is shifted.
+    // The shifted number.
     assign spent_o = scale_q == 0;
     assign divided_o = scale_q == (squares_i ? UNIT : MAD ? DIVISOR : UNIT);
     assign last_place_o = scale_q[0];
 
     always @(posedge clk_i) begin
-        // Made ready in the states that come before it is needed, so that it does not wait for the next state.
+        // It is set in the states before it is needed, so that it does not depend on the next state.
         if (MEDIAN != 0 && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
         else if (SUMS && summing) scale_q <= squares_i ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);

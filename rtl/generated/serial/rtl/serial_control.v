@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Controls of the lanes, registered for a group of them: once, and once more for every clock that what they
-// work on comes later. A control that the design does not use is 0, so that synthesis leaves no register of it.
+// Registers the controls of the lanes for a group of lanes: one clock, and LATE more for controls whose operands come later.
+// A control that the design does not use is 0, so that synthesis leaves no register for it.
 `default_nettype none
 
 module serial_control #(
     parameter WIDTH = 1,                // bits of the controls, at least 1
-    parameter [WIDTH-1:0] USED = 1'b1,  // those that the design uses
-    parameter LATE = 0                  // clocks by which they are later
+    parameter [WIDTH-1:0] USED = 1'b1,  // one bit per control: the design uses it
+    parameter LATE = 0                  // clocks by which the controls come later
 ) (
     input  wire             clk_i,   // clock, rising edge
     input  wire             rst_i,   // synchronous reset, active high
-    input  wire [WIDTH-1:0] bits_i,  // from the sequencer
-    output wire [WIDTH-1:0] bits_o   // to the lanes
+    input  wire [WIDTH-1:0] bits_i,  // controls from the sequencer
+    output wire [WIDTH-1:0] bits_o   // controls to the lanes
 );
 
     generate
@@ -19,7 +19,7 @@ module serial_control #(
         if (LATE < 0) begin : g_late LATE_must_be_0_or_more u_refused (); end
     endgenerate
 
-    // The newest lowest.
+    // The newest controls are in the lowest bits.
     reg [(LATE+1)*WIDTH-1:0] bits_q;
     wire [(LATE+2)*WIDTH-1:0] bits = {bits_q, bits_i & USED};
     wire unused_last = |bits[(LATE+1)*WIDTH+:WIDTH];

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the lanes of the serial array do in a step: the control word.
+// Makes the control word: what the lanes of the serial array do in a step. Combinational.
 //
-// serial_group knows which designs use which control, and serial_lane takes the word apart. Both have the order of this
-// file: first what goes with the address, then what works on the word read, then what works on the accumulator.
+// serial_group knows which designs use which control, and serial_lane takes the word apart. Both use the order of this file:
+// controls for the address first, then those for the word read, then those for the accumulator.
 `default_nettype none
 
 module serial_controls #(
-    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`, else `previous`
-    parameter RASTER = 0,     // 1: pixels leave by the chain of scores
-    parameter KEEPS = 0       // 1: the score becomes the accumulator, for `mad`, `variance` or the sum of a block
+    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
+    parameter RASTER = 0,     // 1: pixels leave through the chain of scores
+    parameter KEEPS = 0       // 1: the score can take the accumulator, for `mad`, `variance` or the sum of a block
 ) (
-    input  wire [33:0] step_i,     // what goes on, see serial_states
-    input  wire [ 3:0] tap_i,      // number of the neighbor
-    input  wire [ 1:0] part_i,     // half of a gradient, part of a ring's step, side of the border
+    input  wire [33:0] step_i,     // the step: one bit for each action, in the order of serial_states
+    input  wire [ 3:0] tap_i,      // number of the neighbor that is read
+    input  wire [ 1:0] part_i,     // which half of a gradient, part of a ring's step, or side of the border
     input  wire        counts_i,   // the center is a pixel of the region
-    input  wire        spent_i,    // the number that is shifted is shifted out
+    input  wire        spent_i,    // the shifted number has no bits left
     output wire [26:0] controls_o  // the control word
 );
 
-    // The step.
+    // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
@@ -35,50 +35,50 @@ module serial_controls #(
     wire unused_step = denoising || averaging || returning || |tap_i;
 
     wire idle = loading || draining;
-    wire compares = searching && !adjusting;                  // a neighbor with the candidate
-    wire tests = testing || gradient_test || ring_test;       // the accumulator against a level
-    wire half_done = gradient_test && !part_i[0];             // one of two gradients of a pixel
-    wire scores = (gradient_test && part_i[0]) || (ring_test && ring_last);  // all of a pixel is done
+    wire compares = searching && !adjusting;                  // a neighbor is compared with the candidate
+    wire tests = testing || gradient_test || ring_test;       // the accumulator is compared with a level
+    wire half_done = gradient_test && !part_i[0];             // the first of two gradients of a pixel is done
+    wire scores = (gradient_test && part_i[0]) || (ring_test && ring_last);  // all comparisons of a pixel are done
     wire takes_old = LAST_SENT == 0 && writing;               // the reference is the word that the median replaces
 
-    // With the address: write
-    wire write_active = LAST_SENT != 0 && writing && copying;  // ... if the first flag is set
-    wire write_border = writing && bordering;                  // ... if the side is on the frame's border
-    wire [1:0] side = part_i;                                  // ... left, right, top, bottom
-    wire write_mean = storing;                                 // ... the score, and not the accumulator
+    // Controls for the address: what is written.
+    wire write_active = LAST_SENT != 0 && writing && copying;  // write if the first flag is set
+    wire write_border = writing && bordering;                  // write if the side is on the frame's border
+    wire [1:0] side = part_i;                                  // number of that side: left, right, top, bottom
+    wire write_mean = storing;                                 // write the score instead of the accumulator
 
-    // With the word read: the operand is the constant, or
-    wire from_memory = !tests && !starting && !adjusting && !halving && !dividing;  // ... the word
-    wire deviate = deviating;                                  // ... |2^FRACTION * word - aux|
-    wire masked = squaring || correcting;                      // ... and is only added if its bit under the constant is 1
-    wire from_aux = correcting;                                // ... aux
+    // Controls for the word read: the choice of the operand, which is the constant without any of these.
+    wire from_memory = !tests && !starting && !adjusting && !halving && !dividing;  // the operand is the word
+    wire deviate = deviating;                                  // the operand is |2^FRACTION * word - aux|
+    wire masked = squaring || correcting;                      // take the sum only if the bit of the operand under the constant is 1
+    wire from_aux = correcting;                                // the operand is aux
 
-    // With the accumulator: it takes the sum of itself and the operand.
+    // Controls for the accumulator, which takes the sum of itself and the operand.
     wire subtract = compares || writing || relating || dividing || correcting  // invert the operand
         || (gradient && !gradient_test && part_i[0] == tap_i[2]) || (ring && part_i[0]);
-    wire by_sign = tests;                                      // ... if the accumulator is not negative
-    wire by_run = adjusting;                                   // ... if five were counted
+    wire by_sign = tests;                                      // invert the operand if the accumulator is not negative
+    wire by_run = adjusting;                                   // invert the operand if five were counted
     wire carry = (!tests && !searching) || (adjusting && !spent_i);  // add one to an inverted operand
     wire enable = starting || adjusting || reading || takes_old || relating || gradient || ring || summing
         || doubling || halving || dividing || deviating || squaring || correcting;  // take the sum
-    wire clear = idle || tests || (writing && !temporal) || clearing || keeping;    // become 0
+    wire clear = idle || tests || (writing && !temporal) || clearing || keeping;    // clear the accumulator
 
-    // ... and the counts
+    // Controls for the counts.
     wire run = compares || half_done || ring_test;             // count in unary
-    wire run_corner = ring;                                    // ... equal ones in a row
+    wire run_corner = ring;                                    // count in unary the hits of equal sign in a row
     wire run_clear = idle || adjusting || scores;              // the unary count becomes 0
-    wire count = (testing && counts_i) || scores;              // score a hit
-    wire count_corner = ring;                                  // ... of `corner`
+    wire count = (testing && counts_i) || scores;              // add a hit to the score
+    wire count_corner = ring;                                  // this hit is one of `corner`
 
-    // ... and the rest.
+    // Other controls.
     wire twice = doubling;                                     // the operand is the accumulator itself
     wire divide = dividing;                                    // keep the sum only if it is not negative
-    wire shift = rotating || shifting;                         // scores move on by one lane
-    wire coded = RASTER != 0 && KEEPS != 0;                    // both of the next two: scores move on, too
+    wire shift = rotating || shifting;                         // scores move to the next lane
+    wire coded = RASTER != 0 && KEEPS != 0;                    // keep and fetch together have a meaning of their own here: scores move on
     wire keep = keeping || (coded && shift);                   // the score becomes the accumulator
-    wire fetch = RASTER != 0 && (unloading || (coded && shift));  // ... the word read
+    wire fetch = RASTER != 0 && (unloading || (coded && shift));  // the score becomes the word read
     wire unload = RASTER == 0 && unloading;                    // the word read leaves if its region is active
-    wire unload_mean = showing;                                // ... if its summary is sent; the score becomes 0
+    wire unload_mean = showing;                                // the word read leaves if its region's summary is sent; the score becomes 0
 
     assign controls_o = {
         write_active, write_border, side, write_mean,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Decides for one region after the other, as their scores pass: the temporal count first, which
-// leaves TRS as a flag, then each feature, and with the last one the decision.
+// Decides one region after the other while their scores pass: first the temporal count, which leaves TRS as a flag, then
+// each feature. The decision comes with the last score, in the same clock.
 `default_nettype none
 
 // Parts that the design does not elaborate are left out, so some parameters have no use.
@@ -13,35 +13,35 @@ module serial_decision #(
     parameter FEATURES = 1,      // spatial features, 1 to 4
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
-    parameter FLAGS = 1,         // 1 for one feature without summaries, else 2
-    parameter LAST_SENT = 0,     // 1: the reference is `last-sent`, else `previous`
-    parameter BLANKS = 1,        // 1: with SRS = 0 nothing that was sent is left
+    parameter FLAGS = 1,         // bits of the flags of a region: 1 for one feature without summaries, else 2
+    parameter LAST_SENT = 0,     // 1: the reference is `last-sent`; 0: `previous`
+    parameter BLANKS = 1,        // 1: a region with SRS = 0 loses its reference
     parameter REGIONS = 784,     // regions of the frame
-    parameter SLOTS = 784,       // regions and empty slots
+    parameter SLOTS = 784,       // number of regions plus empty slots
     parameter REGION_BITS = 10,  // bits of the number of a slot of the array
     parameter INDEX_BITS = 1     // bits of the number of a score
 ) (
     input  wire                               clk_i,             // clock, rising edge
     input  wire                               rst_i,             // synchronous reset, active high
-    input  wire                               frame_i,           // a frame is done
+    input  wire                               frame_i,           // all scores of a frame have passed
     input  wire                               rotate_i,          // a score passes
-    input  wire [             INDEX_BITS-1:0] index_i,           // which: 0 is the temporal count
-    input  wire [            REGION_BITS-1:0] region_i,          // whose
+    input  wire [             INDEX_BITS-1:0] index_i,           // number of that score; 0 is the temporal count
+    input  wire [            REGION_BITS-1:0] region_i,          // number of the region of that score
     input  wire [             CHAIN_BITS-1:0] word_i,            // the score that passes
     input  wire [                  FLAGS-1:0] flags_i,           // the flags of its region
-    input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,          // by index
+    input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,          // smallest value of each score that votes, by index
     input  wire                               summary_i,         // with SUMMARIES: the region sends its means
-    output wire [                  FLAGS-1:0] flags_o,           // back into the ring
+    output wire [                  FLAGS-1:0] flags_o,           // flags that return to the ring
     output wire                               region_valid_o,    // the slot is not empty
     output wire                               score_valid_o,     // a score of a region passes
-    output wire [             SCORE_BITS-1:0] score_o,           // that score; n without a reference
-    output wire                               decision_valid_o,  // with the last score: the decision is made
-    output wire                               srs_o,             // spatial relevance; 0 unless decision_valid_o
-    output wire                               trs_o,             // temporal relevance; 0 unless decision_valid_o
-    output wire                               active_o           // both; 0 unless decision_valid_o
+    output wire [             SCORE_BITS-1:0] score_o,           // that score; n for a temporal count without a reference
+    output wire                               decision_valid_o,  // the decision is made, with the last score
+    output wire                               srs_o,             // SRS, the spatial relevance; 0 unless decision_valid_o
+    output wire                               trs_o,             // TRS, the temporal relevance; 0 unless decision_valid_o
+    output wire                               active_o           // SRS and TRS are both 1; 0 unless decision_valid_o
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
         if (FLAGS != (FEATURES > 1 || SUMMARIES != 0 ? 2 : 1)) begin : g_flags
@@ -67,7 +67,7 @@ module serial_decision #(
     localparam [REGION_BITS:0] BEHIND = REGIONS;
     /* verilator lint_on WIDTH */
 
-    reg first_q;  // no frame before this one
+    reg first_q;  // no frame came before this one
     wire temporal = index_i == {INDEX_BITS{1'b0}};
     wire last = index_i == FEATURES[INDEX_BITS-1:0];
     wire reference;
@@ -93,7 +93,8 @@ module serial_decision #(
     assign score_valid_o = rotate_i && region_valid_o;
     assign score_o = temporal && !reference ? EVERY : word_i[SCORE_BITS-1:0];
 
-    // Flags: TRS, at last whether the region is active; and SRS so far, at last whether its summary is sent.
+    // The flags. The first is TRS, and after the last score whether the region is active. The second is SRS so far, and after
+    // the last score whether the region's summary is sent.
     wire active = flags_i[0] && srs && region_valid_o;
     assign flags_o[0] = !rotate_i ? flags_i[0] : temporal ? vote : last ? active : flags_i[0];
     assign decision_valid_o = score_valid_o && last;
@@ -116,7 +117,7 @@ module serial_decision #(
             end
         end
         if (LAST_SENT != 0) begin : g_last_sent
-            // One bit per region: it has a reference.
+            // One bit per region: it has a valid reference.
             wire referenced;
             frame_store #(
                 .WIDTH(1), .PIXELS(SLOTS > 1 ? SLOTS : 2), .ADDRESS_BITS(REGION_BITS)

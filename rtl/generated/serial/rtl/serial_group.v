@@ -1,61 +1,61 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The controls of the sequencer, registered for a group of lanes, so that no net reaches all of them. Every
-// group has registers of its own, which synthesis is to keep.
+// Registers the controls of the sequencer for a group of lanes, so that no net reaches all lanes. Every group has registers
+// of its own, which synthesis must keep.
 //
-// What goes with the address comes in its clock, what works on the word read comes in the word's clock, and what
-// works on the accumulator comes in its clock.
+// Controls for the address come in the clock of the address, those for the word read in the clock of the word (WORD clocks
+// later), and those for the accumulator in its clock (LATE clocks later).
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
 module serial_group #(
     parameter WIDTH = 8,         // bits of a pixel
-    parameter ADDRESS_BITS = 7,  // of an address in the memory of a lane
-    parameter WORD = 0,          // clocks from an address to the word in hand
-    parameter LATE = 0,          // ... to the accumulator
-    parameter RASTER = 0,        // 1: one pixel for all lanes; 0: one for each
-    parameter GROUP = 0,         // number of this group; with RASTER groups have 64 lanes
-    parameter LANE_BITS = 10,    // of the number of a lane, at least 1
-    parameter ACC_BITS = 11,     // of the accumulator
+    parameter ADDRESS_BITS = 7,  // bits of an address in the memory of a lane
+    parameter WORD = 0,          // clocks from an address to its word
+    parameter LATE = 0,          // clocks from an address to the accumulator
+    parameter RASTER = 0,        // 1: one pixel for all lanes; 0: one pixel per lane
+    parameter GROUP = 0,         // number of this group; with RASTER a group has 64 lanes
+    parameter LANE_BITS = 10,    // bits of the number of a lane, at least 1
+    parameter ACC_BITS = 11,     // bits of the accumulator
     parameter COPIES = 0,        // 1: an active lane copies the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
     parameter MEDIAN = 1,        // 1: pixels are denoised
     parameter EDGE = 1,          // 1: the design has the feature `edge`
-    parameter CORNER = 0,        // ... `corner`
-    parameter MAD = 0,           // ... `mad`
-    parameter VARIANCE = 0,      // ... `variance`
+    parameter CORNER = 0,        // 1: the design has the feature `corner`
+    parameter MAD = 0,           // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,      // 1: the design has the feature `variance`
     parameter SUMMARIES = 0      // 1: irrelevant regions send the means of their blocks
 ) (
     input  wire                    clk_i,           // clock, rising edge
     input  wire                    rst_i,           // synchronous reset, active high
-    // Loading.
+    // Loading of a frame.
     input  wire                    open_i,          // `parallel`: pixels can be taken after this edge
-    input  wire                    valid_i,         // `parallel`: a pixel comes in
+    input  wire                    valid_i,         // `parallel`: a pixel is offered
     input  wire                    take_i,          // `raster`: a pixel is taken
     input  wire [       WIDTH-1:0] pixel_i,         // `raster`: that pixel
-    input  wire                    place_i,         // `raster`: it is to be written to a lane
-    input  wire [   LANE_BITS-1:0] lane_i,          // ... to this one
-    // With the address.
-    input  wire [ADDRESS_BITS-1:0] address_i,       // in the memory of a lane
-    input  wire                    write_i,         // write the accumulator there
-    // What the lanes do.
+    input  wire                    place_i,         // `raster`: that pixel is written to lane_i
+    input  wire [   LANE_BITS-1:0] lane_i,          // `raster`: number of that lane
+    // Address.
+    input  wire [ADDRESS_BITS-1:0] address_i,       // address in the memory of a lane
+    input  wire                    write_i,         // the accumulator is written to this address
+    // Controls of the lanes.
     input  wire [    ACC_BITS-1:0] constant_i,      // the constant
     input  wire [            26:0] controls_i,      // the control word, see serial_controls
-    // To the lanes: loading, the rest as above.
+    // Outputs to the lanes: those of loading, then the inputs above, registered.
     output wire                    loading_o,       // pixels come from outside
-    output wire [       WIDTH-1:0] pixel_o,         // the pixel taken last
-    output wire [             7:0] rows_o,          // lane 8 * row + column of the group is selected: its row
-    output wire [             7:0] columns_o,       // ... its column
-    output wire [ADDRESS_BITS-1:0] address_o,       // address_i, or of the next pixel
-    output wire                    write_o,         // write_i, or a pixel that comes in
-    output wire [    ACC_BITS-1:0] constant_o,      // constant_i, in its clock
-    output wire [            26:0] controls_o       // controls_i, each in its clock
+    output wire [       WIDTH-1:0] pixel_o,         // the pixel that was taken last
+    output wire [             7:0] rows_o,          // one bit per row of 8 lanes: it has the selected lane 8 * row + column
+    output wire [             7:0] columns_o,       // one bit per column of 8 lanes: it has the selected lane
+    output wire [ADDRESS_BITS-1:0] address_o,       // address_i, or the address of the next pixel
+    output wire                    write_o,         // write_i, or a pixel comes in
+    output wire [    ACC_BITS-1:0] constant_o,      // constant_i, in the clock of its use
+    output wire [            26:0] controls_o       // controls_i, each control in the clock of its use
 );
 
     generate
         if (LANE_BITS < 1) begin : g_lane_bits LANE_BITS_must_be_1_or_more u_refused (); end
     endgenerate
 
-    // The initial value keeps synthesis from moving this register into the memory's address port.
+    // The initial value keeps synthesis from moving this register into the address port of the memory.
     reg [ADDRESS_BITS-1:0] address_q = {ADDRESS_BITS{1'b0}};
     reg loading_q;
     reg write_q;
@@ -108,7 +108,7 @@ module serial_group #(
         end
     endgenerate
 
-    // Which designs use a control, in the order of the control word.
+    // The designs that use each control, in the order of the control word.
     localparam [0:0] SUMS = MAD != 0 || VARIANCE != 0;
     localparam [0:0] RUNS = MEDIAN != 0 || EDGE != 0 || CORNER != 0;
     localparam [0:0] MEANS = SUMMARIES != 0;

@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One lane of the serial array: a memory, one accumulator, a count and what hangs on them. It takes
-// all its decisions from signs; addresses, constants and the order of things come from the sequencer.
+// One lane of the serial array: a memory, one accumulator, and a count. All its decisions follow from signs; addresses,
+// constants and the order of steps come from the sequencer. docs/serial.md defines each step.
 //
-// The accumulator is the candidate of the median search, the difference to the reference, the half
-// gradient, the sum of a region, in turn. |acc| > level is asked by adding ~level to what is not
-// negative and level to what is: the sign stays exactly if it is so (`stays`).
-// A median is searched bit by bit. A pixel is below the candidate if acc + ~pixel keeps the sign;
-// five of nine clear the bit. `run_q` counts to five in unary, which takes no logic but its enable;
-// for `edge` its lowest bit says that one of the two comparisons of a pixel was a hit, for `corner`
-// it is the length of the run.
+// The accumulator is, one after the other, the candidate of the median search, the difference from the reference, half of a
+// gradient, and the sum of a region. |acc| > level is tested by adding ~level to a value that is not negative, and level to
+// a negative one: the sign stays (`stays`) exactly if it is true.
 //
-// With DEEP the word read is a register, and so is the operand where `mad` or `variance` work on the word, before it
-// is inverted. A hit is counted a clock after it was found: a score is whole one clock after the last step of its pass.
+// A median is searched bit by bit. A pixel is below the candidate if acc + ~pixel keeps the sign; five of nine such pixels
+// clear the bit. `run_q` counts to five in unary, which takes no logic but its enable. For `edge` its lowest bit says that
+// one of the two comparisons of a pixel was a hit; for `corner` it is the length of the run.
+//
+// With DEEP the word read is in a register. The operand is, too, before it is inverted, if `mad` or `variance` compute it
+// from the word. A hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
 module serial_lane #(
     parameter WIDTH = 8,         // bits of a pixel
     parameter WORDS = 128,       // words of the memory
-    parameter ADDRESS_BITS = 7,  // of an address in the memory
-    parameter BLOCK = 0,         // 1: the memory is block RAM
+    parameter ADDRESS_BITS = 7,  // bits of an address in the memory
+    parameter BLOCK = 0,         // 1: the memory is block RAM; 0: distributed RAM
     parameter DEEP = 0,          // 1: registers behind the word and the hit
     parameter ACC_BITS = 11,     // bits of the accumulator, which is signed
-    parameter CHAIN_BITS = 7,    // bits of the score on its way
-    parameter FLAGS = 1,         // bits that travel with the score
-    parameter RASTER = 0,        // 1: pixels enter by lane select and leave by the chain of scores
+    parameter CHAIN_BITS = 7,    // bits of the word that goes around the ring of lanes
+    parameter FLAGS = 1,         // number of flags that move with the score
+    parameter RASTER = 0,        // 1: pixels enter by lane select and leave through the chain of scores
     parameter COPIES = 0,        // 1: an active lane copies the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
     parameter MEDIAN = 1,        // 1: pixels are denoised
     parameter EDGE = 1,          // 1: the design has the feature `edge`
-    parameter CORNER = 0,        // ... `corner`
-    parameter MAD = 0,           // ... `mad`
-    parameter VARIANCE = 0,      // ... `variance`
+    parameter CORNER = 0,        // 1: the design has the feature `corner`
+    parameter MAD = 0,           // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,      // 1: the design has the feature `variance`
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
     parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 with `mad` or `variance`
@@ -40,29 +40,29 @@ module serial_lane #(
     input  wire                    clk_i,            // clock, rising edge
     // Memory.
     input  wire                    loading_i,        // pixels come from outside
-    input  wire [       WIDTH-1:0] pixel_i,          // that pixel
-    input  wire [ADDRESS_BITS-1:0] address_i,        // of the word that is read and written
+    input  wire [       WIDTH-1:0] pixel_i,          // the pixel from outside
+    input  wire [ADDRESS_BITS-1:0] address_i,        // address of the word that is read and written
     input  wire                    write_i,          // write the accumulator
-    input  wire                    select_row_i,     // `raster`: write the pixel if this
-    input  wire                    select_column_i,  // ... and this one
-    input  wire [             3:0] sides_i,          // {bottom, top, right, left}
-    // What to do.
+    input  wire                    select_row_i,     // `raster`: write the pixel if this and select_column_i are 1
+    input  wire                    select_column_i,  // `raster`: column part of the lane select
+    input  wire [             3:0] sides_i,          // sides of the region on the frame's border: {bottom, top, right, left}
+    // Controls.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
     input  wire [            26:0] controls_i,       // the control word, see serial_controls
     // Chain of scores.
-    input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane behind
-    input  wire [       FLAGS-1:0] flags_i,          // flags of the lane behind: active or TRS; SRS so far, then sent
-    output wire [  CHAIN_BITS-1:0] word_o,           // the score
-    output wire [       FLAGS-1:0] flags_o,          // its flags
+    input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane before
+    input  wire [       FLAGS-1:0] flags_i,          // flags of the lane before: active or TRS; then SRS so far or sent
+    output wire [  CHAIN_BITS-1:0] word_o,           // score of this lane
+    output wire [       FLAGS-1:0] flags_o,          // flags of this lane
     // Unloading.
     output wire                    leaves_o,         // the word read is a pixel of an active region, or a mean that is sent
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
     localparam SUMS = MAD != 0 || VARIANCE != 0;
-    localparam KEEPS = SUMS || SUMMARIES != 0;  // the score takes sums
+    localparam KEEPS = SUMS || SUMMARIES != 0;  // 1: the score can take sums
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
         if (ACC_BITS <= WIDTH) begin : g_acc_bits ACC_BITS_must_be_more_than_WIDTH u_refused (); end
@@ -85,7 +85,7 @@ module serial_lane #(
         end
     endgenerate
 
-    // The control word.
+    // The bits of the control word.
     wire write_active, write_border, from_memory, deviate, masked, from_aux;
     wire subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner;
     wire twice, divide, shift, keep, fetch, unload, unload_mean;
@@ -152,7 +152,7 @@ module serial_lane #(
     // Accumulator.
     wire [ACC_BITS-1:0] wide_word = {{(ACC_BITS - WIDTH) {1'b0}}, word};
     wire [ACC_BITS-1:0] found;   // the operand, before it is inverted
-    wire [ACC_BITS-1:0] source;  // ... in the clock of the accumulator
+    wire [ACC_BITS-1:0] source;  // the operand, in the clock of the accumulator
 
     generate
         if (DEEP != 0 && SUMS) begin : g_operand
@@ -171,12 +171,12 @@ module serial_lane #(
             wire [ACC_BITS-1:0] choice;
             wire                deviates = MAD != 0 && deviate;
             wire                negative;
-            wire                takes;     // the accumulator takes the sum, if it is enabled
+            wire                takes;     // the accumulator takes the sum, if `enable` is 1 as well
 
             if (MAD != 0) begin : g_deviation
                 wire [MEAN_BITS:0] scaled = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word} << FRACTION;
                 wire [MEAN_BITS:0] difference = scaled - {1'b0, aux[MEAN_BITS-1:0]};
-                wire unused_aux = |aux;  // one bit of two, where a mean has but one
+                wire unused_aux = |aux;  // a mean has one bit, and this signal two
                 assign negative = difference[MEAN_BITS];
                 assign deviation = {{(ACC_BITS - MEAN_BITS) {1'b0}}, difference[MEAN_BITS-1:0]};
             end else begin : g_no_deviation
@@ -205,8 +205,8 @@ module serial_lane #(
 
             assign found = deviates ? deviation : choice;
 
-            // A difference below zero is inverted, too, in the bits of a mean. Those above are 0, and stay so: nothing
-            // else is inverted when deviations are added.
+            // A negative difference is inverted as well, in the bits of a mean. The bits above are 0 and stay so, because nothing
+            // else is inverted while deviations are added.
             wire turned;
             if (DEEP != 0 && MAD != 0) begin : g_below
                 reg below_q;
@@ -258,8 +258,8 @@ module serial_lane #(
     // Counts.
     generate
         if (CORNER != 0) begin : g_run_corner
-            // A run goes on with a hit of the same sign, starts anew with one of the other, and ends
-            // without. Once it has been five long it stays.
+            // A run continues with a hit of the same sign, starts again with a hit of the other sign, and ends without a
+            // hit. A run of five stays.
             reg  [4:0] run_q;
             reg        negative_q;
             wire       on = !run_corner || (stays && negative_q == acc_q[ACC_BITS-1]);
@@ -300,8 +300,8 @@ module serial_lane #(
         end
     endgenerate
 
-    // Chain of scores. Scores that move on leave zeros behind, so nothing clears them. What is in it after a reset
-    // moves on with the temporal counts of the first frame, which are not shown.
+    // The chain of scores. Scores that move on leave zeros behind, so nothing has to clear them. Words that are in the chain
+    // after a reset move on with the temporal counts of the first frame, which are not shown.
     wire [CHAIN_BITS-1:0] summed;
     wire [CHAIN_BITS-1:0] fetched;
     wire [CHAIN_BITS-1:0] moved;
@@ -309,7 +309,7 @@ module serial_lane #(
     wire scored;
     wire [CHAIN_BITS-1:0] counted;
 
-    // The moving operand is on the direct input of the carry chain, so a hit takes no second LUT of the lowest bit.
+    // The moving operand is on the direct input of the carry chain, so that a hit takes no second LUT for the lowest bit.
     carry_adder #(.WIDTH(CHAIN_BITS)) u_score (
         .plain_i(moved), .other_i({{(CHAIN_BITS - 1) {1'b0}}, scored}), .carry_i(1'b0), .sum_o(counted)
     );
@@ -323,7 +323,7 @@ module serial_lane #(
             assign scored = scores;
         end
         if (KEEPS && RASTER != 0) begin : g_coded
-            // Both select the lane behind, so that one LUT per bit is enough.
+            // Both choices use word_i, so that one LUT per bit is enough.
             assign moved = fetch ? (keep ? word_i : fetched) : keep ? summed : chain_q;
         end else begin : g_chosen
             assign moved = shift ? word_i : fetch ? fetched : keep ? summed : chain_q;
@@ -350,7 +350,7 @@ module serial_lane #(
 
     generate
         if (SUMMARIES != 0 && RASTER == 0) begin : g_emptied
-            // A mean that has left is no score.
+            // A mean that has left is cleared, because it is no score.
             always @(posedge clk_i) begin
                 if (unload_mean) chain_q <= {CHAIN_BITS{1'b0}};
                 else chain_q <= counted;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The memory of a serial lane, with a single port: what is read is what a write at the same edge
-// replaces. Distributed RAM answers in the same clock, block RAM in the next one; with LATE each a clock later.
+// The memory of a serial lane, with a single port: a read shows the word before a write at the same edge. Distributed RAM
+// shows it in the clock of the address, block RAM in the next clock; with LATE it comes one clock later.
 `default_nettype none
 
 module serial_memory #(
     parameter WIDTH = 8,         // bits of a pixel
     parameter WORDS = 128,       // words of the memory, at least 2
     parameter ADDRESS_BITS = 7,  // ceil(log2(WORDS))
-    parameter BLOCK = 0,         // 1: block RAM
-    parameter LATE = 0           // 1: a register behind it
+    parameter BLOCK = 0,         // 1: block RAM; 0: distributed RAM
+    parameter LATE = 0           // 1: one more register behind the memory
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    write_i,    // write data_i at this edge
-    input  wire [ADDRESS_BITS-1:0] address_i,  // of the word, 0..WORDS-1
+    input  wire [ADDRESS_BITS-1:0] address_i,  // address of the word, 0..WORDS-1
     input  wire [       WIDTH-1:0] data_i,     // the word that is written
-    output wire [       WIDTH-1:0] data_o      // before the write
+    output wire [       WIDTH-1:0] data_o      // the stored word, before the write of this edge
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end

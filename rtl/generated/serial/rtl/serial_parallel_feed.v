@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Takes a frame with one pixel per lane at a time: the words of slot 0, then those of slot 1, ...
-// The place is that of the pixel after the next one, since the groups register the next.
+// Takes a frame with one pixel per lane at a time: the words of slot 0, then those of slot 1, and so on. The place is that of
+// the pixel after the next one, because the groups register the place of the next one.
 `default_nettype none
 
 module serial_parallel_feed #(
-    parameter PIXELS = 64,    // per slot
+    parameter PIXELS = 64,    // pixels of a slot
     parameter FOLD = 1,       // slots of a lane
-    parameter WORD_BITS = 7,  // of an address inside a slot
-    parameter SLOT_BITS = 1   // at least 1
+    parameter WORD_BITS = 7,  // bits of an address inside a slot
+    parameter SLOT_BITS = 1   // bits of the number of a slot, at least 1
 ) (
     input  wire                 clk_i,     // clock, rising edge
     input  wire                 rst_i,     // synchronous reset, active high
-    input  wire                 valid_i,   // a pixel comes in, on every lane
+    input  wire                 valid_i,   // a pixel is offered to every lane
     input  wire                 reopen_i,  // the frame before is done
-    output wire                 ready_o,   // a pixel would be taken
-    output wire                 open_o,    // ready after this edge
-    output wire                 last_o,    // the last pixel is taken
-    output wire [SLOT_BITS-1:0] slot_o,    // the place: slot
-    output wire [WORD_BITS-1:0] word_o     // ... address inside the slot
+    output wire                 ready_o,   // an offered pixel is taken
+    output wire                 open_o,    // ready_o after this edge
+    output wire                 last_o,    // the last pixel of the frame is taken
+    output wire [SLOT_BITS-1:0] slot_o,    // slot of the place
+    output wire [WORD_BITS-1:0] word_o     // address of the place inside the slot
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end
         if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end

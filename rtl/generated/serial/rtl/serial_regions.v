@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Whose turn it is in the serial array: the slot that is worked on, the score that passes, and the region that it is of.
+// Follows the slot that is worked on, the score that passes the decision, and the region of that score. The outputs are
+// those of the step of the same clock.
 `default_nettype none
 
 module serial_regions #(
-    parameter FOLD = 1,             // regions per lane
+    parameter FOLD = 1,             // regions of a lane
     parameter LANES = 784,          // lanes of the array
     parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
-    parameter MAD = 0,              // 1: `mad` is one of them
-    parameter VARIANCE = 0,         // ... `variance`
-    parameter MEANS = 0,            // blocks of a region of which means are sent: 1, 4 or 16; 0: none
-    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
-    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
-    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
-    parameter INDEX_BITS = 1        // of the number of a score
+    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
+    parameter MAD = 0,              // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,         // 1: the design has the feature `variance`
+    parameter MEANS = 0,            // blocks of a region whose means are sent: 1, 4 or 16; 0: none
+    parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
+    parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
+    parameter REGION_BITS = 10,     // bits of the number of a region, empty slots included
+    parameter INDEX_BITS = 1        // bits of the number of a score
 ) (
     input  wire                   clk_i,         // clock, rising edge
     input  wire                   loading_i,     // a frame enters
-    input  wire                   rotating_i,    // a score passes
-    input  wire                   shifting_i,    // ... or a pixel, lane by lane
-    input  wire                   averaging_i,   // what passes is the sum of a block
+    input  wire                   rotating_i,    // a score passes the decision
+    input  wire                   shifting_i,    // a score or a pixel moves on by one lane
+    input  wire                   averaging_i,   // the score that passes is the sum of a block
     input  wire                   block_ends_i,  // the block is done
     input  wire                   slot_ends_i,   // the slot is done
-    output wire [  SLOT_BITS-1:0] slot_o,        // the slot
-    output wire                   last_slot_o,   // it is the last of the frame
+    output wire [  SLOT_BITS-1:0] slot_o,        // number of the slot
+    output wire                   last_slot_o,   // the slot is the last of the frame
     output wire [ INDEX_BITS-1:0] index_o,       // number of the score
-    output wire                   first_score_o, // it is the first of the slot
-    output wire                   last_score_o,  // it is the last of the slot
-    output wire [ BLOCK_BITS-1:0] block_o,       // the block
-    output wire                   last_block_o,  // it is the last of the region
-    output wire [            1:0] next_kind_o,   // the feature that comes next: edge, corner, mad, variance
+    output wire                   first_score_o, // the score is the first of the slot
+    output wire                   last_score_o,  // the score is the last of the slot
+    output wire [ BLOCK_BITS-1:0] block_o,       // number of the block
+    output wire                   last_block_o,  // the block is the last of the region
+    output wire [            1:0] next_kind_o,   // kind of the feature that comes next: 0 edge, 1 corner, 2 mad, 3 variance
     output wire                   squares_o,     // the feature under way is `variance`
-    output wire [REGION_BITS-1:0] region_o,      // the region that passes
-    output wire                   last_lane_o    // it is that of the last lane
+    output wire [REGION_BITS-1:0] region_o,      // number of the region whose score passes
+    output wire                   last_lane_o    // the region is that of the last lane
 );
 
     /* verilator lint_off WIDTH */
@@ -47,7 +48,7 @@ module serial_regions #(
     wire [7:0] kinds = KINDS >> {index_q, 1'b0};
     wire unused_kinds = |kinds;
 
-    // With means, the count is done when the sums of all blocks have passed.
+    // With means, the temporal count is done only when the sums of all blocks have passed.
     wire waits = MEANS != 0 && (averaging_i ? !last_block_o : first_score_o);
 
     assign index_o = index_q;

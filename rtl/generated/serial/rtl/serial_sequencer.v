@@ -1,44 +1,45 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The order of things in the serial array: which step it is, and with it where the lanes work, on what and how.
+// The sequencer of the serial array: for each step where the lanes work, on which word, and what they do. One step per clock,
+// the same for all lanes.
 //
-// One step per clock, the same for all lanes. What leaves here is registered once before it reaches a lane. What works on
-// the word read, or on the operand, is registered again where that comes later than the address.
+// The outputs to the lanes are registered once before they reach a lane (serial_group). Controls for the word read, and for
+// the operand, are registered again if these come later than the address.
 `default_nettype none
 
 module serial_sequencer #(
     parameter WIDTH = 8,            // bits of a pixel
-    parameter SIDE = 8,             // of a region
-    parameter RAW_SIDE = 8,         // of the square that is loaded
-    parameter DENOISED_SIDE = 8,    // of the square that is denoised
+    parameter SIDE = 8,             // pixels of a side of a region
+    parameter RAW_SIDE = 8,         // side of the square that is loaded
+    parameter DENOISED_SIDE = 8,    // side of the square that is denoised
     parameter MEDIAN = 1,           // 1: pixels are denoised
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
-    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
-    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
-    parameter RASTER = 0,           // 1: pixels leave by the chain of scores
+    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
+    parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
+    parameter RASTER = 0,           // 1: pixels leave through the chain of scores
     parameter LATE = 0,             // clocks from an address to the accumulator, 0 to 3
-    parameter DEEP = 0,             // 1: a score is whole a clock after its last step
-    parameter FOLD = 1,             // regions per lane
+    parameter DEEP = 0,             // 1: a score is whole one clock after its last step
+    parameter FOLD = 1,             // regions of a lane
     parameter LANES = 784,          // lanes of the array
     parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
-    parameter EDGE = 1,             // 1: `edge` is one of them
-    parameter CORNER = 0,           // ... `corner`
-    parameter MAD = 0,              // ... `mad`
-    parameter VARIANCE = 0,         // ... `variance`
-    parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
-    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
+    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
+    parameter EDGE = 1,             // 1: the design has the feature `edge`
+    parameter CORNER = 0,           // 1: the design has the feature `corner`
+    parameter MAD = 0,              // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,         // 1: the design has the feature `variance`
+    parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
+    parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`
-    parameter SUM_BITS = 14,        // of the sum of a region
-    parameter COUNT_BITS = 7,       // of the pixels of a region
-    parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
-    parameter REFERENCE_BASE = 64,  // where the reference starts
-    parameter WORD_BITS = 7,        // of an address inside a slot
-    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
-    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
-    parameter POSITION_BITS = 6,    // of the number of a pixel in the larger square of centers
-    parameter INDEX_BITS = 1,       // of the number of a score
-    parameter SCALE_BITS = 8,       // of the constant that is shifted from step to step
-    parameter ACC_BITS = 11         // of the accumulator
+    parameter SUM_BITS = 14,        // bits of the sum of a region
+    parameter COUNT_BITS = 7,       // bits of the number of pixels of a region
+    parameter DENOISED_BASE = 64,   // address in a slot where the denoised square starts
+    parameter REFERENCE_BASE = 64,  // address in a slot where the reference starts
+    parameter WORD_BITS = 7,        // bits of an address inside a slot
+    parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
+    parameter REGION_BITS = 10,     // bits of the number of a region, empty slots included
+    parameter POSITION_BITS = 6,    // bits of the number of a pixel in the larger square of centers
+    parameter INDEX_BITS = 1,       // bits of the number of a score
+    parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
+    parameter ACC_BITS = 11         // bits of the accumulator
 ) (
     input  wire                     clk_i,             // clock, rising edge
     input  wire                     rst_i,             // synchronous reset, active high
@@ -48,24 +49,24 @@ module serial_sequencer #(
     input  wire [        WIDTH-1:0] corner_level_i,    // level of `corner`
     output wire                     working_o,         // the address is that of a step
     output wire                     reopen_o,          // the frame is done
-    // To the lanes.
-    output wire [    SLOT_BITS-1:0] slot_o,            // the slot
+    // Outputs to the lanes.
+    output wire [    SLOT_BITS-1:0] slot_o,            // number of the slot
     output wire [    WORD_BITS-1:0] address_o,         // the address inside the slot
-    output wire                     write_o,           // write the accumulator there
+    output wire                     write_o,           // the accumulator is written to this address
     output wire [     ACC_BITS-1:0] constant_o,        // the constant
     output wire [             26:0] controls_o,        // the control word, see serial_controls
-    // The decision's inputs.
+    // Outputs to the decision.
     output wire                     rotate_o,          // scores pass
     output wire                     average_o,         // sums of blocks pass
     output wire                     return_o,          // means leave
-    output wire [   BLOCK_BITS-1:0] block_o,           // of which block
+    output wire [   BLOCK_BITS-1:0] block_o,           // number of the block of that sum or mean
     output wire                     unload_o,          // the word read leaves if its region is active
-    output wire [   INDEX_BITS-1:0] index_o,           // of the score
-    output wire [  REGION_BITS-1:0] region_o,          // that passes
-    output wire [POSITION_BITS-1:0] position_o         // of the pixel that leaves
+    output wire [   INDEX_BITS-1:0] index_o,           // number of the score that passes
+    output wire [  REGION_BITS-1:0] region_o,          // number of the region that passes
+    output wire [POSITION_BITS-1:0] position_o         // position of the pixel that leaves
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
@@ -96,7 +97,7 @@ module serial_sequencer #(
     assign return_o = returning;
     assign unload_o = RASTER != 0 ? shifting : unloading;
 
-    // Whose.
+    // The regions, slots and scores.
     serial_regions #(
         .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS), .MAD(MAD), .VARIANCE(VARIANCE),
         .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS),
@@ -109,7 +110,7 @@ module serial_sequencer #(
         .last_lane_o(last_lane)
     );
 
-    // Which step.
+    // The steps.
     serial_states #(
         .MEDIAN(MEDIAN), .BORDERS(BORDERS), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
         .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
@@ -123,7 +124,7 @@ module serial_sequencer #(
         .block_ends_o(block_ends), .slot_ends_o(slot_ends)
     );
 
-    // Where.
+    // The addresses.
     serial_addresses #(
         .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN), .CLAMPS(CLAMPS),
         .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS), .DENOISED_BASE(DENOISED_BASE),
@@ -135,7 +136,7 @@ module serial_sequencer #(
         .position_o(position_o), .last_column_o(last_column), .last_center_o(last_center), .counts_o(counts)
     );
 
-    // On what, and how.
+    // The constants and the controls.
     serial_constant #(
         .WIDTH(WIDTH), .SIDE(SIDE), .MEDIAN(MEDIAN), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
         .BLOCK(BLOCKS != 0 ? (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) * (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) : 1),

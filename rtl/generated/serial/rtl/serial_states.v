@@ -1,81 +1,81 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Which step follows which in the serial array: one per clock, the same for all lanes. Some states are a step of a pixel's
-// work: the tap says which of its neighbors is read, the part which half of it is done.
+// The sequencer's states: which step follows which in the serial array, one step per clock, the same for all lanes. In some
+// states a step does a part of a pixel's work: `tap` says which neighbor is read, `part` which half of the work is done.
 //
-// A step leaves as a word with a bit for each thing that may go on in it.
+// step_o has one bit for each action of the step. docs/serial.md defines the steps.
 `default_nettype none
 
 module serial_states #(
     parameter MEDIAN = 1,     // 1: pixels are denoised
     parameter BORDERS = 0,    // 1: sides on the frame's border are repeated
-    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`, else `previous`
-    parameter RASTER = 0,     // 1: pixels leave by the chain of scores
+    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
+    parameter RASTER = 0,     // 1: pixels leave through the chain of scores
     parameter LATE = 0,       // clocks from an address to the accumulator, 0 to 3
-    parameter DEEP = 0,       // 1: a score is whole a clock after its last step
+    parameter DEEP = 0,       // 1: a score is whole one clock after its last step
     parameter EDGE = 1,       // 1: the design has the feature `edge`
-    parameter CORNER = 0,     // ... `corner`
-    parameter MAD = 0,        // ... `mad`
-    parameter VARIANCE = 0,   // ... `variance`
+    parameter CORNER = 0,     // 1: the design has the feature `corner`
+    parameter MAD = 0,        // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,   // 1: the design has the feature `variance`
     parameter FRACTION = 0,   // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0   // 1: irrelevant regions send the means of their blocks
 ) (
     input  wire        clk_i,          // clock, rising edge
     input  wire        rst_i,          // synchronous reset, active high
     input  wire        start_i,        // a frame is complete
-    // What the step is the last of.
-    input  wire        last_column_i,  // its center is the last of a row
-    input  wire        last_center_i,  // ... of the square
+    // Flags of the last step of each kind.
+    input  wire        last_column_i,  // the center of the step is the last of its row
+    input  wire        last_center_i,  // the center of the step is the last of its square
     input  wire        last_lane_i,    // the score of the last lane passes
-    input  wire        first_score_i,  // ... and the first score of the slot
-    input  wire        last_score_i,   // ... and the last score of the slot
-    input  wire        last_block_i,   // ... that of the last block
+    input  wire        first_score_i,  // this score is the first of the slot
+    input  wire        last_score_i,   // this score is the last of the slot
+    input  wire        last_block_i,   // the block is the last of the region
     input  wire        last_slot_i,    // the slot is the last of the frame
-    input  wire [ 1:0] next_kind_i,    // the feature that comes next: edge, corner, mad, variance
+    input  wire [ 1:0] next_kind_i,    // kind of the feature that comes next: 0 edge, 1 corner, 2 mad, 3 variance
     input  wire        squares_i,      // the feature under way is `variance`
-    // How far the constant is.
-    input  wire        spent_i,        // it is shifted out
-    input  wire        divided_i,      // the quotient has all its bits
-    input  wire        last_place_i,   // of `variance`: this is the last place of the sum
-    input  wire        corrects_i,     // ... the square of the sum has a bit there
-    input  wire        any_pairs_i,    // ... squares of words have
-    input  wire        more_pairs_i,   // ... another one than that under way
+    // State of the constant.
+    input  wire        spent_i,        // the shifted number has no bits left
+    input  wire        divided_i,      // the division has found all bits of the quotient
+    input  wire        last_place_i,   // `variance`: the place under way is the last of the sum
+    input  wire        corrects_i,     // `variance`: the square of the sum has a bit at this place
+    input  wire        any_pairs_i,    // `variance`: the squares of words have pairs of bits at this place
+    input  wire        more_pairs_i,   // `variance`: another pair of bits follows at this place
     // The step.
-    output wire [33:0] step_o,         // what goes on
-    output wire [ 3:0] tap_o,          // number of the neighbor
-    output wire [ 1:0] part_o,         // half of a gradient, part of a ring's step, side of the border
-    output wire        walks_o,        // the next step is about the next center
-    output wire        block_ends_o,   // ... about the next block, as a sum or as a mean
-    output wire        slot_ends_o     // ... about the next slot
+    output wire [33:0] step_o,         // the step: one bit for each action
+    output wire [ 3:0] tap_o,          // number of the neighbor that is read
+    output wire [ 1:0] part_o,         // which half of a gradient, part of a ring's step, or side of the border
+    output wire        walks_o,        // the next step works on the next center
+    output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
+    output wire        slot_ends_o     // the next step works on the next slot
 );
 
     localparam [4:0] LOAD = 5'd0;      // a frame enters
-    localparam [4:0] DRAIN = 5'd1;     // a clock for the last step
+    localparam [4:0] DRAIN = 5'd1;     // one clock for the last step
     localparam [4:0] START = 5'd2;     // median: the first candidate
-    localparam [4:0] SEARCH = 5'd3;    // ... nine comparisons and an adjustment for each bit
-    localparam [4:0] READ = 5'd4;      // a word to be written elsewhere, or compared
-    localparam [4:0] IDLE = 5'd5;      // the accumulator is a step behind
+    localparam [4:0] SEARCH = 5'd3;    // median: nine comparisons and one adjustment per bit
+    localparam [4:0] READ = 5'd4;      // reads a word that is compared, or written to another place
+    localparam [4:0] IDLE = 5'd5;      // the accumulator is one step behind
     localparam [4:0] WRITE = 5'd6;
     localparam [4:0] REFERENCE = 5'd7;
-    localparam [4:0] TEST = 5'd8;      // changed?
+    localparam [4:0] TEST = 5'd8;      // tests whether a pixel has changed
     localparam [4:0] ROTATE = 5'd9;
     localparam [4:0] GRADIENT = 5'd10;
     localparam [4:0] RING = 5'd11;
     localparam [4:0] SUM = 5'd12;
     localparam [4:0] DOUBLE = 5'd13;
-    localparam [4:0] HALF = 5'd14;     // half the divisor
+    localparam [4:0] HALF = 5'd14;     // adds half of the divisor
     localparam [4:0] DIVIDE = 5'd15;
     localparam [4:0] CLEAR = 5'd16;
     localparam [4:0] DEVIATE = 5'd17;
-    localparam [4:0] SQUARE = 5'd18;   // words whose bit is set
-    localparam [4:0] CORRECT = 5'd19;  // the square of the sum
+    localparam [4:0] SQUARE = 5'd18;   // adds words whose bit is set
+    localparam [4:0] CORRECT = 5'd19;  // subtracts the square of the sum
     localparam [4:0] KEEP = 5'd20;
     localparam [4:0] UNLOAD = 5'd21;
     localparam [4:0] SHIFT = 5'd22;
-    localparam [4:0] WAIT = 5'd23;     // ... two steps
-    localparam [4:0] LONGER = 5'd24;   // ... three steps
-    localparam [4:0] SETTLE = 5'd25;   // the score becomes whole
-    localparam [4:0] STORE = 5'd26;    // a mean that has come back
-    localparam [4:0] SHOW = 5'd27;     // ... leaves
+    localparam [4:0] WAIT = 5'd23;     // the accumulator is two steps behind
+    localparam [4:0] LONGER = 5'd24;   // the accumulator is three steps behind
+    localparam [4:0] SETTLE = 5'd25;   // one clock until the score is whole
+    localparam [4:0] STORE = 5'd26;    // writes a mean that has come back
+    localparam [4:0] SHOW = 5'd27;     // a mean leaves
     localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
     localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
     localparam [4:0] RETURNED = LATE == 0 ? STORE : BEHIND;
@@ -92,21 +92,21 @@ module serial_states #(
 
     reg [4:0] state_q;
     reg [4:0] state;
-    reg [1:0] job_q;  // what pixels are walked over for
+    reg [1:0] job_q;  // the purpose of the walk over pixels
     reg [1:0] job;
     reg [3:0] tap_q;
     reg [1:0] part_q;
     reg averaging;
     reg returning;
 
-    // A frame.
+    // Steps of a frame.
     wire loading = state_q == LOAD;
     wire draining = state_q == DRAIN;
     wire rotating = state_q == ROTATE;
     wire unloading = state_q == UNLOAD;
     wire shifting = RASTER != 0 && state_q == SHIFT;
 
-    // A pixel.
+    // Steps of a pixel.
     wire starting = state_q == START;
     wire searching = MEDIAN != 0 && state_q == SEARCH;
     wire adjusting = searching && tap_q[3] && tap_q[0];
@@ -120,14 +120,14 @@ module serial_states #(
     wire ring_test = ring && part_q[1];
     wire ring_last = tap_q == 4'd11;
 
-    // ... and what for.
+    // The purpose of the walk.
     wire bordering = BORDERS && job_q[0];
     wire copying = LAST_SENT != 0 && job_q[1];
     wire temporal = !bordering && !copying;
     wire denoising = MEDIAN != 0 && job_q == TEMPORAL && !loading;
     wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
 
-    // A sum.
+    // Steps of a sum.
     wire summing = (SUMS || SUMMARIES) && state_q == SUM;
     wire doubling = SUMS && state_q == DOUBLE;
     wire halving = (MAD || SUMMARIES) && state_q == HALF;
@@ -138,7 +138,7 @@ module serial_states #(
     wire correcting = VARIANCE && state_q == CORRECT;
     wire keeping = (SUMS || SUMMARIES) && state_q == KEEP;
 
-    // A mean.
+    // Steps of a mean.
     wire is_averaging;  // blocks are summed, and their sums pass
     wire is_returning;  // means leave
     wire storing = SUMMARIES && RASTER == 0 && state_q == STORE;
@@ -273,10 +273,10 @@ module serial_states #(
         end
     endgenerate
 
-    // Inside a pixel.
+    // Steps inside the work of a pixel.
     always @(posedge clk_i) begin
         if (gradient) begin
-            tap_q <= tap_q == 4'd2 ? 4'd4 : tap_q + 4'd1;  // 0, 1, 2, 4, 5, 6, and 7 compares
+            tap_q <= tap_q == 4'd2 ? 4'd4 : tap_q + 4'd1;  // the taps are 0, 1, 2, 4, 5, 6, and 7, which compares
             if (gradient_test) begin
                 tap_q <= 4'd0;
                 part_q[0] <= !part_q[0];
