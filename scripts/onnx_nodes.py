@@ -28,7 +28,7 @@ import onnx
 from onnx.backend.test.case.node import collect_testcases
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SCHEMAS = ROOT / "crates/network/src/read/schemas.txt"
+SCHEMAS = ROOT / "crates/network/src/reader/schemas.txt"
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 STANDARD = ("", "ai.onnx")
 # Exit code of input that is not supported, as `foveate` documents it.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Compares crates/network/src/read/schemas.txt with the schemas of the packages onnx and onnxruntime.
+"""Compares crates/network/src/reader/schemas.txt with the schemas of the packages onnx and onnxruntime.
 
     onnx_schemas.py             ends with 1 and the differences if the file does not agree with the packages
     onnx_schemas.py --write     writes it
@@ -20,8 +20,8 @@ import numpy
 from onnx import AttributeProto, defs
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FILE = ROOT / "crates/network/src/read/schemas.txt"
-OPERATORS = ROOT / "crates/network/src/read/operators.rs"
+FILE = ROOT / "crates/network/src/reader/schemas.txt"
+OPERATORS = ROOT / "crates/network/src/reader/operators.rs"
 CONTRIB = "com.microsoft."
 # The oldest version of ONNX's operators that is read.
 OLDEST = 7

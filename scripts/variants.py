@@ -6,7 +6,7 @@
 
 Where code does something for one variant, the compiler has to name the place when another variant comes. So there is a
 `match` with every variant, or a method of the type. A comparison (`==`, `matches!`), a catch-all arm (`_ =>`), and a view
-of a design (`design.serial()`) whose None stands for all other organizations compile with a new variant and take it for
+of a design (`design.as_serial()`) whose None stands for all other organizations compile with a new variant and take it for
 any other. So does a question for what only one feature has (`feature.mean().is_some()`, `find_map(SpatialFeature::mean)`),
 a comparison of names, and a level that stands for a count of hits. A list of every variant
 (`FeatureKind::ALL`) in a file that does not ask which of them an organization takes (`takes`, `is_taken`) tries what is
@@ -20,14 +20,14 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-TYPES = ("Organization", "Hardware", "FeatureKind", "Reference", "Irrelevant")
+TYPES = ("Organization", "Hardware", "FeatureKind", "ReferencePolicy", "IrrelevantRendering")
 # The values of these methods have variants, too: a new variant of a type may need a new one of these.
-ANSWERS = ("Array", "Measure", "SummedUp", "Written")
+ANSWERS = ("ArrayStructure", "ScoreUnit", "FeatureAccumulation", "ReferenceWriteTime")
 NAMES = rf"\b(?:{'|'.join(TYPES + ANSWERS)})::[A-Z]\w*"
 TESTS = re.compile(r"(^|/)(tests|benches|examples)/|(^|/)tests\.rs$")
 COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=]=[^>]|matches!\([^;]*?{NAMES}")
 # A design that must have that organization uses `.expect(..)`.
-VIEW = re.compile(r"\.(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
+VIEW = re.compile(r"\.as_(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
 # Questions about a property of one feature, in place of a match on the feature.
 PART = re.compile(
     r"\.(?:mean|variance)\(\)\s*\.\s*is_(?:some|none)\b"
@@ -36,13 +36,13 @@ PART = re.compile(
     r"|\b(?:entry|spatial|feature)\.level\.is_(?:some|none)\(\)"
 )
 # Lists of every variant, whether an organization takes it or not.
-EVERY = re.compile(r"\b(?:FeatureKind|Reference|Irrelevant)::ALL\b(?!\s*\.\s*len\b)")
+EVERY = re.compile(r"\b(?:FeatureKind|ReferencePolicy|IrrelevantRendering)::ALL\b(?!\s*\.\s*len\b)")
 ASKS = re.compile(r"\btakes(?:_\w+)?\(|\bis_taken\(")
 # Files in which a list of all variants is correct, because it is not a list of what is tried.
 LISTS = {
     "crates/emit/src/raster.rs": "the core has an input for the level of each feature",
     "crates/emit/src/serial.rs": "the array has an input for the level of each feature",
-    "crates/emit/src/branch.rs": "parts of each feature",
+    "crates/emit/src/leaf_parts.rs": "parts of each feature",
     "crates/explore/src/table.rs": "a column for each feature",
     "crates/web/src/describe.rs": "a page is told of each feature, and of the message where its organization refuses it",
     "crates/cli/src/command/estimate/compare.rs": "what is refused is listed with the reason",

@@ -35,10 +35,10 @@ class Lists(unittest.TestCase):
         self.check("FeatureKind", CAMERA, listing)
 
     def test_references(self):
-        self.check("Reference", CAMERA, ["scripts/lint.py", "docs/contract.md", "docs/configuration.md"])
+        self.check("ReferencePolicy", CAMERA, ["scripts/lint.py", "docs/contract.md", "docs/configuration.md"])
 
     def test_irrelevant_regions(self):
-        self.check("Irrelevant", CAMERA, ["scripts/lint.py", "docs/contract.md", "docs/configuration.md"])
+        self.check("IrrelevantRendering", CAMERA, ["scripts/lint.py", "docs/contract.md", "docs/configuration.md"])
 
 
 if __name__ == "__main__":

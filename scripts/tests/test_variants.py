@@ -16,24 +16,24 @@ class Variants(unittest.TestCase):
     def test_comparisons_are_found(self):
         self.lines("let a = 1;\nif design.organization() == Organization::Raster {}", [2])
         self.lines("if Organization::Serial != design.organization() {}", [1])
-        self.lines("if reference == foveate_design::Reference::LastSent {}", [1])
+        self.lines("if reference == foveate_design::ReferencePolicy::LastSent {}", [1])
         self.lines("let is = matches!(design.hardware(), Hardware::Serial(_));", [1])
         self.lines("let is = matches!(\n    kind,\n    FeatureKind::Edge | FeatureKind::Corner\n);", [1])
 
     def test_what_variants_are_asked_for_is_found_too(self):
-        self.lines("if reference.written() == Written::WhenSent {}", [1])
-        self.lines("match unit.array {\n    Array::Copies => 1,\n    _ => 2,\n}", [3])
-        self.lines("match unit.array {\n    Array::Copies => 1,\n    Array::Whole => 2,\n}", [])
+        self.lines("if reference.write_time() == ReferenceWriteTime::WhenSent {}", [1])
+        self.lines("match unit.array {\n    ArrayStructure::Copies => 1,\n    _ => 2,\n}", [3])
+        self.lines("match unit.array {\n    ArrayStructure::Copies => 1,\n    ArrayStructure::Whole => 2,\n}", [])
 
     def test_arms_that_catch_all_are_found(self):
         self.lines("match design.hardware() {\n    Hardware::Raster(own) => own.words(),\n    _ => 1,\n}", [3])
         self.lines("match kind {\n    FeatureKind::Edge => { a(b, c) }\n    other => d(other),\n}", [3])
-        self.lines("match (reference, is) {\n    (Reference::Previous, true) => 1,\n    _ => 2,\n}", [3])
+        self.lines("match (reference, is) {\n    (ReferencePolicy::Previous, true) => 1,\n    _ => 2,\n}", [3])
 
     def test_views_that_stand_for_all_others_are_found(self):
-        self.lines("let lanes =\n    design.serial().map(lanes).unwrap_or(1);", [2])
-        self.lines("match design.raster() { Some(core) => 1, None => 2 }", [1])
-        self.lines('let own = design.pipelined()\n    .expect("it is");', [])
+        self.lines("let lanes =\n    design.as_serial().map(lanes).unwrap_or(1);", [2])
+        self.lines("match design.as_raster() { Some(core) => 1, None => 2 }", [1])
+        self.lines('let own = design.as_pipelined()\n    .expect("it is");', [])
 
     def test_what_only_one_feature_has_is_found(self):
         self.lines("if feature.mean().is_some() {}", [1])
@@ -49,7 +49,7 @@ class Variants(unittest.TestCase):
         self.lines('if preset.name == "raster" {}', [])
 
     def test_what_tries_every_variant_asks_who_takes_it(self):
-        tries = "for kind in FeatureKind::ALL {}\nlet all = Reference::ALL.iter();\n"
+        tries = "for kind in FeatureKind::ALL {}\nlet all = ReferencePolicy::ALL.iter();\n"
         self.assertEqual(every(tries), [1, 2])
         self.assertEqual(every(tries + "let taken = tried.filter(is_taken);"), [1, 2])
         self.assertEqual(every(tries + "let taken = tried.filter(|camera| is_taken(camera));"), [])
