@@ -95,7 +95,7 @@ pub fn infer_arrays(
     Ok(summary)
 }
 
-/// Returns the entry of `TYPES` for an array.
+/// Returns the entry of `VALUE_TYPES` for an array.
 fn type_of(
     path: &Path,
     array: &NpyArray,

@@ -250,7 +250,7 @@ pub(crate) const EXTRA_RASTER_DESIGNS: [&str; 14] = [
     "frame={width=64,height=21}\nrender.payload='raw'\nhardware={organization='raster',store='single-port'}",
 ];
 
-/// Returns the designs of the matrices of all organizations, and [`MORE`].
+/// Returns the designs of the matrices of all organizations, and [`EXTRA_RASTER_DESIGNS`].
 pub(crate) fn every_design() -> Vec<String> {
     let more = EXTRA_RASTER_DESIGNS.iter().map(|toml| (*toml).to_owned());
     [pipelined_matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
