@@ -165,7 +165,7 @@ impl<'a> SceneBuilder<'a> {
         for parity in 0..ATTEMPTS_PER_EVENT {
             self.align_traffic(traffic, parity);
             traffic.send_frame_around(taken_frame(first.clone()), line, |traffic| {
-                traffic.hold_sink(hold)
+                traffic.hold_sink(hold);
             });
             traffic.send_frame(taken_frame(second.clone()));
             traffic.drain();

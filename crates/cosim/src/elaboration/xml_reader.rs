@@ -52,7 +52,7 @@ impl XmlReaderState {
                 self.module = Some(ModuleVariant { module, ..ModuleVariant::default() });
             }
             b"var" if attribute_value(tag, "param").is_some() => {
-                self.parameter = attribute_value(tag, "name")
+                self.parameter = attribute_value(tag, "name");
             }
             b"const" => {
                 let number = attribute_value(tag, "name").unwrap_or_default();

@@ -88,7 +88,7 @@ impl FaultyStore {
                 return (false, self.garbage());
             }
             StoreFault::None | StoreFault::Late | StoreFault::Missing | StoreFault::Wrong => {
-                self.queue.pop()
+                self.queue.pop();
             }
         }
         let is_wrong = self.fault == StoreFault::Wrong && self.random.one_in(WRONG_WORD_PERIOD);
