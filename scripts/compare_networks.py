@@ -7,8 +7,8 @@ results are equal to those of whole frames, bit by bit.
 
 The input is noise from 0 to H (1). The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least);
 above the limit (1e-4) the script fails, and so it does if a partial result differs from the whole. A network of 16-bit values is compared
-with its form of 32 bits, and also as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path
-in OUTPUTS, or cargo builds it).
+with its form of 32 bits, and also as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network
+(its path in OUTPUTS, or cargo builds it).
 """
 import argparse
 import os

@@ -156,7 +156,8 @@ def raster_matrix():
 
 
 def axi_matrix():
-    """Yields cores on AXI: words of one and more pixels, lanes of 8 and 16 bits, parts of 16 and 32 bits, means, every store, thresholds of both kinds."""
+    """Yields cores on AXI: words of one and more pixels, lanes of 8 and 16 bits, parts of 16 and 32 bits, means, every store,
+    and thresholds of both kinds."""
     for name, size, word, width, height, depth, features, more in [
         ("edge", 8, 1, 64, 40, 8, EDGE, ["hardware.sync=true"]),
         ("means", 5, 1, 83, 33, 10, EDGE, ["render={irrelevant='mean',payload='raw'}"]),

@@ -9,7 +9,7 @@ use askama::Template;
 use foveate_design::{Port, PortDirection, PortRole};
 use foveate_emit::Parameter;
 
-/// Returns the C++ main that clocks module `top` with packed records; [`Layout`] describes their
+/// Returns the C++ main that clocks module `top` with packed records; [`RecordLayout`] describes their
 /// bytes.
 #[must_use]
 pub fn cpp_harness(top: &str, ports: &[Port]) -> String {
@@ -32,7 +32,7 @@ pub fn bench_file(top: &str) -> String {
 
 /// Returns a bench in Verilog-2005 that replays vectors through module `top` and compares every
 /// output at every clock. `parameters` are those of the module, with their values.
-/// [`crate::Packer`] writes the vectors.
+/// [`crate::VectorPacker`] writes the vectors.
 #[must_use]
 pub fn replay_bench(top: &str, ports: &[Port], parameters: &[Parameter]) -> String {
     annotated_bench(top, ports, parameters, &[], None)

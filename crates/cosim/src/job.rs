@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The number of regions above which the copies of an RPU or lane share their code; see
-/// [`Dut::no_inline`].
+/// [`DesignUnderTest::no_inline`].
 const INLINED_REGIONS: u32 = 16;
 
 /// A co-simulation to run.
@@ -90,7 +90,7 @@ impl CosimJob {
         })
     }
 
-    /// Synthesizes the Verilog to a netlist, for [`Job::netlist`].
+    /// Synthesizes the Verilog to a netlist, for [`CosimJob::netlist`].
     ///
     /// # Errors
     /// Fails if Yosys is missing or refuses the Verilog, or a cell has no model.
@@ -129,7 +129,7 @@ impl CosimJob {
     /// Runs the job on vectors that were made before, for its design and its stimulus.
     ///
     /// # Errors
-    /// Fails for the reasons that [`Job::run`] lists.
+    /// Fails for the reasons that [`CosimJob::run`] lists.
     pub fn run_on(
         &self,
         recording: &Recording,

@@ -59,7 +59,7 @@ impl CosimLevel {
     }
 
     /// Returns the levels that together simulate the Verilog of a user: one for each of the modules
-    /// `rpu` and `rcm` that is there under this prefix. The array is simulated as [`Level::sample`]
+    /// `rpu` and `rcm` that is there under this prefix. The array is simulated as [`CosimLevel::small_array`]
     /// and, if the whole array is larger and [affordable](Self::is_whole_affordable), also whole.
     /// Without either module it is `rpu`, whose simulation reports what is missing.
     #[must_use]

@@ -2,10 +2,10 @@
 //! Co-simulation: it feeds identical vectors to the model and to the RTL, and compares every output
 //! at every clock.
 //!
-//! A [`Job`] is a whole co-simulation. Its [`Stimulus`] runs the cycle-level model and records
+//! A [`CosimJob`] is a whole co-simulation. Its [`Stimulus`] runs the cycle-level model and records
 //! vectors, a simulator runs the Verilog on them, and a [`CosimReport`] says whether they agree, or
 //! where the first mismatch is. A failing run leaves a folder that replays it. Everything that
-//! depends on the Verilog is made from the list of ports: the byte [`Layout`] of a clock, the C++
+//! depends on the Verilog is made from the list of ports: the byte [`RecordLayout`] of a clock, the C++
 //! harness and the replay bench.
 //! the replay bench.
 

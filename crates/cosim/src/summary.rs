@@ -8,7 +8,7 @@ use crate::report::CosimReport;
 use crate::situations::Occurrences;
 use serde::{Deserialize, Serialize};
 
-/// The version of [`Summary`] as JSON; it changes when a field is removed or gets another meaning.
+/// The version of [`CosimSummary`] as JSON; it changes when a field is removed or gets another meaning.
 pub const FORMAT_VERSION: u32 = 2;
 
 /// The result of the co-simulations of one design.
@@ -16,7 +16,7 @@ pub const FORMAT_VERSION: u32 = 2;
 pub struct CosimSummary {
     /// The version of the format, which is [`FORMAT_VERSION`].
     pub format_version: u32,
-    /// True if [`Summary::verdict`] is [`Verdict::Passed`].
+    /// True if [`CosimSummary::verdict`] is [`CosimVerdict::Passed`].
     pub passed: bool,
     /// The fingerprint of the design, as in the README of its core.
     pub design: String,
@@ -89,7 +89,7 @@ impl CosimSummary {
         summary
     }
 
-    /// Returns the verdict over all runs. Without a run it is [`Verdict::Mismatch`].
+    /// Returns the verdict over all runs. Without a run it is [`CosimVerdict::Mismatch`].
     #[must_use]
     pub fn verdict(&self) -> CosimVerdict {
         if self.runs.is_empty() || !self.runs.iter().all(CosimReport::passed) {

@@ -49,7 +49,7 @@ pub struct TimedRun {
     pub passes: u64,
     /// The time for all passes from memory, in seconds.
     pub memory_seconds: f64,
-    /// The part of [`Timed::seconds`] that unpacking the inputs takes.
+    /// The part of [`TimedRun::memory_seconds`] that unpacking the inputs takes.
     pub unpacking_seconds: f64,
     /// The largest memory of the process in bytes before it kept the inputs; `None` if the system
     /// does not report it.

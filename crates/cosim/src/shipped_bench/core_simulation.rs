@@ -96,7 +96,7 @@ impl<'a> CoreSimulation<'a> {
         self.record(&input, record);
     }
 
-    /// Simulates the number of edges that [`Rig::quiet_clocks`] returns, without a pixel, in one
+    /// Simulates the number of edges that [`CoreSimulation::quiet_clocks`] returns, without a pixel, in one
     /// step.
     pub(crate) fn skip_quiet_clocks(&mut self, input: &CoreInput<'_>, record: &mut ClockRecord) {
         self.core.skip_quiet_clocks();

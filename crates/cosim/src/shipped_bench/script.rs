@@ -69,7 +69,7 @@ pub(super) struct BenchSequence {
 pub(super) struct BenchScript {
     /// The sequences; each begins with a reset.
     pub(super) sequences: Vec<BenchSequence>,
-    /// The frames that are delivered damaged to hardware with `sync`; see [`super::damage`].
+    /// The frames that are delivered damaged to hardware with `sync`; see [`super::delivery`].
     pub(super) damaged: Vec<BenchFrame>,
 }
 
