@@ -283,7 +283,7 @@ fn entry_holder_process() {
 fn entries_of_another_process_stay_until_it_ends() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = Command::new(std::env::current_exe().unwrap())
-        .args(["cache::tests::holder", "--exact", "--nocapture"])
+        .args(["cache::tests::entry_holder_process", "--exact", "--nocapture"])
         .env(HOLDER, folder.path())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
