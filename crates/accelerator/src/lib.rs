@@ -28,15 +28,15 @@
 //! buffer, and no cycles of the array.
 //!
 //! ```
-//! use foveate_accelerator::{Accelerator, Layer, Shape, Window};
+//! use foveate_accelerator::{Accelerator, KernelWindow, Layer, TensorShape};
 //!
-//! let accelerator = Accelerator::preset("systolic-ws")?;
-//! let inputs = Shape { channels: 3, height: 224, width: 224 };
-//! let outputs = Shape { channels: 64, ..inputs };
-//! let layer = Layer::convolution(inputs, outputs, [Window::of(3, 1, 1); 2], 1)?;
+//! let accelerator = Accelerator::from_preset("systolic-ws")?;
+//! let inputs = TensorShape { channels: 3, height: 224, width: 224 };
+//! let outputs = TensorShape { channels: 64, ..inputs };
+//! let layer = Layer::convolution(inputs, outputs, [KernelWindow::of(3, 1, 1); 2], 1)?;
 //! let plan = accelerator.plan(layer)?;
 //!
-//! let (whole, corner) = (plan.whole(), plan.masked(|x, y| x < 32 && y < 32));
+//! let (whole, corner) = (plan.whole_cost(), plan.masked_cost(|x, y| x < 32 && y < 32));
 //! assert_eq!(corner.macs * 49, whole.macs);
 //! assert_eq!(corner.dram.inputs, 3 * 33 * 33);
 //! assert!(corner.energy.total() * 49.0 > whole.energy.total());
