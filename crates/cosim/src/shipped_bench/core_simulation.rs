@@ -96,8 +96,8 @@ impl<'a> CoreSimulation<'a> {
         self.record(&input, record);
     }
 
-    /// Simulates the number of edges that [`CoreSimulation::quiet_clocks`] returns, without a pixel, in one
-    /// step.
+    /// Simulates the number of edges that [`CoreSimulation::quiet_clocks`] returns, without a
+    /// pixel, in one step.
     pub(crate) fn skip_quiet_clocks(&mut self, input: &CoreInput<'_>, record: &mut ClockRecord) {
         self.core.skip_quiet_clocks();
         self.record(input, record);

@@ -9,6 +9,8 @@
 
 mod core_simulation;
 mod delivery;
+mod drawn_places;
+mod drawn_region;
 mod grid;
 mod picture_scorer;
 mod player;

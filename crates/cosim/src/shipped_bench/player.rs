@@ -155,8 +155,8 @@ impl<'a> ScriptPlayer<'a> {
         shots.last().map_or(Ok(()), |last| self.wait_until_leaving(last, false))
     }
 
-    /// Continues until a pixel or a mean leaves, for `MOST_WAITING` clocks at most. If that needs
-    /// another frame, the same one is played again.
+    /// Continues until a pixel or a mean leaves, for `MAX_WAIT_CLOCKS` clocks at most. If that
+    /// needs another frame, the same one is played again.
     fn wait_until_leaving(&mut self, last: &BenchFrame, is_mean: bool) -> Result<(), CosimError> {
         let (beats, thresholds) = (self.simulation.beats(&last.frame), &last.thresholds);
         let frames = self.simulation.frames_behind();
@@ -166,11 +166,11 @@ impl<'a> ScriptPlayer<'a> {
         }
         let mut left = (0..frames).flat_map(|_| beats.iter().enumerate());
         for _ in 0..MAX_WAIT_CLOCKS {
-            if if is_mean {
-                self.simulation.is_sending_mean()
-            } else {
-                self.simulation.is_sending()
-            } {
+            let has_left = match is_mean {
+                true => self.simulation.is_sending_mean(),
+                false => self.simulation.is_sending(),
+            };
+            if has_left {
                 break;
             }
             match (left.next(), self.simulation.quiet_clocks()) {

@@ -3,19 +3,19 @@
 //! again, other ones, and flat ones, so that regions become active, are held, and are blanked.
 
 use super::delivery::DELIVERED_FRAMES;
+use super::drawn_places::DrawnPlaces;
+use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, threshold_pair};
 use super::has_sink;
-use super::picture_scorer::{PictureScorer, PictureScores};
-use super::test_pattern::{STRUCTURED_PATTERNS, TestPattern};
+use super::picture_scorer::PictureScorer;
+use super::test_pattern::TestPattern;
+use crate::situations::largest_min_count;
 use crate::stimulus::{PatternGenerator, Random, StimulusPattern};
-use foveate_design::{Design, Neighborhood, ThresholdSource as Mode, VoteCombination};
+use foveate_design::{Design, Neighborhood, ThresholdSource as Mode};
 use foveate_frame::Frame;
 use foveate_model::ThresholdInputs;
-use std::ops::RangeInclusive;
 
 /// The number of frames that every script has; scripts with short frames have more.
 pub(super) const MIN_FRAMES_PER_SCRIPT: u64 = 5;
-/// The largest number of pixels in those regions of a frame that show more than one level.
-const MAX_DRAWN_PIXELS: u32 = 16_384;
 /// The limits for frames near the thresholds: the pixels of drawn regions, and the clocks of a
 /// frame.
 const FEW_PIXELS: usize = 4_096;
@@ -25,17 +25,6 @@ const NEAR_THRESHOLD_PATTERNS: [StimulusPattern; 4] =
     [StimulusPattern::Bump, StimulusPattern::Noise, StimulusPattern::Smooth, StimulusPattern::Bump];
 /// The number of frames whose shapes cross the borders of regions.
 const WIDE_FRAMES: u32 = 8;
-/// The number of regions from which on a frame has a varying ground. A word that is stored or read
-/// at a wrong place then shows wherever that is.
-const MANY_REGIONS: u32 = 256;
-/// The number of regions of such a frame for each drawn region.
-const REGIONS_PER_DRAWN_REGION: u32 = 64;
-/// The number of blocks of the ground in each direction; `GROUND_LEVELS` is the number of their
-/// levels.
-const GROUND_BLOCKS: u32 = 8;
-const GROUND_LEVELS: u32 = 4;
-/// The number of times that a pattern is drawn anew before the next pattern is tried.
-const TRIALS_PER_PATTERN: usize = 2;
 
 /// The state of the core at the reset that begins the next sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +54,13 @@ pub(super) struct BenchSequence {
     pub(super) ending: BenchSequenceEnd,
 }
 
+impl BenchSequence {
+    /// Creates a sequence after which everything leaves.
+    fn drained(frames: Vec<BenchFrame>) -> Self {
+        Self { frames, ending: BenchSequenceEnd::Drained }
+    }
+}
+
 /// The sequences of frames of a bench.
 pub(super) struct BenchScript {
     /// The sequences; each begins with a reset.
@@ -80,42 +76,14 @@ pub(super) struct BenchFrame {
     pub(super) sink: BenchSinkMode,
 }
 
-/// Two sets of thresholds: with `usual` some regions are relevant, with `blank` a flat region is
-/// not.
-#[derive(Clone, Copy)]
-struct ThresholdPair {
-    usual: ThresholdInputs,
-    blank: ThresholdInputs,
-}
+impl BenchFrame {
+    /// Creates a frame for a sink that takes every word at once.
+    fn new(frame: Frame, thresholds: ThresholdInputs) -> Self {
+        Self { frame, thresholds, sink: BenchSinkMode::AlwaysReady }
+    }
 
-/// A region with structure, and the pictures that it shows in turn.
-struct DrawnRegion {
-    first: Vec<u16>,
-    other: Vec<u16>,
-    last: Vec<u16>,
-    /// The scores of `other`; `changes` is the number of pixels in which it differs from `first`.
-    scores: Vec<u64>,
-    changes: u32,
-}
-
-impl DrawnRegion {
-    /// Returns minima that `other` meets exactly (`more` is 0), or misses by `more` if the ports
-    /// are wide enough.
-    fn exact_thresholds(
-        &self,
-        part: &Design,
-        usual: &ThresholdInputs,
-        more: u32,
-    ) -> ThresholdInputs {
-        let mut exact = *usual;
-        let scores = self.scores.iter().zip(part.features());
-        for (minimum, (&score, feature)) in exact.min_score.iter_mut().zip(scores) {
-            let largest = u64::MAX >> (u64::BITS - feature.score_bits());
-            *minimum = (score + u64::from(more)).min(largest);
-        }
-        let largest = u32::MAX >> (u32::BITS - part.count_bits());
-        exact.temporal_min_count = (self.changes + more).min(largest);
-        exact
+    fn with_sink(self, sink: BenchSinkMode) -> Self {
+        Self { sink, ..self }
     }
 }
 
@@ -124,198 +92,264 @@ impl BenchScript {
     /// frames have shapes that cross the borders of regions. They are for regions so small that
     /// their neighbors' pixels decide.
     pub(super) fn for_design(part: &Design, is_wide: bool) -> Self {
-        let (mut studio, mut random) = (PictureScorer::new(part), Random::new(1));
-        let pair = threshold_pair(part, &mut studio, &mut random);
-        let stage = DrawnPlaces::new(part);
-        let cast: Vec<DrawnRegion> = (0..stage.places.len())
-            .map(|number| draw_region(part, &mut studio, &pair.usual, number, &mut random))
-            .collect();
-        let flat = TestPattern::Flat.draw(stage.side, stage.max, false, &mut random);
-        let shot = |turn, thresholds, square: &dyn Fn(usize, &DrawnRegion) -> Vec<u16>| {
-            let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
-            BenchFrame {
-                frame: stage.frame(&squares, turn),
-                thresholds,
-                sink: BenchSinkMode::AlwaysReady,
-            }
-        };
-        let mixed = |number: usize, actor: &DrawnRegion| match number % 3 {
-            0 => actor.other.clone(),
-            1 => actor.first.clone(),
-            _ => flat.clone(),
-        };
-        let sequences = vec![vec![
-            shot(0, pair.usual, &|_, actor| actor.first.clone()),
-            shot(0, pair.usual, &|_, actor| actor.first.clone()),
-            shot(1, pair.usual, &mixed),
-            shot(2, pair.blank, &|_, _| flat.clone()),
-            shot(2, pair.usual, &|_, actor| actor.last.clone()),
-        ]];
-        let mut with_means = Vec::new();
+        let mut random = Random::new(1);
+        let writer = ScriptWriter::new(part, &mut random);
+        // A reset must follow frames that are leaving or lost, so their sequences come first.
+        let mut sequences = vec![writer.leaving_sequence(is_wide), writer.high_minimum_sequence()];
+        sequences.extend(writer.lossy_sequence());
+        sequences.push(writer.usual_sequence());
         if let Some(periphery) = part.periphery() {
             let level = periphery.level;
-            // The levels of adjacent regions differ, or a mean could be mistaken for another one.
-            // They are equal if regions see the pixels of their neighbors.
-            let apart = match part.neighborhood() {
-                Neighborhood::Isolated => 2 * level + 3,
-                Neighborhood::Shared => 0,
-            };
-            let plain = |number: usize, more: u32| {
-                let place = u32::try_from(number % 3).unwrap_or_default();
-                let level = u16::try_from(more + place * apart).unwrap_or(u16::MAX);
-                vec![level.min(stage.max); flat.len()]
-            };
-            let means = |more: u32| shot(2, pair.blank, &|number, _| plain(number, more));
-            let active = |turn| shot(turn, pair.usual, &|_, actor| actor.first.clone());
-            let last = || shot(2, pair.usual, &|_, actor| actor.last.clone());
-            let never = |of| ThresholdInputs { temporal_min_count: largest_minimum(part), ..of };
-            // Means are sent, stay twice, and are sent again as soon as they differ by more than
-            // the level. The same means are sent again behind pixels, and behind a held region.
-            let mut shots = vec![active(0)];
-            shots.extend([0, 0, level, level + 1].map(means));
-            shots.extend([last(), means(level + 1)]);
-            if part.threshold_source() == Mode::Runtime {
-                // With a second pass a decision is made with the thresholds of the next frame.
-                let held = shot(2, never(pair.usual), &|_, actor| actor.first.clone());
-                let behind = shot(2, never(pair.blank), &|number, _| plain(number, level + 1));
-                shots.extend([held, behind]);
-            }
-            with_means.push(BenchSequence { frames: shots, ending: BenchSequenceEnd::Drained });
-            // The same frame follows a reset. Then every second region is held beside means that
-            // wait for the sink. The held regions drift by the temporal level, up and down, so they
-            // stay held only if they are compared with what was sent, and not with a later frame.
-            let drift = u16::try_from(pair.usual.temporal_level).unwrap_or(u16::MAX);
-            let up = |pixel: &u16| pixel.saturating_add(drift).min(stage.max);
-            let down = |pixel: &u16| pixel.saturating_sub(drift);
-            let beside = |more: u32, is_up: bool| BenchFrame {
-                sink: BenchSinkMode::Delaying,
-                ..shot(2, pair.usual, &|number, actor| match (number % 2, is_up) {
-                    (0, true) => actor.first.iter().map(up).collect(),
-                    (0, false) => actor.first.iter().map(down).collect(),
-                    _ => plain(number, more),
-                })
-            };
-            let far = 2 * level + 2;
-            let shots = vec![
-                means(level + 1),
-                active(2),
-                beside(0, true),
-                beside(far, false),
-                beside(0, true),
-            ];
-            with_means.push(BenchSequence { frames: shots, ending: BenchSequenceEnd::MeanLeaving });
+            sequences.push(writer.means_sequence(level));
+            sequences.push(writer.means_beside_held_sequence(level));
         }
-        let mut sequences: Vec<BenchSequence> =
-            sequences.into_iter().map(drained_sequence).collect();
-        sequences.extend(with_means);
-        // This sequence comes first, so that a reset follows it.
-        let pictures =
-            [|actor: &DrawnRegion| actor.first.clone(), |actor: &DrawnRegion| actor.other.clone()];
-        let stalled = (0..stalled_frames(part)).map(|number| {
-            let usual =
-                || shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor));
-            // More regions must be lost than have their own structure, because the counters must
-            // reach large values.
-            let turn = u32::try_from(number).unwrap_or_default();
-            let wide = || BenchFrame {
-                frame: stage.wide_frame(turn),
-                thresholds: pair.usual,
-                sink: BenchSinkMode::AlwaysReady,
-            };
-            BenchFrame {
-                sink: BenchSinkMode::Stalling,
-                ..if stage.has_ground() { wide() } else { usual() }
-            }
-        });
-        let stalled: Vec<BenchFrame> = stalled.collect();
-        if !stalled.is_empty() {
-            let last = shot(1, pair.usual, &|_, actor| actor.last.clone());
-            // Summaries are lost, and sent again.
-            let means = || BenchFrame {
-                sink: BenchSinkMode::Stalling,
-                ..shot(2, pair.blank, &|_, _| flat.clone())
-            };
-            let means = part.periphery().map(|_| [means(), means()]).into_iter().flatten();
-            let lossy = stalled.into_iter().chain(means).chain([last]).collect();
-            sequences.insert(0, drained_sequence(lossy));
+        if writer.is_small() {
+            sequences.push(writer.near_threshold_sequence(&mut random));
         }
-        let drawn = cast.len() * stage.side * stage.side;
-        let is_small = drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS;
-        if is_small {
-            let mut artists: Vec<PatternGenerator> = cast
-                .iter()
-                .map(|_| PatternGenerator::new(part, part.region_size(), random.fork()))
-                .collect();
-            let near = NEAR_THRESHOLD_PATTERNS.iter().map(|&motif| {
-                artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
-                let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
-                BenchFrame {
-                    frame: stage.frame(&squares, 0),
-                    thresholds: pair.usual,
-                    sink: BenchSinkMode::AlwaysReady,
-                }
-            });
-            sequences.push(drained_sequence(near.collect()));
-        }
-        // For a large frame there is no sequence whose minima are missed by one.
-        let minima: &[u32] = if is_small { &[0, 1] } else { &[0] };
-        for &more in minima.iter().filter(|_| part.threshold_source() == Mode::Runtime) {
-            let exact = cast[0].exact_thresholds(part, &pair.usual, more);
-            sequences.push(drained_sequence(vec![
-                shot(0, exact, &|_, actor| actor.first.clone()),
-                shot(0, exact, &|_, actor| actor.other.clone()),
-            ]));
-        }
-        let wide = || -> Vec<BenchFrame> {
-            let of = |turn| (stage.wide_frame(turn), pair.usual);
-            let shots = (0..WIDE_FRAMES).map(of);
-            shots
-                .map(|(frame, thresholds)| BenchFrame {
-                    frame,
-                    thresholds,
-                    sink: BenchSinkMode::AlwaysReady,
-                })
-                .collect()
-        };
+        sequences.extend(writer.exact_sequences());
         if is_wide {
-            sequences.push(drained_sequence(wide()));
+            sequences.push(BenchSequence::drained(writer.wide_frames()));
         }
-        // A reset comes while pixels leave.
-        let leaving = match is_wide {
-            true => wide(),
-            false => vec![shot(1, pair.usual, &|_, actor| actor.first.clone())],
-        };
-        // No region has a reference, and yet none has changed, because the minimum is above all
-        // counts.
-        let never = match part.threshold_source() {
-            Mode::Runtime => {
-                ThresholdInputs { temporal_min_count: largest_minimum(part), ..pair.usual }
-            }
-            Mode::Constant => pair.usual,
-        };
-        let again = [never, never, pair.usual];
-        let again = again.map(|of| BenchFrame {
-            sink: BenchSinkMode::Delaying,
-            ..shot(1, of, &|_, actor| actor.first.clone())
-        });
-        sequences.insert(0, BenchSequence { frames: leaving, ending: BenchSequenceEnd::Leaving });
-        sequences.insert(1, drained_sequence(again.into()));
-        let damaged = (0..DELIVERED_FRAMES).map(|number| {
-            shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor))
-        });
-        Self { damaged: damaged.collect(), sequences }
+        Self { sequences, damaged: writer.damaged_frames() }
     }
 }
 
-/// Returns a sequence after which everything leaves.
-fn drained_sequence(shots: Vec<BenchFrame>) -> BenchSequence {
-    BenchSequence { frames: shots, ending: BenchSequenceEnd::Drained }
+/// The pictures of a design, of which the sequences are made.
+struct ScriptWriter<'a> {
+    part: &'a Design,
+    pair: ThresholdPair,
+    places: DrawnPlaces<'a>,
+    /// The regions with structure, in the order of their places.
+    regions: Vec<DrawnRegion>,
+    /// The pixels of a flat region.
+    flat: Vec<u16>,
 }
 
-/// Returns the largest minimum of the port, which no count reaches if the port has room for a
-/// larger number.
-fn largest_minimum(part: &Design) -> u32 {
-    u32::MAX >> (u32::BITS - part.count_bits())
+impl<'a> ScriptWriter<'a> {
+    fn new(part: &'a Design, random: &mut Random) -> Self {
+        let mut scorer = PictureScorer::new(part);
+        let pair = threshold_pair(part, &mut scorer, random);
+        let places = DrawnPlaces::new(part);
+        let regions = (0..places.places.len())
+            .map(|number| draw_region(part, &mut scorer, &pair.usual, number, random))
+            .collect();
+        let flat = TestPattern::Flat.draw(places.side, places.max, false, random);
+        Self { part, pair, places, regions, flat }
+    }
+
+    /// Returns a frame in which `square` gives the pixels of each region with structure, by its
+    /// number. The ground is that of the turn.
+    fn frame(
+        &self,
+        turn: u32,
+        thresholds: ThresholdInputs,
+        square: impl Fn(usize, &DrawnRegion) -> Vec<u16>,
+    ) -> BenchFrame {
+        let squares: Vec<_> = self
+            .regions
+            .iter()
+            .enumerate()
+            .map(|(number, region)| square(number, region))
+            .collect();
+        BenchFrame::new(self.places.frame(&squares, turn), thresholds)
+    }
+
+    fn frame_of_first(&self, turn: u32, thresholds: ThresholdInputs) -> BenchFrame {
+        self.frame(turn, thresholds, |_, region| region.first.clone())
+    }
+
+    fn frame_of_last(&self, turn: u32) -> BenchFrame {
+        self.frame(turn, self.pair.usual, |_, region| region.last.clone())
+    }
+
+    fn flat_frame(&self) -> BenchFrame {
+        self.frame(2, self.pair.blank, |_, _| self.flat.clone())
+    }
+
+    /// Returns a frame of the first or of the other pictures, by turns.
+    fn alternating_frame(&self, number: usize) -> BenchFrame {
+        match number % 2 {
+            0 => self.frame_of_first(0, self.pair.usual),
+            _ => self.frame(0, self.pair.usual, |_, region| region.other.clone()),
+        }
+    }
+
+    fn wide_frame(&self, turn: u32) -> BenchFrame {
+        BenchFrame::new(self.places.wide_frame(turn), self.pair.usual)
+    }
+
+    fn wide_frames(&self) -> Vec<BenchFrame> {
+        (0..WIDE_FRAMES).map(|turn| self.wide_frame(turn)).collect()
+    }
+
+    /// Returns the frames that are delivered damaged.
+    fn damaged_frames(&self) -> Vec<BenchFrame> {
+        (0..DELIVERED_FRAMES).map(|number| self.alternating_frame(number)).collect()
+    }
+
+    /// Regions become active, are held, are blanked, and become active again.
+    fn usual_sequence(&self) -> BenchSequence {
+        let usual = self.pair.usual;
+        BenchSequence::drained(vec![
+            self.frame_of_first(0, usual),
+            self.frame_of_first(0, usual),
+            self.frame(1, usual, |number, region| match number % 3 {
+                0 => region.other.clone(),
+                1 => region.first.clone(),
+                _ => self.flat.clone(),
+            }),
+            self.flat_frame(),
+            self.frame_of_last(2),
+        ])
+    }
+
+    /// Returns the pixels of a flat region. The levels of adjacent regions differ, or a mean could
+    /// be mistaken for another one. They are equal if regions see the pixels of their neighbors.
+    fn plain_square(&self, summary_level: u32, number: usize, level: u32) -> Vec<u16> {
+        let apart = match self.part.neighborhood() {
+            Neighborhood::Isolated => 2 * summary_level + 3,
+            Neighborhood::Shared => 0,
+        };
+        let place = u32::try_from(number % 3).unwrap_or_default();
+        let level = u16::try_from(level + place * apart).unwrap_or(u16::MAX);
+        vec![level.min(self.places.max); self.flat.len()]
+    }
+
+    fn frame_of_means(
+        &self,
+        summary_level: u32,
+        level: u32,
+        thresholds: ThresholdInputs,
+    ) -> BenchFrame {
+        self.frame(2, thresholds, |number, _| self.plain_square(summary_level, number, level))
+    }
+
+    /// Means are sent, stay twice, and are sent again as soon as they differ by more than the
+    /// level. The same means are sent again behind pixels, and behind a held region.
+    fn means_sequence(&self, level: u32) -> BenchSequence {
+        let ThresholdPair { usual, blank } = self.pair;
+        let means = |more| self.frame_of_means(level, more, blank);
+        let mut frames = vec![self.frame_of_first(0, usual)];
+        frames.extend([0, 0, level, level + 1].map(means));
+        frames.extend([self.frame_of_last(2), means(level + 1)]);
+        if self.part.threshold_source() == Mode::Runtime {
+            // With a second pass a decision is made with the thresholds of the next frame.
+            frames.push(self.frame_of_first(2, self.without_changes(usual)));
+            frames.push(self.frame_of_means(level, level + 1, self.without_changes(blank)));
+        }
+        BenchSequence::drained(frames)
+    }
+
+    /// The frame before the reset comes again. Then every second region is held beside means that
+    /// wait for the sink. The held regions drift by the temporal level, up and down, so they stay
+    /// held only if they are compared with what was sent, and not with a later frame.
+    fn means_beside_held_sequence(&self, level: u32) -> BenchSequence {
+        let ThresholdPair { usual, blank } = self.pair;
+        let drift = u16::try_from(usual.temporal_level).unwrap_or(u16::MAX);
+        let up = |pixel: &u16| pixel.saturating_add(drift).min(self.places.max);
+        let down = |pixel: &u16| pixel.saturating_sub(drift);
+        let beside = |more, is_up| {
+            let frame = self.frame(2, usual, |number, region| match (number % 2, is_up) {
+                (0, true) => region.first.iter().map(up).collect(),
+                (0, false) => region.first.iter().map(down).collect(),
+                _ => self.plain_square(level, number, more),
+            });
+            frame.with_sink(BenchSinkMode::Delaying)
+        };
+        let frames = vec![
+            self.frame_of_means(level, level + 1, blank),
+            self.frame_of_first(2, usual),
+            beside(0, true),
+            beside(2 * level + 2, false),
+            beside(0, true),
+        ];
+        BenchSequence { frames, ending: BenchSequenceEnd::MeanLeaving }
+    }
+
+    /// Returns the sequence in which the sink stalls until regions are lost, and summaries are lost
+    /// and sent again; `None` without a sink.
+    fn lossy_sequence(&self) -> Option<BenchSequence> {
+        let stalled = stalled_frames(self.part);
+        if stalled == 0 {
+            return None;
+        }
+        // More regions must be lost than have their own structure, because the counters must reach
+        // large values.
+        let frame = |number: usize| match self.places.has_ground() {
+            true => self.wide_frame(u32::try_from(number).unwrap_or_default()),
+            false => self.alternating_frame(number),
+        };
+        let summaries = if self.part.periphery().is_some() { 2 } else { 0 };
+        let frames = (0..stalled).map(frame).chain((0..summaries).map(|_| self.flat_frame()));
+        let frames = frames.map(|frame| frame.with_sink(BenchSinkMode::Stalling));
+        Some(BenchSequence::drained(frames.chain([self.frame_of_last(1)]).collect()))
+    }
+
+    /// Returns true if the bench has room for frames near the thresholds.
+    fn is_small(&self) -> bool {
+        let drawn = self.regions.len() * self.places.side * self.places.side;
+        drawn <= FEW_PIXELS && self.part.timing().clocks_per_frame() <= FEW_CLOCKS
+    }
+
+    /// Scores of the regions are near the minima.
+    fn near_threshold_sequence(&self, random: &mut Random) -> BenchSequence {
+        let side = self.part.region_size();
+        let mut generators: Vec<_> = (self.regions.iter())
+            .map(|_| PatternGenerator::new(self.part, side, random.fork()))
+            .collect();
+        let frames = NEAR_THRESHOLD_PATTERNS.iter().map(|&pattern| {
+            generators.iter_mut().for_each(|generator| generator.draw_near_minimum(pattern));
+            let squares: Vec<_> = generators.iter().map(|own| own.pixels.clone()).collect();
+            BenchFrame::new(self.places.frame(&squares, 0), self.pair.usual)
+        });
+        BenchSequence::drained(frames.collect())
+    }
+
+    /// Minima are met exactly, and missed by one if the design is small.
+    fn exact_sequences(&self) -> Vec<BenchSequence> {
+        let minima: &[u32] = match (self.part.threshold_source(), self.is_small()) {
+            (Mode::Constant, _) => &[],
+            (Mode::Runtime, true) => &[0, 1],
+            (Mode::Runtime, false) => &[0],
+        };
+        let sequence = |&more: &u32| {
+            let exact = self.regions[0].exact_thresholds(self.part, &self.pair.usual, more);
+            BenchSequence::drained(vec![
+                self.frame_of_first(0, exact),
+                self.frame(0, exact, |_, region| region.other.clone()),
+            ])
+        };
+        minima.iter().map(sequence).collect()
+    }
+
+    /// A reset comes while pixels leave.
+    fn leaving_sequence(&self, is_wide: bool) -> BenchSequence {
+        let frames = match is_wide {
+            true => self.wide_frames(),
+            false => vec![self.frame_of_first(1, self.pair.usual)],
+        };
+        BenchSequence { frames, ending: BenchSequenceEnd::Leaving }
+    }
+
+    /// No region has a reference, and yet none has changed, because the minimum is above all
+    /// counts.
+    fn high_minimum_sequence(&self) -> BenchSequence {
+        let usual = self.pair.usual;
+        let never = match self.part.threshold_source() {
+            Mode::Runtime => self.without_changes(usual),
+            Mode::Constant => usual,
+        };
+        let frames = [never, never, usual].map(|thresholds| {
+            self.frame_of_first(1, thresholds).with_sink(BenchSinkMode::Delaying)
+        });
+        BenchSequence::drained(frames.into())
+    }
+
+    /// Returns the thresholds with the largest minimum of the port, which no count reaches if the
+    /// port has room for a larger number.
+    fn without_changes(&self, thresholds: ThresholdInputs) -> ThresholdInputs {
+        ThresholdInputs { temporal_min_count: largest_min_count(self.part), ..thresholds }
+    }
 }
 
 /// Returns the number of frames during which the sink must stall so that regions of more than one
@@ -327,196 +361,4 @@ fn stalled_frames(part: &Design) -> usize {
         (true, None) => 1,
         (true, Some(kept)) => 1 + (kept + 2).div_ceil(part.rows()) as usize,
     }
-}
-
-/// The places in a frame at which regions have structure.
-struct DrawnPlaces<'a> {
-    part: &'a Design,
-    /// The indices of the regions with structure, in ascending order.
-    places: Vec<u32>,
-    side: usize,
-    max: u16,
-    /// The level of a flat region.
-    flat: u16,
-}
-
-impl<'a> DrawnPlaces<'a> {
-    /// Creates the places: all regions of a small array, or else evenly spread regions, with the
-    /// first and the last one among them.
-    fn new(part: &'a Design) -> Self {
-        let regions = part.regions();
-        let least = (MAX_DRAWN_PIXELS / part.region_pixels()).clamp(6, 48);
-        let count = least.max(regions / REGIONS_PER_DRAWN_REGION).min(regions);
-        let last = u64::from(count - 1).max(1);
-        let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-        let place = |number: u32| {
-            let place = u64::from(number) * u64::from(regions - 1) / last;
-            u32::try_from(place).expect("a region of the array")
-        };
-        Self {
-            part,
-            places: (0..count).map(place).collect(),
-            side: part.region_size() as usize,
-            max,
-            flat: TestPattern::Flat.draw(1, max, false, &mut Random::new(1))[0],
-        }
-    }
-
-    /// Returns a frame with the given squares at the places, and the ground of this turn elsewhere.
-    fn frame(&self, squares: &[Vec<u16>], turn: u32) -> Frame {
-        let (part, side) = (self.part, self.part.region_size());
-        let pixel = |x: u32, y: u32| {
-            let region = y / side * part.columns() + x / side;
-            match self.places.binary_search(&region) {
-                Ok(at) => squares[at][(y % side * side + x % side) as usize],
-                Err(_) => self.ground_level(x / side, y / side, turn),
-            }
-        };
-        self.frame_from_pixels(pixel)
-    }
-
-    /// Returns true if the ground differs from place to place and from turn to turn.
-    fn has_ground(&self) -> bool {
-        self.part.regions() >= MANY_REGIONS
-    }
-
-    /// Returns the level of a flat region. In a frame with many regions it is one of a few levels,
-    /// by blocks of regions.
-    fn ground_level(&self, column: u32, row: u32, turn: u32) -> u16 {
-        if !self.has_ground() {
-            return self.flat;
-        }
-        let block = column * GROUND_BLOCKS / self.part.columns();
-        let mixed = (row * GROUND_BLOCKS + block).wrapping_mul(0x9e37_79b9) >> 16;
-        let level = (mixed + turn * (1 + mixed / GROUND_LEVELS % 2)) % GROUND_LEVELS;
-        let level = level * u32::from(self.max) / (GROUND_LEVELS - 1);
-        u16::try_from(level).expect("no more than the largest")
-    }
-}
-
-impl DrawnPlaces<'_> {
-    /// Returns a frame with squares all over, shifted from turn to turn. Their edges and corners
-    /// reach every region, and a median filter keeps them.
-    fn wide_frame(&self, turn: u32) -> Frame {
-        let size = (self.part.region_size() / 2).max(3);
-        let is_bright = |at: u32, shift: u32| (at + shift) % (2 * size) < size;
-        let pixel = |x, y| match is_bright(x, turn) && is_bright(y, turn * 2 % 7) {
-            true => self.max,
-            false => 0,
-        };
-        self.frame_from_pixels(pixel)
-    }
-
-    fn frame_from_pixels(&self, pixel: impl FnMut(u32, u32) -> u16) -> Frame {
-        let part = self.part;
-        Frame::from_fn(part.width(), part.height(), part.pixel_bits(), pixel)
-            .unwrap_or_else(|error| unreachable!("pixels are those of the design: {error}"))
-    }
-}
-
-/// Returns the thresholds of the design if some test pictures lead to all kinds of regions under
-/// them. Otherwise, if thresholds are inputs, it returns the smallest ones that distinguish a
-/// pattern from a flat region.
-fn threshold_pair(part: &Design, studio: &mut PictureScorer, random: &mut Random) -> ThresholdPair {
-    let own = ThresholdInputs::from_camera(part);
-    let configured = ThresholdPair { usual: own, blank: own };
-    match part.threshold_source() {
-        Mode::Constant => configured,
-        Mode::Runtime if separates_regions(part, studio, &own, random) => configured,
-        Mode::Runtime => smallest_thresholds(part, studio, random),
-    }
-}
-
-/// Returns true if some pattern is relevant, a flat region is not, and an unchanged region is held.
-fn separates_regions(
-    part: &Design,
-    studio: &mut PictureScorer,
-    thresholds: &ThresholdInputs,
-    random: &mut Random,
-) -> bool {
-    let (side, max) = region_shape(part);
-    let flat = TestPattern::Flat.draw(side, max, false, random);
-    let flat = studio.score_picture(&flat, None, thresholds);
-    let least = thresholds.temporal_min_count;
-    let mut good = STRUCTURED_PATTERNS.iter().filter(|texture| {
-        let picture = texture.draw(side, max, false, random);
-        let look = studio.score_picture(&picture, Some(&flat), thresholds);
-        look.is_relevant && look.changed_pixels_from(&flat, thresholds) >= least
-    });
-    !flat.is_relevant && least > 0 && good.next().is_some()
-}
-
-/// Returns thresholds with levels of 0 and minima of 1. A feature that never finds anything
-/// (corners in 2x2 pixels behind a median filter) gets a minimum of 0 if its vote is needed.
-fn smallest_thresholds(
-    part: &Design,
-    studio: &mut PictureScorer,
-    random: &mut Random,
-) -> ThresholdPair {
-    let (side, max) = region_shape(part);
-    let mut blank = ThresholdInputs::from_camera(part);
-    (blank.temporal_level, blank.temporal_min_count) = (0, 1);
-    for (level, minimum) in blank.level.iter_mut().zip(&mut blank.min_score) {
-        (*level, *minimum) = (0, 1);
-    }
-    let mut usual = blank;
-    let looks: Vec<PictureScores> = STRUCTURED_PATTERNS
-        .iter()
-        .map(|texture| studio.score_picture(&texture.draw(side, max, false, random), None, &blank))
-        .collect();
-    let is_needed = part.combine() == VoteCombination::All || part.features().len() == 1;
-    for (feature, minimum) in usual.min_score.iter_mut().enumerate().take(part.features().len()) {
-        if is_needed && looks.iter().all(|look| look.scores[feature] == 0) {
-            *minimum = 0;
-        }
-    }
-    ThresholdPair { usual, blank }
-}
-
-/// Returns the pictures of a region: relevant ones, each with enough changes against the picture
-/// before it.
-fn draw_region(
-    part: &Design,
-    studio: &mut PictureScorer,
-    thresholds: &ThresholdInputs,
-    number: usize,
-    random: &mut Random,
-) -> DrawnRegion {
-    let (side, max) = region_shape(part);
-    let flat = TestPattern::Flat.draw(side, max, false, random);
-    let nothing = studio.score_picture(&flat, None, thresholds);
-    let least = thresholds.temporal_min_count;
-    let mut pick = |from: usize, before: &PictureScores, wanted: RangeInclusive<u32>| {
-        for step in 0..2 * TRIALS_PER_PATTERN * STRUCTURED_PATTERNS.len() {
-            let texture = STRUCTURED_PATTERNS
-                [(from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len()];
-            let picture = texture.draw(side, max, step % 2 == 1, random);
-            let look = studio.score_picture(&picture, Some(before), thresholds);
-            let changes = look.changed_pixels_from(before, thresholds);
-            if look.is_relevant && wanted.contains(&changes) {
-                return Some((picture, look));
-            }
-        }
-        None
-    };
-    let all = part.region_pixels();
-    // Without a reference every pixel counts as changed.
-    let first = pick(number, &nothing, 0..=all);
-    let (first, seen) = first.unwrap_or_else(|| (flat.clone(), nothing.clone()));
-    // A change of some pixels is preferred to a change of all.
-    let other = pick(number + 1, &seen, least..=all - 1);
-    let other = other.or_else(|| pick(number + 1, &seen, least..=all));
-    let last = pick(number + 2, &nothing, least..=all).map_or_else(|| first.clone(), |last| last.0);
-    let (other, look) = other.unwrap_or_else(|| {
-        let negative: Vec<u16> = first.iter().map(|&pixel| max - pixel).collect();
-        let look = studio.score_picture(&negative, Some(&seen), thresholds);
-        (negative, look)
-    });
-    let (changes, scores) = (look.changed_pixels_from(&seen, thresholds), look.scores);
-    DrawnRegion { first, other, last, scores, changes }
-}
-
-fn region_shape(part: &Design) -> (usize, u16) {
-    let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-    (part.region_size() as usize, max)
 }

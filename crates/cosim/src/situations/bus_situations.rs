@@ -129,8 +129,9 @@ pub(crate) fn can_drop_regions(design: RasterDesign<'_>) -> bool {
     kept.is_some() && 2 * design.rows() > RasterTiming::from_design(design).buffer_rows
 }
 
-/// Returns true if a sink that stops loses rows. Two rows wait. So a third row of the same frame is lost, or a row of the next
-/// frame, which begins only if the array loses regions instead of waiting for the sink.
+/// Returns true if a sink that stops loses rows. Two rows wait. So a third row of the same frame is
+/// lost, or a row of the next frame, which begins only if the array loses regions instead of
+/// waiting for the sink.
 pub(crate) fn can_drop_rows(design: RasterDesign<'_>) -> bool {
     let loses_regions = design.timing().departure().buffered_rows.is_some();
     design.rows() > if loses_regions { 1 } else { 2 }

@@ -12,7 +12,9 @@ mod occurrence;
 mod places;
 mod port_situations;
 mod region_traces;
+mod watched_ports;
 
 pub(crate) use bus_situations::{BusSituationCounts, EVENTS, can_drop_regions, can_drop_rows};
 pub(crate) use monitor::SituationMonitor;
 pub use occurrence::{Occurrence, Occurrences};
+pub(crate) use port_situations::largest_min_count;

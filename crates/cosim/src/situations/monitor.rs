@@ -5,61 +5,11 @@ use super::occurrence::Occurrences;
 use super::places::has_pixel;
 use super::port_situations::{PortSituationCounts, flushed_windows};
 use super::region_traces::{RegionTraces, ShownDecision};
-use crate::field::RecordField;
+use super::watched_ports::{WatchedClock, WatchedPorts};
 use crate::layout::RecordLayout;
-use foveate_design::{ArrayStructure, Design, PortRole};
+use foveate_design::{ArrayStructure, Design};
 use foveate_emit::Top;
-
-/// Returns true if a role is a threshold.
-fn is_threshold(role: PortRole) -> bool {
-    matches!(
-        role,
-        PortRole::Level(_)
-            | PortRole::MinScore(_)
-            | PortRole::TemporalLevel
-            | PortRole::TemporalMinCount
-            | PortRole::SummaryLevel
-    )
-}
-
-/// The ports that are watched.
-#[derive(Clone, Debug)]
-struct WatchedPorts {
-    inputs: Vec<RecordField>,
-    outputs: Vec<RecordField>,
-}
-
-/// One clock: the applied inputs, and the outputs after its edge.
-#[derive(Clone, Copy)]
-struct WatchedClock<'a> {
-    ports: &'a WatchedPorts,
-    input: &'a [u8],
-    output: &'a [u8],
-}
-
-impl WatchedClock<'_> {
-    fn field(&self, role: PortRole) -> Option<(&RecordField, &[u8])> {
-        let find =
-            |fields: &'_ [RecordField]| fields.iter().position(|field| field.port.role == role);
-        match find(&self.ports.outputs) {
-            Some(at) => Some((&self.ports.outputs[at], self.output)),
-            None => find(&self.ports.inputs).map(|at| (&self.ports.inputs[at], self.input)),
-        }
-    }
-
-    fn value(&self, role: PortRole) -> u64 {
-        self.field(role).map_or(0, |(field, record)| field.get(record, 0))
-    }
-
-    fn is_high(&self, role: PortRole) -> bool {
-        self.field(role)
-            .is_some_and(|(field, record)| field.bytes_in(record).iter().any(|&b| b != 0))
-    }
-
-    fn bit(&self, role: PortRole, lane: u32) -> bool {
-        self.field(role).is_some_and(|(field, record)| field.get(record, lane) == 1)
-    }
-}
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// The frame that comes in, and the frames before it since the last reset.
 #[derive(Clone, Debug, Default)]
@@ -68,12 +18,10 @@ struct IntakeState {
     /// one.
     beats: u64,
     /// The hash of the pixels so far; `hashes` has those of whole frames.
-    hash: u64,
+    hasher: DefaultHasher,
     hashes: Vec<u64>,
     /// The number of clocks since the last beat.
     idle: u64,
-    /// True if the core has not been ready at some clock since the last beat.
-    was_closed: bool,
     /// True if a frame has begun since the last reset, and its number of beats was right since
     /// then.
     is_in_step: bool,
@@ -130,12 +78,8 @@ impl SituationMonitor {
                 design.regions()
             }
         };
-        let pick = |layout: &RecordLayout| {
-            let fields = layout.fields().iter();
-            fields.filter(|field| is_watched(field.port.role)).cloned().collect::<Vec<_>>()
-        };
         Self {
-            ports: WatchedPorts { inputs: pick(inputs), outputs: pick(outputs) },
+            ports: WatchedPorts::new(inputs, outputs),
             facts: PortSituationCounts::default(),
             regions: RegionTraces::of(design, regions),
             beats_per_frame: design.timing().pixels_per_frame(),
@@ -169,19 +113,16 @@ impl SituationMonitor {
 
     /// Adds `clocks` clocks with the same inputs and outputs.
     pub(crate) fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) {
-        let ports =
-            std::mem::replace(&mut self.ports, WatchedPorts { inputs: vec![], outputs: vec![] });
-        let clock = WatchedClock { ports: &ports, input, output };
-        if clock.is_high(PortRole::Reset) {
+        let clock = WatchedClock { input, output };
+        if clock.is_high(&self.ports.reset) {
             self.reset();
         } else {
-            self.count_intake(&clock, clocks);
-            self.count_stalls(&clock);
-            self.count_losses(&clock);
-            self.count_decisions(&clock);
+            self.count_intake(clock, clocks);
+            self.count_stalls(clock);
+            self.count_losses(clock);
+            self.count_decisions(clock);
         }
-        self.keep_outputs(&clock);
-        self.ports = ports;
+        self.keep_outputs(clock);
     }
 
     fn reset(&mut self) {
@@ -205,12 +146,11 @@ impl SituationMonitor {
     }
 
     /// Records the pixels that the core takes or refuses.
-    fn count_intake(&mut self, clock: &WatchedClock<'_>, clocks: u64) {
-        let has_ready = clock.field(PortRole::Ready).is_some();
+    fn count_intake(&mut self, clock: WatchedClock<'_>, clocks: u64) {
+        let has_ready = self.ports.ready.exists();
         let is_open = !has_ready || self.was_ready;
-        let valid = clock.is_high(PortRole::Valid);
+        let valid = clock.is_high(&self.ports.valid);
         self.facts.refused += u64::from(valid && !is_open);
-        self.intake.was_closed |= !is_open;
         let is_within = (1..self.beats_per_frame).contains(&self.intake.beats);
         if !(valid && is_open) {
             self.facts.gap_within += u64::from(is_open && is_within && self.intake.is_in_step);
@@ -218,8 +158,8 @@ impl SituationMonitor {
             self.intake.idle += if is_open { clocks } else { 0 };
             return;
         }
-        let syncs = clock.field(PortRole::StartOfFrame).is_some();
-        let sof = clock.is_high(PortRole::StartOfFrame);
+        let syncs = self.ports.start_of_frame.exists();
+        let sof = clock.is_high(&self.ports.start_of_frame);
         if syncs && sof && is_within {
             self.facts.too_few += u64::from(self.intake.is_in_step);
             // All beats up to the next start are dropped, and the core completes the frame.
@@ -232,27 +172,24 @@ impl SituationMonitor {
         } else if !syncs || sof || is_within {
             self.beat(clock, is_within);
         }
-        (self.intake.idle, self.intake.was_closed) = (0, false);
+        self.intake.idle = 0;
     }
 
-    fn beat(&mut self, clock: &WatchedClock<'_>, is_within: bool) {
+    fn beat(&mut self, clock: WatchedClock<'_>, is_within: bool) {
         if !is_within {
             self.begin_frame(clock);
         }
         let intake = &mut self.intake;
-        if let Some((field, record)) = clock.field(PortRole::Pixel) {
-            let lanes = 0..field.port.lanes;
-            for lane in lanes.filter(|&lane| has_pixel(&self.design, intake.beats, lane)) {
-                let pixel = field.get(record, lane);
-                intake.hash = (intake.hash ^ pixel).wrapping_mul(0x0000_0100_0000_01b3);
-            }
+        let lanes = 0..self.ports.pixel.lanes();
+        for lane in lanes.filter(|&lane| has_pixel(&self.design, intake.beats, lane)) {
+            clock.lane(&self.ports.pixel, lane).hash(&mut intake.hasher);
         }
         intake.beats += 1;
         if intake.beats == self.beats_per_frame {
             let is_first = intake.hashes.is_empty();
-            intake.hashes.push(intake.hash);
+            let hash = intake.hasher.finish();
+            intake.hashes.push(hash);
             if is_first {
-                let hash = intake.hash;
                 let same = self.sent_again.iter().filter(|&&shown| shown == hash).count();
                 self.facts.summary_reset_summary += same as u64;
                 self.shown_at_reset.retain(|&(_, shown)| shown == hash);
@@ -260,75 +197,76 @@ impl SituationMonitor {
         }
     }
 
-    fn begin_frame(&mut self, clock: &WatchedClock<'_>) {
-        let Self { facts, intake, first_flush_clocks: flush, flush_clocks: flushes, .. } = self;
+    fn begin_frame(&mut self, clock: WatchedClock<'_>) {
+        let Self { facts, intake, ports, first_flush_clocks: flush, flush_clocks: flushes, .. } =
+            self;
         if intake.beats == self.beats_per_frame && intake.is_in_step {
             facts.back_to_back += u64::from(intake.idle == 0);
             facts.flush_cut += u64::from((1..*flush).contains(&intake.idle));
             facts.flush_ended += u64::from(intake.idle > *flushes);
         }
-        let fields = clock.ports.inputs.iter().filter(|field| is_threshold(field.port.role));
+        let fields = ports.thresholds.iter();
         let thresholds: Vec<u8> =
             fields.flat_map(|field| field.bytes_in(clock.input).iter().copied()).collect();
         let has_changed = intake.is_in_step && thresholds != intake.thresholds;
         facts.threshold_changed += u64::from(has_changed);
-        (intake.beats, intake.hash, intake.is_in_step) = (0, 0xcbf2_9ce4_8422_2325, true);
+        (intake.beats, intake.hasher, intake.is_in_step) = (0, DefaultHasher::new(), true);
         intake.thresholds = thresholds;
     }
 
     /// Counts words that wait for the sink.
-    fn count_stalls(&mut self, clock: &WatchedClock<'_>) {
-        if clock.field(PortRole::ForwardReady).is_none() {
+    fn count_stalls(&mut self, clock: WatchedClock<'_>) {
+        if !self.ports.forward_ready.exists() {
             return;
         }
-        let waits = self.had_output && !clock.is_high(PortRole::ForwardReady);
+        let waits = self.had_output && !clock.is_high(&self.ports.forward_ready);
         self.facts.mean_waits += u64::from(waits && self.had_mean);
         self.facts.pixel_waits += u64::from(waits && !self.had_mean);
         let is_inner = waits
             && self.had_mean
-            && clock.is_high(PortRole::ForwardSummary)
-            && !clock.is_high(PortRole::ForwardLast);
+            && clock.is_high(&self.ports.forward_summary)
+            && !clock.is_high(&self.ports.forward_last);
         self.facts.inner_mean_waits += u64::from(is_inner);
-        if clock.is_high(PortRole::ForwardValid) && clock.is_high(PortRole::ForwardSummary) {
-            self.regions.leave_means(index(clock.value(PortRole::ForwardRegion)));
+        if clock.is_high(&self.ports.forward_valid) && clock.is_high(&self.ports.forward_summary) {
+            self.regions.leave_means(index(clock.value(&self.ports.forward_region)));
         }
     }
 
-    fn count_losses(&mut self, clock: &WatchedClock<'_>) {
-        if clock.is_high(PortRole::LostValid) {
+    fn count_losses(&mut self, clock: WatchedClock<'_>) {
+        if clock.is_high(&self.ports.lost_valid) {
             self.lost += 1;
-            self.regions.lose(index(clock.value(PortRole::LostRegion)));
+            self.regions.lose(index(clock.value(&self.ports.lost_region)));
         }
         let is_aborted =
-            clock.is_high(PortRole::ForwardValid) && clock.is_high(PortRole::ForwardAbort);
-        let of = (clock.value(PortRole::ForwardRegion), clock.value(PortRole::ForwardFrame));
+            clock.is_high(&self.ports.forward_valid) && clock.is_high(&self.ports.forward_abort);
+        let of = (clock.value(&self.ports.forward_region), clock.value(&self.ports.forward_frame));
         let aborted = is_aborted.then_some(of);
         self.facts.lost_within += u64::from(aborted.is_some() && aborted != self.aborted);
         self.aborted = aborted;
     }
 
-    fn count_decisions(&mut self, clock: &WatchedClock<'_>) {
-        if clock.is_high(PortRole::SyncError) {
+    fn count_decisions(&mut self, clock: WatchedClock<'_>) {
+        if clock.is_high(&self.ports.sync_error) {
             self.has_error = true;
         }
-        if clock.is_high(PortRole::ScoreValid) && clock.value(PortRole::ScoreIndex) == 0 {
-            let region = index(clock.value(PortRole::Region));
+        if clock.is_high(&self.ports.score_valid) && clock.value(&self.ports.score_index) == 0 {
+            let region = index(clock.value(&self.ports.region));
             if let Some(count) = self.counts.get_mut(region) {
-                *count = Some(clock.value(PortRole::AnyScore));
+                *count = Some(clock.value(&self.ports.any_score));
             }
         }
-        if !clock.is_high(PortRole::DecisionValid) {
+        if !clock.is_high(&self.ports.decision_valid) {
             return;
         }
-        let lanes = clock.field(PortRole::Srs).map_or(0, |(field, _)| field.port.lanes);
-        let first = if lanes == 1 { index(clock.value(PortRole::Region)) } else { 0 };
-        self.means_are_due = clock.is_high(PortRole::Summary);
+        let lanes = self.ports.srs.lanes();
+        let first = if lanes == 1 { index(clock.value(&self.ports.region)) } else { 0 };
+        self.means_are_due = clock.is_high(&self.ports.summary);
         for lane in 0..lanes {
             self.decide_region(clock, lane, first + lane as usize);
         }
     }
 
-    fn decide_region(&mut self, clock: &WatchedClock<'_>, lane: u32, region: usize) {
+    fn decide_region(&mut self, clock: WatchedClock<'_>, lane: u32, region: usize) {
         let regions = self.counts.len() as u64;
         let frame = index(self.decision_count / regions.max(1));
         self.decision_count += 1;
@@ -337,13 +275,11 @@ impl SituationMonitor {
             // The first frame is the damaged one.
             self.facts.whole_behind_error += u64::from(self.decided_since_error == 2 * regions);
         }
-        let counted = clock.field(PortRole::TemporalCount);
-        let count = match counted {
-            Some((field, record)) => Some(field.get(record, lane)),
-            None => self.counts.get(region).copied().flatten(),
+        let count = match self.ports.temporal_count.exists() {
+            true => Some(clock.lane(&self.ports.temporal_count, lane)),
+            false => self.counts.get(region).copied().flatten(),
         };
-        let bit = |role| clock.bit(role, lane);
-        let summary = bit(PortRole::Summary);
+        let summary = clock.bit(&self.ports.summary, lane);
         if summary && frame == 0 {
             let again = self.shown_at_reset.iter().filter(|&&(shown, _)| shown == region);
             let again: Vec<u64> = again.map(|&(_, hash)| hash).collect();
@@ -356,58 +292,20 @@ impl SituationMonitor {
                 None => self.sent_again.extend(again),
             }
         }
-        let decided =
-            ShownDecision { srs: bit(PortRole::Srs), trs: bit(PortRole::Trs), summary, count };
+        let (srs, trs) = (clock.bit(&self.ports.srs, lane), clock.bit(&self.ports.trs, lane));
+        let decided = ShownDecision { srs, trs, summary, count };
         self.regions.decide(region, frame, decided, &mut self.facts);
     }
 
     /// Keeps the outputs for the next clock.
-    fn keep_outputs(&mut self, clock: &WatchedClock<'_>) {
-        self.was_ready = clock.is_high(PortRole::Ready);
-        self.had_output = clock.is_high(PortRole::ForwardValid);
-        self.had_mean = self.had_output && clock.is_high(PortRole::ForwardSummary);
-        let underrun = clock.is_high(PortRole::Underrun);
+    fn keep_outputs(&mut self, clock: WatchedClock<'_>) {
+        self.was_ready = clock.is_high(&self.ports.ready);
+        self.had_output = clock.is_high(&self.ports.forward_valid);
+        self.had_mean = self.had_output && clock.is_high(&self.ports.forward_summary);
+        let underrun = clock.is_high(&self.ports.underrun);
         self.facts.underrun += u64::from(underrun && !self.had_underrun);
         self.had_underrun = underrun;
     }
-}
-
-/// Returns true if the monitor uses a port of this role.
-fn is_watched(role: PortRole) -> bool {
-    use PortRole::{
-        AnyScore, DecisionValid, ForwardAbort, ForwardFrame, ForwardLast, ForwardReady,
-        ForwardRegion, ForwardSummary, ForwardValid, LostRegion, LostValid, Pixel, Ready, Region,
-        Reset, ScoreIndex, ScoreValid, Srs, StartOfFrame, Summary, SyncError, TemporalCount, Trs,
-        Underrun, Valid,
-    };
-    let others = [
-        AnyScore,
-        DecisionValid,
-        ForwardAbort,
-        ForwardFrame,
-        ForwardLast,
-        ForwardReady,
-        ForwardRegion,
-        ForwardSummary,
-        ForwardValid,
-        LostRegion,
-        LostValid,
-        Pixel,
-        Ready,
-        Region,
-        Reset,
-        ScoreIndex,
-        ScoreValid,
-        Srs,
-        StartOfFrame,
-        Summary,
-        SyncError,
-        TemporalCount,
-        Trs,
-        Underrun,
-        Valid,
-    ];
-    is_threshold(role) || others.contains(&role)
 }
 
 /// Converts a small number to an index.

@@ -3,9 +3,10 @@
 
 use foveate_design::{Design, Hardware, PixelFeed};
 
-/// Returns whether a lane of the pixel port carries a pixel of the frame at a beat, counted from the first beat of the
-/// frame. A lane of a serial array has none in the slots that no region uses, and the last word of a row of a raster core
-/// may reach beyond the frame. Values in such places are arbitrary.
+/// Returns whether a lane of the pixel port carries a pixel of the frame at a beat, counted from
+/// the first beat of the frame. A lane of a serial array has none in the slots that no region uses,
+/// and the last word of a row of a raster core may reach beyond the frame. Values in such places
+/// are arbitrary.
 pub(super) fn has_pixel(design: &Design, beat: u64, lane: u32) -> bool {
     match design.hardware() {
         Hardware::Pipelined(_) => true,

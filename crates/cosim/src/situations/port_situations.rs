@@ -88,7 +88,7 @@ const SITUATIONS: &[PortSituation] = &[
     ),
     situation(
         "all pixels of a region count, and the minimum is above that",
-        |design, _| is_runtime(design) && largest_minimum(design) > design.region_pixels(),
+        |design, _| is_runtime(design) && largest_min_count(design) > design.region_pixels(),
         |facts| facts.minimum_above,
     ),
     situation("a reset comes within a frame", |_, _| true, |facts| facts.reset_within),
@@ -230,7 +230,7 @@ fn can_hold(design: &Design) -> bool {
 }
 
 /// Returns the largest value of the port for the minimum of changed pixels.
-fn largest_minimum(design: &Design) -> u32 {
+pub(crate) fn largest_min_count(design: &Design) -> u32 {
     u32::MAX >> (u32::BITS - design.count_bits())
 }
 
