@@ -49,8 +49,7 @@ impl Camera {
         let features = self.features().iter().zip(&self.config().spatial);
         for (index, (feature, entry)) in features.enumerate() {
             let key = |name| format!("spatial.{index}.{name}");
-            if let Some(max) = feature.level_max() {
-                let level = largest_level(max, feature.min_score() == 0);
+            if let Some(level) = feature.largest_level() {
                 bounds.push((key("level"), KeyBound::whole_maximum(level)));
             }
             let largest = feature.largest_min_score();

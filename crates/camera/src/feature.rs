@@ -99,6 +99,13 @@ impl SpatialFeature {
         self.level_max
     }
 
+    /// Returns the largest valid level of the configuration, or `None` if the feature has no
+    /// per-pixel threshold.
+    #[must_use]
+    pub fn largest_level(&self) -> Option<u32> {
+        self.level_max.map(|max| largest_level(max, self.min_score == 0))
+    }
+
     /// Returns the number of score units in one unit of `min_score`. The unit of `min_score` is a
     /// pixel, a grey level or a squared grey level.
     #[must_use]

@@ -122,8 +122,6 @@ struct SessionChecker<'a> {
     /// thresholds were written.
     camera: usize,
     camera_before: usize,
-    /// The regions of the last frame that were lost.
-    lost: Vec<u32>,
     facts: &'a mut BusSituationCounts,
     open: Option<OpenFrame>,
     /// The smallest number that the next frame may have.
@@ -154,7 +152,6 @@ impl<'a> SessionChecker<'a> {
             model: LossyModel::new(checker.cameras),
             camera: 0,
             camera_before: 0,
-            lost: Vec::new(),
             facts,
             open: None,
             next_frame: 0,
@@ -274,13 +271,11 @@ impl<'a> SessionChecker<'a> {
 
     /// Advances the model by a frame that arrived, and returns its outcome.
     fn step_model(&mut self, sent: &ExpectedFrame, first: bool) -> FunctionalOutcome {
-        let lost = std::mem::take(&mut self.lost);
         if first {
             self.facts.restarted += u64::from(self.agreement.frames > 0);
             self.model.reset();
         } else {
-            lost.iter().for_each(|&region| self.model.lose(region));
-            self.facts.behind_loss += lost.len() as u64;
+            self.facts.behind_loss += self.model.lost_regions();
         }
         self.facts.behind_skipped += u64::from(std::mem::take(&mut self.has_skipped));
         if sent.camera_index != self.camera {
@@ -483,7 +478,7 @@ impl<'a> SessionChecker<'a> {
             return Err(BusMismatch::from_numbers("dropped rows", 0, end.rows_dropped));
         }
         self.open = None;
-        self.lost = lost;
+        lost.into_iter().for_each(|region| self.model.lose(region));
         self.dropped += end.regions_dropped;
         self.dropped_rows += end.rows_dropped;
         self.agreement.frames += 1;

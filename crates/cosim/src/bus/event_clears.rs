@@ -148,8 +148,8 @@ impl<'a> SceneBuilder<'a> {
         self.end_clearing(traffic, "frame_skipped", ExpectedEventCount::SkippedFrames);
     }
 
-    /// Stops the sink from the last line of the first row of regions until the next frame is decided. The FRAME packet has
-    /// left by then, so the next frame begins while all rows of this one wait.
+    /// Stops the sink from the last line of the first row of regions to the end of the next frame.
+    /// The FRAME packet has left by then, so the next frame begins while all rows of this one wait.
     fn stopped_sinks(
         &mut self,
         traffic: &mut Traffic<'a>,
@@ -157,7 +157,7 @@ impl<'a> SceneBuilder<'a> {
         raised: ExpectedEventCount,
     ) {
         self.begin_clearing(traffic, event, true);
-        let hold = 4 * self.design().timing().clocks_per_frame() + 2000;
+        let hold = 2 * self.design().timing().clocks_per_frame();
         let line = self.design().region_size() - 1;
         // All attempts send the same frames, so they differ in the parity of the clock alone.
         let [first, second] =

@@ -11,11 +11,11 @@ const MOVING_SIDE: u32 = 16;
 /// The side of a background tile of one gray level, in pixels. A region in an odd column shows a
 /// single tile, and is irrelevant.
 const TILE_SIDE: u32 = 4;
-/// One in `DRIFTS` tiles changes its gray level with each frame, by `DRIFT` at most. So some means
-/// differ by more than the summary level, and some by less.
+/// One in `DRIFT_PERIOD` tiles changes its gray level with each frame, by `MAX_DRIFT` at most. So
+/// some means differ by more than the summary level, and some by less.
 const DRIFT_PERIOD: u64 = 8;
 const MAX_DRIFT: u16 = 24;
-/// One in `NOISE` frames is noise all over.
+/// One in `NOISE_PERIOD` frames is noise all over.
 const NOISE_PERIOD: u32 = 3;
 
 /// A source of frames for a design, one after the other.

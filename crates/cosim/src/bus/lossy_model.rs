@@ -36,6 +36,11 @@ impl<'a> LossyModel<'a> {
         self.lost.insert(region);
     }
 
+    /// Returns the number of regions of the last frame that were lost.
+    pub(super) fn lost_regions(&self) -> u64 {
+        self.lost.len() as u64
+    }
+
     /// Returns the model in its state before the next frame, with the thresholds of `camera`.
     fn with_camera(&self, camera: &Camera) -> FunctionalCamera {
         let Some(screen) = &self.screen else { return FunctionalCamera::new(camera) };
@@ -52,7 +57,7 @@ impl<'a> LossyModel<'a> {
     }
 
     /// Returns the outcome that the next frame would have with the thresholds of another camera.
-    /// The state of the follower does not change.
+    /// The state of this model does not change.
     pub(super) fn outcome_with(&self, frame: &Frame, camera: &Camera) -> FunctionalOutcome {
         let mut other = self.with_camera(camera);
         other.step(frame).expect("frames are of the design").clone()

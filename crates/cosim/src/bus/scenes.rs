@@ -20,8 +20,8 @@ const ALL_BYTES: u32 = super::traffic::ALL_BYTES;
 const LAST_ADDRESS: u32 = 0xFFC;
 /// The number of accesses in a storm.
 const STORM_ACCESSES: usize = 60;
-/// The number of resets among accesses. Each comes at most `ACCESSES` clocks after the accesses,
-/// while one is under way or its answer waits.
+/// The number of resets among accesses. Each comes at most `MAX_RESET_DELAY` clocks after the
+/// accesses, while one is under way or its answer waits.
 const RESET_COUNT: u64 = 40;
 const MAX_RESET_DELAY: u64 = 14;
 
@@ -504,7 +504,7 @@ impl<'a> SceneBuilder<'a> {
         traffic.wait_for_accesses();
         traffic.set_in_order(true);
         traffic.write(enable, 0);
-        // None of the written words was a restart.
+        // The written words do not include a restart.
         traffic.send_frame(taken_frame(self.frame_source.next()));
         self.end_session(traffic, 0);
     }

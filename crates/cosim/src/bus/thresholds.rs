@@ -137,25 +137,9 @@ fn all_active(design: &Design) -> DesignConfig {
 
 /// Sets the level and the minimum of a feature to their largest values, so that it never votes.
 fn disable_feature(design: &Design, config: &mut DesignConfig, place: usize) {
-    let most = config.camera.spatial[place].level.map(|_| largest_level(design, place));
-    let feature = &mut config.camera.spatial[place];
-    feature.level = most;
-    feature.min_score = Some(design.features()[place].largest_min_score());
-}
-
-/// Returns the largest valid level of a feature.
-fn largest_level(design: &Design, place: usize) -> u32 {
-    let is_valid = |level: &u32| {
-        let mut config = design.config();
-        config.camera.spatial[place].level = Some(*level);
-        config.validate().is_ok()
-    };
-    let (mut low, mut high) = (0, 1_u32 << design.features()[place].level_bits().min(31));
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if is_valid(&middle) { low = middle } else { high = middle }
-    }
-    low
+    let (entry, feature) = (&mut config.camera.spatial[place], &design.features()[place]);
+    entry.level = feature.largest_level();
+    entry.min_score = Some(feature.largest_min_score());
 }
 
 /// Returns configurations in which the feature with index `place` alone decides which regions are
@@ -177,7 +161,8 @@ fn feature_sweep(design: &Design, all_active: &DesignConfig, place: usize) -> Ve
     };
     let mut configs = vec![alone.clone(), with_min(&alone, 0)];
     if design.features()[place].level().is_some() {
-        // Even noise of 1-bit pixels reaches the largest level here and there, so one pixel is not enough.
+        // Even noise of 1-bit pixels reaches the largest level here and there, so one pixel is not
+        // enough.
         let strict = with_min(&alone, u64::from(design.region_pixels() / 8).max(1));
         let mut lenient = strict.clone();
         lenient.camera.spatial[place].level = Some(0);

@@ -155,7 +155,7 @@ fn send_first_words(
     kept
 }
 
-/// Sends a line that does not end in time, with up to `MORE` transfers too many.
+/// Sends a line that does not end in time, with up to `MAX_EXTRA_TRANSFERS` transfers too many.
 fn send_long_line(traffic: &mut Traffic<'_>, random: &mut Random, row: &[u16], sof: bool) {
     send_line(traffic, row, (sof, false));
     let more = random.up_to(MAX_EXTRA_TRANSFERS - 1);
