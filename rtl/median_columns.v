@@ -32,7 +32,7 @@ module median_columns #(
         if (LANES < 1) begin : g_lanes LANES_must_be_1_or_more u_refused (); end
     endgenerate
 
-    // Each of these functions returns one of three sorted pixels a, b, c. The comparisons are a > b, b > c and a > c.
+    // These functions return one of three sorted pixels a, b, c. The comparisons are a > b, b > c and a > c.
     function [WIDTH-1:0] low_of(
         input ab, input bc, input ac, input [WIDTH-1:0] a, input [WIDTH-1:0] b, input [WIDTH-1:0] c
     );

@@ -18,7 +18,7 @@ pytest_plugins = ["pages"]
 
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 DATA = os.environ.get("FOVEATE_DATA")
-# Of another shape than the networks, so that letterbox and stretch differ.
+# A size of another shape than the networks, so that letterbox and stretch differ.
 SIZE = "176x112"
 EXACT = "foveate.network.looked?.id === foveate.network.shown.id"
 LOOKED = "foveate.network.looked"
@@ -379,7 +379,7 @@ def test_a_network_goes_by_keyboard_and_its_settings_by_link(street):
     other = street("&network.framing=stretch&network.scale=1%2F255")
     opened_network(other, "squares.onnx", onnx.squares())
     assert other.evaluate("[foveate.network.facts.framing, foveate.network.facts.scale]") == ["stretch", "1/255"]
-    # That was for the first one.
+    # The settings of the address were for the first network.
     opened_network(other, "again.onnx", onnx.squares())
     until(other, "foveate.network.facts?.framing === 'letterbox'")
 

@@ -306,7 +306,7 @@ def test_events_are_those_of_simulate(still):
     until(page, "foveate.sums.frames === 1")
     step(page, 4)
     assert page.inner_text("#recorded").startswith("5 frames")
-    # What was recorded is kept when that ends.
+    # The recorded frames are kept when recording ends.
     page.click("#record")
     with page.expect_download() as waiting:
         page.click("#download")

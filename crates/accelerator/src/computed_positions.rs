@@ -8,7 +8,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct ComputedPositions<'a> {
     layer: &'a Layer,
-    /// Whether each position is computed, in row-major order.
+    /// True if each position is computed, in row-major order.
     is_computed: Vec<bool>,
 }
 

@@ -4,8 +4,9 @@
 //!
 //! An [`Accelerator`] is read from TOML, or is one of the [`PRESETS`]. A [`Layer`] has the shapes
 //! of a convolution or of a matrix product. [`Accelerator::plan`] maps the layer onto the array,
-//! once. The [`LayerPlan`] then computes the [`LayerCost`] of the whole layer ([`LayerPlan::whole_cost`]), or of the
-//! output positions that a mask needs ([`LayerPlan::masked_cost`]).
+//! once. The [`LayerPlan`] then computes the [`LayerCost`] of the whole layer
+//! ([`LayerPlan::whole_cost`]), or of the output positions that a mask needs
+//! ([`LayerPlan::masked_cost`]).
 //!
 //! The counts depend on the number T of computed positions of the output, the number K of inputs of
 //! each sum, the number M of channels of the output, and an array of R x C elements:

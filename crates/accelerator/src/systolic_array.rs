@@ -46,7 +46,7 @@ struct ProductCuts {
     channels: u64,
     /// The number of parts of the positions.
     positions: u64,
-    /// Whether the inputs of a part of the positions fit into their buffer.
+    /// True if the inputs of a part of the positions fit into their buffer.
     part_fits: bool,
 }
 

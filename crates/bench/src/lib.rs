@@ -2,15 +2,16 @@
 //! Benchmarks: the same frames run through every level of a design. The result is the cost of each
 //! level, and whether the levels agree.
 //!
-//! A [`Benchmark`] goes from whole frames down to gates. Each level runs on one thread, one after the
-//! other, and is compared with a level above it:
+//! A [`Benchmark`] goes from whole frames down to gates. Each level runs on one thread, one after
+//! the other, and is compared with a level above it:
 //!
 //! ```text
 //! functional, clear   FunctionalCamera  frames          the reference
-//! functional, fast    Engine            frames          every result of every region = FunctionalCamera
-//! cycle               PipelinedRcm, ..  clocks          every score and decision = FunctionalCamera
-//! RTL                 Verilator         clocks          every port at every clock = cycle
-//! netlist             Icarus            one RPU         every port at every clock = cycle
+//! functional, fast    Engine            frames          every result of every region =
+//! FunctionalCamera cycle               PipelinedRcm, ..  clocks          every score and decision
+//! = FunctionalCamera RTL                 Verilator         clocks          every port at every
+//! clock = cycle netlist             Icarus            one RPU         every port at every clock =
+//! cycle
 //! ```
 //!
 //! The levels with clocks take the same [`Recording`](foveate_cosim::Recording). Each level is

@@ -3,9 +3,9 @@
 //! make a bitstream of it. With a pattern in place of the sensor, before such a core or an array of
 //! RPUs, Vivado makes it.
 //!
-//! A [`Board`] and a [`Sensor`] are files of data. A [`BoardProject`] is a design on a board: Verilog,
-//! pins, and the script that [`build`](fn@build) runs. `docs/boards.md` describes the modules around the
-//! core.
+//! A [`Board`] and a [`Sensor`] are files of data. A [`BoardProject`] is a design on a board:
+//! Verilog, pins, and the script that [`build`](fn@build) runs. `docs/boards.md` describes the
+//! modules around the core.
 
 mod array;
 mod board;

@@ -146,7 +146,7 @@ pub(crate) fn modules(project: &BoardProject) -> Vec<SourceFile> {
             let own = [("expected_sums", expected_sums(project)), ("board", top)];
             (axi_modules(design).unwrap_or_default(), [PATTERN_LEAVES, OUTPUT_LEAVES], own)
         }
-        // [`Project::new`] has refused such a design.
+        // [`BoardProject::new`] has refused such a design.
         (Hardware::Serial(_), None) => return Vec::new(),
     };
     let stands = |leaf: &&Leaf| leaves.iter().any(|names| names.contains(&leaf.name));

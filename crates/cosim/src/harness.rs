@@ -9,8 +9,8 @@ use askama::Template;
 use foveate_design::{Port, PortDirection, PortRole};
 use foveate_emit::Parameter;
 
-/// Returns the C++ main that clocks module `top` with packed records; [`RecordLayout`] describes their
-/// bytes.
+/// Returns the C++ main that clocks module `top` with packed records; [`RecordLayout`] describes
+/// their bytes.
 #[must_use]
 pub fn cpp_harness(top: &str, ports: &[Port]) -> String {
     let clock = clock_name(ports);

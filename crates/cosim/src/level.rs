@@ -59,9 +59,10 @@ impl CosimLevel {
     }
 
     /// Returns the levels that together simulate the Verilog of a user: one for each of the modules
-    /// `rpu` and `rcm` that is there under this prefix. The array is simulated as [`CosimLevel::small_array`]
-    /// and, if the whole array is larger and [affordable](Self::is_whole_affordable), also whole.
-    /// Without either module it is `rpu`, whose simulation reports what is missing.
+    /// `rpu` and `rcm` that is there under this prefix. The array is simulated as
+    /// [`CosimLevel::small_array`] and, if the whole array is larger and
+    /// [affordable](Self::is_whole_affordable), also whole. Without either module it is `rpu`,
+    /// whose simulation reports what is missing.
     #[must_use]
     pub fn for_sources(design: &Design, sources: &[SourceFile], prefix: &Prefix) -> Vec<Self> {
         let mut levels = vec![Self::Rpu, Self::small_array(design)];

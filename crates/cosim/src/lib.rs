@@ -5,8 +5,8 @@
 //! A [`CosimJob`] is a whole co-simulation. Its [`Stimulus`] runs the cycle-level model and records
 //! vectors, a simulator runs the Verilog on them, and a [`CosimReport`] says whether they agree, or
 //! where the first mismatch is. A failing run leaves a folder that replays it. Everything that
-//! depends on the Verilog is made from the list of ports: the byte [`RecordLayout`] of a clock, the C++
-//! harness and the replay bench.
+//! depends on the Verilog is made from the list of ports: the byte [`RecordLayout`] of a clock, the
+//! C++ harness and the replay bench.
 //! the replay bench.
 
 mod bus;

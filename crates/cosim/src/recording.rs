@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors on disk: the inputs, and the outputs that the model expects, clock by clock.
 //!
-//! Both are files of packed records (see [`RecordLayout`]) in a folder of their own. So the length of a
-//! run is limited by the disk and not by memory, and the simulator reads the inputs directly.
+//! Both are files of packed records (see [`RecordLayout`]) in a folder of their own. So the length
+//! of a run is limited by the disk and not by memory, and the simulator reads the inputs directly.
 
 use crate::error::CosimError;
 use crate::layout::RecordLayout;
@@ -243,8 +243,8 @@ impl Recording {
     }
 }
 
-/// Returns the first `limit` clocks of a recording as text for a replay bench; [`VectorPacker`] describes
-/// its lines.
+/// Returns the first `limit` clocks of a recording as text for a replay bench; [`VectorPacker`]
+/// describes its lines.
 ///
 /// # Errors
 /// Fails if the recording cannot be read.

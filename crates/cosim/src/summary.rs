@@ -8,7 +8,8 @@ use crate::report::CosimReport;
 use crate::situations::Occurrences;
 use serde::{Deserialize, Serialize};
 
-/// The version of [`CosimSummary`] as JSON; it changes when a field is removed or gets another meaning.
+/// The version of [`CosimSummary`] as JSON; it changes when a field is removed or gets another
+/// meaning.
 pub const FORMAT_VERSION: u32 = 2;
 
 /// The result of the co-simulations of one design.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Views of a design whose organization is known.
 //!
-//! The properties of one organization are methods of a [`DesignWithHardware`] its hardware. So the lanes of a
-//! pipelined array or the frame store of a serial array cannot be asked for.
+//! The properties of one organization are methods of a [`DesignWithHardware`] its hardware. So the
+//! lanes of a pipelined array or the frame store of a serial array cannot be asked for.
 
 use std::ops::Deref;
 

@@ -2,10 +2,10 @@
 //! A camera and the hardware that computes it as one validated value, with every number that
 //! follows from both.
 //!
-//! A [`DesignConfig`] holds the keys that a user writes. [`DesignConfig::validate`] turns it into a [`Design`],
-//! which is immutable and gives latencies, memories, lists of ports and its fingerprint. It
-//! dereferences to its [`Camera`], which is defined in the crate of that name. No other crate
-//! validates a configuration or derives a width again. This crate does no I/O.
+//! A [`DesignConfig`] holds the keys that a user writes. [`DesignConfig::validate`] turns it into a
+//! [`Design`], which is immutable and gives latencies, memories, lists of ports and its
+//! fingerprint. It dereferences to its [`Camera`], which is defined in the crate of that name. No
+//! other crate validates a configuration or derives a width again. This crate does no I/O.
 
 mod choice;
 mod config;

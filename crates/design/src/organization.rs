@@ -2,8 +2,8 @@
 //! The cameras that an organization can compute, and the unit, the timing and the ports of a
 //! design.
 //!
-//! Each organization implements [`crate::rules::OrganizationRules`] in its own module, which defines these
-//! properties.
+//! Each organization implements [`crate::rules::OrganizationRules`] in its own module, which
+//! defines these properties.
 
 use crate::pipelined::PipelinedHardware;
 use crate::raster::RasterHardware;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of an RPU or an RCM. The [`crate::CoreInterface`] of each organization is made of them.
+//! The ports of an RPU or an RCM. The [`crate::CoreInterface`] of each organization is made of
+//! them.
 
 use crate::{Design, FeatureKind, ThresholdSource};
 
@@ -201,7 +202,8 @@ pub struct Port {
     pub lanes: u32,
     /// True if the port has a value per lane, also in an array with only one lane.
     pub per_lane: bool,
-    /// The condition under which the value has a meaning. It is [`OutputQualifier::Always`] for an input.
+    /// The condition under which the value has a meaning. It is [`OutputQualifier::Always`] for an
+    /// input.
     pub qualifier: OutputQualifier,
     /// Documentation of the port in one line.
     pub doc: String,

@@ -17,7 +17,8 @@ impl DesignConfig {
     /// Returns the design for inputs of `width` x `height` pixels.
     ///
     /// # Errors
-    /// Returns the errors of [`foveate_camera::CameraConfig::fit_frame`] and [`DesignConfig::validate`].
+    /// Returns the errors of [`foveate_camera::CameraConfig::fit_frame`] and
+    /// [`DesignConfig::validate`].
     pub fn validate_for_frames(&self, width: u32, height: u32) -> Result<Design, ConfigError> {
         let mut config = self.clone();
         config.camera.fit_frame(width, height)?;

@@ -8,7 +8,7 @@ use foveate_design::Design;
 pub(crate) struct FrameSync {
     /// The number of beats of a frame, in terms of the grid.
     pub(crate) beats: String,
-    /// Whether the array behind `frame_sync` takes a beat at every clock.
+    /// True if the array behind `frame_sync` takes a beat at every clock.
     pub(crate) is_always_open: bool,
 }
 

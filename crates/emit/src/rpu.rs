@@ -74,7 +74,7 @@ struct RpuModule {
 #[derive(Default)]
 struct SpatialParts {
     windowed: Vec<WindowFeature>,
-    /// Whether the pixels of a region are summed.
+    /// True if the pixels of a region are summed.
     sums: bool,
     mad: Option<MadParameters>,
     variance: Option<VarianceWidths>,
@@ -122,7 +122,7 @@ struct ScorePort {
     name: String,
     width: u32,
     minimum: String,
-    /// Whether the score waits for a feature with a second pass.
+    /// True if the score waits for a feature with a second pass.
     is_held: bool,
 }
 

@@ -3,8 +3,8 @@
 //!
 //! Fewer lanes take less logic, but the memory of a lane consists of whole block RAMs: 47 lanes of
 //! 17 regions may take twice the blocks of 49 lanes of 16. So the folds that may be the cheapest
-//! ([`Design::pareto_folds`]) are synthesized, and their areas are compared by [`FpgaDevice::cost`].
-//! The frame rate of a fold follows from the clock of its own netlist.
+//! ([`Design::pareto_folds`]) are synthesized, and their areas are compared by
+//! [`FpgaDevice::cost`]. The frame rate of a fold follows from the clock of its own netlist.
 
 use std::collections::BTreeMap;
 

@@ -15,7 +15,7 @@ pub struct FrameRate {
     pub low_clock_mhz: f64,
     /// The high end of the range of the clock in MHz; the clock itself if it was given.
     pub high_clock_mhz: f64,
-    /// Whether the clock is estimated, as opposed to given.
+    /// True if the clock is estimated, as opposed to given.
     pub estimated: bool,
     /// Frames per second at the clock.
     pub frames_per_second: f64,

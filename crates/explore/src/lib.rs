@@ -2,11 +2,12 @@
 //! Explorations of many designs over the same footage: the errors of each design against the ideal
 //! camera, its cost and its speed; and fits, which find the cheapest design that a scene needs.
 //!
-//! [`explore`](fn@explore) runs a [`DesignSpace`] of designs over clips and writes a folder of tables, Pareto fronts,
-//! configurations and one page. It continues an interrupted run. [`plan_units`] and [`measure_unit`]
-//! distribute the measurements over machines. The ideal camera is the whole-frame floating-point
-//! camera of [`foveate_ideal`], and the figures are those of [`foveate_fidelity`]. The library
-//! never prints: progress and cancellation go through [`ExploreHooks`].
+//! [`explore`](fn@explore) runs a [`DesignSpace`] of designs over clips and writes a folder of
+//! tables, Pareto fronts, configurations and one page. It continues an interrupted run.
+//! [`plan_units`] and [`measure_unit`] distribute the measurements over machines. The ideal camera
+//! is the whole-frame floating-point camera of [`foveate_ideal`], and the figures are those of
+//! [`foveate_fidelity`]. The library never prints: progress and cancellation go through
+//! [`ExploreHooks`].
 
 mod compare;
 mod cost;

@@ -57,7 +57,7 @@ impl DesignSpace {
                 values.iter().map(|value| value.map(plain_text).unwrap_or_default()).collect();
             match self.config_of_values(&values, width, height) {
                 Ok(config) => {
-                    // Of equal designs the first is kept, because it has the fewest settings.
+                    // The first of equal designs is kept, because it has the fewest settings.
                     if seen.insert(config.to_toml()) {
                         points.push(DesignPoint { settings, config, combination: number });
                     }

@@ -42,11 +42,11 @@ pub struct DesignRow {
 /// The fronts that a point is on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct FrontMembership {
-    /// Whether the point is on the front of error and speed.
+    /// True if the point is on the front of error and speed.
     pub speed: bool,
-    /// Whether the point is on the front of error and LUTs of the array.
+    /// True if the point is on the front of error and LUTs of the array.
     pub area: bool,
-    /// Whether the point is on the front of error, speed and LUTs of the array; without areas,
+    /// True if the point is on the front of error, speed and LUTs of the array; without areas,
     /// equal to `speed`.
     pub all: bool,
 }

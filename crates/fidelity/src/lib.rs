@@ -4,8 +4,8 @@
 //! A [`Fidelity`] gets each input frame with the results of the ideal camera
 //! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`ErrorTally`] holds only
 //! whole numbers, so tallies of clips can be stored, and their sum has the same bits in any order.
-//! [`FidelityFigures`] are for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no
-//! I/O.
+//! [`FidelityFigures`] are for people: errors of scores, flips, PSNR, SSIM, staleness. This crate
+//! does no I/O.
 #![forbid(unsafe_code)]
 
 mod areas;

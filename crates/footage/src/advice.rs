@@ -65,8 +65,8 @@ fn skipped_of(input: &Path, images: ImageRelation) -> Vec<SkippedInput> {
     found
 }
 
-/// Describes the [`skipped_inputs`] entries: one sentence for each reason, with the number of entries and
-/// one example.
+/// Describes the [`skipped_inputs`] entries: one sentence for each reason, with the number of
+/// entries and one example.
 #[must_use]
 pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_non_file_source(input));

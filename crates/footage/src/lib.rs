@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Footage: video, images, data sets and synthetic scenes, as frames one at a time.
 //!
-//! [`open`] turns an input (video, files, folders, globs, `scene:NAME`) into a [`FrameSource`] of frames
-//! of the design's depth; [`plan`](fn@plan) decides whether inputs are one clip or many; [`read_ahead`]
-//! reads on a separate thread. [`boxes`] reads the positions of objects in the frames. Memory does
-//! not grow with the number of frames. This crate does not know what happens to the frames.
+//! [`open`] turns an input (video, files, folders, globs, `scene:NAME`) into a [`FrameSource`] of
+//! frames of the design's depth; [`plan`](fn@plan) decides whether inputs are one clip or many;
+//! [`read_ahead`] reads on a separate thread. [`boxes`] reads the positions of objects in the
+//! frames. Memory does not grow with the number of frames. This crate does not know what happens to
+//! the frames.
 
 mod address;
 mod advice;

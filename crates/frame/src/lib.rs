@@ -2,10 +2,10 @@
 //! A frame: width x height luma pixels of 1 to 16 bits in row-major order, every value checked
 //! once.
 //!
-//! [`Frame`] holds words, and the models compute on it. [`ByteFrame`] holds bytes for up to 8 bits per
-//! pixel and words for more, so that video is neither widened nor copied on its way to the engine.
-//! Both report the same [`FrameError`]. A [`Rect`] is a rectangle in a frame. This crate knows no
-//! design.
+//! [`Frame`] holds words, and the models compute on it. [`ByteFrame`] holds bytes for up to 8 bits
+//! per pixel and words for more, so that video is neither widened nor copied on its way to the
+//! engine. Both report the same [`FrameError`]. A [`Rect`] is a rectangle in a frame. This crate
+//! knows no design.
 
 mod byte_frame;
 mod depth;

@@ -35,8 +35,8 @@ impl PaddedPlane {
         &self.values[(y + 1) * (self.width + 2) + 1..][..self.width]
     }
 
-    /// Returns a row without the border for writing. Call [`PaddedPlane::repeat_border`] after the last
-    /// row.
+    /// Returns a row without the border for writing. Call [`PaddedPlane::repeat_border`] after the
+    /// last row.
     pub(crate) fn row_mut(&mut self, y: usize) -> &mut [f64] {
         &mut self.values[(y + 1) * (self.width + 2) + 1..][..self.width]
     }

@@ -20,6 +20,6 @@ pub(crate) struct FrameView<'a> {
 pub(crate) struct RegionReferences {
     /// The pixels of the references at the positions of their regions; the border is not filled.
     pub(crate) plane: PaddedPlane,
-    /// Whether each region has a valid reference.
+    /// True if each region has a valid reference.
     pub(crate) valid: Vec<bool>,
 }

@@ -16,7 +16,7 @@ pub(crate) struct ReceiverCamera {
     picture: FrameInput,
     /// The black screen from which every frame of a data set starts; `None` for a clip.
     black_picture: Option<FrameInput>,
-    /// Whether the network also runs on the frames before the camera.
+    /// True if the network also runs on the frames before the camera.
     with_originals: bool,
     /// The last frame before the camera, with its objects.
     original: Option<KeptOriginalFrame>,
@@ -47,7 +47,7 @@ struct OutcomeTally {
 pub(crate) struct CameraSetup<'a> {
     pub(crate) design: &'a Design,
     pub(crate) witness: &'a VisionNetwork,
-    /// Whether the network also runs on the frames before the camera.
+    /// True if the network also runs on the frames before the camera.
     pub(crate) with_originals: bool,
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct FrameFigures {
     pub(crate) number: u64,
     pub(crate) name: String,
     pub(crate) time_us: u64,
-    /// Whether the frame is part of the means.
+    /// True if the frame is part of the means.
     pub(crate) is_counted: bool,
     /// The share of regions that were active.
     pub(crate) active_share: f64,

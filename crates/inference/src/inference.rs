@@ -33,9 +33,9 @@ pub struct InferenceOptions {
     pub computation: Computation,
     /// The accelerator whose cost is counted, with its name.
     pub accelerator: Option<(String, Accelerator)>,
-    /// Whether a whole computation also runs, for comparison.
+    /// True if a whole computation also runs, for comparison.
     pub with_whole_computation: bool,
-    /// Whether the network also runs on whole frames, to compare its outputs there.
+    /// True if the network also runs on whole frames, to compare its outputs there.
     pub with_whole_frames: bool,
     /// Standard deviations of noise in grey levels of 8 bits, each above 0. With `sight`, the
     /// network also runs on whole frames with this noise.
@@ -47,7 +47,7 @@ pub struct InferenceOptions {
     pub record: RecordOptions,
     /// The words of the command line, which the page shows; empty if there was no command.
     pub command: Vec<String>,
-    /// Whether the folder of an earlier run is replaced.
+    /// True if the folder of an earlier run is replaced.
     pub overwrite: bool,
 }
 

@@ -144,7 +144,7 @@ pub(crate) fn render_page(
 /// is lost.
 fn most_expensive_frames<'a>(frames: &[&'a FrameFigures], every: usize) -> Vec<&'a FrameFigures> {
     let by_macs = |one: &&&FrameFigures, other: &&&FrameFigures| {
-        // Of equal frames the first one is taken.
+        // The first of equal frames is taken.
         one.macs
             .needed
             .total_cmp(&other.macs.needed)

@@ -18,9 +18,9 @@ const MAX_NAME_LETTERS: usize = 100;
 /// The files of the outputs that are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RecordOptions {
-    /// Whether NumPy arrays of shape `[frames, ...shape]` are written.
+    /// True if NumPy arrays of shape `[frames, ...shape]` are written.
     pub arrays: bool,
-    /// Whether PNG files are written of the outputs with one or three channels and the size of the
+    /// True if PNG files are written of the outputs with one or three channels and the size of the
     /// input.
     pub pictures: bool,
 }

@@ -50,7 +50,7 @@ pub(crate) struct FinishedRun {
 
 /// The computations that run for comparison.
 pub(crate) struct RunComparisons<'a> {
-    /// Whether a whole computation of the receiver's screen runs.
+    /// True if a whole computation of the receiver's screen runs.
     pub(crate) with_whole_computation: bool,
     /// The network on whole frames, if it runs.
     pub(crate) whole_frames: Option<WholeFrameComparison<'a>>,

@@ -22,7 +22,7 @@ pub struct InferenceSummary {
     pub format_version: u32,
     /// The version of the program.
     pub foveate_version: &'static str,
-    /// Whether the inputs were read to their end.
+    /// True if the inputs were read to their end.
     pub complete: bool,
     /// The reason if the inputs were not read to their end.
     pub problem: Option<String>,
@@ -179,7 +179,7 @@ pub struct TuningSummary {
     /// The trial that computes only the first frame, so that the outputs stay the same. A goal that
     /// it reaches has little meaning.
     pub frozen: TuningTrial,
-    /// Whether the second half also reaches the goal.
+    /// True if the second half also reaches the goal.
     pub holds: bool,
 }
 
@@ -207,7 +207,7 @@ pub struct TuningTrial {
     /// The closeness of the outputs.
     #[serde(flatten)]
     pub outputs: OutputCloseness,
-    /// Whether the goal is reached.
+    /// True if the goal is reached.
     pub holds: bool,
 }
 

@@ -18,7 +18,7 @@ pub(crate) enum FigureValue {
     Text(String),
     Shape(Vec<usize>),
     Flag(bool),
-    /// Whether a goal is reached.
+    /// True if a goal is reached.
     GoalReached(bool),
     Count(u64),
     /// A share from 0 to 1.
@@ -38,9 +38,9 @@ pub(crate) enum FigureValue {
 pub(crate) struct FigureColumn<T> {
     pub(crate) heading: ColumnHeading,
     pub(crate) value: fn(&T) -> FigureValue,
-    /// Whether the column holds numbers.
+    /// True if the column holds numbers.
     pub(crate) numbers: bool,
-    /// Whether the column is a mean over the counted frames; it stays empty without a counted
+    /// True if the column is a mean over the counted frames; it stays empty without a counted
     /// frame.
     pub(crate) is_mean: bool,
     is_in_files: bool,

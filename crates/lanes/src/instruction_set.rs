@@ -2,13 +2,13 @@
 //! The vector instruction sets for which the inner loops are compiled; one is chosen at run time.
 //!
 //! The kernels are plain loops over blocks of a fixed number of lanes. They are fast because the
-//! compiler may use vector instructions for them. A [`VectorTask`] is compiled once per [`InstructionSet`]. It is
-//! entered through a function that has the level's target features, into which everything that the
-//! task calls is inlined.
+//! compiler may use vector instructions for them. A [`VectorTask`] is compiled once per
+//! [`InstructionSet`]. It is entered through a function that has the level's target features, into
+//! which everything that the task calls is inlined.
 //!
 //! This is the only module with `unsafe`: calling a function with target features is sound only on
-//! a processor that has them. [`InstructionSet::available`] asks the processor, and the private field of
-//! [`InstructionSet`] makes sure that no other code can create a level.
+//! a processor that has them. [`InstructionSet::available`] asks the processor, and the private
+//! field of [`InstructionSet`] makes sure that no other code can create a level.
 #![allow(unsafe_code, reason = "entering code compiled for an instruction set that was detected")]
 
 /// Work whose `run` (with everything that it calls) is marked `#[inline(always)]`, so that it is
@@ -129,7 +129,8 @@ impl InstructionSet {
         2 * self.register_bits() / 32
     }
 
-    /// Runs a task with these instructions and with panels of [`InstructionSet::panel_lanes`] values.
+    /// Runs a task with these instructions and with panels of [`InstructionSet::panel_lanes`]
+    /// values.
     pub fn run_panels(self, task: impl PanelTask) {
         match self.0 {
             InstructionSetKind::Portable => SizedPanelTask::<_, 8, false>(task).run(),

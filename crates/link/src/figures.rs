@@ -27,7 +27,7 @@ pub struct LinkFigures {
     pub delivery_ns: DeliveryTimes,
     /// The size in bytes of the buffer in front of the link that loses nothing of this clip.
     pub buffer_bytes: u64,
-    /// Whether the clip needs more than the link carries, so that the buffer grows with the length
+    /// True if the clip needs more than the link carries, so that the buffer grows with the length
     /// of the clip.
     pub overloaded: bool,
 }

@@ -2,10 +2,11 @@
 //! A comparison of what a region camera sends over a link with common senders: pixel events, raw
 //! frames, and MJPEG, H.264 and H.265 at the same quality.
 //!
-//! A sender is a list of [`LinkUnit`]s: bits with the times at which their pixels were read, at which
-//! they were decided, and at which they were given to the link. [`LinkFigures`] has the load on a link:
-//! rates in windows, latency and the buffer. [`compare`](fn@compare) runs clips through the cameras and the
-//! codecs, and writes a folder that appears complete or not at all. Times and rates are integers.
+//! A sender is a list of [`LinkUnit`]s: bits with the times at which their pixels were read, at
+//! which they were decided, and at which they were given to the link. [`LinkFigures`] has the load
+//! on a link: rates in windows, latency and the buffer. [`compare`](fn@compare) runs clips through
+//! the cameras and the codecs, and writes a folder that appears complete or not at all. Times and
+//! rates are integers.
 
 mod charts;
 mod clip;

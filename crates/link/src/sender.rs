@@ -10,10 +10,10 @@
 //!
 //! *By rows* means that every row of regions is an array of its own. It takes pixels as they are
 //! read, and its pixels are available when the decision falls. *Array* is the generated `rcm`,
-//! whose times [`DepartureTiming`] describes. It may take a frame when all of it has been read, and send
-//! decisions and pixels slot by slot. Or it takes pixels as they are read, and sends one row of
-//! regions after the other: the decisions of a row when the last of them falls, and the pixels when
-//! the last word is out. A decision has two bits.
+//! whose times [`DepartureTiming`] describes. It may take a frame when all of it has been read, and
+//! send decisions and pixels slot by slot. Or it takes pixels as they are read, and sends one row
+//! of regions after the other: the decisions of a row when the last of them falls, and the pixels
+//! when the last word is out. A decision has two bits.
 
 use foveate_design::{
     DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming, RegionAction,

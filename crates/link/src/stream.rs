@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An array that takes pixels as the sensor reads them, on the timeline of a clip.
 //!
-//! [`RasterStreamTiming`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz, so
-//! that nanoseconds and clocks are whole numbers of ticks. Without a clock the array takes no time,
-//! and a tick is a nanosecond.
+//! [`RasterStreamTiming`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz,
+//! so that nanoseconds and clocks are whole numbers of ticks. Without a clock the array takes no
+//! time, and a tick is a nanosecond.
 
 use foveate_design::{RasterStreamTiming, RasterTiming, RegionAction, RowDeparture};
 

@@ -7,9 +7,9 @@
 //! every clock edge, and [`FrameSync`] selects the frames that reach them. All models are written
 //! from `docs/contract.md`, `docs/timing.md`, `docs/serial.md`, `docs/raster.md` and `docs/sync.md`
 //! alone, never from the Verilog, so that agreement with the Verilog is evidence for both. The
-//! models share only arithmetic without a state: that of one 3x3 window in [`window`], [`denoising`]
-//! and [`feature`], and the scores and the decision of one region. All arithmetic is in integers.
-//! The crate reads no files and no Verilog.
+//! models share only arithmetic without a state: that of one 3x3 window in [`window`],
+//! [`denoising`] and [`feature`], and the scores and the decision of one region. All arithmetic is
+//! in integers. The crate reads no files and no Verilog.
 #![forbid(unsafe_code)]
 
 mod conversions;

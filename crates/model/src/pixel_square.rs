@@ -35,8 +35,8 @@ impl PixelSquare {
         (margin..margin + inner).flat_map(move |y| self.row(y)[margin..][..inner].iter().copied())
     }
 
-    /// Returns the windows around the pixels of [`PixelSquare::inner_pixels`]. Beyond this square they see its
-    /// nearest pixel. That happens only without a margin, in isolated regions.
+    /// Returns the windows around the pixels of [`PixelSquare::inner_pixels`]. Beyond this square
+    /// they see its nearest pixel. That happens only without a margin, in isolated regions.
     pub(crate) fn inner_windows(&self, inner: usize) -> impl Iterator<Item = PixelWindow> + '_ {
         let (margin, last) = ((self.side - inner) / 2, self.side - 1);
         let around = move |at: usize| [at.saturating_sub(1), at, (at + 1).min(last)];

@@ -21,8 +21,8 @@ pub enum ExecutionMode {
     /// Every output whose window holds an input that may have changed is computed. Results are
     /// equal to [`ExecutionMode::Dense`] bit for bit.
     Exact,
-    /// Computes what [`ExecutionMode::Exact`] does, but an output that is equal to its kept value does not
-    /// count as changed. Results are equal to [`ExecutionMode::Dense`] bit for bit.
+    /// Computes what [`ExecutionMode::Exact`] does, but an output that is equal to its kept value
+    /// does not count as changed. Results are equal to [`ExecutionMode::Dense`] bit for bit.
     Compare,
     /// A position keeps the values that it passed on last while each of its new values is within
     /// this limit of them. Integers are compared as the real numbers that they stand for if their

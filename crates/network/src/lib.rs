@@ -4,8 +4,8 @@
 //! A [`Network`] is read from an ONNX file. An [`Executor`] runs it frame by frame and keeps every
 //! tensor. It takes the positions of the frame that may have changed, derives from them layer by
 //! layer the positions of each tensor that may have changed (a [`Mask`]), and computes only these.
-//! In the exact [`ExecutionMode`]s the result is equal to that of a dense computation bit for bit: each
-//! value is summed in one fixed order, whichever positions are computed.
+//! In the exact [`ExecutionMode`]s the result is equal to that of a dense computation bit for bit:
+//! each value is summed in one fixed order, whichever positions are computed.
 //!
 //! [`vision`] converts frames to the input of a network and reads detections from its outputs.
 

@@ -21,7 +21,7 @@ pub struct FrameClock {
 pub struct FrameTime {
     /// The time since the first frame, in microseconds.
     pub time_us: u64,
-    /// Whether the time in the FRAME is impossible.
+    /// True if the time in the FRAME is impossible.
     pub is_impossible: bool,
 }
 

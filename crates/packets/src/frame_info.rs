@@ -26,11 +26,11 @@ pub struct FrameInfo {
     pub blocks: u8,
     /// The content of irrelevant regions: 0 zero, 1 hold, 2 mean.
     pub irrelevant: u8,
-    /// Whether pixels are raw.
+    /// True if pixels are raw.
     pub raw: bool,
-    /// Whether scores are sent.
+    /// True if scores are sent.
     pub has_scores: bool,
-    /// Whether this is the first frame since reset.
+    /// True if this is the first frame since reset.
     pub first: bool,
     /// The time at which the frame began, in ticks.
     pub time: u64,

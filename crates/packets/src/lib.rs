@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The packets that a camera sends, in the format of `docs/packets.md`.
 //!
-//! A [`PacketLayout`] gives the length of every packet of a design. [`packet_writer`] makes packets,
-//! [`PacketSplitter`] finds them in bytes that may be damaged, and [`FrameAssembler`] makes frames from them,
-//! with a list of losses. The crate accesses no files and does not depend on the code that computes
-//! a frame.
+//! A [`PacketLayout`] gives the length of every packet of a design. [`packet_writer`] makes
+//! packets, [`PacketSplitter`] finds them in bytes that may be damaged, and [`FrameAssembler`]
+//! makes frames from them, with a list of losses. The crate accesses no files and does not depend
+//! on the code that computes a frame.
 
 mod error;
 mod frame_assembler;

@@ -15,7 +15,7 @@ pub struct RegionDecision {
     pub srs: bool,
     /// The temporal relevance of the region.
     pub trs: bool,
-    /// Whether the summary of the region is sent.
+    /// True if the summary of the region is sent.
     pub summary: bool,
 }
 
@@ -42,9 +42,9 @@ pub struct ScoresPacket {
 /// The flags of a REGION packet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RegionFlags {
-    /// Whether the pixels, or the pixels that were averaged, are raw.
+    /// True if the pixels, or the pixels that were averaged, are raw.
     pub raw: bool,
-    /// Whether the packet has means in place of pixels.
+    /// True if the packet has means in place of pixels.
     pub summary: bool,
 }
 
@@ -77,7 +77,7 @@ pub struct EndPacket {
 pub struct RegisterPacket {
     /// The address of the register in bytes.
     pub address: u16,
-    /// Whether the register is or was written, as opposed to read.
+    /// True if the register is or was written, as opposed to read.
     pub is_write: bool,
     /// The value that is written, was written or was read; 0 in a command to read.
     pub value: u32,

@@ -36,7 +36,7 @@ pub enum StreamLoss {
         frame: u32,
         /// The row of regions.
         row: u32,
-        /// Whether the camera may have dropped them.
+        /// True if the camera may have dropped them.
         dropped: bool,
     },
     /// The scores of a row of regions are missing.
@@ -54,7 +54,7 @@ pub enum StreamLoss {
         row: u32,
         /// The column of regions.
         column: u32,
-        /// Whether the camera may have dropped the region.
+        /// True if the camera may have dropped the region.
         dropped: bool,
     },
     /// The END of a frame is missing.

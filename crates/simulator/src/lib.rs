@@ -4,10 +4,10 @@
 //!
 //! A [`Simulation`] runs a design over a source of footage and writes a folder of NumPy arrays,
 //! PNGs and a summary. The folder appears at the end, and states whether it is complete.
-//! [`run_batch`] does so for many clips. A [`PacketRecording`] is a stream of packets that becomes such a
-//! folder. A [`PacketStream`] is a stream of packets whose frames are used as they arrive. Memory does
-//! not grow with the number of frames. The library never prints: progress and cancellation go
-//! through [`RunHooks`].
+//! [`run_batch`] does so for many clips. A [`PacketRecording`] is a stream of packets that becomes
+//! such a folder. A [`PacketStream`] is a stream of packets whose frames are used as they arrive.
+//! Memory does not grow with the number of frames. The library never prints: progress and
+//! cancellation go through [`RunHooks`].
 
 mod batch;
 mod error;

@@ -83,8 +83,8 @@ pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Desig
     designs
 }
 
-/// Returns the designs of [`design_matrix`] with irrelevant regions that show the means of blocks. The
-/// scores of random frames lie on both sides of the thresholds.
+/// Returns the designs of [`design_matrix`] with irrelevant regions that show the means of blocks.
+/// The scores of random frames lie on both sides of the thresholds.
 pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
     let mut designs = Vec::new();
     for (turn, one) in design_matrix(size, side, bits).iter().enumerate() {

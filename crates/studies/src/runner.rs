@@ -44,7 +44,7 @@ impl FrameAnnotator for () {
 
 /// A frame and the outcome of an engine for it.
 pub(crate) struct FrameResult<'a> {
-    /// Whether this is the first frame of a clip, in which every region counts as changed.
+    /// True if this is the first frame of a clip, in which every region counts as changed.
     pub(crate) is_without_reference: bool,
     pub(crate) time_us: u64,
     pub(crate) outcome: &'a FrameOutcome,

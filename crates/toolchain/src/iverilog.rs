@@ -24,7 +24,7 @@ pub struct IverilogJob {
     pub sources: Vec<Source>,
     /// The top module.
     pub top: String,
-    /// Whether any warning of `-Wall` is an error.
+    /// True if any warning of `-Wall` is an error.
     pub strict: bool,
     /// A module, and the file of the bench that instantiates it. The ports of the module must have
     /// the widths of the signals that the bench connects.

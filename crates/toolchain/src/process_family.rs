@@ -16,7 +16,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// process number.
 struct ProcessFamilyRegistry {
     leaders: BTreeSet<u32>,
-    /// Whether this process is about to exit, so that no new family may start.
+    /// True if this process is about to exit, so that no new family may start.
     is_closed: bool,
 }
 

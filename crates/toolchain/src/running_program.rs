@@ -4,9 +4,9 @@
 //! line.
 //!
 //! The program cannot block forever: a thread always empties its standard error, and the pipe fills
-//! up only while its reader is slower. The program does not outlive its [`ProgramReader`] or [`ProgramWriter`].
-//! Ctrl-C in the terminal does not reach it, so this process decides how it ends. Every wait for it
-//! ends on an [`Interrupt`].
+//! up only while its reader is slower. The program does not outlive its [`ProgramReader`] or
+//! [`ProgramWriter`]. Ctrl-C in the terminal does not reach it, so this process decides how it
+//! ends. Every wait for it ends on an [`Interrupt`].
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};

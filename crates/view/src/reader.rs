@@ -150,8 +150,8 @@ struct PlaybackClock {
 }
 
 impl PlaybackClock {
-    /// Waits until the time of a frame has come, but no longer than [`LONGEST_PAUSE`] after the frame
-    /// before.
+    /// Waits until the time of a frame has come, but no longer than [`LONGEST_PAUSE`] after the
+    /// frame before.
     fn wait_for_frame(&mut self, frame: &ShownFrame, live: &SharedStream) {
         let Some(time_us) = frame.time_us else { return };
         let (start, start_us) = *self.start.get_or_insert((Instant::now(), time_us));

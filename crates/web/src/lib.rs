@@ -2,8 +2,8 @@
 //! The engine for a page in the browser.
 //!
 //! [`exports`] has plain functions over linear memory, without imports. Bytes go into one buffer,
-//! and every answer lies at a pointer with a length. The functions only call a [`PageCameras`], which
-//! holds the cameras of a page, or a [`PageNetwork`], which holds a network for frames;
+//! and every answer lies at a pointer with a length. The functions only call a [`PageCameras`],
+//! which holds the cameras of a page, or a [`PageNetwork`], which holds a network for frames;
 //! `web/engine.js` is their only caller. `scripts/web.sh` compiles this crate to
 //! `web/foveate.wasm`, on one thread, with vectors of 128 bits. The results are those of `foveate
 //! simulate` for the same frames, bit for bit.

@@ -44,7 +44,7 @@ pub struct ActionCounts {
     pub summarize: u32,
 }
 
-/// What a camera sends of one frame, and the decisions behind it.
+/// Figures of one frame: the decisions, and the pixels and means that follow from them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FrameSummary {
     /// The number of the frame, from 0 on since the camera was configured or reset.

@@ -102,8 +102,8 @@ impl PageNetwork {
         Ok(())
     }
 
-    /// Makes the network of the file for frames of this size and depth. `wishes` is a [`NetworkSettings`] as
-    /// JSON. Returns the facts about the network.
+    /// Makes the network of the file for frames of this size and depth. `wishes` is a
+    /// [`NetworkSettings`] as JSON. Returns the facts about the network.
     ///
     /// # Errors
     /// Fails if there is no file, if it is no network that can be computed, or if the settings do

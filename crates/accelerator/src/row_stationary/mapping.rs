@@ -151,7 +151,7 @@ fn possible_passes(
     strip: u64,
 ) -> Vec<PassMapping> {
     let sets = set_count(array, parts, strip);
-    // Each of these numbers leaves room for a different number of channel sets.
+    // These numbers leave room for different numbers of channel sets.
     let all_filter_sets = (1..=sets).filter(|&filters| filters == sets / (sets / filters));
     let mut all = Vec::new();
     for filter_sets in all_filter_sets.filter(|&filters| filters <= products.outputs) {

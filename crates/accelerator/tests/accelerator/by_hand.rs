@@ -187,7 +187,7 @@ fn row_stationary_by_hand() {
     assert_eq!(cost.dram, traffic(9, 8, 0, 8));
     assert_eq!(cost.buffer, traffic(9 + 9, 8 + 8, 0, 8 + 8));
     assert_eq!(cost.register, traffic(32, 32, 64, 0));
-    // Each of 4 elements gets 4 weights; each sum passes through 2 elements.
+    // The 4 elements get 4 weights each, and a sum passes through 2 elements.
     assert_eq!(cost.array, traffic(8, 16, 16, 0));
 
     // The strip stays, its longest row has one position, and that depends on 2 x 3 inputs: 6

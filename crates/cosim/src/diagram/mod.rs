@@ -2,9 +2,9 @@
 //! The timing diagram of a core: the ports of the cycle-level model during a frame, as WaveDrom
 //! source and as a drawing.
 //!
-//! [`trace`] plays frames to the model and keeps every clock. [`column_choice`] leaves out the clocks in
-//! which nothing begins or ends, [`wave`] writes the others as WaveJSON, and [`svg`] as SVG. No
-//! number is written by hand, so the diagram agrees with the model.
+//! [`trace`] plays frames to the model and keeps every clock. [`column_choice`] leaves out the
+//! clocks in which nothing begins or ends, [`wave`] writes the others as WaveJSON, and [`svg`] as
+//! SVG. No number is written by hand, so the diagram agrees with the model.
 
 mod column_choice;
 mod svg;

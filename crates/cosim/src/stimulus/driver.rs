@@ -61,7 +61,8 @@ pub(super) struct ModelDriver<'a> {
     aim: ThresholdAim,
     /// The number of frames since the sequence began.
     turn: u32,
-    /// The square of the last frame at which levels were aimed, as [`ModelDriver::first_square`] cuts it.
+    /// The square of the last frame at which levels were aimed, as [`ModelDriver::first_square`]
+    /// cuts it.
     last_square: Vec<u16>,
     border: u8,
     idle_policy: IdleInputPolicy,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors for a design: the inputs of the hardware, and the outputs that the model expects.
 //!
-//! A recording is a list of *sequences*, each begun by a reset. Directed sequences of [`stimulus_pattern`]s
-//! come first, with thresholds that meet the data exactly ([`threshold_ranges`]) and pixels with and without
-//! gaps, then the frames of the caller. A sequence ends when everything has left, within a frame or
-//! within a flush, so that each reset finds the core in another state. The vectors follow from the
-//! design, the seed and the frames alone.
+//! A recording is a list of *sequences*, each begun by a reset. Directed sequences of
+//! [`stimulus_pattern`]s come first, with thresholds that meet the data exactly
+//! ([`threshold_ranges`]) and pixels with and without gaps, then the frames of the caller. A
+//! sequence ends when everything has left, within a frame or within a flush, so that each reset
+//! finds the core in another state. The vectors follow from the design, the seed and the frames
+//! alone.
 
 mod damaged_sequence;
 mod decision_predictor;

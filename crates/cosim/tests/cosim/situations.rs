@@ -95,7 +95,8 @@ fn vectors_reach_every_situation_that_a_design_can_have() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Keys with their values, for designs drawn at random. A value that is empty leaves a key at its default.
+/// Keys with their values, for designs drawn at random. A value that is empty leaves a key at its
+/// default.
 const CHOICES: &[&[&str]] = &[
     &["frame={width=12,height=4}", "frame={width=30,height=20}", "frame={width=17,height=33}"],
     &["region.size=2", "region.size=4", "region.size=8", "region.size=16"],

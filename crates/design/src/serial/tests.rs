@@ -179,7 +179,7 @@ fn means_pass_the_ports_once_and_leave_once() {
 }
 
 /// The largest sum of 16 pixels of 8 bits plus half of their number is 4,088, which has 12 bits.
-/// That of 64 pixels is 16,352 with 14 bits, and that of 25 pixels is 6,387 with 13 bits.
+/// For 64 pixels the sum is 16,352 with 14 bits, and for 25 pixels 6,387 with 13 bits.
 #[test]
 fn what_a_lane_drops_of_a_sum_need_not_pass() {
     let own = |more: &[&str]| {
@@ -229,7 +229,7 @@ fn the_configuration_may_name_the_memory() {
     let (same, steps) = of(&["hardware.memory=distributed"]);
     assert_eq!((same.kind, same.choice), (LaneMemoryKind::Distributed, MemoryChoice::Configured));
     assert_eq!(steps, plain);
-    // Each of the 64 medians waits one clock for the word that it replaces.
+    // The 64 medians wait one clock each for the words that they replace.
     let (block, steps) = of(&["hardware.memory=block"]);
     assert_eq!((block.kind, block.choice), (LaneMemoryKind::Block, MemoryChoice::Configured));
     assert_eq!((steps.read_latency(), steps.steps()), (1, plain.steps() + 64));

@@ -11,7 +11,7 @@ use foveate_design::Design;
 pub(super) struct RegisterModule {
     banner: String,
     module: &'static str,
-    /// Whether the upper half of the addresses shows a memory outside; such a module has no
+    /// True if the upper half of the addresses shows a memory outside; such a module has no
     /// interrupt.
     has_window: bool,
     ports: Vec<ModulePort>,

@@ -42,7 +42,7 @@ struct RasterReadme {
     /// The clocks after a frame in which no word is taken.
     stall: u64,
     blank_rows: u64,
-    /// Whether a frame waits until the one before has left.
+    /// True if a frame waits until the one before has left.
     waits: bool,
     decided_after: u64,
     second_pass: bool,
@@ -50,7 +50,7 @@ struct RasterReadme {
     first_word: u64,
     last_position: u32,
     frame_numbers: u32,
-    /// Whether regions have pixels outside the frame.
+    /// True if regions have pixels outside the frame.
     padded: bool,
     buffer_rows: u32,
     sink_stall: u32,
@@ -59,18 +59,18 @@ struct RasterReadme {
     /// The number of words of references of a frame.
     store_words: u64,
     store_bits: u64,
-    /// Whether the references are outside the core.
+    /// True if the references are outside the core.
     outside: bool,
     single_port: bool,
-    /// Whether pixels leave the core.
+    /// True if pixels leave the core.
     forwards: bool,
     /// The number of blocks along a region's side whose means leave (0 if none do), and the side of
     /// a block in pixels.
     blocks: u32,
     block_side: u32,
-    /// Whether the core has more pipeline registers, which may be those of block RAM.
+    /// True if the core has more pipeline registers, which may be those of block RAM.
     deep: bool,
-    /// Whether memories record which regions have a reference.
+    /// True if memories record which regions have a reference.
     marks_regions: bool,
     store: &'static str,
     runtime: bool,

@@ -45,7 +45,7 @@ pub struct RouteJob {
     pub parameters: Vec<Parameter>,
     /// The number of seeds, which count from 1.
     pub seeds: u32,
-    /// Whether to ignore the family's own memories, which the Verilog uses where the macro of the
+    /// True to ignore the family's own memories, which the Verilog uses where the macro of the
     /// family is defined.
     pub is_portable: bool,
 }

@@ -24,7 +24,7 @@ pub struct AgreementEstimate {
     /// The agreement that 19 of 20 sets of as many other frames would exceed, 0..=1, if groups of
     /// frames were independent.
     pub expected: f64,
-    /// Whether the agreement is only an upper bound, because the network did not see the other
+    /// True if the agreement is only an upper bound, because the network did not see the other
     /// frames.
     #[serde(skip)]
     pub is_upper_bound: bool,

@@ -77,7 +77,7 @@ impl SynthesizedDesign {
 struct BuildBounds {
     /// The most clocks that a frame may take.
     max_clocks: Option<u64>,
-    /// Whether the bound comes from a planned clock, so that a design with a faster clock may take
+    /// True if the bound comes from a planned clock, so that a design with a faster clock may take
     /// more clocks.
     is_planned: bool,
     /// The kind of lane memory to build. If it is `None`, each design follows its own rule.

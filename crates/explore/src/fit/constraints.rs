@@ -47,15 +47,15 @@ pub struct ConstraintCheck {
     pub value: f64,
     /// The limit: the largest or the least value of the figure.
     pub limit: f64,
-    /// Whether the limit is a minimum.
+    /// True if the limit is a minimum.
     #[serde(rename = "at_least")]
     pub is_minimum: bool,
-    /// Whether the limit is met.
+    /// True if the limit is met.
     pub holds: bool,
     /// The clock in MHz at which the frames per second hold; only for frames per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clock_mhz: Option<f64>,
-    /// Whether the figure is the one to expect of other frames, and not the one of these frames.
+    /// True if the figure is the one to expect of other frames, and not the one of these frames.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_expected: bool,
 }

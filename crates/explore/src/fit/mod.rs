@@ -12,9 +12,9 @@
 //!    simpler one also meets the limits. Each is built with every feed and with the folds that are
 //!    fast enough and may be the cheapest, or pipelined if no serial array is fast enough; and as a
 //!    raster core, if one is fast enough ([`build`]). The most promising designs are synthesized
-//!    first ([`rough_cost`]). If no clock is given, a planned clock decides which designs are tried. The
-//!    clock that is estimated from the netlist decides whether they are fast enough, and which are
-//!    folded again ([`plan`]).
+//!    first ([`rough_cost`]). If no clock is given, a planned clock decides which designs are
+//!    tried. The clock that is estimated from the netlist decides whether they are fast enough, and
+//!    which are folded again ([`plan`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`reasons`]).
 
 mod agreement;

@@ -71,9 +71,9 @@ pub struct FitResult {
     /// The numbers of candidate cameras, of synthesized designs, and of less promising designs that
     /// were skipped.
     pub considered: (usize, usize, usize),
-    /// Whether the design meets all limits on the first half.
+    /// True if the design meets all limits on the first half.
     pub feasible: bool,
-    /// Whether the design meets all limits on the second half.
+    /// True if the design meets all limits on the second half.
     pub borne_out: bool,
     /// The binding limits: without any one of them there would be a design. Empty if there is a
     /// design, or if every design exceeds more than one limit.

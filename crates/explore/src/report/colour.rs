@@ -13,7 +13,7 @@ const MAX_GROUPS: usize = 2 * COLOUR_COUNT;
 pub(crate) struct PointGrouping {
     /// The name of the axis.
     pub(crate) name: String,
-    /// Whether the page starts with this grouping.
+    /// True if the page starts with this grouping.
     pub(crate) is_chosen: bool,
     /// The groups.
     pub(crate) groups: Vec<PointGroup>,

@@ -18,7 +18,7 @@ pub(crate) struct PointSettings {
     start_values: Vec<String>,
     /// The value of every axis in the ideal camera.
     ideal_values: Vec<String>,
-    /// Whether there are several axes and no point sets more than one.
+    /// True if there are several axes and no point sets more than one.
     pub(crate) is_one_at_a_time: bool,
 }
 

@@ -10,7 +10,7 @@ pub struct Column {
     pub name: String,
     /// The type of its values.
     pub kind: ColumnType,
-    /// Whether a row may have no value.
+    /// True if a row may have no value.
     pub optional: bool,
 }
 

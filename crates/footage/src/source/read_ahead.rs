@@ -21,8 +21,8 @@ pub struct ReadAheadFrames {
 }
 
 impl ReadAheadFrames {
-    /// Returns the next frame and its origin, as [`FrameSource::origin`] gives it, or `None` after the
-    /// last frame.
+    /// Returns the next frame and its origin, as [`FrameSource::origin`] gives it, or `None` after
+    /// the last frame.
     ///
     /// # Errors
     /// Fails if the source cannot be read further.

@@ -80,7 +80,7 @@ fn a_checkerboard_has_the_variance_of_its_swing() {
     // Inside the region Gx and Gy are 0. At the border the window repeats a line, so |G| is 0 along
     // a side, too.
     assert_eq!(outcome.scores[1][0], 0.0, "neighbors alternate");
-    // Of these 3x3 pixels five are 0: the mean is 800/9, which is no binary fraction.
+    // Five of these 3x3 pixels are 0: the mean is 800/9, which is not a binary fraction.
     let outcome = outcome_of_first_frame(&config(3, 3, 3), pixel);
     let (mean, n) = (800.0 / 9.0, 9.0);
     let mad = (5.0 * mean + 4.0 * (200.0 - mean)) / n;

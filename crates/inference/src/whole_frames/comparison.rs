@@ -53,9 +53,9 @@ pub(crate) struct DetectionRow {
     pub(crate) clip: String,
     pub(crate) frame: u64,
     pub(crate) name: String,
-    /// Whether the detection is in the whole frame, or else on the receiver's screen.
+    /// True if the detection is in the whole frame; false if it is on the receiver's screen.
     pub(crate) is_whole: bool,
-    /// Whether the detection is in both.
+    /// True if the detection is in both.
     pub(crate) is_in_both: bool,
     pub(crate) detection: Detection,
 }

@@ -129,7 +129,7 @@ fn detections_are_lost_under_noise() {
         RunSetup { network, detector, noise, sight: true, frames: 120, ..RunSetup::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     let found: Vec<_> = sight.noise.iter().map(|noisy| noisy.detections.unwrap()).collect();
-    // Of 119 counted frames at most 48 get noise: every fourth, from the first.
+    // At most 48 of the 119 counted frames get noise: every fourth, from the first.
     assert!(sight.noise.iter().all(|noisy| noisy.frames == 30));
     assert!(found.iter().all(|level| level.whole == found[0].whole && level.whole > 50));
     assert_eq!((found[0].kept, found[0].added), (found[0].whole, 0));

@@ -45,8 +45,8 @@ impl SerialStage {
 }
 
 impl SerialRcm {
-    /// Makes the array of the design. The array of [`SerialDesign::single_lane_design`] is the core of one
-    /// RPU.
+    /// Makes the array of the design. The array of [`SerialDesign::single_lane_design`] is the core
+    /// of one RPU.
     #[must_use]
     pub fn new(design: SerialDesign<'_>) -> Self {
         let intake = FrameIntake::new(design);

@@ -196,7 +196,7 @@ fn check_latency(
     };
     let expected: Vec<usize> = (timing.decision_frames as usize..film.len()).map(due).collect();
     assert_eq!(valid, expected);
-    // The last pixel of an active region leaves at the clock of `Departure`.
+    // The last pixel of an active region leaves at the clock of `DepartureTiming`.
     let design = recipe.design();
     let departure = design.timing().departure();
     let mut camera = FunctionalCamera::new(&design);

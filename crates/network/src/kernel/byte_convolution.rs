@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution of 8-bit values with exact sums, in the loops of the floating-point convolution.
 //!
-//! The product of two differences of 8-bit values is at most 255 x 255, so a sum of [`MAX_EXACT_PRODUCTS`] of
-//! them is below 2^24. A 32-bit floating-point value holds every integer up to 2^24. The
-//! floating-point loops, which are the fastest, therefore make exact sums of so many products in
-//! any order. These sums are then added as 32-bit integers.
+//! The product of two differences of 8-bit values is at most 255 x 255, so a sum of
+//! [`MAX_EXACT_PRODUCTS`] of them is below 2^24. A 32-bit floating-point value holds every integer
+//! up to 2^24. The floating-point loops, which are the fastest, therefore make exact sums of so
+//! many products in any order. These sums are then added as 32-bit integers.
 
 use super::blocking::BlockSizes;
 use super::chunks::{CHUNK_POSITIONS, PositionChunk};

@@ -6,8 +6,8 @@ use super::gathered_inputs::GatheredInputs;
 
 /// Adds the products of one weight per channel and one input per position, input by input.
 ///
-/// The inputs of each [`CHUNK_POSITIONS`] begin at its offset in `places`. `IS_ROW` says that the chunks
-/// follow each other, and so do their offsets.
+/// The inputs of each [`CHUNK_POSITIONS`] begin at its offset in `places`. `IS_ROW` says that the
+/// chunks follow each other, and so do their offsets.
 ///
 /// `FUSED` says that a multiplication and an addition are rounded once; every processor with AVX2
 /// has an instruction for this. The number of channels matters only for speed: loops over 4, 6 or

@@ -2,9 +2,10 @@
 //! Feeds frames to networks, reads detections from their outputs, and measures how far the outputs
 //! for different frames agree.
 //!
-//! A [`VisionNetwork`] is a network with its [`VisionOptions`]: the [`Framing`] brings frames to the size of
-//! the input, a [`PixelMapping`] converts pixels to values, and a [`Detector`] reads detections in a
-//! format of [`DetectionFormat`]. This module reads no files but that of the network, and knows no camera.
+//! A [`VisionNetwork`] is a network with its [`VisionOptions`]: the [`Framing`] brings frames to
+//! the size of the input, a [`PixelMapping`] converts pixels to values, and a [`Detector`] reads
+//! detections in a format of [`DetectionFormat`]. This module reads no files but that of the
+//! network, and knows no camera.
 
 mod agreement;
 mod detection;

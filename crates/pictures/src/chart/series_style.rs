@@ -18,7 +18,7 @@ pub(crate) type DrawResult<DB> =
 #[derive(Clone, Copy)]
 pub(crate) struct SeriesStyle {
     pub(crate) colour: RGBColor,
-    /// Whether a line below shows through this one.
+    /// True if a line below shows through this one.
     pub(crate) is_open: bool,
 }
 

@@ -42,7 +42,7 @@ pub struct PagePlot {
     pub lines: Vec<PlotLine>,
     /// The measured points.
     pub marks: Vec<PlotMark>,
-    /// Whether the colours depend on the chosen axis; otherwise they are those of the lines.
+    /// True if the colours depend on the chosen axis; otherwise they are those of the lines.
     pub by_axis: bool,
 }
 
@@ -78,7 +78,7 @@ pub struct PlotMark {
     pub x: String,
     /// The vertical coordinate in the picture.
     pub y: String,
-    /// Whether the mark is large.
+    /// True if the mark is large.
     pub front: bool,
     /// The factor of its size, which makes marks of one position rings around each other.
     pub scale: Option<String>,

@@ -14,7 +14,7 @@ pub struct TableColumn {
     pub unit: &'static str,
     /// The full description of the column, for its tooltip.
     pub title: String,
-    /// Whether the column has numbers.
+    /// True if the column has numbers.
     pub numbers: bool,
 }
 
@@ -70,7 +70,7 @@ pub struct TableRow {
     pub id: String,
     /// The number in the first column.
     pub number: u64,
-    /// Whether the row is highlighted.
+    /// True if the row is highlighted.
     pub best: bool,
     /// The cells after the number, one for each column.
     pub cells: Vec<TableCell>,
@@ -88,9 +88,9 @@ pub struct SortableTable<'a> {
     /// The tooltip of a link from the number to the element with the prefix `c` before its id;
     /// empty for no link.
     pub link: &'static str,
-    /// Whether the table scrolls in a window of its own.
+    /// True if the table scrolls in a window of its own.
     pub tall: bool,
-    /// Whether highlighted rows are drawn as such.
+    /// True if highlighted rows are drawn as such.
     pub marks_best: bool,
     /// The columns after the number.
     pub columns: &'a [TableColumn],

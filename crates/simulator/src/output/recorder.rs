@@ -89,7 +89,8 @@ impl RunRecorder {
             }
         }
         let table = FrameTable::create(&folder.join("frames.csv"), design)?;
-        // The data set is last: its file names come from the inputs, and must not replace other outputs.
+        // The data set is last: its file names come from the inputs, and must not replace other
+        // outputs.
         if options.data_set {
             sinks.append(&mut data_set::data_set_sinks(folder, form)?);
         }

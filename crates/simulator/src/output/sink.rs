@@ -41,8 +41,8 @@ impl<'a> SinkFrame<'a> {
 
 /// An output that grows frame by frame in constant memory. The sinks of one run work in parallel.
 ///
-/// A full disk is found in [`FrameSink::write_out`], which is called before a frame is taken. So all
-/// sinks take a frame or none does, and the data that they have taken can still be written.
+/// A full disk is found in [`FrameSink::write_out`], which is called before a frame is taken. So
+/// all sinks take a frame or none does, and the data that they have taken can still be written.
 pub(super) trait FrameSink: Send {
     /// Takes the next frame.
     fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError>;

@@ -27,8 +27,8 @@ fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     let max = design.pixel_max();
     let n = design.region_pixels();
     let feature = &design.features()[0];
-    // For an odd n, the best split has one pixel more on one side. The derivation of the width decides
-    // which side it is; the case tries both, so that it does not depend on the derivation.
+    // For an odd n, the best split has one pixel more on one side. The derivation of the width
+    // decides which side it is; the case tries both, so that it does not depend on the derivation.
     let scores = [n / 2, n.div_ceil(2)].map(|ones| {
         let half =
             frame_from_fn((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });

@@ -152,8 +152,8 @@ pub(crate) fn relevance_returns(_: RunDepth) -> Vec<CaseRow> {
         shown
     };
     let lit: u64 = textured(0).pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
-    // When the texture returns after the plain frame, its pixels change, so both references detect it.
-    // In a return without a change, only SRS may change.
+    // When the texture returns after the plain frame, its pixels change, so both references detect
+    // it. In a return without a change, only SRS may change.
     let returned = |reference| {
         let mut config = config_with_reference(reference);
         config.camera.spatial[0].level = Some(390);

@@ -97,7 +97,7 @@ struct SensorRecording {
     per_region: Vec<u64>,
     /// The times of the first and the last event of the recording, in microseconds.
     times: Option<(u64, u64)>,
-    /// Whether some event falls into the time of the clip, inside of the frame or not.
+    /// True if some event falls into the time of the clip, inside of the frame or not.
     has_events_of_clip: bool,
 }
 

@@ -27,7 +27,7 @@ pub(super) struct SweptKey {
     axis: String,
     /// The file name of the charts.
     file: &'static str,
-    /// Whether the key is about change, which a data set does not have.
+    /// True if the key is about change, which a data set does not have.
     pub(super) is_temporal: bool,
     pub(super) points: Vec<(u64, DesignConfig)>,
 }

@@ -57,7 +57,7 @@ pub struct VerilatorJob {
     pub cpp_main: String,
     /// A Verilator configuration, for lint waivers and `no_inline`.
     pub vlt: Option<String>,
-    /// Whether the model can write FST waves.
+    /// True if the model can write FST waves.
     pub trace: bool,
     /// The optimization level of the C++ compiler.
     pub optimize: OptimizationLevel,

@@ -42,7 +42,7 @@ module raster_queue #(
                     oldest_valid_q <= 1'b0;
                 end
             end
-            // Whether an entry was stored is known late in a clock, so an entry is read at every clock until one is kept.
+            // An entry is read at every clock until one is kept, because it is known only late in a clock if it was stored.
             assign read = !read_valid_q;
             assign leave = stored && !read_valid_q;
             assign waits_o = stored || read_valid_q || oldest_valid_q;

@@ -10,8 +10,8 @@ const SHORT_BITS: u32 = 9;
 /// A table of codes.
 #[derive(Clone)]
 pub(super) struct HuffmanTable {
-    /// The length and symbol of every code of at most [`SHORT_BITS`] bits, indexed by the next bits.
-    /// Length 0 means that there is no such code.
+    /// The length and symbol of every code of at most [`SHORT_BITS`] bits, indexed by the next
+    /// bits. Length 0 means that there is no such code.
     short: Vec<(u8, u8)>,
     /// Two values per code length: the first code beyond the codes of this length, aligned to 16
     /// bits, and the offset from a code to the index of its symbol.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that the last decision and the last word of every row of regions leave at the times of
-//! [`RasterStream`], behind a sensor that reads words at its own rate.
+//! [`RasterStreamTiming`], behind a sensor that reads words at its own rate.
 
 use std::collections::VecDeque;
 

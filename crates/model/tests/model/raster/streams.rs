@@ -72,7 +72,7 @@ impl ExternalStoreStreams {
 
     /// Compares the ports after an edge.
     pub(crate) fn compare(&self, edge: i64, end: i64, got: &RasterOutput) -> Result<(), String> {
-        // Whether a reference is taken after the end of the trace is not known.
+        // The trace does not say if a reference is taken after its end.
         let takes = self.reference_edges.binary_search(&(edge + 1)).is_ok();
         if edge < end && got.reference_ready != takes {
             return Err(format!("reference_ready_o is {} after edge {edge}", got.reference_ready));

@@ -100,8 +100,8 @@ fn two_slots_one_of_them_empty() {
 }
 
 /// The frame is that of the test before, and irrelevant regions have four blocks. The means take
-/// 4 * (4 + 2 + 2) steps after the count. With parallel feed, 4 * (2 + 2) steps unload them after the
-/// 16 steps of pixels, all lanes together in every fourth step. With raster feed, 4 * 3 steps
+/// 4 * (4 + 2 + 2) steps after the count. With parallel feed, 4 * (2 + 2) steps unload them after
+/// the 16 steps of pixels, all lanes together in every fourth step. With raster feed, 4 * 3 steps
 /// unload them after 48, one by one.
 #[test]
 fn means_leave_where_pixels_have_left() {

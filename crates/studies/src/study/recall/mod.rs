@@ -34,7 +34,7 @@ struct RecallPoint {
     /// The key of the configuration that is varied, or `design` for the unchanged design.
     key: String,
     value: String,
-    /// Whether the key is about change, which a data set does not have.
+    /// True if the key is about change, which a data set does not have.
     is_temporal: bool,
 }
 
