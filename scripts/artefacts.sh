@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 target=x86_64-unknown-linux-gnu
 glibc=2.17
 
-version=$(scripts/versions.py --print)
+version=$(scripts/checks/versions.py --print)
 named=foveate-$version-$target
 built=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 out=$built/artefacts
@@ -67,7 +67,7 @@ make_archive() {
     "$root/bin/foveate" completions bash >"$root/share/bash-completion/completions/foveate"
     "$root/bin/foveate" completions zsh >"$root/share/zsh/site-functions/_foveate"
     "$root/bin/foveate" completions fish >"$root/share/fish/vendor_completions.d/foveate.fish"
-    scripts/notices.py "$target" >"$root/THIRD-PARTY.txt"
+    scripts/checks/notices.py "$target" >"$root/THIRD-PARTY.txt"
     cp LICENSE-APACHE LICENSE-MIT README.md CHANGELOG.md CITATION.cff "$root"
     # The same sources give the same bytes.
     tar --create --directory "$out" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" "$named" |
@@ -158,7 +158,7 @@ for part in "${parts[@]}"; do
 done
 if $making; then
     [ -z "$(git status --porcelain)" ] || { echo "artefacts: commit first; what is published belongs to a commit" >&2; exit 2; }
-    scripts/versions.py
+    scripts/checks/versions.py
     tools=$(scripts/python_tools.sh --artefacts)
     # Zig is one of these tools.
     PATH=$tools:$PATH

@@ -13,6 +13,6 @@ cd "$(dirname "$0")/.."
 
 PATH=$PATH:$(scripts/python_tools.sh --boards)
 export PATH
-FOVEATE=${FOVEATE:-$(scripts/foveate.sh)}
+FOVEATE=${FOVEATE:-$(scripts/checks/foveate.sh)}
 export FOVEATE
-exec scripts/boards.py "$@"
+exec scripts/checks/boards.py "$@"

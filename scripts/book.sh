@@ -13,7 +13,7 @@ case ${1:-} in
 esac
 tools=$(scripts/python_tools.sh --book)
 # The live page, which the tutorial shows in a frame. The copy here is ignored by git.
-"$(scripts/foveate.sh)" live --page docs/live.html
+"$(scripts/checks/foveate.sh)" live --page docs/live.html
 # Hides the theme's note about its successor, which reads the same mkdocs.yml.
 export NO_MKDOCS_2_WARNING=1
 if [ "${1:-}" = --serve ]; then exec "$tools/mkdocs" serve; fi

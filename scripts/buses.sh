@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Tests cores on AXI with tools that are not ours: their register tables with the compiler of PeakRDL (scripts/registers.py), and
-# the cores in Icarus, between sources, sinks and masters of cocotbext-axi (scripts/buses.py). Installs missing tools, except
+# Tests cores on AXI with tools that are not ours: their register tables with the compiler of PeakRDL (scripts/checks/registers.py), and
+# the cores in Icarus, between sources, sinks and masters of cocotbext-axi (scripts/checks/buses.py). Installs missing tools, except
 # Icarus and Rust.
 #
 #   scripts/buses.sh            all designs, and faults that the tests must find
@@ -12,7 +12,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 tools=$(scripts/python_tools.sh --buses)
-FOVEATE=${FOVEATE:-$(scripts/foveate.sh)}
+FOVEATE=${FOVEATE:-$(scripts/checks/foveate.sh)}
 export FOVEATE
-"$tools/python" scripts/registers.py
-exec "$tools/python" scripts/buses.py "$@"
+"$tools/python" scripts/checks/registers.py
+exec "$tools/python" scripts/checks/buses.py "$@"

@@ -3,7 +3,7 @@
 # Measures line and toggle coverage of the Verilog under the vectors of `foveate cosim`, per module, over a few designs, and lists
 # the points that the vectors never reach. The vectors are those that co-simulation gives to Icarus, replayed in Verilator. A serial
 # design is an array of 3x2 regions, a raster core has 4x3 or more. Cores on AXI run as in `foveate cosim --level axi`.
-# scripts/coverage_holes.txt lists the holes that docs/verification.md explains; any other hole is an error. Installs missing tools.
+# scripts/checks/coverage_holes.txt lists the holes that docs/verification.md explains; any other hole is an error. Installs missing tools.
 #
 #   scripts/coverage.sh            all designs
 #   scripts/coverage.sh --quick    two of them
@@ -16,7 +16,7 @@ case ${1:-} in
 *) echo "coverage: unknown option $1; see scripts/coverage.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
-foveate=$(scripts/foveate.sh)
+foveate=$(scripts/checks/foveate.sh)
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
 work=$target/coverage
 rm -rf "$work"
@@ -108,11 +108,11 @@ for index in "${chosen[@]}"; do
     echo "$name: foveate cosim --preset ${words[*]}"
     if [[ $name == axi* ]]; then
         # The program around the model is compiled into it, and each scene is a run of its own.
-        FOVEATE_CACHE=off FOVEATE_VERILATOR=$PWD/scripts/keeping/verilator FOVEATE_CXX=$PWD/scripts/keeping/cxx \
+        FOVEATE_CACHE=off FOVEATE_VERILATOR=$PWD/scripts/checks/keeping/verilator FOVEATE_CXX=$PWD/scripts/checks/keeping/cxx \
             "$foveate" cosim --preset "${words[@]}" --replay "$work/replay" --quiet
         continue
     fi
-    FOVEATE_CACHE=off FOVEATE_IVERILOG=$PWD/scripts/keeping/iverilog FOVEATE_VVP=$PWD/scripts/keeping/vvp \
+    FOVEATE_CACHE=off FOVEATE_IVERILOG=$PWD/scripts/checks/keeping/iverilog FOVEATE_VVP=$PWD/scripts/checks/keeping/vvp \
         "$foveate" cosim --simulator iverilog --preset "${words[@]}" --replay "$work/replay" --quiet | sed -n 1p
     (
         cd "$KEEP"
@@ -129,4 +129,4 @@ for index in "${chosen[@]}"; do
 done
 some=()
 [ ${#done_of[@]} -eq ${#names[@]} ] || some=(--some)
-exec python3 scripts/coverage.py "$work" "${some[@]}" "${done_of[@]}"
+exec python3 scripts/checks/coverage.py "$work" "${some[@]}" "${done_of[@]}"

@@ -17,11 +17,11 @@ for option in "$@"; do
     case $option in
     -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exit 0 ;;
     --quick) set=(--quick) ;;
-    --list) exec python3 scripts/formal.py "$@" ;;
+    --list) exec python3 scripts/checks/formal.py "$@" ;;
     esac
 done
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh "${set[@]}")
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 export FOVEATE
-exec env PATH="$tools:$PATH" python3 scripts/formal.py "$@"
+exec env PATH="$tools:$PATH" python3 scripts/checks/formal.py "$@"

@@ -18,6 +18,6 @@ case ${1:-} in
 esac
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh --quick)
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 export FOVEATE
-exec "$tools/python" scripts/lint.py "$@"
+exec "$tools/python" scripts/checks/lint.py "$@"

@@ -14,9 +14,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
--h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0" && exec python3 scripts/mutation --help ;;
+-h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0" && exec python3 scripts/checks/mutation --help ;;
 esac
 scripts/install_tools.sh
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 export FOVEATE
-exec python3 scripts/mutation "$@"
+exec python3 scripts/checks/mutation "$@"

@@ -15,7 +15,7 @@ case ${1:-} in
 esac
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh)
-foveate=$(scripts/foveate.sh)
+foveate=$(scripts/checks/foveate.sh)
 target=$(realpath "${CARGO_TARGET_DIR:-target}")
 work=$target/newer_tools
 mkdir -p "$work"

@@ -22,7 +22,7 @@ if [ -z "$tools" ]; then
 fi
 echo "$tools"
 [ "${1:-}" = --test ] || exit 0
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 FOVEATE=$(realpath "$FOVEATE")
 export FOVEATE
 # Tests run in another folder, because the package in the sources has no compiled part.

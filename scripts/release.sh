@@ -63,7 +63,7 @@ step_netlists() {
         --set "render.payload='raw'"
 }
 step_area() { foveate estimate --compare --markdown; }
-step_lint() { scripts/lint.sh && scripts/area_growth.py; }
+step_lint() { scripts/lint.sh && scripts/checks/area_growth.py; }
 step_formal() { scripts/formal.sh; }
 step_coverage() { scripts/coverage.sh; }
 step_artefacts() { scripts/artefacts.sh --try; }
@@ -71,13 +71,13 @@ step_buses() { scripts/buses.sh; }
 step_boards() { scripts/board_parts.sh --faults && scripts/boards.sh; }
 step_newer() { scripts/newer_tools.sh; }
 step_mutation() { scripts/mutation.sh --table --resume; }
-step_memory() { scripts/memory.sh; }
+step_memory() { scripts/checks/memory.sh; }
 step_networks() {
     local python
     python=$(scripts/python_tools.sh --package)/python
-    "$python" scripts/onnx_schemas.py && "$python" scripts/onnx_nodes.py
+    "$python" scripts/checks/onnx_schemas.py && "$python" scripts/checks/onnx_nodes.py
 }
-step_fuzz() { scripts/fuzz.py; }
+step_fuzz() { scripts/checks/fuzz.py; }
 step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
@@ -87,9 +87,9 @@ steps=(test quickstart documents cosim benches netlists area lint formal buses b
 # Lists the manual steps. Ends with 1 while this commit lacks something.
 left() {
     local version name lacks=() open=()
-    version=$(scripts/versions.py --print)
+    version=$(scripts/checks/versions.py --print)
     [ -z "$(git status --porcelain)" ] || lacks+=("the tree has changes that no commit has; git status shows them")
-    mapfile -t -O "${#lacks[@]}" lacks < <(scripts/versions.py --release 2>&1)
+    mapfile -t -O "${#lacks[@]}" lacks < <(scripts/checks/versions.py --release 2>&1)
     ! git rev-parse --quiet --verify "refs/tags/v$version" >/dev/null ||
         lacks+=("there is a tag v$version already, of $(git rev-list -1 --abbrev-commit "v$version"); raise the version, or delete it if it was never pushed")
     for name in "${steps[@]}"; do

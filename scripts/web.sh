@@ -134,7 +134,7 @@ build() {
 compare() {
     local tools
     tools=$(scripts/python_tools.sh --browser)
-    FOVEATE=$(scripts/foveate.sh)
+    FOVEATE=$(scripts/checks/foveate.sh)
     export FOVEATE
     scripts/install_tools.sh --browser
     "$tools/python" -m pytest --quiet -p no:cacheprovider web/tests "$@"

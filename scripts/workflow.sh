@@ -7,18 +7,18 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools=$(scripts/python_tools.sh --workflow)
-FOVEATE=$(scripts/foveate.sh)
+FOVEATE=$(scripts/checks/foveate.sh)
 export PATH=$tools:$PATH
 sources=$PWD
-# shellcheck source=scripts/workflow_checks.sh
-. scripts/workflow_checks.sh
+# shellcheck source=scripts/checks/workflow_checks.sh
+. scripts/checks/workflow_checks.sh
 work=$(mktemp -d)
 trap '[ -z "${snakemake:-}" ] || kill -KILL -- "-$snakemake" 2>/dev/null; rm -rf "$work"' EXIT
 cd "$work"
 prepare 60
 
 # Snakemake is in a process group of its own, so that it can be killed with all its processes.
-setsid bash -c ". '$sources/scripts/workflow_checks.sh'; sources='$sources'; run local --cores 2 --config output=out" >snakemake.log 2>&1 &
+setsid bash -c ". '$sources/scripts/checks/workflow_checks.sh'; sources='$sources'; run local --cores 2 --config output=out" >snakemake.log 2>&1 &
 snakemake=$!
 kill_unit
 until_there units_done 3

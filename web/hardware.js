@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The hardware area of the camera, from the table that scripts/web_hardware.py writes with `foveate estimate`.
+// The hardware area of the camera, from the table that scripts/figures/web_hardware.py writes with `foveate estimate`.
 
 import { make } from "./elements.js";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Prints the cycles of layers on a systolic array, for `scripts/compare_scalesim.py`.
+//! Prints the cycles of layers on a systolic array, for `scripts/figures/compare_scalesim.py`.
 //!
 //! `cycles ws|os ROWS COLUMNS TOPOLOGY.csv` reads a topology in the format of SCALE-Sim (name,
 //! input height and width with padding, kernel height and width, channels, filters, stride; a name

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs a network once, and then over frames of which a part changes, for
-//! `scripts/compare_networks.py`:
+//! `scripts/figures/compare_networks.py`:
 //!
 //!     outputs NETWORK WIDTHxHEIGHT PICTURE OUTPUTS
 //!

@@ -19,7 +19,7 @@ fn the_golden_trace_of_scale_sim() {
 }
 
 /// The numbers of the last cycle on 32 x 32, as SCALE-Sim 3.0.0 printed them in
-/// `scripts/compare_scalesim.py`: side of the input with padding, kernel, input channels, filters,
+/// `scripts/figures/compare_scalesim.py`: side of the input with padding, kernel, input channels, filters,
 /// groups, weight-stationary, output-stationary.
 const SCALE_SIM: &[(u64, u64, u64, u64, u64, u64, u64)] = &[
     (31, 5, 48, 128, 1, 125_095, 116_103),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The standard's description of operators by version: the numbers of inputs and outputs of a node,
-//! and its attributes. `scripts/onnx_schemas.py` compares the table with the schemas of ONNX and
+//! and its attributes. `scripts/checks/onnx_schemas.py` compares the table with the schemas of ONNX and
 //! onnxruntime.
 
 use super::attributes::NodeAttributes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The quantized network of the project is compared with onnxruntime 1.31. `scripts/quantize.py`
+//! The quantized network of the project is compared with onnxruntime 1.31. `scripts/figures/quantize.py`
 //! wrote both files of `golden`.
 
 use foveate_network::{ElementType, ExecutionMode, Executor, FrameSize, Mask, Network};

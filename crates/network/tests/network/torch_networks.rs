@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small networks are compared with torch. `scripts/golden_networks.py`, which wrote the files, has
+//! Small networks are compared with torch. `scripts/figures/golden_networks.py`, which wrote the files, has
 //! compared torch with onnxruntime.
 
 use foveate_network::{ExecutionMode, Executor, FrameSize, Mask, Network};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trained networks of other projects, in the folder that the environment variable FOVEATE_DATA
-//! names, are read, and a part has the bits of a dense computation. `scripts/compare_networks.py`
+//! names, are read, and a part has the bits of a dense computation. `scripts/figures/compare_networks.py`
 //! compares the networks with onnxruntime.
 
 use crate::exactness::{first_difference, masked_clip};

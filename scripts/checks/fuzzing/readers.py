@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The readers of the program: a valid file for each, and the command that reads it.
+
+A reader is a format of a file that may come from a stranger. A new reader is a row in READERS.
+"""
+import dataclasses
+import gzip
+import pathlib
+import shutil
+import struct
+import subprocess
+from collections.abc import Callable
+
+from .answer import Answer
+
+SOURCES = pathlib.Path(__file__).resolve().parents[3]
+NETWORK = SOURCES / "crates/network/tests/network/golden/lenet.onnx"
+# The folder of a finished exploration, next to the samples.
+EXPLORED = "explored"
+WIDTH, HEIGHT, FRAMES = 64, 48, 6
+CLIP = ["--frames", "3", "--set", f"frame={{width={WIDTH},height={HEIGHT}}}"]
+NO_PICTURES = ["--no-rendered", "--quiet"]
+
+
+def simulate(_bench, _folder, path):
+    return ["simulate", path, "-o", "out", *NO_PICTURES, "--max-frames", "8"]
+
+
+def simulate_stream(_bench, _folder, _path):
+    return ["simulate", "-", "-o", "out", *NO_PICTURES, "--max-frames", "8"]
+
+
+def simulate_set(_bench, folder, path):
+    """Makes images of one size and their labels, one of which is mutated."""
+    images = folder / "images-idx3-ubyte"
+    images.write_bytes(idx_images())
+    return ["simulate", images, "--labels", path, "-o", "out", *NO_PICTURES]
+
+
+def boxes(_bench, folder, path):
+    """Makes frames with the names 000001.pgm and so on, to which boxes belong."""
+    frames = folder / "frames"
+    frames.mkdir()
+    for number in range(1, 4):
+        (frames / f"{number:06}.pgm").write_bytes(pgm())
+    if path.suffix == ".txt" and path.name == "000002.txt":
+        # The folder of a YOLO set.
+        path = path.parent
+    return ["analyze", "recall", frames, "--boxes", path, "-o", "out", "--quiet"]
+
+
+def sensor(_bench, _folder, path):
+    return ["analyze", "sensor", "scene:street", *CLIP, "--sensor-events", path, "-o", "out", "--quiet"]
+
+
+def network(_bench, _folder, path):
+    return ["infer", path, "scene:street", *CLIP, "--framing", "stretch", "-o", "out", "--quiet"]
+
+
+def array(_bench, folder, path):
+    """Returns the command for the denoiser, which takes frames of any size."""
+    shutil.copy(SOURCES / "networks/denoiser.onnx", folder / "denoiser.onnx")
+    return ["infer", folder / "denoiser.onnx", path, "-o", "out", "--quiet"]
+
+
+def accelerator(_bench, _folder, path):
+    return ["infer", NETWORK, "scene:street", *CLIP, "--framing", "stretch", "--accelerator", path, "-o", "out", "--quiet"]
+
+
+def configuration(_bench, _folder, path):
+    return ["check", path]
+
+
+def space(_bench, _folder, path):
+    return ["explore", path, "scene:street", "--frames", "2", "--no-area", "--plan", "-o", "out", "--quiet"]
+
+
+def board(_bench, _folder, path):
+    return ["build", "--board", path, "--project", "-o", "out", "--quiet"]
+
+
+def sensor_of_board(_bench, folder, path):
+    text = (SOURCES / "crates/boards/boards/icebreaker.toml").read_text(encoding="utf-8")
+    name = next(line for line in text.splitlines() if line.startswith("sensor"))
+    (folder / "board.toml").write_text(text.replace(name, f'sensor = "{path.name}"'), encoding="utf-8")
+    return ["build", "--board", folder / "board.toml", "--project", "-o", "out", "--quiet"]
+
+
+def decode(_bench, _folder, path):
+    return ["decode", path, "-o", "out", *NO_PICTURES, "--set", f"frame={{width={WIDTH},height={HEIGHT}}}"]
+
+
+def decode_stream(_bench, _folder, _path):
+    return ["decode", "-", "-o", "out", *NO_PICTURES, "--set", f"frame={{width={WIDTH},height={HEIGHT}}}"]
+
+
+def explored(bench, folder, path):
+    """Returns the command that continues an exploration, one of whose measurements is the mutated file."""
+    shutil.copytree(bench / EXPLORED, folder / "out")
+    measured = sorted((folder / "out/measured").iterdir())
+    shutil.copyfile(path, measured[0])
+    return ["explore", "approximations", "scene:street", "--frames", "2", "--no-area", "-o", "out", "--quiet"]
+
+
+def verilog(_bench, folder, path):
+    """Returns the command that parses Verilog. A module is missing from every folder, so no simulation starts."""
+    (folder / "rtl").mkdir()
+    shutil.copyfile(path, folder / "rtl/decision.v")
+    return ["cosim", "--preset", "bare", "--rtl", folder / "rtl", "--rounds", "1", "--quiet"]
+
+
+def pgm(offset=0):
+    pixels = bytes((x * 5 + y * 3 + offset) % 256 for y in range(HEIGHT) for x in range(WIDTH))
+    return b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + pixels
+
+
+def npy():
+    words = f"{{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, {HEIGHT}, {WIDTH}), }}"
+    words = f"{words:<117}\n".encode()
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(words)) + words + bytes(4 * WIDTH * HEIGHT)
+
+
+def idx_images(count=5, side=28):
+    return struct.pack(">4I", 0x803, count, side, side) + bytes((i * 7) % 256 for i in range(count * side * side))
+
+
+def idx_labels(count=5):
+    return struct.pack(">2I", 0x801, count) + bytes(i % 10 for i in range(count))
+
+
+def text_of(*path):
+    return lambda _program, _folder: SOURCES.joinpath(*path).read_bytes()
+
+
+def coco():
+    annotations = ",".join(f'{{"image_id":1,"bbox":[{i},{i},9,8],"iscrowd":0,"segmentation":[[1,2,[3]]]}}' for i in range(4))
+    return f'{{"info":{{"year":2024}},"images":[{{"id":1,"file_name":"000002.pgm","width":64}}],"annotations":[{annotations}]}}'.encode()
+
+
+def events():
+    return b"t_us,x,y,p\n" + b"".join(b"%d,%d,%d,1\n" % (100 * i, i * 7 % WIDTH, i * 5 % HEIGHT) for i in range(600))
+
+
+def encoded(*options, container):
+    """Makes a file with frames of a scene, encoded by ffmpeg."""
+
+    def make(_program, folder):
+        path = folder / f"encoded.{container}"
+        source = f"testsrc2=size={WIDTH}x{HEIGHT}:rate=10"
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", source, "-frames:v", str(FRAMES), *options, path], check=True)
+        return path.read_bytes()
+
+    return make
+
+
+def picture(*options, container):
+    return encoded("-frames:v", "1", "-update", "1", *options, container=container)
+
+
+def packets(content):
+    def make(program, folder):
+        out = folder / f"packets-{content}"
+        subprocess.run([program, "simulate", "scene:street", *CLIP, f"--packets={content}", *NO_PICTURES, "-o", out], check=True)
+        return (out / "packets.bin").read_bytes()
+
+    return make
+
+
+def measured(program, folder):
+    """Makes a measurement of an exploration, whose folder the reader copies for every case."""
+    command = [program, "explore", "approximations", "scene:street", "--frames", "2", "--no-area", "-o", folder / EXPLORED, "--quiet"]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return sorted((folder / EXPLORED / "measured").iterdir())[0].read_bytes()
+
+
+def just(data):
+    return lambda _program, _folder: data
+
+
+@dataclasses.dataclass(frozen=True)
+class Reader:
+    """A reader: the name of the format, the name of its file, the command that reads it, and the maker of a valid file."""
+
+    name: str
+    file: str
+    command: Callable
+    sample: Callable
+    is_text: bool = False
+    is_piped: bool = False
+    sample_answer: Answer = Answer.ACCEPTED
+
+
+READERS = [
+    Reader("configuration", "camera.toml", configuration, lambda program, _: subprocess.run(
+        [program, "presets", "fovea"], check=True, capture_output=True).stdout, is_text=True),
+    Reader("space", "space.toml", space, text_of("crates/explore/spaces/approximations.toml"), is_text=True),
+    Reader("board", "board.toml", board, text_of("crates/boards/boards/icebreaker.toml"), is_text=True),
+    Reader("board-sensor", "sensor.toml", sensor_of_board, text_of("crates/boards/sensors/ov7670-qvga.toml"), is_text=True),
+    Reader("accelerator", "accelerator.toml", accelerator, text_of("crates/accelerator/presets/eyeriss.toml"), is_text=True),
+    Reader("png", "picture.png", simulate, picture(container="png")),
+    Reader("png-16-bit", "picture.png", simulate, picture("-pix_fmt", "gray16be", container="png")),
+    Reader("apng", "picture.apng", simulate, encoded("-f", "apng", container="apng")),
+    Reader("jpeg", "picture.jpg", simulate, picture(container="jpg")),
+    Reader("bmp", "picture.bmp", simulate, picture(container="bmp")),
+    Reader("pgm", "picture.pgm", simulate, just(pgm())),
+    Reader("pgm-text", "picture.pgm", simulate, just(b"P2\n4 4\n15\n" + b"1 2 3 4\n" * 4), is_text=True),
+    Reader("pam", "picture.pam", simulate, picture("-pix_fmt", "rgb24", container="pam")),
+    Reader("mp4", "clip.mp4", simulate, encoded("-c:v", "libx264", "-pix_fmt", "yuv420p", container="mp4")),
+    Reader("mkv", "clip.mkv", simulate, encoded("-c:v", "ffv1", container="mkv")),
+    Reader("avi", "clip.avi", simulate, encoded("-c:v", "mjpeg", container="avi")),
+    Reader("ts", "clip.ts", simulate, encoded("-c:v", "mpeg2video", container="ts")),
+    Reader("gif", "clip.gif", simulate, encoded(container="gif")),
+    Reader("webm", "clip.webm", simulate, encoded("-c:v", "libvpx", container="webm")),
+    Reader("y4m", "clip.y4m", simulate, encoded("-pix_fmt", "yuv420p", container="y4m")),
+    Reader("y4m-stream", "clip.y4m", simulate_stream, encoded("-pix_fmt", "gray", container="y4m"), is_piped=True),
+    Reader("idx", "images-idx3-ubyte", simulate, just(idx_images())),
+    Reader("idx-packed", "images-idx3-ubyte.gz", simulate, just(gzip.compress(idx_images(), mtime=0))),
+    Reader("idx-labels", "labels-idx1-ubyte", simulate_set, just(idx_labels())),
+    Reader("cifar", "batch.bin", simulate, just(b"".join(bytes([i]) + bytes(j % 251 for j in range(3072)) for i in range(3)))),
+    Reader("boxes-mot", "gt.txt", boxes, just(b"".join(b"%d,%d,5,6,20,15,1,1,1\n" % (f, t) for f in range(1, 4) for t in range(5))), is_text=True),
+    Reader("boxes-coco", "boxes.json", boxes, just(coco()), is_text=True),
+    Reader("boxes-yolo", "000002.txt", boxes, just(b"0 0.5 0.5 0.25 0.25\n1 0.1 0.2 0.1 0.1\n"), is_text=True),
+    Reader("boxes-csv", "boxes.csv", boxes, just(b"file,x0,y0,x1,y1\n000001.pgm,1,2,30,40\n\"000002.pgm\",3,4,20,20\n"), is_text=True),
+    Reader("events", "events.csv", sensor, just(events()), is_text=True),
+    Reader("events-packed", "events.csv.gz", sensor, just(gzip.compress(events(), mtime=0))),
+    Reader("onnx", "network.onnx", network, text_of("crates/network/tests/network/golden/lenet.onnx")),
+    Reader("npy", "picture.npy", array, just(npy())),
+    Reader("packets", "packets.bin", decode, packets("scores")),
+    Reader("packets-stream", "packets.bin", decode_stream, packets("plain"), is_piped=True),
+    Reader("measurement", "measured.json", explored, measured, is_text=True),
+    Reader("verilog", "decision.v", verilog, text_of("rtl/decision.v"), is_text=True, sample_answer=Answer.REFUSED),
+]
+
+
+def samples(program, folder, chosen):
+    """Makes a valid file for each chosen reader. Some have other files in the same folder."""
+    return {reader.name: reader.sample(program, folder) for reader in chosen}
