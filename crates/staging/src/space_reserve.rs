@@ -27,8 +27,8 @@ impl SpaceReserve {
 /// Returns whether a folder has room for this number of bytes.
 #[must_use]
 pub fn has_room(folder: &Path, bytes: u64) -> bool {
-    let probe = SpaceReserve { path: folder.join(".probe") };
-    File::create_new(&probe.path).and_then(|mut file| write_zeros(&mut file, bytes).1).is_ok()
+    // The file has no name on Unix, so that a killed process leaves nothing in the folder.
+    tempfile::tempfile_in(folder).and_then(|mut file| write_zeros(&mut file, bytes).1).is_ok()
 }
 
 impl Drop for SpaceReserve {
@@ -68,6 +68,7 @@ mod tests {
     fn room_is_taken_and_given_back() {
         let dir = tempfile::tempdir().unwrap();
         assert!(has_room(dir.path(), 100_000));
+        assert!(!has_room(&dir.path().join("missing"), 1));
         let reserve = SpaceReserve::new(dir.path(), ".reserve", 100_000);
         assert!(fs::metadata(&reserve.path).unwrap().len() >= 100_000);
         drop(reserve);

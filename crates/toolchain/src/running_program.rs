@@ -11,7 +11,7 @@
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::error::ToolError;
 use crate::interrupt::{GracePeriod, Interrupt, InterruptibleReader, POLL_STEP};
@@ -129,14 +129,19 @@ impl ProgramWriter {
 }
 
 impl ProgramWriter {
-    /// Handles a write that failed: ends the program if an interrupt is set, waits for its end
-    /// otherwise, and returns the last line of its messages.
+    /// Handles a write that failed, and returns the last line of the program's messages. The
+    /// program is ended at once if an interrupt is set. Otherwise it has ten seconds to end by
+    /// itself, because it takes no more input.
     ///
     /// # Errors
     /// Fails like [`ProgramWriter::finish`].
     pub fn finish_after_failed_write(&mut self) -> Result<Option<String>, ToolError> {
+        self.finish_within(ENDING_GRACE)
+    }
+
+    fn finish_within(&mut self, limit: Duration) -> Result<Option<String>, ToolError> {
         drop(self.stdin.take());
-        if self.running.interrupt.is_set() {
+        if self.running.interrupt.is_set() || !self.running.ends_within(limit)? {
             self.running.family.end();
         }
         Ok(self.finish()?.1)
@@ -206,17 +211,35 @@ impl RunningProgram {
 
     /// Waits for the end of the program; ends it once an interrupt is older than `grace`.
     fn wait(&mut self, grace: Duration) -> Result<ExitStatus, ToolError> {
+        let interrupt = self.interrupt.clone();
+        let mut after_interrupt = GracePeriod::new(&interrupt, grace);
+        let status = self.wait_until(|| after_interrupt.is_over())?;
+        status.ok_or_else(|| {
+            self.family.end();
+            ToolError::Interrupted
+        })
+    }
+
+    /// Waits for the end of the program until `limit` is over or an interrupt is set. Returns
+    /// whether the program has ended.
+    fn ends_within(&mut self, limit: Duration) -> Result<bool, ToolError> {
+        let (interrupt, start) = (self.interrupt.clone(), Instant::now());
+        let status = self.wait_until(|| interrupt.is_set() || start.elapsed() >= limit)?;
+        Ok(status.is_some())
+    }
+
+    /// Waits for the end of the program, or until `is_over`, which is asked every few milliseconds.
+    fn wait_until(
+        &mut self,
+        mut is_over: impl FnMut() -> bool,
+    ) -> Result<Option<ExitStatus>, ToolError> {
         let failed =
             |source| ToolError::Io { action: "wait for", path: "the end of a tool".into(), source };
-        let mut patience = GracePeriod::new(&self.interrupt, grace);
         let mut pause = Duration::from_micros(200);
         loop {
-            if let Some(status) = self.family.try_wait().map_err(failed)? {
+            let status = self.family.try_wait().map_err(failed)?;
+            if status.is_some() || is_over() {
                 return Ok(status);
-            }
-            if patience.is_over() {
-                self.family.end();
-                return Err(ToolError::Interrupted);
             }
             std::thread::sleep(pause);
             pause = (pause * 2).min(Duration::from_millis(10));
@@ -329,6 +352,21 @@ mod tests {
         assert_eq!(early.finish().unwrap(), (true, None));
     }
 
+    /// A program that closes its input and keeps running is ended after the grace period.
+    #[test]
+    fn a_program_that_takes_no_more_input_has_a_limited_time_to_end() {
+        let script = "exec <&-; echo closed >&2; sleep 60";
+        let mut feeder = ProgramWriter::start(&shell(script), &Interrupt::default()).unwrap();
+        let refused = (0..100).any(|_| {
+            std::thread::sleep(Duration::from_millis(10));
+            feeder.write_all(&[7; 1 << 20]).is_err()
+        });
+        assert!(refused, "the program has closed its input");
+        let (start, limit) = (Instant::now(), Duration::from_millis(300));
+        assert_eq!(feeder.finish_within(limit).unwrap(), Some("closed".to_owned()));
+        assert!(start.elapsed() < limit + Duration::from_secs(5), "{:?}", start.elapsed());
+    }
+
     #[test]
     fn a_program_that_is_not_there_is_named() {
         let error =
@@ -347,7 +385,7 @@ mod tests {
             .map(|script| ProgramReader::start(&shell(script), &interrupt).unwrap())
             .into();
         let mut feeder = ProgramWriter::start(&shell("sleep 60"), &interrupt).unwrap();
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         std::thread::scope(|scope| {
             let waits = [
                 scope.spawn(move || line.next_line().unwrap_err().is_interrupted()),

@@ -103,9 +103,11 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
         }
     };
     let bits = chosen.frame.pixel_bits;
-    step(format!("{} bits per pixel", bits - 1), &|config| {
-        *config = config.scaled_to_depth(bits - 1);
-    });
+    if let Some(fewer) = bits.checked_sub(1).filter(|&fewer| fewer > 0) {
+        step(format!("{fewer} bits per pixel"), &|config| {
+            *config = config.scaled_to_depth(fewer);
+        });
+    }
     step("without the median".to_owned(), &|config| config.denoise.filter = DenoiseFilter::None);
     step("isolated windows".to_owned(), &|config| {
         config.region.neighborhood = Neighborhood::Isolated;

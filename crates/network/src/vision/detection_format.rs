@@ -83,14 +83,15 @@ impl DetectionFormat {
     /// # Errors
     /// Fails if they have another format; the message names the expected and the actual outputs.
     pub fn check(self, outputs: &[OutputTensor], input: (usize, usize)) -> Result<(), String> {
+        let first = first_shape(outputs);
         let fits = match self {
             Self::Yolox => {
                 let cells: usize =
                     STRIDES.iter().map(|stride| (input.0 / stride) * (input.1 / stride)).sum();
-                matches!(outputs[0].shape[..], [1, own, values] if own == cells && values > 5)
+                matches!(first, &[1, own, values] if own == cells && values > 5)
             }
-            Self::Yolov5 => matches!(outputs[0].shape[..], [1, _, values] if values > 5),
-            Self::Yolov8 => matches!(outputs[0].shape[..], [1, values, _] if values > 4),
+            Self::Yolov5 => matches!(first, &[1, _, values] if values > 5),
+            Self::Yolov8 => matches!(first, &[1, values, _] if values > 4),
             Self::Ssd => scores_and_boxes(outputs).is_some(),
             Self::Yunet => STRIDES.iter().all(|&stride| {
                 let cells = (input.0 / stride) * (input.1 / stride);
@@ -100,26 +101,23 @@ impl DetectionFormat {
                 };
                 is("cls", 1) && is("obj", 1) && is("bbox", 4)
             }),
-            Self::FastestDet => matches!(outputs[0].shape[..], [1, values, _, _] if values > 5),
+            Self::FastestDet => matches!(first, &[1, values, _, _] if values > 5),
         };
         if fits {
             return Ok(());
         }
         let found: Vec<_> =
             outputs.iter().map(|output| format!("`{}` {:?}", output.name, output.shape)).collect();
-        Err(format!(
-            "detections of {} need {}, but the network has {}",
-            self.name(),
-            self.expected_outputs(),
-            found.join(", ")
-        ))
+        let found = if found.is_empty() { "no output".to_owned() } else { found.join(", ") };
+        let (format, expected) = (self.name(), self.expected_outputs());
+        Err(format!("detections of {format} need {expected}, but the network has {found}"))
     }
 
     /// The number of classes in outputs of this format.
     #[must_use]
     pub fn class_count(self, outputs: &[OutputTensor]) -> usize {
         let values = |axis: usize, others: usize| {
-            outputs[0].shape.get(axis).map_or(0, |values| values.saturating_sub(others))
+            first_shape(outputs).get(axis).map_or(0, |values| values.saturating_sub(others))
         };
         match self {
             Self::Yolox | Self::Yolov5 => values(2, 5),
@@ -249,6 +247,11 @@ fn decode_yunet(
         )
     };
     classes.iter().zip(objects).zip(places.chunks_exact(4)).enumerate().filter_map(read).collect()
+}
+
+/// Returns the shape of the first output, which is empty if there is no output.
+fn first_shape(outputs: &[OutputTensor]) -> &[usize] {
+    outputs.first().map_or(&[], |output| &output.shape)
 }
 
 /// Returns the output of scores and that of boxes.
@@ -418,6 +421,8 @@ mod tests {
             let problem = head.check(&outputs, (64, 64)).unwrap_err();
             assert!(problem.contains("`logits` [1, 1000]"), "{problem}");
             assert!(problem.contains(head.name()), "{problem}");
+            let problem = head.check(&[], (64, 64)).unwrap_err();
+            assert!(problem.ends_with("but the network has no output"), "{problem}");
         }
         // The input has another size than the number of cells requires.
         let outputs = [output("output", &[1, 42, 7], vec![0.0; 42 * 7])];

@@ -103,7 +103,7 @@ impl FrameInput {
     /// Stores the next frame, and updates the input and its changed positions.
     ///
     /// # Panics
-    /// Panics if the frame is smaller than the format says. Without scaling it also panics if a
+    /// Panics if the frame does not have the size of the format. Without scaling it also panics if a
     /// pixel is larger than the largest value of the format.
     pub fn set_frame(&mut self, frame: FramePixels<'_>) {
         match frame {
@@ -129,6 +129,7 @@ impl FrameInput {
     }
 
     fn update<T: Copy + Into<u16>>(&mut self, pixels: &[T]) {
+        assert_eq!(pixels.len(), self.frame.len(), "the frame has another size than the format");
         self.changed_regions = 0;
         for region in 0..self.changed_by_region.len() {
             let differs = |row: std::ops::Range<usize>| {
