@@ -186,8 +186,8 @@ impl<'a> SessionChecker<'a> {
             return Err(wrong(BusMismatch { frame: open.number.into(), ..missing }));
         }
         self.pass_missing_frames(self.session.frames.len()).map_err(wrong)?;
-        self.check_registers(heard)?;
-        self.check_event_counts(heard)?;
+        self.check_registers(heard, end)?;
+        self.check_event_counts(heard, end)?;
         Ok(self.agreement)
     }
 
@@ -485,7 +485,9 @@ impl<'a> SessionChecker<'a> {
         Ok(())
     }
 
-    fn check_registers(&mut self, heard: &SessionRecord) -> Result<(), BusMismatch> {
+    /// Checks the answers to reads of registers. A missing answer counts as missing at `end`, the
+    /// last clock of the run, so that no earlier violation is hidden.
+    fn check_registers(&mut self, heard: &SessionRecord, end: u64) -> Result<(), BusMismatch> {
         let mut reads = heard.reads.iter();
         for &(address, answer) in &self.session.reads {
             let name = self.checker.registers.iter().find(|register| register.address == address);
@@ -495,7 +497,7 @@ impl<'a> SessionChecker<'a> {
                 BusMismatch { clock, port, ..BusMismatch::from_numbers(at, expected, got) }
             };
             let Some(&(clock, at, value)) = reads.next() else {
-                return Err(wrong(0, format!("an answer to a read of {name}"), 1, 0));
+                return Err(wrong(end, format!("an answer to a read of {name}"), 1, 0));
             };
             let expected = self.expected_value(answer);
             if (at, value) != (address, expected) {
@@ -515,12 +517,13 @@ impl<'a> SessionChecker<'a> {
     }
 
     /// Checks that events that were cleared again and again have been seen as often as they must.
-    fn check_event_counts(&mut self, heard: &SessionRecord) -> Result<(), BusMismatch> {
+    fn check_event_counts(&mut self, heard: &SessionRecord, end: u64) -> Result<(), BusMismatch> {
         let mut counts = heard.interrupt_counts.iter();
         for &(event, raised) in &self.session.event_counts {
             let port = "interrupt_o".to_owned();
             let Some(&InterruptCount { clock, count, met_clears: met }) = counts.next() else {
                 return Err(BusMismatch {
+                    clock: end,
                     port,
                     ..BusMismatch::from_presence(format!("a count of {event}"), true)
                 });
