@@ -8,9 +8,8 @@ Where code does something for one variant, the compiler has to name the place wh
 `match` with every variant, or a method of the type. A comparison (`==`, `matches!`), a catch-all arm (`_ =>`), and a view
 of a design (`design.as_serial()`) whose None stands for all other organizations compile with a new variant and take it for
 any other. So does a question for what only one feature has (`feature.mean().is_some()`, `find_map(SpatialFeature::mean)`),
-a comparison of names, and a level that stands for a count of hits. A list of every variant
-(`FeatureKind::ALL`) in a file that does not ask which of them an organization takes (`takes`, `is_taken`) tries what is
-refused. This script prints each of them outside of tests, and fails if there is one.
+a comparison of names, and a level that stands for a count of hits. This script prints each of them outside of tests, and
+fails if there is one.
 
 It ignores folders `tests`, `benches` and `examples`, files tests.rs, code after `#[cfg(test)]`, and comments.
 """
@@ -35,18 +34,6 @@ PART = re.compile(
     r"|\b(?:kind|organization|reference|irrelevant)(?:\(\))?\s*\.\s*name\(\)\s*[!=]="
     r"|\b(?:entry|spatial|feature)\.level\.is_(?:some|none)\(\)"
 )
-# Lists of every variant, whether an organization takes it or not.
-EVERY = re.compile(r"\b(?:FeatureKind|ReferencePolicy|IrrelevantRendering)::ALL\b(?!\s*\.\s*len\b)")
-ASKS = re.compile(r"\btakes(?:_\w+)?\(|\bis_taken\(")
-# Files in which a list of all variants is correct, because it is not a list of what is tried.
-LISTS = {
-    "crates/emit/src/raster.rs": "the core has an input for the level of each feature",
-    "crates/emit/src/serial.rs": "the array has an input for the level of each feature",
-    "crates/emit/src/leaf_parts.rs": "parts of each feature",
-    "crates/explore/src/table.rs": "a column for each feature",
-    "crates/web/src/describe.rs": "a page is told of each feature, and of the message where its organization refuses it",
-    "crates/cli/src/command/estimate/compare.rs": "what is refused is listed with the reason",
-}
 # Files whose code is about one variant by purpose.
 OWN_PURPOSE = {"crates/studies/src/study/histogram.rs": "the study is about mad"}
 # A constant such as FeatureKind::ALL is not a variant.
@@ -116,14 +103,6 @@ def catch_alls(text):
             yield from (place for pattern, place in patterns if re.fullmatch(r"[a-z_]\w*", pattern))
 
 
-def every(text):
-    """Returns the lines that try every variant in a file that does not ask which organization takes it."""
-    text = without_comments(text)
-    if ASKS.search(text):
-        return []
-    return [text.count("\n", 0, found.start()) + 1 for found in EVERY.finditer(text)]
-
-
 def open_tests(text):
     """Returns the lines that would take a new variant for another one."""
     text = code(text)
@@ -142,9 +121,6 @@ def main():
         text = file.read_text(encoding="utf-8")
         for line in open_tests(text):
             print(f"{path}:{line}: takes a new variant for one that is known; match every variant, or ask the type")
-            count += 1
-        for line in [] if path in LISTS else every(text):
-            print(f"{path}:{line}: tries a variant that no organization takes; ask `Organization::takes` or `is_taken`")
             count += 1
     if count:
         sys.exit(f"variants: {count} places")

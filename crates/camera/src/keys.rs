@@ -8,13 +8,13 @@ use crate::{
     ReferencePolicy, VoteCombination,
 };
 use crate::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
-use Takes::{Names, Text, Whole};
+use AcceptedValues::{Names, Text, Whole};
 use std::{fmt, ops::RangeInclusive};
 use toml::{Table, Value};
 
-/// The values that a key takes, for messages and documentation.
+/// The values that a key accepts, for messages and documentation.
 #[derive(Clone, Debug)]
-pub enum Takes {
+pub enum AcceptedValues {
     /// A whole number in this range.
     Whole(RangeInclusive<u32>),
     /// Values that are described by this text.
@@ -23,7 +23,7 @@ pub enum Takes {
     Names(&'static [&'static str]),
 }
 
-impl fmt::Display for Takes {
+impl fmt::Display for AcceptedValues {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Whole(range) => write!(f, "a whole number, {}..={}", range.start(), range.end()),
@@ -33,9 +33,9 @@ impl fmt::Display for Takes {
     }
 }
 
-/// A dotted key and the values that it takes. The array of tables `spatial` is written without an
+/// A dotted key and the values that it accepts. The array of tables `spatial` is written without an
 /// index.
-pub type ConfigKey = (&'static str, Takes);
+pub type ConfigKey = (&'static str, AcceptedValues);
 
 /// Every key of a camera.
 pub const CAMERA_KEYS: &[ConfigKey] = &[
@@ -59,9 +59,12 @@ pub const CAMERA_KEYS: &[ConfigKey] = &[
     ("periphery.level", Text("a whole number >= 0, in grey levels")),
 ];
 
-/// Returns a description of the values that the key at `path` takes. A path has indices, such as
+/// Returns a description of the values that the key at `path` accepts. A path has indices, such as
 /// `spatial[0].level`.
-pub(crate) fn takes(mut known: impl Iterator<Item = &'static ConfigKey>, path: &str) -> String {
+pub(crate) fn accepted_values(
+    mut known: impl Iterator<Item = &'static ConfigKey>,
+    path: &str,
+) -> String {
     let dotted: String = path
         .split('[')
         .enumerate()
@@ -71,7 +74,7 @@ pub(crate) fn takes(mut known: impl Iterator<Item = &'static ConfigKey>, path: &
         })
         .collect();
     match known.find(|(key, _)| *key == dotted) {
-        Some((_, takes)) => takes.to_string(),
+        Some((_, values)) => values.to_string(),
         None if path == "spatial" => "an array of tables".to_owned(),
         None => "a table".to_owned(),
     }

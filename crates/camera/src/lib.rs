@@ -43,7 +43,7 @@ pub use decimal::Decimal;
 pub use error::ConfigError;
 pub use feature::{MeanDivision, SpatialFeature, VarianceWidths};
 pub use feature_kind::ScoreUnit;
-pub use keys::{CAMERA_KEYS, ConfigKey, Takes};
+pub use keys::{AcceptedValues, CAMERA_KEYS, ConfigKey};
 pub use periphery::Periphery;
 pub use ranges::{
     MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,

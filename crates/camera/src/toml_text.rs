@@ -89,7 +89,7 @@ fn from_checked_table<C: TomlConfig>(table: Table) -> Result<C, ConfigError> {
     C::from_table(table)
 }
 
-/// Reads a table by serde. The message of an error names the values that the key takes, from
+/// Reads a table by serde. The message of an error names the values that the key accepts, from
 /// `keys`.
 ///
 /// # Errors
@@ -101,8 +101,9 @@ pub fn read_table<T: DeserializeOwned>(
     let value = Value::Table(table);
     serde_path_to_error::deserialize(value.clone()).map_err(|e| {
         let key = e.path().to_string();
-        let takes = || keys::takes(keys, &key);
-        let problem = describe_problem(value_at_path(&value, e.path()), e.inner().message(), takes);
+        let accepted = || keys::accepted_values(keys, &key);
+        let problem =
+            describe_problem(value_at_path(&value, e.path()), e.inner().message(), accepted);
         ConfigError::Type { key, problem }
     })
 }
@@ -125,11 +126,11 @@ impl TomlConfig for CameraConfig {
 fn describe_problem(
     value: Option<&Value>,
     message: &str,
-    takes: impl FnOnce() -> String,
+    accepted: impl FnOnce() -> String,
 ) -> String {
     match value {
         _ if message.starts_with("missing field") => message.replace("missing field", "it lacks"),
-        Some(value) => format!("{} is not valid; it takes {}", truncated_text(value), takes()),
+        Some(value) => format!("{} is not valid; it takes {}", truncated_text(value), accepted()),
         None => message.to_owned(),
     }
 }

@@ -22,7 +22,7 @@ mod preset;
 mod raster;
 mod rules;
 mod serial;
-mod takes;
+mod support;
 mod timing;
 mod validation;
 
@@ -43,7 +43,6 @@ pub use foveate_camera::{
 pub use hardware::Hardware;
 pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};
 pub use interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
-pub use organization::is_taken;
 pub use pipelined::{PipelinedHardware, PipelinedTiming};
 pub use port::{OutputQualifier, Port, PortDirection, PortRole};
 pub use preset::{PRESETS, Preset};

@@ -1,49 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cameras that an organization can compute, and the unit, the timing and the ports of a
-//! design.
+//! The unit, the timing and the ports of a design.
 //!
 //! Each organization implements [`crate::rules::OrganizationRules`] in its own module, which
 //! defines these properties.
 
-use crate::pipelined::PipelinedHardware;
-use crate::raster::RasterHardware;
 use crate::rules::{ArrayUnit, OrganizationRules};
-use crate::serial::SerialHardware;
-use crate::takes::Taken;
 use crate::{
     CoreInterface, Design, DesignTiming, Hardware, HardwareConfig, Organization, PixelFeed, Port,
 };
-use foveate_camera::{CameraConfig, FeatureKind, ReferencePolicy};
 
 impl Organization {
-    fn taken(self) -> Taken {
-        match self {
-            Self::Pipelined => Taken::by::<PipelinedHardware>(),
-            Self::Serial => Taken::by::<SerialHardware>(),
-            Self::Raster => Taken::by::<RasterHardware>(),
-        }
-    }
-
-    /// Returns true if the organization computes the score of the feature.
-    #[must_use]
-    pub fn takes_feature(self, kind: FeatureKind) -> bool {
-        (self.taken().feature)(kind)
-    }
-
-    /// Returns true if the organization can store the reference.
-    #[must_use]
-    pub fn takes_reference(self, reference: ReferencePolicy) -> bool {
-        (self.taken().reference)(reference)
-    }
-
-    /// Returns true if the organization supports the features of a camera, its reference and the
-    /// rendering of its irrelevant regions. Sizes and keys of `[hardware]` may still be refused by
-    /// [`crate::DesignConfig::validate`].
-    #[must_use]
-    pub fn takes(self, camera: &CameraConfig) -> bool {
-        self.taken().takes(camera)
-    }
-
     /// Returns the name of one unit of the array, such as "RPU".
     #[must_use]
     pub fn unit_name(self) -> &'static str {
@@ -72,14 +38,6 @@ impl Organization {
             Self::Pipelined | Self::Raster => false,
         }
     }
-}
-
-/// Returns true if some organization supports the camera. A search over features, references or
-/// renderings calls this function, so that it does not choose a camera that no organization can
-/// compute.
-#[must_use]
-pub fn is_taken(camera: &CameraConfig) -> bool {
-    Organization::ALL.iter().any(|organization| organization.takes(camera))
 }
 
 impl Design {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Validation: checks every range and combination of a configuration, and makes a design of it.
 
-use crate::takes::taken;
+use crate::pipelined::PipelinedHardware;
+use crate::raster::RasterHardware;
+use crate::serial::SerialHardware;
+use crate::support::check_support;
 use crate::{Design, DesignConfig, Hardware, HardwareConfig, Organization};
 use foveate_camera::{ConfigError, MAX_SIDE};
 
@@ -29,10 +32,12 @@ impl DesignConfig {
     pub(crate) fn validate_up_to(&self, max_side: u32) -> Result<Design, ConfigError> {
         let camera = self.camera.validate_up_to(max_side)?;
         let asked = &self.hardware;
+        check_support(asked, &camera)?;
+        asked.refuse_foreign_keys()?;
         let hardware = match asked.organization {
-            Organization::Pipelined => Hardware::Pipelined(taken(asked, &camera)?),
-            Organization::Serial => Hardware::Serial(taken(asked, &camera)?),
-            Organization::Raster => Hardware::Raster(taken(asked, &camera)?),
+            Organization::Pipelined => Hardware::Pipelined(PipelinedHardware::new(asked)),
+            Organization::Serial => Hardware::Serial(SerialHardware::validate(asked, &camera)?),
+            Organization::Raster => Hardware::Raster(RasterHardware::validate(asked, &camera)?),
         };
         let syncs = asked.sync.unwrap_or_default();
         Ok(Design::new(camera, hardware, syncs, asked.thresholds))
@@ -42,10 +47,14 @@ impl DesignConfig {
 impl HardwareConfig {
     /// Refuses the keys that only another organization has, whatever their values, and a fold above
     /// 1 where regions cannot share a unit.
-    pub(crate) fn refuse_foreign_keys(&self) -> Result<(), ConfigError> {
+    fn refuse_foreign_keys(&self) -> Result<(), ConfigError> {
         if self.fold != 1 && !self.organization.has_folding() {
             let remedy = "only the serial organization shares lanes; use 1";
-            return Err(self.combination_error("hardware.fold", self.fold.to_string(), remedy));
+            return Err(self.organization.combination_error(
+                "hardware.fold",
+                self.fold.to_string(),
+                remedy,
+            ));
         }
         let foreign = |(_, owner, value): &(&str, Organization, Option<String>)| {
             *owner != self.organization && value.is_some()
@@ -57,7 +66,7 @@ impl HardwareConfig {
                     "only the {owner} organization has it; leave the key out, or use organization \
                      = \"{owner}\""
                 );
-                Err(self.combination_error(key, value.unwrap_or_default(), &remedy))
+                Err(self.organization.combination_error(key, value.unwrap_or_default(), &remedy))
             }
         }
     }
@@ -80,13 +89,15 @@ impl HardwareConfig {
             ("hardware.interface", Raster, self.interface.map(|bus| name(bus.name()))),
         ]
     }
+}
 
+impl Organization {
     /// Returns the error for a `key` whose value the organization does not accept.
-    pub(crate) fn combination_error(&self, key: &str, value: String, remedy: &str) -> ConfigError {
+    pub(crate) fn combination_error(self, key: &str, value: String, remedy: &str) -> ConfigError {
         ConfigError::Combination {
             key: key.to_owned(),
             value,
-            with: format!("organization = \"{}\"", self.organization),
+            with: format!("organization = \"{self}\""),
             remedy: remedy.to_owned(),
         }
     }

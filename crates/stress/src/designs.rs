@@ -3,7 +3,7 @@
 
 use foveate_design::{
     Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, Neighborhood,
-    Organization, Payload, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
+    Payload, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 
 /// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
@@ -51,23 +51,14 @@ fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
     }
 }
 
-/// Returns every feature that the organization of the cases supports.
-pub(crate) fn supported_features() -> Vec<FeatureKind> {
-    let organization = Organization::default();
-    FeatureKind::ALL.iter().copied().filter(|kind| organization.takes_feature(*kind)).collect()
-}
-
-/// Returns designs with every neighborhood, filter and payload, every reference that the
-/// organization supports, and its features in turn.
+/// Returns designs with every neighborhood, filter, payload and reference, and the features in
+/// turn.
 pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
-    let kinds = supported_features();
-    let organization = Organization::default();
-    let references = ReferencePolicy::ALL.iter().copied();
-    let references: Vec<_> = references.filter(|own| organization.takes_reference(*own)).collect();
+    let kinds = FeatureKind::ALL;
     let mut designs = Vec::new();
     for &neighborhood in Neighborhood::ALL {
         for &filter in DenoiseFilter::ALL {
-            for &reference in &references {
+            for &reference in ReferencePolicy::ALL {
                 for &payload in Payload::ALL {
                     let turn = kinds[designs.len() % kinds.len()];
                     let mut config = config(size, side, bits, features_with(turn));

@@ -5,7 +5,8 @@
 
 use foveate_camera::toml_text::TomlConfig as _;
 use foveate_camera::{
-    CameraConfig, ConfigError, ConfigKey, FeatureKind, IrrelevantRendering, SpatialConfig, Takes,
+    AcceptedValues, CameraConfig, ConfigError, ConfigKey, FeatureKind, IrrelevantRendering,
+    SpatialConfig,
 };
 use foveate_design::{DesignConfig, PRESETS};
 use foveate_scenes::Scene;
@@ -47,17 +48,19 @@ fn defaults() -> Result<Value, ConfigError> {
 
 /// Describes a key: its kind, its values in words, its range or choices if these depend on no other
 /// key, and its default.
-fn described_key((key, takes): &ConfigKey, defaults: &Value) -> Value {
+fn described_key((key, values): &ConfigKey, defaults: &Value) -> Value {
     let path = format!("/{}", key.replacen("spatial.", "spatial.0.", 1).replace('.', "/"));
     let mut told =
-        json!({ "key": key, "takes": takes.to_string(), "default": defaults.pointer(&path) });
-    match takes {
-        Takes::Whole(range) => {
+        json!({ "key": key, "takes": values.to_string(), "default": defaults.pointer(&path) });
+    match values {
+        AcceptedValues::Whole(range) => {
             told["kind"] = json!("whole");
             (told["min"], told["max"]) = (json!(range.start()), json!(range.end()));
         }
-        Takes::Names(names) => (told["kind"], told["choices"]) = (json!("choice"), json!(names)),
-        Takes::Text(_) => told["kind"] = json!("text"),
+        AcceptedValues::Names(names) => {
+            (told["kind"], told["choices"]) = (json!("choice"), json!(names));
+        }
+        AcceptedValues::Text(_) => told["kind"] = json!("text"),
     }
     told
 }

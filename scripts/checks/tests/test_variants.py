@@ -6,7 +6,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 
-from variants import every, open_tests  # noqa: E402
+from variants import open_tests  # noqa: E402
 
 
 class Variants(unittest.TestCase):
@@ -47,15 +47,6 @@ class Variants(unittest.TestCase):
         self.lines('if design.organization().name() == "raster" {}', [1])
         self.lines('if temporal.reference.name() != "previous" {}', [1])
         self.lines('if preset.name == "raster" {}', [])
-
-    def test_what_tries_every_variant_asks_who_takes_it(self):
-        tries = "for kind in FeatureKind::ALL {}\nlet all = ReferencePolicy::ALL.iter();\n"
-        self.assertEqual(every(tries), [1, 2])
-        self.assertEqual(every(tries + "let taken = tried.filter(is_taken);"), [1, 2])
-        self.assertEqual(every(tries + "let taken = tried.filter(|camera| is_taken(camera));"), [])
-        self.assertEqual(every(tries + "let own = organization.takes_feature(kind);"), [])
-        self.assertEqual(every("// FeatureKind::ALL\nlet count = [0; FeatureKind::ALL.len()];"), [])
-        self.assertEqual(every("for organization in Organization::ALL {}"), [])
 
     def test_what_names_every_variant_is_not(self):
         self.lines("match kind {\n    None => 0,\n    Some(FeatureKind::Edge | FeatureKind::Mad) => 1,\n}", [])

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The properties of a raster core, and the frames and keys that it supports.
 
-use crate::takes::Takes;
-use crate::{
-    FrameStoreKind, HardwareConfig, InterfaceKind, Organization, Pipelining, ThresholdSource,
-};
+use crate::{FrameStoreKind, HardwareConfig, InterfaceKind, Organization, Pipelining};
 use foveate_camera::{
-    Camera, ConfigError, FeatureKind, IrrelevantRendering, Periphery, ReferencePolicy, check_range,
+    Camera, ConfigError, IrrelevantRendering, Periphery, ReferencePolicy, check_range,
 };
 
 /// Valid numbers of pixels per word.
@@ -33,54 +30,10 @@ pub struct RasterHardware {
     pub interface_kind: InterfaceKind,
 }
 
-impl Takes for RasterHardware {
-    fn takes_feature(kind: FeatureKind) -> bool {
-        match kind {
-            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
-                true
-            }
-        }
-    }
-
-    fn takes_reference(reference: ReferencePolicy) -> bool {
-        match reference {
-            ReferencePolicy::Previous | ReferencePolicy::LastSent => true,
-        }
-    }
-
-    fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
-        match irrelevant {
-            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => {
-                true
-            }
-        }
-    }
-
-    fn takes_thresholds(thresholds: ThresholdSource) -> bool {
-        match thresholds {
-            ThresholdSource::Runtime | ThresholdSource::Constant => true,
-        }
-    }
-
-    fn takes_sync() -> bool {
-        true
-    }
-
-    fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // The keys that are ignored here have been checked before.
-        let &HardwareConfig {
-            pixels_per_clock,
-            pipelining,
-            store,
-            forward,
-            interface,
-            fold: _,
-            feed: _,
-            memory: _,
-            organization: _,
-            sync: _,
-            thresholds: _,
-        } = asked;
+impl RasterHardware {
+    /// Returns the properties, or an error if a key or a size is not valid.
+    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        let &HardwareConfig { pixels_per_clock, pipelining, store, forward, interface, .. } = asked;
         let pixels = pixels_per_clock.unwrap_or(WORD_PIXELS[0]);
         check_word(asked, pixels, camera.region_size())?;
         check_interface(asked)?;
@@ -98,7 +51,7 @@ impl Takes for RasterHardware {
                  {pixels} pixels; use frames of at least {} pixels, or smaller regions",
                 (columns - 1) * size + 1
             );
-            return Err(asked.combination_error(
+            return Err(asked.organization.combination_error(
                 "frame.width",
                 camera.width().to_string(),
                 &remedy,
@@ -112,9 +65,7 @@ impl Takes for RasterHardware {
             interface_kind: interface.unwrap_or_default(),
         })
     }
-}
 
-impl RasterHardware {
     /// Returns the table `[hardware]`. `forward` and `interface` are left out while they have their
     /// defaults, so that the fingerprint of a design is the same as before the keys existed.
     pub(crate) fn config(&self) -> HardwareConfig {
@@ -144,7 +95,7 @@ fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), Conf
         return Ok(());
     }
     let remedy = format!("it must divide region.size = {}; use fewer pixels", size);
-    Err(asked.combination_error(key, pixels.to_string(), &remedy))
+    Err(asked.organization.combination_error(key, pixels.to_string(), &remedy))
 }
 
 /// Refuses the AXI interface without forwarding, because its packets carry pixels.

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The properties of a serial array, and the configurations that it supports.
 
-use crate::takes::Takes;
-use crate::{HardwareConfig, LaneMemoryKind, Organization, Pipelining, PixelFeed, ThresholdSource};
-use foveate_camera::{
-    Camera, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy, check_range,
-};
+use crate::{HardwareConfig, LaneMemoryKind, Organization, Pipelining, PixelFeed};
+use foveate_camera::{Camera, ConfigError, check_range};
 
 /// Smallest side of a region in pixels.
 const MIN_SIDE: u32 = 4;
@@ -23,58 +20,18 @@ pub struct SerialHardware {
     pub pipelining: Pipelining,
 }
 
-impl Takes for SerialHardware {
-    fn takes_feature(kind: FeatureKind) -> bool {
-        match kind {
-            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad | FeatureKind::Variance => {
-                true
-            }
-        }
-    }
-
-    fn takes_reference(reference: ReferencePolicy) -> bool {
-        match reference {
-            ReferencePolicy::Previous | ReferencePolicy::LastSent => true,
-        }
-    }
-
-    fn takes_irrelevant(irrelevant: IrrelevantRendering) -> bool {
-        match irrelevant {
-            IrrelevantRendering::Zero | IrrelevantRendering::Hold | IrrelevantRendering::Mean => {
-                true
-            }
-        }
-    }
-
-    fn takes_thresholds(thresholds: ThresholdSource) -> bool {
-        match thresholds {
-            ThresholdSource::Runtime | ThresholdSource::Constant => true,
-        }
-    }
-
-    fn takes_sync() -> bool {
-        true
-    }
-
-    fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // The keys that are ignored here have been checked before.
-        let &HardwareConfig {
-            fold,
-            feed,
-            memory,
-            pipelining,
-            pixels_per_clock: _,
-            store: _,
-            forward: _,
-            interface: _,
-            organization: _,
-            sync: _,
-            thresholds: _,
-        } = asked;
+impl SerialHardware {
+    /// Returns the properties, or an error if a key or a size is not valid.
+    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
+        let &HardwareConfig { fold, feed, memory, pipelining, .. } = asked;
         let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
-            return Err(asked.combination_error("region.size", size.to_string(), &remedy));
+            return Err(asked.organization.combination_error(
+                "region.size",
+                size.to_string(),
+                &remedy,
+            ));
         }
         let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
         check_range("hardware.fold", fold, 1..=regions, &why)?;
@@ -85,9 +42,7 @@ impl Takes for SerialHardware {
             pipelining: pipelining.unwrap_or_default(),
         })
     }
-}
 
-impl SerialHardware {
     /// Returns the table `[hardware]`. `pipelining` is left out while it has its default, so that
     /// the fingerprint of a design is the same as before the key existed.
     pub(crate) fn config(&self) -> HardwareConfig {

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use foveate_camera::{Takes, toml_text::TomlConfig};
+use foveate_camera::{AcceptedValues, toml_text::TomlConfig};
 use foveate_design::{DesignConfig, FeatureKind, IrrelevantRendering, Organization};
 
 const PAGE: &str = include_str!("../../../../docs/configuration.md");
@@ -37,7 +37,7 @@ fn rows() -> Vec<KeyRow<'static>> {
 /// or the numbers and truth values in the row.
 fn values(row: &KeyRow<'_>) -> Vec<String> {
     let takes = DesignConfig::keys().find(|(key, _)| *key == row.key).unwrap();
-    if let Takes::Names(names) = takes.1 {
+    if let AcceptedValues::Names(names) = takes.1 {
         return names.iter().map(|name| format!("\"{name}\"")).collect();
     }
     let words = row.values.split(|c: char| !c.is_ascii_alphanumeric());

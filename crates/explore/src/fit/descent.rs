@@ -17,7 +17,7 @@ use foveate_camera::{
     Camera, CameraConfig, DenoiseFilter, FeatureKind, IrrelevantRendering, PeripheryConfig,
     ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
-use foveate_design::{HardwareConfig, is_taken};
+use foveate_design::HardwareConfig;
 
 use super::agreement::AgreementEstimate;
 use super::build::least_rough_cost;
@@ -116,12 +116,10 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok((confirmed >= least).then(|| searched.min(confirmed)))
     }
 
-    /// Returns the cost of each camera. It leaves out invalid cameras, and cameras that no
-    /// organization can build.
+    /// Returns the cost of each camera. It leaves out invalid cameras.
     fn with_costs(&self, configs: &[CameraConfig]) -> Result<Vec<(f64, Camera)>, ExploreError> {
         let mut cameras: Vec<Camera> = Vec::new();
-        let taken = configs.iter().filter(|config| is_taken(config));
-        for camera in taken.filter_map(|config| config.validate().ok()) {
+        for camera in configs.iter().filter_map(|config| config.validate().ok()) {
             if !cameras.contains(&camera) {
                 cameras.push(camera);
             }

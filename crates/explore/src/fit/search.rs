@@ -7,7 +7,6 @@ use foveate_camera::{
     CameraConfig, ConfigError, Decimal, DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy,
     ScoreUnit, SpatialConfig,
 };
-use foveate_design::is_taken;
 use foveate_fidelity::FidelityFigures;
 
 use super::constraints::{ConstraintCheck, Constraints, all_met, total_excess};
@@ -179,14 +178,12 @@ impl<'a> CameraSearch<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the first halves. It leaves out invalid cameras, and cameras that no
-    /// organization can build.
+    /// Examines cameras on the first halves. It leaves out invalid cameras.
     pub(super) fn examine(
         &mut self,
         configs: &[CameraConfig],
     ) -> Result<Vec<ExaminedCamera>, ExploreError> {
-        let taken = configs.iter().filter(|config| is_taken(config));
-        let cameras: Vec<_> = taken.filter_map(|config| config.validate().ok()).collect();
+        let cameras: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
         let new: BTreeMap<String, _> = cameras
             .iter()
             .map(|camera| (camera.config().to_toml(), camera.clone()))

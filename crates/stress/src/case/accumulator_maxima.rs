@@ -6,7 +6,7 @@ use foveate_design::{FeatureKind, bits_for};
 use foveate_engine::Engine;
 use foveate_model::FunctionalCamera;
 
-use crate::designs::{config, design, supported_features};
+use crate::designs::{config, design};
 use crate::test_frames::frame_from_fn;
 use crate::{CaseRow, RunDepth};
 
@@ -14,7 +14,7 @@ use crate::{CaseRow, RunDepth};
 /// region and for odd ones.
 pub(crate) fn largest_scores(_: RunDepth) -> Vec<CaseRow> {
     let sizes = [(64, 16), (64, 8), (8, 8), (7, 16), (5, 10), (2, 1)];
-    let mut sums = supported_features();
+    let mut sums = FeatureKind::ALL.to_vec();
     sums.retain(|kind| !kind.score_unit().is_count());
     let of = |size| sums.iter().rev().map(move |&kind| largest_score_row(kind, size));
     sizes.into_iter().flat_map(of).collect()

@@ -6,7 +6,7 @@ use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
-use crate::designs::{config, design, supported_features};
+use crate::designs::{config, design};
 use crate::test_frames::RandomNumbers;
 use crate::{CaseRow, RunDepth};
 
@@ -14,8 +14,8 @@ use crate::{CaseRow, RunDepth};
 /// pixel is a hit if the level is one below its magnitude and not if it is equal.
 pub(crate) fn on_below_above(depth: RunDepth) -> Vec<CaseRow> {
     let rounds = depth.choose(12, 200);
-    let counted = supported_features().into_iter().filter(|kind| kind.score_unit().is_count());
-    let scored = counted.map(|kind| score_thresholds(kind, rounds));
+    let counted = FeatureKind::ALL.iter().filter(|kind| kind.score_unit().is_count());
+    let scored = counted.map(|&kind| score_thresholds(kind, rounds));
     scored.chain([edge_levels(rounds), temporal_thresholds(rounds)]).collect()
 }
 

@@ -68,16 +68,13 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     Ok(findings)
 }
 
-/// Returns the configuration with every feature that the organization has, in the order of the
-/// columns, with the thresholds of the configuration or their defaults.
+/// Returns the configuration with every feature, in the order of the columns, with the thresholds of the configuration or their defaults.
 fn with_every_feature(config: &DesignConfig) -> DesignConfig {
-    let organization = config.hardware.organization;
     let entry = |&kind: &FeatureKind| {
         let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);
         own.cloned().unwrap_or_else(|| SpatialConfig::new(kind))
     };
     let mut all = config.clone();
-    let taken = FeatureKind::ALL.iter().filter(|kind| organization.takes_feature(**kind));
-    all.camera.spatial = taken.map(entry).collect();
+    all.camera.spatial = FeatureKind::ALL.iter().map(entry).collect();
     all
 }
