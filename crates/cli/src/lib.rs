@@ -11,7 +11,6 @@ mod agreement_text;
 mod args;
 mod command;
 mod error;
-mod hint;
 mod interrupt;
 mod notice;
 mod output;
@@ -32,7 +31,6 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(&words) {
         Ok(cli) => cli,
         Err(error) => {
-            let error = hint::with_hint(error);
             notice::print_usage(&error);
             return u8::try_from(error.exit_code()).expect("clap ends with 0 or 2");
         }

@@ -153,23 +153,6 @@ fn check_proposes_the_largest_fold_that_reaches_a_rate() {
     }
 }
 
-/// The option `--fps` had two meanings and no longer exists.
-#[test]
-fn fps_says_which_of_its_two_successors_to_take() {
-    let dir = tempfile::tempdir().unwrap();
-    for args in [
-        &["check", "--fps", "30"][..],
-        &["fit", "scene:street", "--fps", "30"],
-        &["simulate", "scene:street", "-o", "out", "--fps=30"],
-    ] {
-        let outcome = run_in(dir.path(), args);
-        assert_eq!(outcome.code, 2, "{args:?}");
-        for name in ["--input-fps", "--min-fps"] {
-            assert!(outcome.stderr.contains(name), "{args:?}: {}", outcome.stderr);
-        }
-    }
-}
-
 #[test]
 fn wrong_configurations_end_with_2_and_one_line() {
     let dir = tempfile::tempdir().unwrap();
