@@ -79,39 +79,24 @@ impl CliError {
 
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Study(error) => match error.as_ref() {
-                StudyError::Cancelled => interrupt::exit_code(),
-                StudyError::Footage(error) => footage_code(error),
-                _ => INPUT_CODE,
-            },
-            Self::Explore(error) => match error.as_ref() {
-                ExploreError::Cancelled => interrupt::exit_code(),
-                ExploreError::Footage(error) => footage_code(error),
-                ExploreError::Estimate(error) => estimate_code(error),
-                _ => INPUT_CODE,
-            },
-            Self::Inference(error) => match error.as_ref() {
-                InferenceError::Cancelled => interrupt::exit_code(),
-                InferenceError::Footage(error) => footage_code(error),
-                _ => INPUT_CODE,
-            },
-            Self::Link(error) => match error.as_ref() {
-                LinkError::Cancelled => interrupt::exit_code(),
-                LinkError::Footage(error) => footage_code(error),
-                LinkError::Tool(error) => tool_code(error),
-                LinkError::NoEncoder { .. } | LinkError::LostFrames { .. } => TOOL_CODE,
-                _ => INPUT_CODE,
-            },
-            Self::Board(error) if matches!(**error, BoardError::MissingOutput { .. }) => TOOL_CODE,
             Self::Failed(_) => 1,
             Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::exit_code(),
+            Self::Config { .. }
+            | Self::Emit(_)
+            | Self::Output(_)
+            | Self::Signals(_)
+            | Self::Io { .. }
+            | Self::Usage(_) => INPUT_CODE,
             Self::Tool(error) => tool_code(error),
-            Self::Cosim(CosimError::Tool(error)) => tool_code(error),
-            Self::Cosim(CosimError::EndedEarly { .. } | CosimError::NoModel { .. }) => TOOL_CODE,
+            Self::Cosim(error) => cosim_code(error),
             Self::Estimate(error) => estimate_code(error),
             Self::Simulator(error) => simulator_code(error),
-            Self::View(ViewError::Footage(error)) => footage_code(error),
-            _ => INPUT_CODE,
+            Self::Study(error) => study_code(error),
+            Self::Explore(error) => explore_code(error),
+            Self::Inference(error) => inference_code(error),
+            Self::Link(error) => link_code(error),
+            Self::Board(error) => board_code(error),
+            Self::View(error) => view_code(error),
         }
     }
 }
@@ -121,14 +106,26 @@ const INPUT_CODE: u8 = 2;
 /// The exit code for a tool that is missing or has failed.
 const TOOL_CODE: u8 = 3;
 
+// The enums of the libraries are `non_exhaustive`, so each match on one needs an arm for the
+// variants that it does not name. Errors of a library are about its input unless a variant says
+// otherwise; those of a synthesis are about a tool.
+
 fn tool_code(error: &ToolError) -> u8 {
+    if error.is_interrupted() {
+        interrupt::exit_code()
+    } else if error.is_environment() {
+        // The user chooses the folders of the cache and of temporary files.
+        INPUT_CODE
+    } else {
+        TOOL_CODE
+    }
+}
+
+fn cosim_code(error: &CosimError) -> u8 {
     match error {
-        _ if error.is_interrupted() => interrupt::exit_code(),
-        // An entry of the cache that cannot be used counts as a failed tool. A cache or temporary
-        // folder that cannot be used is bad input, because the user chooses it.
-        ToolError::Unusable { .. } => TOOL_CODE,
-        _ if error.is_environment() => INPUT_CODE,
-        _ => TOOL_CODE,
+        CosimError::Tool(error) => tool_code(error),
+        CosimError::EndedEarly { .. } | CosimError::NoModel { .. } => TOOL_CODE,
+        _ => INPUT_CODE,
     }
 }
 
@@ -145,6 +142,63 @@ fn simulator_code(error: &SimulatorError) -> u8 {
         SimulatorError::Footage(error) => footage_code(error),
         SimulatorError::Tool(error) | SimulatorError::NoVideo(error) => tool_code(error),
         SimulatorError::VideoOutput { .. } => TOOL_CODE,
+        _ => INPUT_CODE,
+    }
+}
+
+fn study_code(error: &StudyError) -> u8 {
+    match error {
+        StudyError::Cancelled => interrupt::exit_code(),
+        StudyError::Footage(error) => footage_code(error),
+        _ => INPUT_CODE,
+    }
+}
+
+fn explore_code(error: &ExploreError) -> u8 {
+    match error {
+        ExploreError::Cancelled => interrupt::exit_code(),
+        ExploreError::Footage(error) => footage_code(error),
+        ExploreError::Estimate(error) => estimate_code(error),
+        _ => INPUT_CODE,
+    }
+}
+
+fn inference_code(error: &InferenceError) -> u8 {
+    match error {
+        InferenceError::Cancelled => interrupt::exit_code(),
+        InferenceError::Footage(error) => footage_code(error),
+        _ => INPUT_CODE,
+    }
+}
+
+fn link_code(error: &LinkError) -> u8 {
+    match error {
+        LinkError::Cancelled => interrupt::exit_code(),
+        LinkError::Footage(error) => footage_code(error),
+        LinkError::Tool(error) => tool_code(error),
+        LinkError::NoEncoder { .. } | LinkError::LostFrames { .. } => TOOL_CODE,
+        _ => INPUT_CODE,
+    }
+}
+
+fn board_code(error: &BoardError) -> u8 {
+    match error {
+        BoardError::MissingOutput { .. } => TOOL_CODE,
+        BoardError::Tool(error) => tool_code(error),
+        BoardError::UnknownBoard { .. }
+        | BoardError::UnknownSensor { .. }
+        | BoardError::Read { .. }
+        | BoardError::Invalid { .. }
+        | BoardError::Design { .. }
+        | BoardError::NoOpenTool { .. }
+        | BoardError::Config(_)
+        | BoardError::Staging(_) => INPUT_CODE,
+    }
+}
+
+fn view_code(error: &ViewError) -> u8 {
+    match error {
+        ViewError::Footage(error) => footage_code(error),
         _ => INPUT_CODE,
     }
 }

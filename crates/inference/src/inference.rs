@@ -13,15 +13,14 @@ use crate::page::render_page;
 use crate::recording::{OutputRecorder, RecordOptions};
 use crate::run::{FinishedRun, InferenceRun, RunComparisons, RunFiles, RunMetadata};
 use crate::runner::{ExecutorMode, NetworkRunner};
-use crate::summary::{InferenceSummary, mode_name};
+use crate::summary::InferenceSummary;
 use crate::table_columns::{DETECTIONS, FRAMES, LAYERS, TRIALS, table};
 use crate::tuning::{TunedLimits, tune};
 use crate::whole_frames::WholeFrameComparison;
-use crate::{InferenceError, TuningGoal, VisionNetwork, VisionOptions};
+use crate::{Computation, InferenceError, VisionNetwork, VisionOptions};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Design, DesignConfig};
 use foveate_footage::{FrameSource, InputOptions, RunHooks};
-use foveate_network::ExecutionMode;
 use foveate_staging::{FolderKind, StagedFolder};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
@@ -49,17 +48,6 @@ pub struct InferenceOptions {
     pub command: Vec<String>,
     /// True if the folder of an earlier run is replaced.
     pub overwrite: bool,
-}
-
-/// The computation for each frame after the first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Computation {
-    /// The computation of a mode.
-    Mode(ExecutionMode),
-    /// A computation of the changes above a limit for each layer. The limits are chosen on the
-    /// first half of the clips, rounded up, or on the first half of the frames of a single clip.
-    /// The second half is reported.
-    Tuned(TuningGoal),
 }
 
 /// A camera, a network and the clips of a run.
@@ -172,12 +160,12 @@ impl Inference {
             let beside = RunComparisons { with_whole_computation: reference, whole_frames: judge };
             InferenceRun::new(&design, NetworkRunner::new(network, way), beside, costs, files)
         };
-        let (run, problem, mode, tuning) = match options.computation {
+        let (run, problem, tuning) = match options.computation {
             Computation::Mode(mode) => {
                 let mut run = run(ExecutorMode::Mode(mode), options.with_whole_computation);
                 showing.play_clips(0..all, hooks, &mut run)?;
                 let problem = missing_frames_reason(run.problems(), all, run.clip_count());
-                (run, problem, mode_name(mode), None)
+                (run, problem, None)
             }
             Computation::Tuned(goal) => {
                 let mut album = KeptClips::default();
@@ -205,11 +193,11 @@ impl Inference {
                 let problems = [album.problems(), run.problems()].concat();
                 let problem =
                     missing_frames_reason(problems, all, tuned_on.min(all - 1) + run.clip_count());
-                (run, problem, format!("tuned to {goal}"), Some((tuning, goal)))
+                (run, problem, Some((tuning, goal)))
             }
         };
         let ended = run.finish(RunMetadata {
-            mode,
+            computation: options.computation,
             accelerator: accelerator.map(|(name, _)| name.clone()),
             tuning,
             problem,

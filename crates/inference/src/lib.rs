@@ -11,6 +11,7 @@ mod camera;
 mod charts;
 mod clips;
 mod closeness;
+mod computation;
 mod cost;
 mod error;
 mod frame;
@@ -37,6 +38,7 @@ mod whole_frames;
 pub use arrays::{ArrayFile, ArraySummary, infer_arrays, is_array};
 pub use camera::frame_format_of;
 pub use closeness::TuningGoal;
+pub use computation::Computation;
 pub use cost::{AcceleratorSummary, FrameCost};
 pub use error::InferenceError;
 pub use network_check::{NetworkFacts, NetworkReport, OPEN_SIZE, check_network};
@@ -47,7 +49,7 @@ pub use foveate_network::vision::{
     FrameOutcome, Framing, OutputAgreement, OutputTensor, PixelMapping, VisionError, VisionNetwork,
     VisionOptions, VisionRun, parse_detector, parse_framing, parse_mean, parse_scale,
 };
-pub use inference::{Computation, INFERENCE_FOLDER, Inference, InferenceOptions};
+pub use inference::{INFERENCE_FOLDER, Inference, InferenceOptions};
 pub use macs::Macs;
 pub use recording::{RecordOptions, RecordedOutput};
 pub use summary::{

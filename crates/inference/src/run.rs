@@ -19,7 +19,7 @@ use crate::tally::{NotFiniteTally, clip_summary};
 use crate::traffic::TrafficTally;
 use crate::whole_computation::WholeComputation;
 use crate::whole_frames::{CountedDetections, WholeFrameComparison};
-use crate::{Framing, InferenceError, PixelMapping, TuningGoal};
+use crate::{Computation, Framing, InferenceError, PixelMapping, TuningGoal};
 use foveate_design::Design;
 use foveate_network::Network;
 use std::num::NonZeroU32;
@@ -27,7 +27,7 @@ use std::time::Instant;
 
 /// The values of the summary that come from the options and not from the frames.
 pub(crate) struct RunMetadata {
-    pub(crate) mode: String,
+    pub(crate) computation: Computation,
     /// The name of the accelerator.
     pub(crate) accelerator: Option<String>,
     /// The result of tuning, and its goal.
@@ -256,7 +256,7 @@ impl<'a> InferenceRun<'a> {
             inputs: told.inputs,
             network: told.network,
             layout: self.network.layout().name(),
-            mode: told.mode,
+            mode: told.computation,
             mapping: told.mapping,
             framing: told.framing,
             every: told.every,

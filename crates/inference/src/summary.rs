@@ -7,9 +7,9 @@ use crate::macs::Macs;
 use crate::positions::PositionCounts;
 use crate::traffic::FrameTraffic;
 use crate::whole_computation::WholeComputation;
-use crate::{Framing, PixelMapping, RecordedOutput, WholeFrameAgreement};
+use crate::{Computation, Framing, PixelMapping, RecordedOutput, WholeFrameAgreement};
 use foveate_design::DesignConfig;
-use foveate_network::{ExecutionMode, Executor, Network, TensorForm};
+use foveate_network::{Executor, Network, TensorForm};
 use serde::Serialize;
 use std::num::NonZeroU32;
 
@@ -35,8 +35,9 @@ pub struct InferenceSummary {
     /// The layout in which the model takes its input: `nchw`, or `nhwc`, whose Transpose to
     /// channels first is left out.
     pub layout: &'static str,
-    /// The computation: `dense`, `exact`, `compare`, `truncate=0.1`, `fixed`, or `tuned to` a goal.
-    pub mode: String,
+    /// The computation, in JSON `dense`, `exact`, `compare`, `truncate=0.1`, `fixed`, or `tuned to`
+    /// a goal.
+    pub mode: Computation,
     /// The mapping from pixels to inputs.
     pub mapping: PixelMapping,
     /// The fit of frames to the size of the network's input, as on the command line.
@@ -247,17 +248,6 @@ pub struct LayerSummary {
     /// The root mean squared difference from a whole computation, as a share of the root mean
     /// square of its values.
     pub relative_rms: Option<f64>,
-}
-
-/// Returns the name of a mode on the command line.
-pub(crate) fn mode_name(mode: ExecutionMode) -> String {
-    match mode {
-        ExecutionMode::Dense => "dense".to_owned(),
-        ExecutionMode::Exact => "exact".to_owned(),
-        ExecutionMode::Compare => "compare".to_owned(),
-        ExecutionMode::Truncate(limit) => format!("truncate={limit}"),
-        ExecutionMode::Fixed => "fixed".to_owned(),
-    }
 }
 
 /// Returns the layers with their figures.

@@ -6,10 +6,11 @@ use super::figures::{
     milliseconds_text, share_text,
 };
 use crate::{
-    ConfidenceIntervals, InferenceSummary, NoiseAgreement, PixelMapping, TuningSummary,
-    WholeFrameAgreement,
+    Computation, ConfidenceIntervals, InferenceSummary, NoiseAgreement, PixelMapping,
+    TuningSummary, WholeFrameAgreement,
 };
 use foveate_design::Design;
+use foveate_network::ExecutionMode;
 use foveate_pictures::page::number_text::{counted, grouped};
 use std::path::Path;
 
@@ -120,17 +121,22 @@ pub(super) fn camera_text(design: &Design) -> String {
 }
 
 fn mode_text(summary: &InferenceSummary) -> String {
-    let (mode, limit) = summary.mode.split_once('=').unwrap_or((&summary.mode, ""));
     let again = "every value is computed again whose window holds";
-    match mode {
-        "dense" => "everything is computed for every frame".to_owned(),
-        "exact" => format!("{again} a changed pixel"),
-        "compare" => format!("{again} a change, and a value that came out as before is none"),
-        "truncate" => format!("{again} a change of more than {limit}"),
-        "fixed" => {
+    match summary.mode {
+        Computation::Mode(ExecutionMode::Dense) => {
+            "everything is computed for every frame".to_owned()
+        }
+        Computation::Mode(ExecutionMode::Exact) => format!("{again} a changed pixel"),
+        Computation::Mode(ExecutionMode::Compare) => {
+            format!("{again} a change, and a value that came out as before is none")
+        }
+        Computation::Mode(ExecutionMode::Truncate(limit)) => {
+            format!("{again} a change of more than {limit}")
+        }
+        Computation::Mode(ExecutionMode::Fixed) => {
             "in every layer the positions under changed regions are computed again".to_owned()
         }
-        _ => format!(
+        Computation::Tuned(_) => format!(
             "{again} a change above the limit of its layer, which was chosen on the first half of the {}",
             if summary.is_tuned_on_clips() { "clips" } else { "frames" }
         ),
@@ -206,7 +212,7 @@ fn macs_sentence(summary: &InferenceSummary) -> String {
         "A whole frame takes {} multiplications and additions (MACs).",
         large_count_text(macs.whole_frame)
     );
-    if summary.mode == "dense" {
+    if summary.mode == Computation::Mode(ExecutionMode::Dense) {
         return format!("{whole} All of them are computed for every frame, so nothing is saved.");
     }
     format!("{whole} {} of them were needed.", share_text(macs.needed_share()))

@@ -5,8 +5,11 @@ use crate::macs::Macs;
 use crate::summary::{
     ClipSummary, OutputCloseness, TuningSummary, TuningTrial, WholeComputationError,
 };
-use crate::{FrameTraffic, Framing, LayerSummary, PixelMapping, RecordedOutput};
+use crate::{
+    Computation, FrameTraffic, Framing, LayerSummary, PixelMapping, RecordedOutput, TuningGoal,
+};
 use foveate_design::DesignConfig;
+use foveate_network::ExecutionMode;
 use foveate_pictures::page::browser::{ExpectedMark, chromium, probe_page};
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -150,7 +153,7 @@ fn sample(frames: u32) -> RunSample {
         inputs: vec!["scene:street".to_owned()],
         network: "networks/denoiser.onnx".to_owned(),
         layout: "nchw",
-        mode: "tuned to psnr=40".to_owned(),
+        mode: Computation::Tuned(TuningGoal::Psnr(40.0)),
         mapping: PixelMapping { mean: vec![0.0], scale: vec![1.0] },
         framing: Framing::Same,
         sight: None,
@@ -347,7 +350,6 @@ fn what_a_user_wrote_is_text() {
     summary.network = format!("folder/{}", BAD.replace('/', "\\"));
     for text in [
         &mut summary.inputs[0],
-        &mut summary.mode,
         &mut summary.layers[1].name,
         &mut summary.outputs[0].name,
         &mut frames[0].name,
@@ -391,7 +393,7 @@ fn hard() -> Vec<(&'static str, RunSample)> {
     let mut none = sample(0);
     none.0.tuning = None;
     let mut dense = sample(4);
-    dense.0.mode = "dense".to_owned();
+    dense.0.mode = Computation::Mode(ExecutionMode::Dense);
     (dense.0.tuning, dense.0.error, dense.0.accelerator) = (None, None, None);
     dense.0.macs.needed = dense.0.macs.whole_frame;
     for layer in &mut dense.0.layers {
