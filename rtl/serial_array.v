@@ -7,10 +7,10 @@
 `default_nettype none
 
 module serial_array #(
-    parameter COLUMNS = 28,         // regions in a row of regions
-    parameter ROWS = 28,            // rows of regions
+    parameter COLUMNS = 2,          // regions in a row of regions
+    parameter ROWS = 2,             // rows of regions
     parameter FOLD = 1,             // number of regions of a lane, its slots
-    parameter LANES = 784,          // number of lanes that COLUMNS * ROWS regions need
+    parameter LANES = 4,            // number of lanes that COLUMNS * ROWS regions need
     parameter WIDTH = 8,            // bits of a pixel, 1 to 16
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
     parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE plus twice the halo
@@ -38,8 +38,8 @@ module serial_array #(
     parameter WORD_BITS = 7,        // bits of an address inside a slot
     parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
     parameter ADDRESS_BITS = 7,     // bits of an address in the memory of a lane: slot and word
-    parameter LANE_BITS = 10,       // bits of the number of a lane, at least 1
-    parameter REGION_BITS = 10,     // bits of the number of a region, empty slots included
+    parameter LANE_BITS = 2,        // bits of the number of a lane, at least 1
+    parameter REGION_BITS = 2,      // bits of the number of a region, empty slots included
     parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
     parameter INDEX_BITS = 1,       // bits of the number of a score
     parameter COUNT_BITS = 7,       // bits of a count of pixels, 0..SIDE * SIDE

@@ -159,21 +159,6 @@ pub const LEAVES: &[Leaf] = leaves! {
     ],
 };
 
-/// Returns the leaves of these names and those that they elaborate, in compile order. `is_taken`
-/// says whether a leaf contains a part.
-pub(crate) fn leaves_with_parts(
-    mut names: Vec<&'static str>,
-    is_taken: impl Fn(&str, &str) -> bool,
-) -> impl Iterator<Item = &'static Leaf> {
-    // Every leaf comes after those that it instantiates, so one pass from the end finds them all.
-    for leaf in LEAVES.iter().rev() {
-        if names.contains(&leaf.name) {
-            names.extend(leaf.uses.iter().filter(|part| is_taken(leaf.name, part)));
-        }
-    }
-    LEAVES.iter().filter(move |leaf| names.contains(&leaf.name))
-}
-
 /// Returns the leaves that a pipelined `rpu.v` instantiates directly.
 pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
     let mut names =

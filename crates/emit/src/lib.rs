@@ -3,7 +3,7 @@
 //!
 //! The arithmetic is in leaf modules: Verilog written by hand in `rtl/` and embedded here. The
 //! templates in `rtl/templates/` hold structure only. Emission is deterministic: the text contains
-//! no dates and no paths, and only what the design needs.
+//! no dates and no paths.
 
 mod axi;
 mod camera_flags;
@@ -13,7 +13,7 @@ mod feature_numbers;
 mod frame_sync;
 mod instance;
 mod leaf;
-mod leaf_parts;
+mod leaf_files;
 mod organization;
 mod prefix;
 mod raster;

@@ -2,19 +2,13 @@
 //! The trait that each organization implements to be emitted. No other place of this crate lists
 //! the organizations.
 
-use crate::leaf_parts::ParameterValues;
-use crate::{Prefix, SourceFile, Top, leaf, leaf_parts, raster, rcm, readme, serial};
+use crate::{Prefix, SourceFile, Top, leaf, raster, rcm, readme, serial};
 use foveate_design::{Design, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 
 /// The parts of a core that depend on the organization of its design.
 pub(crate) trait Emitter {
     /// Returns the leaves that the generated modules of the design instantiate directly.
     fn direct_leaves(&self) -> Vec<&'static str>;
-    /// Returns whether `leaf` contains `part` with the parameters that the leaf has in the design.
-    fn has_part(&self, leaf: &str, part: &str) -> bool;
-    /// Returns the parameters of a leaf that decide which modules it elaborates, with their values
-    /// in the design.
-    fn leaf_parameters(&self, leaf: &str) -> ParameterValues;
     /// Returns the generated modules of `top`, each after those it instantiates.
     fn modules(&self, top: Top) -> Vec<SourceFile>;
     /// Returns the README of the core.
@@ -35,14 +29,6 @@ impl Emitter for PipelinedDesign<'_> {
         leaf::pipelined_leaves(self)
     }
 
-    fn has_part(&self, _: &str, _: &str) -> bool {
-        true
-    }
-
-    fn leaf_parameters(&self, _: &str) -> ParameterValues {
-        Vec::new()
-    }
-
     fn modules(&self, top: Top) -> Vec<SourceFile> {
         rcm::modules(*self, top)
     }
@@ -57,14 +43,6 @@ impl Emitter for SerialDesign<'_> {
         leaves_with_sync(self, "serial_array")
     }
 
-    fn has_part(&self, leaf: &str, part: &str) -> bool {
-        leaf_parts::serial_leaf_has_part(*self, leaf, part)
-    }
-
-    fn leaf_parameters(&self, leaf: &str) -> ParameterValues {
-        serial::leaf_parameters(*self, leaf)
-    }
-
     fn modules(&self, top: Top) -> Vec<SourceFile> {
         serial::modules(*self, top)
     }
@@ -77,14 +55,6 @@ impl Emitter for SerialDesign<'_> {
 impl Emitter for RasterDesign<'_> {
     fn direct_leaves(&self) -> Vec<&'static str> {
         leaves_with_sync(self, "raster_core")
-    }
-
-    fn has_part(&self, leaf: &str, part: &str) -> bool {
-        leaf_parts::raster_leaf_has_part(*self, leaf, part)
-    }
-
-    fn leaf_parameters(&self, leaf: &str) -> ParameterValues {
-        raster::leaf_parameters(*self, leaf)
     }
 
     fn modules(&self, top: Top) -> Vec<SourceFile> {

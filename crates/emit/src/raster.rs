@@ -4,7 +4,6 @@
 use crate::camera_flags::{blanks_flag, last_sent_flag};
 use crate::feature_numbers::{deviation_mean, kinds_value};
 use crate::frame_sync::{self, FrameSync};
-use crate::leaf_parts::ParameterValues;
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
 };
@@ -14,7 +13,6 @@ use askama::Template;
 use foveate_design::{
     DenoiseFilter, Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Pipelining,
     Port, PortRole, RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
-    index_bits,
 };
 
 #[derive(Template)]
@@ -64,25 +62,6 @@ pub(crate) fn modules(design: RasterDesign<'_>, top: Top) -> Vec<SourceFile> {
         Top::Rcm => view(design, &design, top),
     };
     vec![module_file(top.module(), rendered_text(&view))]
-}
-
-/// Returns the parameters of a leaf that decide which parts it has.
-pub(crate) fn leaf_parameters(design: RasterDesign<'_>, leaf: &str) -> ParameterValues {
-    match leaf {
-        "raster_core" => {
-            let grid = [
-                ("COLUMNS", design.columns()),
-                ("ROWS", design.rows()),
-                ("FRAME_WIDTH", design.width()),
-                ("FRAME_HEIGHT", design.height()),
-                ("REGION_BITS", index_bits(design.regions().into())),
-            ];
-            let grid = grid.into_iter().map(|(name, value)| (name, value.to_string()));
-            grid.chain(core_parameters(design, &RasterTiming::from_design(design))).collect()
-        }
-        "raster_store" => vec![("KIND", store_number(design).to_string())],
-        _ => Vec::new(),
-    }
 }
 
 /// Returns the range of a port whose width depends on the grid; `None` for other ports.

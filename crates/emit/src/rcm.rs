@@ -2,8 +2,9 @@
 //! Generates the modules of a pipelined design, and fills `rcm.v`.
 
 use crate::frame_sync::{self, FrameSync};
+use crate::leaf_files::leaf_files;
 use crate::verilog_text::{PortLine, module_file, rendered_text};
-use crate::{SourceFile, Top, banner, leaf, rpu};
+use crate::{SourceFile, Top, banner, rpu};
 use askama::Template;
 use foveate_design::{PipelinedDesign, Port, PortRole};
 
@@ -36,8 +37,7 @@ pub(crate) fn modules(design: PipelinedDesign<'_>, top: Top) -> Vec<SourceFile> 
             // `frame_sync` is part of the array and not of the RPU, so it is not among the leaves
             // of the RPU.
             let sync = design.has_frame_sync().then_some("frame_sync");
-            let leaves = leaf::leaves_with_parts(sync.into_iter().collect(), |_, _| true);
-            let leaves = leaves.map(|leaf| module_file(leaf.name, leaf.contents.to_owned()));
+            let leaves = leaf_files(sync.into_iter().collect());
             let array = module_file(top.module(), render(design));
             leaves.chain([rpu, array]).collect()
         }

@@ -4,7 +4,6 @@
 use crate::camera_flags::{blanks_flag, last_sent_flag};
 use crate::feature_numbers::{deviation_mean, kinds_value};
 use crate::frame_sync::{self, FrameSync};
-use crate::leaf_parts::ParameterValues;
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
 };
@@ -14,7 +13,7 @@ use askama::Template;
 use foveate_design::{
     DenoiseFilter, FeatureKind, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port,
     PortRole, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource,
-    VoteCombination, bits_for, index_bits,
+    VoteCombination, bits_for,
 };
 
 #[derive(Template)]
@@ -71,30 +70,6 @@ pub(crate) fn modules(design: SerialDesign<'_>, top: Top) -> Vec<SourceFile> {
         Top::Rcm => view(design, design, top),
     };
     vec![module_file(top.module(), rendered_text(&view))]
-}
-
-/// Returns the parameters of a leaf that decide which parts it has.
-pub(crate) fn leaf_parameters(design: SerialDesign<'_>, leaf: &str) -> ParameterValues {
-    match leaf {
-        "serial_array" => {
-            let slots = design.lanes() * design.fold();
-            let grid = [
-                ("COLUMNS", design.columns()),
-                ("ROWS", design.rows()),
-                ("FOLD", design.fold()),
-                ("LANES", design.lanes()),
-                ("LANE_BITS", index_bits(design.lanes().into()).max(1)),
-                ("REGION_BITS", index_bits(slots.into()).max(1)),
-            ];
-            let grid = grid.into_iter().map(|(name, value)| (name, value.to_string()));
-            grid.chain(array_parameters(design)).collect()
-        }
-        "serial_lane" | "serial_memory" => {
-            let block = design.lane_memory().kind == LaneMemoryKind::Block;
-            vec![("BLOCK", u32::from(block).to_string())]
-        }
-        _ => Vec::new(),
-    }
 }
 
 /// Returns the range of a port whose width depends on the grid; `None` for other ports.

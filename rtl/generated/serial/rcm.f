@@ -1,3 +1,4 @@
+rtl/magnitude_above.v
 rtl/frame_store.v
 rtl/carry_adder.v
 rtl/serial_memory.v
@@ -11,7 +12,13 @@ rtl/serial_constant.v
 rtl/serial_controls.v
 rtl/serial_sequencer.v
 rtl/serial_parallel_feed.v
+rtl/serial_places.v
+rtl/serial_neighbor.v
+rtl/serial_raster_feed.v
 rtl/serial_shown.v
+rtl/serial_sides.v
 rtl/serial_decision.v
+rtl/serial_means.v
+rtl/serial_summary.v
 rtl/serial_array.v
 rtl/rcm.v

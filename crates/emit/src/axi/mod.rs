@@ -11,10 +11,11 @@ mod rpu_array;
 pub use registers::{FieldKind, Register, RegisterField, axi_registers};
 pub use rpu_array::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 
+use crate::leaf_files::leaf_files;
 use crate::top::AXI_TOP;
 use crate::verilog_text::{module_file, rendered_text};
 use crate::wrapped_port::WrappedPort;
-use crate::{Prefix, SourceFile, Top, banner, leaf, verilog as array};
+use crate::{Prefix, SourceFile, Top, banner, verilog as array};
 use foveate_design::{Design, Hardware, InterfaceKind, RasterDesign};
 
 /// The parts around the array in a core on AXI: the name of each part in reports, and its modules.
@@ -103,8 +104,7 @@ pub fn register_table(design: &Design) -> Option<Vec<Register>> {
 /// Returns the modules around the array: the leaves, the registers and the top.
 fn modules_around_array(design: RasterDesign<'_>) -> Vec<SourceFile> {
     let parts = AXI_PARTS.iter().flat_map(|(_, modules)| modules.iter().copied());
-    let leaves = leaf::leaves_with_parts(parts.collect(), |_, _| true)
-        .map(|leaf| module_file(leaf.name, leaf.contents.to_owned()));
+    let leaves = leaf_files(parts.collect());
     let registers = axi_registers(design);
     let own = [
         module_file(

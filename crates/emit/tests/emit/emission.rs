@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{design, pipelined_matrix, raster_matrix, serial_matrix};
+use crate::common::{design, every_design, pipelined_matrix, raster_matrix, serial_matrix};
 use foveate_design::{Design, FeatureKind, PortDirection, RasterTiming, SerialTiming};
 use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf, Prefix, SourceFile, Top, verilog};
 
@@ -60,6 +60,25 @@ fn every_leaf_says_what_it_uses_and_stands_after_it() {
             assert!(all[..index].iter().any(|earlier| earlier.name == used), "{used}");
         }
     }
+}
+
+/// A core has each of its leaves as it stands in `rtl/`, and all leaves that those instantiate.
+#[test]
+fn leaves_are_shipped_whole_and_as_they_are() {
+    let leaf_of = |file: &SourceFile| LEAVES.iter().find(|leaf| file.path == file_of(leaf.name));
+    for toml in every_design() {
+        let files = verilog(&design(&toml), Top::Rcm);
+        for (file, leaf) in files.iter().filter_map(|file| Some((file, leaf_of(file)?))) {
+            assert_eq!(file.contents, leaf.contents, "{}: {toml}", leaf.name);
+            for used in leaf.uses {
+                assert!(files.iter().any(|file| file.path == file_of(used)), "{used}: {toml}");
+            }
+        }
+    }
+}
+
+fn file_of(module: &str) -> String {
+    format!("rtl/{module}.v")
 }
 
 #[test]

@@ -7,25 +7,22 @@
 //                                          `-> buffer -> readout of active regions
 `default_nettype none
 
-// Parts that the design does not elaborate are left out, so some parameters have no use.
-// verilator lint_off UNUSEDPARAM
-
 (* keep_hierarchy = "yes" *)
 module raster_core #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
-    parameter COLUMNS = 4,           // regions in a row of regions
-    parameter ROWS = 3,              // rows of regions
-    parameter FRAME_WIDTH = 32,      // pixels of a row of the frame
-    parameter FRAME_HEIGHT = 24,     // rows of the frame
-    parameter ISOLATED = 1,          // 1: windows end at the borders of regions; 0: at those of the frame
+    parameter COLUMNS = 240,         // regions in a row of regions
+    parameter ROWS = 135,            // rows of regions
+    parameter FRAME_WIDTH = 1920,    // pixels of a row of the frame
+    parameter FRAME_HEIGHT = 1080,   // rows of the frame
+    parameter ISOLATED = 0,          // 1: windows end at the borders of regions; 0: at those of the frame
     parameter MEDIAN = 1,            // 1: pixels are denoised
     parameter FEATURES = 1,          // spatial features, 1 to 4
     parameter [7:0] KINDS = 8'd0,    // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance; counts first, mad last
     parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
-    parameter BLANKS = 1,            // 1: a region without SRS loses its reference (LAST_SENT)
+    parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
     parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
     parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
     parameter STORE = 0,             // the references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside the core
@@ -33,10 +30,10 @@ module raster_core #(
     parameter SETTLE = 11,           // clocks from the last advance of a frame to its last decision
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
     parameter SCORE_BITS = 14,       // bits of all scores of a region: the temporal count lowest, then every feature
-    parameter [32*FEATURES+31:0] ENDS = {32'd14, 32'd7},        // 32 bits per score, the first lowest: the bit behind its end in the scores
+    parameter [32*FEATURES+31:0] ENDS = 64'h0000000E_00000007,  // 32 bits per score, the first lowest: the bit behind its end in the scores
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
-    parameter REGION_BITS = 4,       // ceil(log2(COLUMNS * ROWS))
+    parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
     parameter FRAME_BITS = 8,        // bits of the number of a frame, at least 2 (FORWARD)
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
     parameter FRACTION = 0,          // fraction bits of the mean (mad)
@@ -624,7 +621,5 @@ module raster_core #(
     endgenerate
 
 endmodule
-
-// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

@@ -3,9 +3,6 @@
 // in order. The decision is on the ports one clock after judged_i, with DEEP two.
 `default_nettype none
 
-// Parts that the design does not elaborate are left out, so some parameters have no use.
-// verilator lint_off UNUSEDPARAM
-
 module raster_decision #(
     parameter FEATURES = 1,      // spatial features
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
@@ -151,7 +148,5 @@ module raster_decision #(
     endgenerate
 
 endmodule
-
-// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

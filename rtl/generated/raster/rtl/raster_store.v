@@ -3,9 +3,6 @@
 // with RANDOM at given places. A reference comes one clock after its request, with DEEP two.
 `default_nettype none
 
-// Parts that the design does not elaborate are left out, so some parameters have no use.
-// verilator lint_off UNUSEDPARAM
-
 module raster_store #(
     parameter WORD_BITS = 8,      // bits of a word
     parameter WORDS = 2073600,    // words of a frame
@@ -76,7 +73,5 @@ module raster_store #(
     endgenerate
 
 endmodule
-
-// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

@@ -6,14 +6,11 @@
 // back enters the last lane, and after as many steps as there are lanes it is in the place of the score.
 `default_nettype none
 
-// Parts that the design does not elaborate are left out, so some parameters have no use.
-// verilator lint_off UNUSEDPARAM
-
 module serial_array #(
-    parameter COLUMNS = 4,          // regions in a row of regions
-    parameter ROWS = 1,             // rows of regions
-    parameter FOLD = 4,             // number of regions of a lane, its slots
-    parameter LANES = 1,            // number of lanes that COLUMNS * ROWS regions need
+    parameter COLUMNS = 2,          // regions in a row of regions
+    parameter ROWS = 2,             // rows of regions
+    parameter FOLD = 1,             // number of regions of a lane, its slots
+    parameter LANES = 4,            // number of lanes that COLUMNS * ROWS regions need
     parameter WIDTH = 8,            // bits of a pixel, 1 to 16
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
     parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE plus twice the halo
@@ -37,11 +34,11 @@ module serial_array #(
     parameter [MEAN_FACTOR_BITS-1:0] MEAN_FACTOR = 1,  // (sum from the lane * MEAN_FACTOR) >> MEAN_SHIFT is the mean
     parameter MEAN_SHIFT = 0,       // bits of the product that are dropped
     parameter DENOISED_BASE = 64,   // address in a slot where the denoised square starts
-    parameter REFERENCE_BASE = 0,   // address in a slot where the reference starts
+    parameter REFERENCE_BASE = 64,  // address in a slot where the reference starts
     parameter WORD_BITS = 7,        // bits of an address inside a slot
-    parameter SLOT_BITS = 2,        // bits of the number of a slot, at least 1
-    parameter ADDRESS_BITS = 9,     // bits of an address in the memory of a lane: slot and word
-    parameter LANE_BITS = 1,        // bits of the number of a lane, at least 1
+    parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
+    parameter ADDRESS_BITS = 7,     // bits of an address in the memory of a lane: slot and word
+    parameter LANE_BITS = 2,        // bits of the number of a lane, at least 1
     parameter REGION_BITS = 2,      // bits of the number of a region, empty slots included
     parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
     parameter INDEX_BITS = 1,       // bits of the number of a score
@@ -50,7 +47,7 @@ module serial_array #(
     parameter SUM_BITS = 14,        // bits of the sum of a region
     parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
     parameter ACC_BITS = 11,        // bits of the accumulator, which is signed
-    parameter AUX_BITS = 2,         // bits of the second word of `mad` and `variance`, at least 2
+    parameter AUX_BITS = 1,         // bits of the second word of `mad` and `variance`, at least 2
     parameter CHAIN_BITS = 7        // bits of the word that goes around the ring of lanes
 ) (
     input  wire                                       clk_i,              // clock, rising edge
@@ -388,7 +385,5 @@ module serial_array #(
     endgenerate
 
 endmodule
-
-// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

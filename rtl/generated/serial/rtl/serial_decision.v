@@ -3,9 +3,6 @@
 // each feature. The decision comes with the last score, in the same clock.
 `default_nettype none
 
-// Parts that the design does not elaborate are left out, so some parameters have no use.
-// verilator lint_off UNUSEDPARAM
-
 module serial_decision #(
     parameter CHAIN_BITS = 7,    // bits of the words that pass
     parameter SCORE_BITS = 7,    // bits of the widest score
@@ -138,7 +135,5 @@ module serial_decision #(
     endgenerate
 
 endmodule
-
-// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Second pass of the mean absolute deviation: reads every region back once, and adds up |2^FRACTION * pixel - mean|.
+// done_o comes with the sum of a region.
+//
+// Regions wait in a queue together with their means and the bits of extra_i. One follows the other without a clock in
+// between, so the queue never holds more than two rows of regions.
+`default_nettype none
+
+module raster_pass #(
+    parameter WIDTH = 8,          // bits of a pixel
+    parameter LANES = 1,          // pixels of a word
+    parameter SIDE = 8,           // rows of a region
+    parameter SEGMENT = 8,        // words of a row of a region: SIDE / LANES
+    parameter POSITION_BITS = 6,  // ceil(log2(SIDE * SIDE))
+    parameter ROW_WORDS = 1920,   // words of a row of the frame
+    parameter PLACE_BITS = 15,    // bits of a place in the buffer
+    parameter FRACTION = 0,       // fraction bits of the mean
+    parameter MEAN_BITS = 8,      // bits of the mean
+    parameter SUM_BITS = 14,      // bits of the sum of deviations
+    parameter EXTRA_BITS = 14,    // bits of extra_i
+    parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
+    parameter DEEP = 0            // 1: the sum comes one clock later
+) (
+    input  wire                   clk_i,    // clock, rising edge
+    input  wire                   rst_i,    // synchronous reset, active high
+    input  wire                   enter_i,  // a region enters the queue
+    input  wire [  MEAN_BITS-1:0] mean_i,   // mean of that region
+    input  wire [ PLACE_BITS-1:0] start_i,  // place in the buffer of the region's first word
+    input  wire [ EXTRA_BITS-1:0] extra_i,  // bits that stay with the region
+    output wire                   read_o,   // a word is read at this edge
+    output wire [ PLACE_BITS-1:0] place_o,  // place in the buffer of the word that is read
+    input  wire [LANES*WIDTH-1:0] word_i,   // the word that was read, one clock later (DEEP: two)
+    output wire                   done_o,   // sum_o is that of a whole region
+    output wire [   SUM_BITS-1:0] sum_o,    // sum of the region's deviations
+    output wire [ EXTRA_BITS-1:0] extra_o   // extra_i of that region
+);
+
+    localparam ENTRY_BITS = MEAN_BITS + PLACE_BITS + EXTRA_BITS;
+    localparam READ_CLOCKS = 1 + DEEP;
+    localparam TERM_BITS = MEAN_BITS + $clog2(LANES);
+
+    // The queue of waiting regions.
+    wire take;
+    wire unused_queued;
+    wire oldest_valid;
+    wire [ENTRY_BITS-1:0] oldest;
+
+    raster_queue #(.WIDTH(ENTRY_BITS), .BITS(QUEUE_BITS)) u_queue (
+        .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter_i), .entry_i({extra_i, start_i, mean_i}), .take_i(take),
+        .valid_o(oldest_valid), .oldest_o(oldest), .waits_o(unused_queued)
+    );
+
+    // The region that is read back.
+    reg reading_q;
+    wire last, first;
+    reg [MEAN_BITS-1:0] mean_q;
+    reg [EXTRA_BITS-1:0] extra_q;
+
+    assign take = oldest_valid && (!reading_q || last);
+
+    always @(posedge clk_i) begin
+        reading_q <= take || (reading_q && !last);
+        if (take) begin
+            mean_q  <= oldest[MEAN_BITS-1:0];
+            extra_q <= oldest[MEAN_BITS+PLACE_BITS+:EXTRA_BITS];
+        end
+        if (rst_i) reading_q <= 1'b0;
+    end
+
+    wire [POSITION_BITS-1:0] unused_position;
+    wire unused_segment_end, unused_mean;
+    raster_walk #(
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
+        .PLACE_BITS(PLACE_BITS)
+    ) u_walk (
+        .clk_i(clk_i), .begin_i(take), .start_i(oldest[MEAN_BITS+:PLACE_BITS]), .step_i(reading_q),
+        .means_i(1'b0), .mean_o(unused_mean), .place_o(place_o), .position_o(unused_position), .first_o(first), .segment_end_o(unused_segment_end),
+        .last_o(last)
+    );
+    assign read_o = reading_q;
+
+    // The deviations, their sum over a word, and their sum over the region.
+    wire word_valid, word_first, word_last;
+    wire [MEAN_BITS-1:0] mean;
+    bit_delay #(.DEPTH(READ_CLOCKS)) u_word_valid (
+        .clk_i(clk_i), .rst_i(rst_i), .bit_i(reading_q), .bit_o(word_valid)
+    );
+    word_delay #(.WIDTH(MEAN_BITS + 2), .DEPTH(READ_CLOCKS)) u_word_mean (
+        .clk_i(clk_i), .data_i({mean_q, first, last}), .data_o({mean, word_first, word_last})
+    );
+
+    reg [LANES*MEAN_BITS-1:0] deviation_q;
+    reg [TERM_BITS-1:0] term_q;
+    reg [SUM_BITS-1:0] sum_q;
+    reg valid_q, first_q, last_q, valid_2q, first_2q, last_2q, done_q;
+    integer lane;
+    reg [LANES*MEAN_BITS-1:0] deviation;
+    reg [MEAN_BITS-1:0] scaled;
+    reg [TERM_BITS-1:0] term;
+    always @* begin
+        deviation = {LANES * MEAN_BITS{1'b0}};
+        term = {TERM_BITS{1'b0}};
+        for (lane = 0; lane < LANES; lane = lane + 1) begin
+            scaled = {{(MEAN_BITS - WIDTH) {1'b0}}, word_i[lane*WIDTH+:WIDTH]} << FRACTION;
+            deviation[lane*MEAN_BITS+:MEAN_BITS] = scaled < mean ? mean - scaled : scaled - mean;
+            term = term + {{(TERM_BITS - MEAN_BITS) {1'b0}}, deviation_q[lane*MEAN_BITS+:MEAN_BITS]};
+        end
+    end
+
+    always @(posedge clk_i) begin
+        deviation_q <= deviation;
+        term_q      <= term;
+        {valid_q, first_q, last_q}    <= {word_valid && !rst_i, word_first, word_last};
+        {valid_2q, first_2q, last_2q} <= {valid_q && !rst_i, first_q, last_q};
+        done_q <= valid_2q && last_2q && !rst_i;
+        if (valid_2q) sum_q <= (first_2q ? {SUM_BITS{1'b0}} : sum_q) + {{(SUM_BITS - TERM_BITS) {1'b0}}, term_q};
+    end
+
+    assign done_o = done_q;
+    assign sum_o = sum_q;
+    word_delay #(.WIDTH(EXTRA_BITS), .DEPTH(READ_CLOCKS + 3)) u_extra (
+        .clk_i(clk_i), .data_i(extra_q), .data_o(extra_o)
+    );
+
+endmodule
+
+`default_nettype wire
