@@ -3,7 +3,6 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_bench::BenchmarkError;
 use foveate_boards::BoardError;
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
@@ -255,17 +254,6 @@ impl From<LinkError> for CliError {
 impl From<InferenceError> for CliError {
     fn from(error: InferenceError) -> Self {
         Self::Inference(Box::new(error))
-    }
-}
-
-impl From<BenchmarkError> for CliError {
-    fn from(error: BenchmarkError) -> Self {
-        match error {
-            BenchmarkError::Cosim(error) => error.into(),
-            BenchmarkError::Design(error) => error.into(),
-            error if error.is_interrupted() => Self::Cosim(ToolError::Interrupted.into()),
-            error => Self::Usage(error.to_string()),
-        }
     }
 }
 

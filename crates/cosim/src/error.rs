@@ -2,6 +2,9 @@
 //! Errors of a co-simulation. A mismatch is a result and not an error.
 
 use foveate_design::ConfigError;
+use foveate_engine::EngineError;
+use foveate_frame::FrameError;
+use foveate_model::ModelError;
 use foveate_staging::{StagedFolder, StagingError};
 use foveate_toolchain::ToolError;
 use std::path::{Path, PathBuf};
@@ -85,6 +88,10 @@ pub enum CosimError {
     )]
     NothingToSimulate,
 
+    /// A benchmark has no frame to run.
+    #[error("no frame to run; give at least one")]
+    NoFrames,
+
     /// The array is too large for memory.
     #[error(
         "an array of {regions} regions, which take {pixels} pixels per frame, is too large to simulate; \
@@ -121,6 +128,10 @@ pub enum CosimError {
         /// The reason that the model gave.
         reason: String,
     },
+
+    /// The engine refused a frame, or its threads cannot be started.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
 
     /// The simulator ended early.
     #[error("{simulator} ended after {got} of {clocks} clocks ({status}){log}")]
@@ -178,6 +189,18 @@ impl From<ToolError> for CosimError {
             ToolError::MissingPort { top, port } => Self::NoPort { top, port },
             error => Self::Tool(error),
         }
+    }
+}
+
+impl From<FrameError> for CosimError {
+    fn from(error: FrameError) -> Self {
+        Self::Model { reason: error.to_string() }
+    }
+}
+
+impl From<ModelError> for CosimError {
+    fn from(error: ModelError) -> Self {
+        Self::Model { reason: error.to_string() }
     }
 }
 

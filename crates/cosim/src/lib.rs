@@ -7,8 +7,11 @@
 //! where the first mismatch is. A failing run leaves a folder that replays it. Everything that
 //! depends on the Verilog is made from the list of ports: the byte [`RecordLayout`] of a clock, the
 //! C++ harness and the replay bench.
-//! the replay bench.
+//!
+//! A [`Benchmark`] compares and times all levels of a design, from the functional model to the
+//! netlist.
 
+mod benchmark;
 mod bus;
 mod cells;
 mod codec;
@@ -43,6 +46,10 @@ mod vector_packer;
 mod written_core;
 
 pub use self::written_core::{CORE, WrittenCore, write_core};
+pub use benchmark::{
+    BENCHMARK_FORMAT_VERSION, Benchmark, BenchmarkLevel, BenchmarkReport, ExternalTools,
+    LevelMeasurement, LevelRow, random_frames,
+};
 pub use bus::BusJob;
 pub use cells::{cell_models, has_miswired_block_ram};
 pub use codec::RecordCodec;

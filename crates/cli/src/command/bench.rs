@@ -6,7 +6,7 @@ mod table;
 
 use std::time::Duration;
 
-use foveate_bench::{Benchmark, BenchmarkReport, ExternalTools, random_frames};
+use foveate_cosim::{Benchmark, BenchmarkReport, ExternalTools, random_frames};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_simulator::SimulatorError;

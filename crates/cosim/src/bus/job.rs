@@ -216,8 +216,7 @@ impl BusJob {
 
     fn check_frames(&self) -> Result<(), CosimError> {
         let wanted =
-            Frame::filled(self.design.width(), self.design.height(), self.design.pixel_bits(), 0)
-                .map_err(|error| CosimError::Model { reason: error.to_string() })?
+            Frame::filled(self.design.width(), self.design.height(), self.design.pixel_bits(), 0)?
                 .size_and_depth();
         match self.frames.iter().position(|frame| frame.size_and_depth() != wanted) {
             None => Ok(()),

@@ -58,7 +58,6 @@ impl FrameGenerator {
             let artist = &self.generators[(y / side * columns + x / side) as usize];
             artist.pixels[(y % side * side + x % side) as usize]
         };
-        Frame::from_fn(width, height, self.bits, pixel)
-            .map_err(|error| CosimError::Model { reason: error.to_string() })
+        Ok(Frame::from_fn(width, height, self.bits, pixel)?)
     }
 }

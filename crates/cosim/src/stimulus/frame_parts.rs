@@ -126,6 +126,6 @@ impl FramePart {
                 Frame::new(side, side, whole.pixel_bits(), stream)
             }
         };
-        part.map_err(|error| CosimError::Model { reason: error.to_string() })
+        Ok(part?)
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The report of a bench as a table: in lines as wide as the terminal, or in Markdown.
 
-use foveate_bench::{BenchmarkLevel, BenchmarkReport, LevelMeasurement, LevelRow};
+use foveate_cosim::{BenchmarkLevel, BenchmarkReport, LevelMeasurement, LevelRow};
 
 const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
 /// The number of leading headings that count per second.

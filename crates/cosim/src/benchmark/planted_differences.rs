@@ -6,17 +6,19 @@
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use foveate_cosim::{CosimLevel as Simulated, Recording, Stimulus};
 use foveate_design::{Design, DesignConfig, Preset};
 use foveate_frame::Frame;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
-use crate::report::LevelRow;
-use crate::timer::PassTimer;
-use crate::tools::ExternalTools;
-use crate::vectors::UnpackedInputs;
-use crate::{cycle_level, random_frames, rtl_level};
+use super::benchmark_report::LevelRow;
+use super::external_tools::ExternalTools;
+use super::pass_timer::PassTimer;
+use super::unpacked_inputs::UnpackedInputs;
+use super::{cycle_level, random_frames::random_frames, rtl_level};
+use crate::level::CosimLevel;
+use crate::recording::Recording;
+use crate::stimulus::Stimulus;
 
 struct ControlCase {
     design: Design,
@@ -35,7 +37,7 @@ impl ControlCase {
         let design = DesignConfig::from_toml_with(text, overrides).unwrap().validate().unwrap();
         let frames = random_frames(&design, 1, 3).unwrap();
         let stimulus = Stimulus {
-            level: Simulated::Full,
+            level: CosimLevel::Full,
             seed: 1,
             rounds: 0,
             frames: frames.clone(),

@@ -1,19 +1,54 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The benchmark, which runs one level after the other.
+//! A benchmark: the same frames run through every level of a design. The result is the cost of each
+//! level, and whether the levels agree.
+//!
+//! A [`Benchmark`] goes from whole frames down to gates. Each level runs on one thread, one after
+//! the other, and is compared with a level above it:
+//!
+//! | level | implementation | steps | comparison |
+//! | --- | --- | --- | --- |
+//! | functional, clear | `FunctionalCamera` | frames | none: it is the reference |
+//! | functional, fast | `Engine` | frames | every result of every region, with `FunctionalCamera` |
+//! | cycle | `PipelinedRcm` and others | clocks | every score and decision, with `FunctionalCamera` |
+//! | RTL | Verilator | clocks | every port at every clock, with the cycle level |
+//! | netlist | Icarus, one RPU | clocks | every port at every clock, with the cycle level |
+//!
+//! The levels with clocks take the same [`Recording`]. Each level is first compared, in a separate
+//! pass, and then timed from memory, without files, comparison or reading of outputs.
+
+mod benchmark_report;
+mod clock_rates;
+mod cycle_level;
+mod external_tools;
+mod functional_levels;
+mod netlist_level;
+mod outcome_comparison;
+mod pass_timer;
+mod peak_memory;
+#[cfg(test)]
+mod planted_differences;
+mod random_frames;
+mod rtl_level;
+mod unpacked_inputs;
+
+pub use benchmark_report::{
+    BENCHMARK_FORMAT_VERSION, BenchmarkLevel, BenchmarkReport, LevelMeasurement, LevelRow,
+};
+pub use external_tools::ExternalTools;
+pub use random_frames::random_frames;
 
 use std::time::Duration;
 
-use foveate_cosim::{CosimError, CosimLevel as Simulated, Recording, Stimulus};
 use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_toolchain::{Tool, Toolchain};
 
-use crate::error::BenchmarkError;
-use crate::report::{BenchmarkLevel, BenchmarkReport, FORMAT_VERSION, LevelRow};
-use crate::timer::PassTimer;
-use crate::tools::ExternalTools;
-use crate::vectors::UnpackedInputs;
-use crate::{cycle_level, functional_levels, netlist_level, rtl_level};
+use self::pass_timer::PassTimer;
+use self::unpacked_inputs::UnpackedInputs;
+use crate::error::CosimError;
+use crate::level::CosimLevel;
+use crate::recording::Recording;
+use crate::stimulus::Stimulus;
 
 /// The parameters of a benchmark.
 #[derive(Clone, Debug)]
@@ -40,9 +75,9 @@ impl Benchmark {
         &self,
         tools: ExternalTools<'_>,
         progress: &mut dyn FnMut(&str),
-    ) -> Result<BenchmarkReport, BenchmarkError> {
+    ) -> Result<BenchmarkReport, CosimError> {
         if self.frames.is_empty() {
-            return Err(BenchmarkError::NoFrames);
+            return Err(CosimError::NoFrames);
         }
         let Self { design, frames, .. } = self;
         let timer = PassTimer { min_time: self.min_time, cancel: tools.toolchain.cancel_flag() };
@@ -80,10 +115,10 @@ impl Benchmark {
 
     /// Records the vectors of all levels with clocks: the frames without gaps, with a pixel at
     /// every clock.
-    fn record_vectors(&self, timer: PassTimer<'_>) -> Result<Recording, BenchmarkError> {
+    fn record_vectors(&self, timer: PassTimer<'_>) -> Result<Recording, CosimError> {
         let frames = self.frames.clone();
         let stimulus = Stimulus {
-            level: Simulated::Full,
+            level: CosimLevel::Full,
             seed: self.seed,
             rounds: 0,
             frames,
@@ -95,7 +130,7 @@ impl Benchmark {
     fn make_report(&self, vectors: &UnpackedInputs, rows: Vec<LevelRow>) -> BenchmarkReport {
         let design = &self.design;
         BenchmarkReport {
-            format_version: FORMAT_VERSION,
+            format_version: BENCHMARK_FORMAT_VERSION,
             design: design.fingerprint(),
             organization: design.organization().name(),
             regions: design.regions(),
@@ -110,11 +145,11 @@ impl Benchmark {
 }
 
 /// Returns the reason why a level cannot run, if a tool that it needs is missing or too old.
-fn missing_tool(toolchain: &Toolchain, needed: &[Tool]) -> Result<Option<String>, BenchmarkError> {
+fn missing_tool(toolchain: &Toolchain, needed: &[Tool]) -> Result<Option<String>, CosimError> {
     for &tool in needed {
         match toolchain.find(tool) {
             Ok(_) => {}
-            Err(error) if error.is_interrupted() => return Err(CosimError::from(error).into()),
+            Err(error) if error.is_interrupted() => return Err(error.into()),
             Err(error) => return Ok(Some(error.to_string())),
         }
     }

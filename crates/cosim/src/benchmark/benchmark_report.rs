@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The result of a benchmark.
 
-use foveate_cosim::OutputAgreement;
+use crate::timed_run::OutputAgreement;
 use serde::Serialize;
 
 /// The version of [`BenchmarkReport`] as JSON. It changes when a field changes its meaning or is
 /// removed.
-pub const FORMAT_VERSION: u32 = 2;
+pub const BENCHMARK_FORMAT_VERSION: u32 = 2;
 
 /// A level of the design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -27,7 +27,7 @@ pub enum BenchmarkLevel {
 /// The results of all levels of one design, from top to bottom.
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchmarkReport {
-    /// The version of the format, [`FORMAT_VERSION`].
+    /// The version of the format, [`BENCHMARK_FORMAT_VERSION`].
     pub format_version: u32,
     /// The fingerprint of the design.
     pub design: String,
@@ -103,18 +103,18 @@ pub struct LevelMeasurement {
 }
 
 impl LevelMeasurement {
-    pub(crate) fn with_agreement(self, level: BenchmarkLevel, agreement: OutputAgreement) -> Self {
+    pub(super) fn with_agreement(self, level: BenchmarkLevel, agreement: OutputAgreement) -> Self {
         let OutputAgreement { compared, differing } = agreement;
         Self { compared_with: Some(level), compared, differing, ..self }
     }
 }
 
 impl LevelRow {
-    pub(crate) fn measured(level: BenchmarkLevel, name: &str, measured: LevelMeasurement) -> Self {
+    pub(super) fn measured(level: BenchmarkLevel, name: &str, measured: LevelMeasurement) -> Self {
         Self { level, name: name.to_owned(), measured: Some(measured), missing: None }
     }
 
-    pub(crate) fn not_run(level: BenchmarkLevel, name: &str, why: String) -> Self {
+    pub(super) fn not_run(level: BenchmarkLevel, name: &str, why: String) -> Self {
         Self { level, name: name.to_owned(), measured: None, missing: Some(why) }
     }
 }
@@ -128,7 +128,7 @@ impl BenchmarkReport {
 
     /// Fills in the ratios of the levels' speeds to that of the RTL. A netlist has no ratio,
     /// because one RPU is not an array.
-    pub(crate) fn fill_in_ratios(&mut self) {
+    pub(super) fn fill_in_ratios(&mut self) {
         let rtl = self.rows.iter().find(|row| row.level == BenchmarkLevel::Rtl);
         let Some(rtl) = rtl.and_then(|row| row.measured.as_ref()?.clocks_per_second) else {
             return;

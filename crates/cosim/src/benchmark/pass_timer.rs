@@ -4,28 +4,30 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::error::BenchmarkError;
+use foveate_toolchain::ToolError;
+
+use crate::error::CosimError;
 
 /// The shortest time of a measurement, and the flag that stops it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PassTimer<'a> {
-    pub(crate) min_time: Duration,
-    pub(crate) cancel: &'a AtomicBool,
+pub(super) struct PassTimer<'a> {
+    pub(super) min_time: Duration,
+    pub(super) cancel: &'a AtomicBool,
 }
 
 /// The number of passes, and their time in seconds.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PassTimes {
-    pub(crate) passes: u64,
-    pub(crate) seconds: f64,
+pub(super) struct PassTimes {
+    pub(super) passes: u64,
+    pub(super) seconds: f64,
 }
 
 impl PassTimer<'_> {
     /// Times whole passes, at least one.
-    pub(crate) fn time_passes(
+    pub(super) fn time_passes(
         self,
-        mut pass: impl FnMut() -> Result<(), BenchmarkError>,
-    ) -> Result<PassTimes, BenchmarkError> {
+        mut pass: impl FnMut() -> Result<(), CosimError>,
+    ) -> Result<PassTimes, CosimError> {
         let start = Instant::now();
         let mut passes = 0;
         loop {
@@ -40,7 +42,10 @@ impl PassTimer<'_> {
     }
 
     /// Fails if the user has stopped the benchmark.
-    pub(crate) fn check_cancelled(self) -> Result<(), BenchmarkError> {
-        if self.cancel.load(Ordering::Relaxed) { Err(BenchmarkError::Interrupted) } else { Ok(()) }
+    pub(super) fn check_cancelled(self) -> Result<(), CosimError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(ToolError::Interrupted.into());
+        }
+        Ok(())
     }
 }

@@ -3,28 +3,30 @@
 
 use std::hint::black_box;
 
-use foveate_cosim::{OutputAgreement, RecordCodec, Recording};
 use foveate_design::{Design, Organization};
 use foveate_frame::Frame;
 use foveate_model::rcm_model;
 
-use crate::clock_rates::clock_rates;
-use crate::error::BenchmarkError;
-use crate::outcome_comparison;
-use crate::peak_memory::ResidentSizeBefore;
-use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
-use crate::timer::PassTimer;
-use crate::vectors::{UnpackedInputs, compare_recording};
+use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use super::clock_rates::clock_rates;
+use super::outcome_comparison;
+use super::pass_timer::PassTimer;
+use super::peak_memory::ResidentSizeBefore;
+use super::unpacked_inputs::{UnpackedInputs, compare_recording};
+use crate::codec::RecordCodec;
+use crate::error::CosimError;
+use crate::recording::Recording;
+use crate::timed_run::OutputAgreement;
 
 /// Compares the model's decisions with the functional model and its outputs for the recorded inputs
 /// with the recording, and then times it.
-pub(crate) fn run_cycle_level(
+pub(super) fn run_cycle_level(
     design: &Design,
     frames: &[Frame],
     recording: &Recording,
     vectors: &UnpackedInputs,
     timer: PassTimer<'_>,
-) -> Result<LevelRow, BenchmarkError> {
+) -> Result<LevelRow, CosimError> {
     let decided =
         outcome_comparison::outcome_agreement(design, recording, frames, vectors.streamed_frames)?;
     let again = replay_agreement(design, recording, vectors)?;
@@ -59,7 +61,7 @@ fn replay_agreement(
     design: &Design,
     recording: &Recording,
     vectors: &UnpackedInputs,
-) -> Result<OutputAgreement, BenchmarkError> {
+) -> Result<OutputAgreement, CosimError> {
     let (mut core, mut codec) = (rcm_model(design), RecordCodec::new(design));
     let mut inputs = vectors.inputs();
     compare_recording(recording, |record| {

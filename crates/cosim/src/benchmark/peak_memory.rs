@@ -9,17 +9,17 @@ use std::fs;
 
 /// The resident size of this process before a level is made, in kilobytes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ResidentSizeBefore(Option<u64>);
+pub(super) struct ResidentSizeBefore(Option<u64>);
 
 impl ResidentSizeBefore {
-    pub(crate) fn measure() -> Self {
+    pub(super) fn measure() -> Self {
         // A system that cannot reset the peak gives no figure.
         let is_forgotten = fs::write("/proc/self/clear_refs", "5").is_ok();
         Self(if is_forgotten { status_kilobytes("VmRSS:") } else { None })
     }
 
     /// Returns the largest number of bytes that were taken since then.
-    pub(crate) fn peak_bytes(self) -> Option<u64> {
+    pub(super) fn peak_bytes(self) -> Option<u64> {
         let before = self.0?;
         Some(status_kilobytes("VmHWM:")?.saturating_sub(before).saturating_mul(1024))
     }

@@ -5,28 +5,32 @@
 use foveate_staging::ScratchFolder;
 use std::time::Instant;
 
-use foveate_cosim::{CosimJob, CosimLevel as Simulated, OutputAgreement, Simulator, Stimulus};
 use foveate_design::{ArrayStructure, Design};
 use foveate_frame::Frame;
 
-use crate::error::BenchmarkError;
-use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
-use crate::tools::{ExternalTools, RUN_TIME_LIMIT};
+use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use super::external_tools::{ExternalTools, RUN_TIME_LIMIT};
+use crate::error::CosimError;
+use crate::job::CosimJob;
+use crate::level::CosimLevel;
+use crate::simulation::Simulator;
+use crate::stimulus::Stimulus;
+use crate::timed_run::OutputAgreement;
 
 /// Returns the name of the level in reports.
-pub(crate) fn level_name(design: &Design) -> String {
+pub(super) fn level_name(design: &Design) -> String {
     format!("1 {} in Icarus", design.unit().name)
 }
 
 /// Synthesizes and simulates the netlist. Every port is compared at every clock up to the first
 /// that differs.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
-pub(crate) fn run_netlist(
+pub(super) fn run_netlist(
     design: &Design,
     frames: &[Frame],
     seed: u64,
     tools: ExternalTools<'_>,
-) -> Result<LevelRow, BenchmarkError> {
+) -> Result<LevelRow, CosimError> {
     let part = design_of_unit(design)?;
     let cut = |frame: &Frame| {
         let pixel = |x: u32, y: u32| frame.get_clamped(x.into(), y.into());
@@ -34,12 +38,11 @@ pub(crate) fn run_netlist(
     };
     let frames = frames.iter().map(cut).collect::<Result<Vec<_>, _>>()?;
     let count = frames.len() as u64;
-    let folder = ScratchFolder::new().map_err(|source| BenchmarkError::Vectors {
-        path: std::env::temp_dir().display().to_string(),
-        source,
-    })?;
+    let parent = std::env::temp_dir();
+    let folder =
+        ScratchFolder::new().map_err(CosimError::temporary("create a folder in", &parent))?;
     let stimulus =
-        Stimulus { level: Simulated::Rpu, seed, rounds: 0, frames, sufficient_clocks: None };
+        Stimulus { level: CosimLevel::Rpu, seed, rounds: 0, frames, sufficient_clocks: None };
     let mut job = CosimJob::new(&part, stimulus, &folder.path().join("replay"))?;
     job.limit = RUN_TIME_LIMIT;
     let start = Instant::now();
@@ -69,7 +72,7 @@ pub(crate) fn run_netlist(
 
 /// Returns the design for a frame of the regions of one unit, or for a smaller frame if the unit is
 /// the whole array.
-fn design_of_unit(design: &Design) -> Result<Design, BenchmarkError> {
+fn design_of_unit(design: &Design) -> Result<Design, CosimError> {
     match design.unit().array {
         ArrayStructure::RpuCopies => {
             let (side, mut config) = (design.region_size(), design.config());

@@ -4,23 +4,23 @@
 
 use std::hint::black_box;
 
-use foveate_cosim::OutputAgreement;
 use foveate_design::Design;
 use foveate_engine::{Engine, EngineOptions, InstructionSet as Instructions};
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
-use crate::error::BenchmarkError;
-use crate::peak_memory::ResidentSizeBefore;
-use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
-use crate::timer::{PassTimer, PassTimes};
+use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use super::pass_timer::{PassTimer, PassTimes};
+use super::peak_memory::ResidentSizeBefore;
+use crate::error::CosimError;
+use crate::timed_run::OutputAgreement;
 
 /// Times [`FunctionalCamera`], the reference of all comparisons.
-pub(crate) fn run_model(
+pub(super) fn run_model(
     design: &Design,
     frames: &[Frame],
     timer: PassTimer<'_>,
-) -> Result<LevelRow, BenchmarkError> {
+) -> Result<LevelRow, CosimError> {
     let before = ResidentSizeBefore::measure();
     let mut camera = FunctionalCamera::new(design);
     let time = timer.time_passes(|| {
@@ -36,11 +36,11 @@ pub(crate) fn run_model(
 
 /// Compares and times [`Engine`] on one thread. It may not skip regions that have not changed,
 /// because the same frames are repeated, and a single frame would cost nothing.
-pub(crate) fn run_engine(
+pub(super) fn run_engine(
     design: &Design,
     frames: &[Frame],
     timer: PassTimer<'_>,
-) -> Result<LevelRow, BenchmarkError> {
+) -> Result<LevelRow, CosimError> {
     let agreement = engine_agreement(design, frames, frames)?;
     let before = ResidentSizeBefore::measure();
     let options =
@@ -67,7 +67,7 @@ fn engine_agreement(
     design: &Design,
     clear: &[Frame],
     fast: &[Frame],
-) -> Result<OutputAgreement, BenchmarkError> {
+) -> Result<OutputAgreement, CosimError> {
     let (mut camera, mut engine) = (FunctionalCamera::new(design), Engine::new(design));
     let mut agreement = OutputAgreement::default();
     for (clear, fast) in clear.iter().zip(fast) {
@@ -108,7 +108,7 @@ fn frame_rates(design: &Design, frames: &[Frame], time: PassTimes) -> LevelMeasu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frames::random_frames;
+    use crate::benchmark::random_frames;
     use foveate_design::DesignConfig;
 
     #[test]

@@ -2,27 +2,29 @@
 //! The comparison of a recording with the functional model: scores, counts and decisions of every
 //! region of every frame, at whatever clock they come.
 
-use foveate_cosim::{OutputAgreement, RecordLayout, Recording};
 use foveate_design::{BeatRegion, Design, PortRole, StreamRole};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 
-use crate::error::BenchmarkError;
-use crate::vectors::{field_of_role, for_each_clock};
+use super::unpacked_inputs::{field_of_role, for_each_clock};
+use crate::error::CosimError;
+use crate::layout::RecordLayout;
+use crate::recording::Recording;
+use crate::timed_run::OutputAgreement;
 
 /// Compares a recording of `streamed` frames. The recording repeats the last of `frames` until all
 /// outputs have left.
-pub(crate) fn outcome_agreement(
+pub(super) fn outcome_agreement(
     design: &Design,
     recording: &Recording,
     frames: &[Frame],
     streamed: u64,
-) -> Result<OutputAgreement, BenchmarkError> {
+) -> Result<OutputAgreement, CosimError> {
     let last = frames.len().saturating_sub(1);
     let mut camera = FunctionalCamera::new(design);
     let mut outcomes = Vec::new();
     for number in 0..usize::try_from(streamed).expect("they were in memory") {
-        let frame = frames.get(number.min(last)).ok_or(BenchmarkError::NoFrames)?;
+        let frame = frames.get(number.min(last)).ok_or(CosimError::NoFrames)?;
         outcomes.push(camera.step(frame)?.clone());
     }
     let mut judge = OutcomeComparison::new(design, recording.outputs(), outcomes);

@@ -3,29 +3,31 @@
 
 use std::path::Path;
 
-use foveate_cosim::{
-    CosimJob, CosimLevel as Simulated, Recording, SimulationRun, Simulator, Stimulus,
-};
 use foveate_design::Design;
 use foveate_toolchain::verilator::OptimizationLevel;
 
-use crate::clock_rates::clock_rates;
-use crate::error::BenchmarkError;
-use crate::report::{BenchmarkLevel, LevelMeasurement, LevelRow};
-use crate::timer::{PassTimer, PassTimes};
-use crate::tools::{ExternalTools, RUN_TIME_LIMIT};
-use crate::vectors::UnpackedInputs;
+use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
+use super::clock_rates::clock_rates;
+use super::external_tools::{ExternalTools, RUN_TIME_LIMIT};
+use super::pass_timer::{PassTimer, PassTimes};
+use super::unpacked_inputs::UnpackedInputs;
+use crate::error::CosimError;
+use crate::job::CosimJob;
+use crate::level::CosimLevel;
+use crate::recording::Recording;
+use crate::simulation::{SimulationRun, Simulator};
+use crate::stimulus::Stimulus;
 
 /// Builds the simulation, compares every port at every clock, and then times it.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
-pub(crate) fn run_rtl(
+pub(super) fn run_rtl(
     design: &Design,
     recording: &Recording,
     vectors: &UnpackedInputs,
     tools: ExternalTools<'_>,
     timer: PassTimer<'_>,
-) -> Result<LevelRow, BenchmarkError> {
-    let stimulus = Stimulus { level: Simulated::Full, ..Stimulus::default() };
+) -> Result<LevelRow, CosimError> {
+    let stimulus = Stimulus { level: CosimLevel::Full, ..Stimulus::default() };
     let dut = CosimJob::new(design, stimulus, Path::new(""))?.dut(design);
     let run = SimulationRun {
         simulator: Simulator::Verilator,

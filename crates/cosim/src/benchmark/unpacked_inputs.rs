@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The inputs of a recording, unpacked into memory: the inputs of the models at every clock.
 
-use std::fs::File;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::Read as _;
 
-use foveate_cosim::{OutputAgreement, RecordField, RecordLayout, Recording};
 use foveate_design::{Design, PortRole};
 use foveate_model::{CoreInput, ThresholdInputs};
 
-use crate::error::BenchmarkError;
+use crate::error::CosimError;
+use crate::field::RecordField;
+use crate::layout::RecordLayout;
+use crate::recording::{Recording, open_buffered};
+use crate::timed_run::OutputAgreement;
 
 /// The inputs of every clock.
 #[derive(Debug)]
-pub(crate) struct UnpackedInputs {
+pub(super) struct UnpackedInputs {
     controls: Vec<ClockControls>,
     pixels: Vec<u16>,
     /// The pixels at the port of references, if the core has one.
@@ -21,7 +22,7 @@ pub(crate) struct UnpackedInputs {
     /// The number of pixels at the port per clock.
     width: usize,
     /// The number of frames that the core takes.
-    pub(crate) streamed_frames: u64,
+    pub(super) streamed_frames: u64,
 }
 
 /// The inputs of one clock, except its pixels.
@@ -39,7 +40,7 @@ struct ClockControls {
 }
 
 impl UnpackedInputs {
-    pub(crate) fn read(design: &Design, recording: &Recording) -> Result<Self, BenchmarkError> {
+    pub(super) fn read(design: &Design, recording: &Recording) -> Result<Self, CosimError> {
         let layout = recording.inputs();
         let pixel = field_of_role(layout, PortRole::Pixel).expect("an array takes pixels");
         let ready = field_of_role(recording.outputs(), PortRole::Ready);
@@ -66,12 +67,12 @@ impl UnpackedInputs {
         })
     }
 
-    pub(crate) fn clocks(&self) -> u64 {
+    pub(super) fn clocks(&self) -> u64 {
         self.controls.len() as u64
     }
 
     /// Returns the inputs of every clock.
-    pub(crate) fn inputs(&self) -> impl Iterator<Item = CoreInput<'_>> {
+    pub(super) fn inputs(&self) -> impl Iterator<Item = CoreInput<'_>> {
         let reference_width = if self.references.is_empty() { 0 } else { self.width };
         let pixels = self.pixels.chunks_exact(self.width.max(1));
         self.controls.iter().zip(pixels).enumerate().map(move |(clock, (control, pixels))| {
@@ -132,22 +133,22 @@ impl ClockControls {
 }
 
 /// Returns the port with a role.
-pub(crate) fn field_of_role(layout: &RecordLayout, role: PortRole) -> Option<&RecordField> {
+pub(super) fn field_of_role(layout: &RecordLayout, role: PortRole) -> Option<&RecordField> {
     layout.fields().iter().find(|field| field.port.role == role)
 }
 
 /// Calls `look` with the inputs and the expected outputs of each clock.
-pub(crate) fn for_each_clock(
+pub(super) fn for_each_clock(
     recording: &Recording,
     mut look: impl FnMut(&[u8], &[u8]),
-) -> Result<(), BenchmarkError> {
+) -> Result<(), CosimError> {
     let paths = [recording.inputs_path(), recording.expected_path()];
-    let (mut inputs, mut outputs) = (open(&paths[0])?, open(&paths[1])?);
+    let (mut inputs, mut outputs) = (open_buffered(&paths[0])?, open_buffered(&paths[1])?);
     let (mut input, mut output) =
         (recording.inputs().zero_record(), recording.outputs().zero_record());
     for _ in 0..recording.clocks() {
-        inputs.read_exact(&mut input).map_err(unreadable(&paths[0]))?;
-        outputs.read_exact(&mut output).map_err(unreadable(&paths[1]))?;
+        inputs.read_exact(&mut input).map_err(CosimError::io("read", &paths[0]))?;
+        outputs.read_exact(&mut output).map_err(CosimError::io("read", &paths[1]))?;
         look(&input, &output);
     }
     Ok(())
@@ -155,24 +156,14 @@ pub(crate) fn for_each_clock(
 
 /// Compares the outputs of a model with the recording. `step` writes the outputs of the next clock
 /// into a record.
-pub(crate) fn compare_recording(
+pub(super) fn compare_recording(
     recording: &Recording,
     mut step: impl FnMut(&mut [u8]),
-) -> Result<OutputAgreement, BenchmarkError> {
+) -> Result<OutputAgreement, CosimError> {
     let (mut got, mut agreement) = (recording.outputs().zero_record(), OutputAgreement::default());
     for_each_clock(recording, |_, expected| {
         step(&mut got);
         agreement.add(recording.outputs(), expected, &got);
     })?;
     Ok(agreement)
-}
-
-fn open(path: &Path) -> Result<BufReader<File>, BenchmarkError> {
-    let file = File::open(path).map_err(unreadable(path))?;
-    Ok(BufReader::with_capacity(1 << 18, file))
-}
-
-fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> BenchmarkError {
-    let path = path.display().to_string();
-    move |source| BenchmarkError::Vectors { path, source }
 }

@@ -3,13 +3,13 @@
 
 use foveate_design::Design;
 
-use crate::report::LevelMeasurement;
-use crate::timer::PassTimes;
-use crate::vectors::UnpackedInputs;
+use super::benchmark_report::LevelMeasurement;
+use super::pass_timer::PassTimes;
+use super::unpacked_inputs::UnpackedInputs;
 
 /// Returns the rates of a level with clocks.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
-pub(crate) fn clock_rates(
+pub(super) fn clock_rates(
     design: &Design,
     vectors: &UnpackedInputs,
     time: PassTimes,
