@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// The largest header in bytes. NumPy itself reads no longer headers of untrusted files.
+/// The largest header in bytes. NumPy, too, rejects longer headers in untrusted files.
 const HEADER_LIMIT: usize = 10_000;
 /// The largest array in bytes.
 const ARRAY_LIMIT: u64 = 1 << 31;
@@ -38,14 +38,14 @@ pub struct NpyError {
 /// Fails if the file cannot be read or is damaged, if its array is larger than 2 GiB, or if its
 /// values are not plain numbers.
 pub fn read_array(path: &Path) -> Result<NpyArray, NpyError> {
-    let wrong = |problem| NpyError { path: path.to_owned(), problem };
+    let array_error = |problem| NpyError { path: path.to_owned(), problem };
     // Opening a FIFO would wait for a writer.
-    let metadata = path.metadata().map_err(|error| wrong(error.to_string()))?;
+    let metadata = path.metadata().map_err(|error| array_error(error.to_string()))?;
     if !metadata.is_file() {
-        return Err(wrong("it is not a file".to_owned()));
+        return Err(array_error("it is not a file".to_owned()));
     }
-    let mut file = File::open(path).map_err(|error| wrong(error.to_string()))?;
-    read_from(&mut file).map_err(wrong)
+    let mut file = File::open(path).map_err(|error| array_error(error.to_string()))?;
+    read_from(&mut file).map_err(array_error)
 }
 
 fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
@@ -77,50 +77,50 @@ fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
 
 /// Returns the text of a header.
 fn read_header(file: &mut impl Read) -> Result<String, String> {
-    let ends = |error: io::Error| match error.kind() {
+    let header_error = |error: io::Error| match error.kind() {
         io::ErrorKind::UnexpectedEof => "it ends in its header".to_owned(),
         _ => error.to_string(),
     };
     let mut start = [0; 8];
-    file.read_exact(&mut start).map_err(ends)?;
+    file.read_exact(&mut start).map_err(header_error)?;
     if start[..6] != *b"\x93NUMPY" {
         return Err("it is no NumPy file; numpy.save writes one".to_owned());
     }
     let length = match start[6] {
         1 => {
             let mut length = [0; 2];
-            file.read_exact(&mut length).map_err(ends)?;
+            file.read_exact(&mut length).map_err(header_error)?;
             u32::from(u16::from_le_bytes(length))
         }
         2 | 3 => {
             let mut length = [0; 4];
-            file.read_exact(&mut length).map_err(ends)?;
+            file.read_exact(&mut length).map_err(header_error)?;
             u32::from_le_bytes(length)
         }
         other => return Err(format!("its format has version {other}; versions 1 to 3 are read")),
     };
     let length = usize::try_from(length).ok().filter(|&length| length <= HEADER_LIMIT);
     let length = length.ok_or_else(|| format!("its header is longer than {HEADER_LIMIT} bytes"))?;
-    let mut words = vec![0; length];
-    file.read_exact(&mut words).map_err(ends)?;
-    String::from_utf8(words).map_err(|_| "its header is no text".to_owned())
+    let mut text = vec![0; length];
+    file.read_exact(&mut text).map_err(header_error)?;
+    String::from_utf8(text).map_err(|_| "its header is no text".to_owned())
 }
 
-/// Parses a header to the type, whether the array is in Fortran order, and the shape.
+/// Parses a header. Returns the type, true if the array is in Fortran order, and the shape.
 fn parse_header(header: &str) -> Option<(String, bool, Vec<usize>)> {
-    let of = |key: &str| Some(header.split_once(&format!("'{key}':"))?.1.trim_start());
-    // A structured type is a list, and is rejected because of its first letter.
-    let dtype = of("descr")?;
+    let value_of = |key: &str| Some(header.split_once(&format!("'{key}':"))?.1.trim_start());
+    // A structured type is a list. Only its bracket is returned, which `value_bytes` rejects.
+    let dtype = value_of("descr")?;
     let dtype = match dtype.strip_prefix('\'') {
         Some(text) => text.split_once('\'')?.0,
         None => dtype.get(..1)?,
     };
-    let order = of("fortran_order")?;
+    let order = value_of("fortran_order")?;
     let is_fortran = order.starts_with("True");
     if !is_fortran && !order.starts_with("False") {
         return None;
     }
-    let lengths = of("shape")?.strip_prefix('(')?.split_once(')')?.0;
+    let lengths = value_of("shape")?.strip_prefix('(')?.split_once(')')?.0;
     let lengths = lengths.split(',').map(str::trim).filter(|length| !length.is_empty());
     let shape = lengths.map(|length| length.trim_end_matches('L').parse().ok());
     Some((dtype.to_owned(), is_fortran, shape.collect::<Option<_>>()?))
@@ -143,16 +143,17 @@ fn value_bytes(dtype: &str) -> Result<usize, String> {
 
 /// Converts values from Fortran order to row-major (C) order.
 fn to_row_major(bytes: &[u8], shape: &[usize], width: usize) -> Vec<u8> {
+    // In Fortran order the first axis varies fastest, so its neighbors are one value apart.
     let steps: Vec<usize> = shape
         .iter()
         .scan(1, |step, &length| Some(std::mem::replace(step, *step * length)))
         .collect();
-    let mut turned = Vec::with_capacity(bytes.len());
-    let mut place = vec![0; shape.len()];
+    let mut row_major = Vec::with_capacity(bytes.len());
+    let mut index = vec![0; shape.len()];
     for _ in 0..bytes.len() / width {
-        let at: usize = place.iter().zip(&steps).map(|(at, step)| at * step).sum();
-        turned.extend_from_slice(&bytes[at * width..][..width]);
-        for (at, &length) in place.iter_mut().zip(shape).rev() {
+        let source: usize = index.iter().zip(&steps).map(|(at, step)| at * step).sum();
+        row_major.extend_from_slice(&bytes[source * width..][..width]);
+        for (at, &length) in index.iter_mut().zip(shape).rev() {
             *at += 1;
             if *at < length {
                 break;
@@ -160,16 +161,16 @@ fn to_row_major(bytes: &[u8], shape: &[usize], width: usize) -> Vec<u8> {
             *at = 0;
         }
     }
-    turned
+    row_major
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::npy::npy_header as written;
+    use crate::npy::npy_header;
 
-    fn file(words: (&str, &str), bytes: &[u8]) -> Vec<u8> {
-        [&written(128, words.0, words.1)[..], bytes].concat()
+    fn file((descr, shape): (&str, &str), bytes: &[u8]) -> Vec<u8> {
+        [&npy_header(128, descr, shape)[..], bytes].concat()
     }
 
     #[test]
@@ -186,16 +187,16 @@ mod tests {
     }
 
     #[test]
-    fn the_first_axis_first_becomes_the_last_axis_first() {
+    fn an_array_in_fortran_order_is_read_in_row_major_order() {
         let mut bytes = file(("'|u1'", "2, 3"), &[0, 3, 1, 4, 2, 5]);
-        let words = String::from_utf8_lossy(&bytes[10..128]).replace("False,", "True, ");
-        bytes.splice(10..128, words.bytes());
+        let header = String::from_utf8_lossy(&bytes[10..128]).replace("False,", "True, ");
+        bytes.splice(10..128, header.bytes());
         assert_eq!(read_from(&mut &bytes[..]).unwrap().bytes, [0, 1, 2, 3, 4, 5]);
     }
 
     #[test]
-    fn what_is_no_array_is_refused_with_the_reason() {
-        for (bytes, says) in [
+    fn a_file_that_is_no_array_is_refused_with_the_reason() {
+        for (bytes, expected) in [
             (b"PK\x03\x04 an archive".to_vec(), "it is no NumPy file"),
             (b"\x93NUMPY\x01".to_vec(), "it ends in its header"),
             (b"\x93NUMPY\x09\x00\x01\x00 ".to_vec(), "version 9"),
@@ -209,7 +210,7 @@ mod tests {
             (file(("'<f4'", "-1,"), &[]), "not one that numpy.save writes"),
         ] {
             let problem = read_from(&mut &bytes[..]).unwrap_err();
-            assert!(problem.contains(says), "{problem} for {says}");
+            assert!(problem.contains(expected), "{problem} for {expected}");
         }
     }
 }

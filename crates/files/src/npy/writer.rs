@@ -38,6 +38,7 @@ impl NpyWriter {
     ) -> Result<Self, StagingError> {
         let file = GrowingFile::create(path)?;
         let shape = shape.iter().map(|length| format!(" {length}")).collect::<Vec<_>>().join(",");
+        // The header is measured with the largest number of frames, so that any number fits.
         let mut writer = Self {
             file,
             element,
@@ -45,8 +46,8 @@ impl NpyWriter {
             header_bytes: MIN_HEADER_BYTES,
             frames: u64::MAX,
         };
-        let least = PREFIX_BYTES + writer.words().len() + 1;
-        writer.header_bytes = least.next_multiple_of(64).max(MIN_HEADER_BYTES);
+        let needed_bytes = PREFIX_BYTES + writer.header_text().len() + 1;
+        writer.header_bytes = needed_bytes.next_multiple_of(64).max(MIN_HEADER_BYTES);
         writer.frames = 0;
         let header = writer.header();
         writer.file.append(&header);
@@ -84,12 +85,12 @@ impl NpyWriter {
     }
 
     fn header(&self) -> Vec<u8> {
-        padded_header(self.header_bytes, &self.words())
+        padded_header(self.header_bytes, &self.header_text())
     }
 
-    fn words(&self) -> String {
+    fn header_text(&self) -> String {
         let shape = format!("{},{}", self.frames, self.frame_shape);
-        words(&format!("'{}'", self.element.numpy_name()), &shape)
+        header_text(&format!("'{}'", self.element.numpy_name()), &shape)
     }
 }
 
@@ -97,16 +98,17 @@ impl NpyWriter {
 /// Python.
 #[must_use]
 pub fn npy_header(size: usize, descr: &str, shape: &str) -> Vec<u8> {
-    padded_header(size, &words(descr, shape))
+    padded_header(size, &header_text(descr, shape))
 }
 
-fn words(descr: &str, shape: &str) -> String {
+/// Returns the text of a header, which is a dictionary in Python.
+fn header_text(descr: &str, shape: &str) -> String {
     format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}")
 }
 
-fn padded_header(size: usize, words: &str) -> Vec<u8> {
+fn padded_header(size: usize, text: &str) -> Vec<u8> {
     let length = u16::try_from(size - PREFIX_BYTES).expect("a header has a few bytes");
-    let padded = format!("{words:<0$}\n", size - PREFIX_BYTES - 1);
+    let padded = format!("{text:<0$}\n", size - PREFIX_BYTES - 1);
     [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..], padded.as_bytes()].concat()
 }
 
@@ -150,8 +152,8 @@ mod tests {
         }
         writer.finish().unwrap();
         let bytes = std::fs::read(&path).unwrap();
-        let words = b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 1, 2), }  ";
-        assert!(bytes.starts_with(words), "{}", String::from_utf8_lossy(&bytes));
+        let header = b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 1, 2), }  ";
+        assert!(bytes.starts_with(header), "{}", String::from_utf8_lossy(&bytes));
         let values: Vec<u32> = bytes[128..]
             .chunks(4)
             .map(|four| u32::from_le_bytes(four.try_into().unwrap()))

@@ -43,13 +43,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fields_are_quoted_where_they_must_be() {
+    fn fields_are_quoted_only_where_necessary() {
         let records = [["name", "b"], ["a b.png", ""], ["a,\"b\".png", "c\nd"]];
         assert_eq!(csv_text(records), "name,b\na b.png,\n\"a,\"\"b\"\".png\",\"c\nd\"\n");
     }
 
     #[test]
-    fn plain_names_need_no_quotes_and_can_be_taken_back() {
+    fn escaped_names_need_no_quotes() {
         assert_eq!(escape_name("clips/a b-1_\u{fc}.png"), "clips/a b-1_\u{fc}.png");
         assert_eq!(escape_name("a,\"b\"#1 50%\n.png"), "a%2C%22b%22%231 50%25%0A.png");
         assert_eq!(csv_text([[escape_name("a,\"\r")]]), escape_name("a,\"\r") + "\n");

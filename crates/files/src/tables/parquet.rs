@@ -123,10 +123,10 @@ impl PendingColumn {
     }
 
     fn push(&mut self, value: TableValue<'_>) {
-        let there = value != TableValue::None;
+        let has_value = value != TableValue::None;
         match &mut self.definition_levels {
-            Some(levels) => levels.push(i16::from(there)),
-            None => assert!(there, "every row has a value in a column that is not optional"),
+            Some(levels) => levels.push(i16::from(has_value)),
+            None => assert!(has_value, "every row has a value in a column that is not optional"),
         }
         match (&mut self.values, value) {
             (_, TableValue::None) => {}
@@ -209,20 +209,20 @@ mod tests {
         ];
         let columns: Vec<Column> =
             (0..).zip(kinds).map(|(at, kind)| column(&format!("c{at}"), kind, true)).collect();
-        let full = [
+        let full_row = [
             TableValue::Long(-1 << 40),
             TableValue::Int(-7),
             TableValue::Real(0.5),
             TableValue::Flag(true),
             TableValue::Text("a \u{fc}"),
         ];
-        let to = tempfile::tempfile().unwrap();
-        let mut file = ParquetWriter::new(to, "rows", &columns).unwrap();
-        file.push(full);
+        let output = tempfile::tempfile().unwrap();
+        let mut file = ParquetWriter::new(output, "rows", &columns).unwrap();
+        file.push(full_row);
         file.push([TableValue::None; 5]);
         assert_eq!(file.pending_rows(), 2);
         file.write_group().unwrap();
-        file.push(full);
+        file.push(full_row);
         let reader = SerializedFileReader::new(file.finish().unwrap()).unwrap();
         assert_eq!(reader.num_row_groups(), 2);
         let text = |row: parquet::record::Row| {
@@ -236,14 +236,14 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "every row has a value")]
-    fn a_value_that_must_be_there_is() {
+    fn a_missing_value_of_a_required_column_panics() {
         let mut file =
             ParquetWriter::new(Vec::new(), "rows", &[column("a", ColumnType::Int, false)]).unwrap();
         file.push([TableValue::None]);
     }
 
     #[test]
-    fn a_full_disk_is_told_from_other_errors() {
+    fn a_full_disk_is_distinguished_from_other_errors() {
         let cause = io::Error::from(io::ErrorKind::StorageFull);
         assert_eq!(
             io_error(ParquetError::External(cause.into())).kind(),

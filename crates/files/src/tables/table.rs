@@ -46,8 +46,9 @@ impl Table {
     /// Returns the table as CSV with a line of names.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let row = |row: &Vec<TableCell>| row.iter().map(|cell| cell.value().to_string()).collect();
-        super::csv_text(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(row)))
+        let fields =
+            |row: &Vec<TableCell>| row.iter().map(|cell| cell.value().to_string()).collect();
+        super::csv_text(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(fields)))
     }
 
     /// Returns the table as Parquet, with one group of rows called `message`.
@@ -55,6 +56,7 @@ impl Table {
     /// # Errors
     /// Fails if Parquet does not allow the name of a column.
     pub fn to_parquet(&self, message: &str) -> io::Result<Vec<u8>> {
+        // The cells of the first row show the types of the columns.
         let cells = self.rows.first().into_iter().flatten();
         let columns = self.columns.iter().zip(cells).map(|(name, cell)| cell.column(name));
         let mut file = ParquetWriter::new(Vec::new(), message, &columns.collect::<Vec<_>>())?;
