@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn other_bytes_than_text_are_named_by_their_place() {
+    fn an_error_names_the_first_byte_that_is_not_text() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         std::fs::write(&path, b"abc\xFF").unwrap();

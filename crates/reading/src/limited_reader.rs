@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use crate::size_text::size_text;
 
 /// A reader that fails with [`io::ErrorKind::FileTooLarge`] if its source has more bytes than the
-/// limit. In its place, [`Read::take`] would end the document there as if it were complete.
+/// limit. [`Read::take`] would instead end the document at the limit, as if it were complete.
 #[derive(Debug)]
 pub struct LimitedReader<R> {
     source: R,
@@ -33,8 +33,8 @@ impl<R: Read> Read for LimitedReader<R> {
                 _ => Err(self.too_large()),
             };
         }
-        let most = buffer.len().min(usize::try_from(self.remaining).unwrap_or(usize::MAX));
-        let count = self.source.read(&mut buffer[..most])?;
+        let allowed = buffer.len().min(usize::try_from(self.remaining).unwrap_or(usize::MAX));
+        let count = self.source.read(&mut buffer[..allowed])?;
         self.remaining -= count as u64;
         Ok(count)
     }
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_is_no_end() {
+    fn a_source_beyond_the_limit_is_an_error_and_does_not_end_early() {
         assert_eq!(read(4, 5).unwrap(), 4);
         assert_eq!(read(5, 5).unwrap(), 5);
         assert_eq!(read(6, 5).unwrap_err().kind(), io::ErrorKind::FileTooLarge);

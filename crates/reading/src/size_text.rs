@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers of bytes as words.
+//! Formats a number of bytes with its unit.
 
 /// Returns a number of bytes in the largest binary unit that divides it, such as `1 MiB` or
 /// `1500 bytes`.
@@ -26,8 +26,8 @@ mod tests {
             (1 << 30, "1 GiB"),
             (1025, "1025 bytes"),
         ];
-        for (bytes, words) in cases {
-            assert_eq!(size_text(bytes), words);
+        for (bytes, text) in cases {
+            assert_eq!(size_text(bytes), text);
         }
     }
 }

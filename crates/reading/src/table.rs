@@ -13,8 +13,8 @@ use crate::size_text::size_text;
 /// numbers.
 pub const RECORD_LIMIT: u64 = 1 << 20;
 
-/// A CSV reader whose records have at most [`RECORD_LIMIT`] bytes, or a few more because of
-/// buffering.
+/// A CSV reader that fails at a record of more than [`RECORD_LIMIT`] bytes. It may accept a few
+/// bytes more, because it reads blocks.
 #[derive(Debug)]
 pub struct TableReader<R> {
     reader: Reader<RecordLimitReader<R>>,
@@ -23,9 +23,9 @@ pub struct TableReader<R> {
 
 /// Makes a reader of a table. Blank lines count towards the record that follows them.
 pub fn table_reader<R: Read>(builder: &ReaderBuilder, source: R) -> TableReader<R> {
-    let since = Rc::new(Cell::new(0));
-    let source = RecordLimitReader { source, since: Rc::clone(&since) };
-    TableReader { reader: builder.from_reader(source), bytes_since_record: since }
+    let bytes_since_record = Rc::new(Cell::new(0));
+    let source = RecordLimitReader { source, since: Rc::clone(&bytes_since_record) };
+    TableReader { reader: builder.from_reader(source), bytes_since_record }
 }
 
 impl<R: Read> TableReader<R> {
@@ -58,9 +58,9 @@ impl<R: Read> Iterator for TableRecords<'_, R> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let mut record = StringRecord::new();
-        let read = self.table.reader.read_record(&mut record);
+        let result = self.table.reader.read_record(&mut record);
         self.table.bytes_since_record.set(0);
-        match read {
+        match result {
             Ok(true) => Some(Ok(record)),
             Ok(false) => None,
             Err(error) => Some(Err(error)),
@@ -68,7 +68,7 @@ impl<R: Read> Iterator for TableRecords<'_, R> {
     }
 }
 
-/// Counts the bytes that were read since the last complete record.
+/// A source that counts the bytes since the last complete record, and fails beyond the limit.
 #[derive(Debug)]
 struct RecordLimitReader<R> {
     source: R,
@@ -116,6 +116,7 @@ mod tests {
     #[test]
     fn a_record_without_an_end_is_an_error() {
         let row = io::repeat(b'7');
+        // The quotation mark is never closed, so every line break is a part of the field.
         let quoted = io::repeat(b'\n');
         let blank = io::repeat(b'\n');
         let error = "a record has more than 1 MiB";
