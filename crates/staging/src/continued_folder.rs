@@ -29,7 +29,7 @@ impl ContinuedFolder {
         Ok(Self { folder: folder.to_owned(), list: list.unwrap_or_default() })
     }
 
-    /// Treats a file with these contents as one that was written.
+    /// Lists a file with these contents, as if the command had written it.
     pub fn add_expected(&mut self, name: &str, contents: &[u8]) {
         self.list.add(name.as_bytes().to_owned(), hash(contents));
     }
@@ -43,12 +43,12 @@ impl ContinuedFolder {
         &self,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Result<(), StagingError> {
-        let objection = |name: &str| {
+        let difference = |name: &str| {
             let path = self.folder.join(name);
             fs::symlink_metadata(&path).ok()?;
             self.list.difference(name.as_bytes(), &path)
         };
-        let foreign: Vec<String> = names.into_iter().filter_map(objection).collect();
+        let foreign: Vec<String> = names.into_iter().filter_map(difference).collect();
         if foreign.is_empty() {
             return Ok(());
         }
@@ -58,10 +58,10 @@ impl ContinuedFolder {
     /// Returns the names of the written files that are still there and unchanged.
     #[must_use]
     pub fn unchanged_files(&self) -> Vec<String> {
-        let is_there =
+        let is_unchanged =
             |name: &&str| self.list.has_unchanged(name.as_bytes(), &self.folder.join(name));
         let names = self.list.names().filter_map(|name| std::str::from_utf8(name).ok());
-        names.filter(|name| stays_in_folder(name)).filter(is_there).map(str::to_owned).collect()
+        names.filter(|name| stays_in_folder(name)).filter(is_unchanged).map(str::to_owned).collect()
     }
 
     /// Writes all of these files in order, and removes the files that were written before and are
@@ -121,7 +121,7 @@ impl ContinuedFolder {
     }
 }
 
-/// Returns whether a name of a list stays in its folder.
+/// Returns whether a name in a list is a path below the folder of the list.
 fn stays_in_folder(name: &str) -> bool {
     use std::path::Component;
     Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))

@@ -21,11 +21,11 @@ const MAX_LINKS: usize = 40;
 /// # Errors
 /// Fails if the folder does not exist or cannot be written.
 pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), StagingError> {
-    let place = resolve_links(path);
-    let written = match fs::metadata(&place) {
-        Ok(earlier) if earlier.is_file() => replace(&place, contents, &earlier),
-        Ok(_) => fs::write(&place, contents),
-        Err(_) => create(&place, contents),
+    let target = resolve_links(path);
+    let written = match fs::metadata(&target) {
+        Ok(previous) if previous.is_file() => replace(&target, contents, &previous),
+        Ok(_) => fs::write(&target, contents),
+        Err(_) => create(&target, contents),
     };
     written.map_err(StagingError::unwritable(path))
 }
@@ -49,55 +49,56 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Returns the target of a path after following links, even if the target does not exist yet.
 fn resolve_links(path: &Path) -> PathBuf {
-    let mut place = path.to_owned();
+    let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
-        if let Ok(whole) = place.canonicalize() {
-            return whole;
+        if let Ok(resolved) = target.canonicalize() {
+            return resolved;
         }
-        let Ok(next) = fs::read_link(&place) else { break };
-        place = folder_of(&place).join(next);
+        let Ok(next) = fs::read_link(&target) else { break };
+        target = folder_of(&target).join(next);
     }
-    place
+    target
 }
 
 /// Writes a new file, with the same permissions as files of other programs.
-fn create(place: &Path, contents: &[u8]) -> io::Result<()> {
+fn create(target: &Path, contents: &[u8]) -> io::Result<()> {
     const MODE: u32 = 0o666;
-    write_temporary_file(place, contents, MODE)?
-        .persist(place)
+    write_temporary_file(target, contents, MODE)?
+        .persist(target)
         .map(drop)
         .map_err(|error| without_path(&error.error))
 }
 
 /// Replaces an existing file and keeps its owner, mode and links. If that requires the same inode,
 /// the file is overwritten in place.
-fn replace(place: &Path, contents: &[u8], earlier: &fs::Metadata) -> io::Result<()> {
+fn replace(target: &Path, contents: &[u8], previous: &fs::Metadata) -> io::Result<()> {
     const MODE: u32 = 0o600;
-    let whole = write_temporary_file(place, contents, MODE).and_then(|beside| {
-        let keeps = keep_owner_and_mode(beside.as_file(), earlier)?;
-        Ok(keeps.then_some(beside))
+    let written = write_temporary_file(target, contents, MODE).and_then(|temporary| {
+        let is_kept = keep_owner_and_mode(temporary.as_file(), previous)?;
+        Ok(is_kept.then_some(temporary))
     });
-    match whole {
-        Ok(Some(beside)) => match beside.persist(place) {
+    match written {
+        Ok(Some(temporary)) => match temporary.persist(target) {
             Ok(_) => Ok(()),
-            Err(error) if is_refused(&error.error) => overwrite(place, contents),
+            Err(error) if is_refused(&error.error) => overwrite(target, contents),
             Err(error) => Err(without_path(&error.error)),
         },
-        Ok(None) => overwrite(place, contents),
-        Err(error) if is_refused(&error) => overwrite(place, contents),
+        Ok(None) => overwrite(target, contents),
+        Err(error) if is_refused(&error) => overwrite(target, contents),
         Err(error) => Err(error),
     }
 }
 
-/// Returns whether a folder cannot be written, which does not imply that its files cannot.
+/// Returns whether an error says that a folder cannot be written. Its files may be writable all the
+/// same.
 fn is_refused(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }
 
-/// Makes a complete file next to its place. This process locks the file, so that no other process
+/// Writes a temporary file next to `target`. This process locks the file, so that no other process
 /// removes it as a leftover.
-fn write_temporary_file(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile> {
-    let folder = folder_of(place);
+fn write_temporary_file(target: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile> {
+    let folder = folder_of(target);
     remove_leftovers_once(folder);
     let mut builder = tempfile::Builder::new();
     builder.prefix(TEMPORARY_PREFIX).rand_bytes(RANDOM_LETTERS);
@@ -105,29 +106,30 @@ fn write_temporary_file(place: &Path, contents: &[u8], mode: u32) -> io::Result<
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
     #[cfg(not(unix))]
     let _ = mode;
+    // Another process may remove the file before it is locked. Then a new one is made.
     loop {
-        let mut beside = builder.tempfile_in(folder).map_err(|error| without_path(&error))?;
+        let mut temporary = builder.tempfile_in(folder).map_err(|error| without_path(&error))?;
         // If files cannot be locked, no other process removes this file either.
-        let _ = beside.as_file().lock();
-        if is_same_file(beside.as_file(), beside.path()) {
-            beside.as_file_mut().write_all(contents)?;
-            return Ok(beside);
+        let _ = temporary.as_file().lock();
+        if is_same_file(temporary.as_file(), temporary.path()) {
+            temporary.as_file_mut().write_all(contents)?;
+            return Ok(temporary);
         }
     }
 }
 
 /// Overwrites a file in place. If the disk is full, the previous contents are restored.
-fn overwrite(place: &Path, contents: &[u8]) -> io::Result<()> {
-    let earlier = fs::read(place)?;
-    let mut file = OpenOptions::new().write(true).open(place)?;
-    let mut put = |bytes: &[u8]| {
+fn overwrite(target: &Path, contents: &[u8]) -> io::Result<()> {
+    let previous = fs::read(target)?;
+    let mut file = OpenOptions::new().write(true).open(target)?;
+    let mut write_whole = |bytes: &[u8]| {
         file.rewind()?;
         file.write_all(bytes)?;
         file.set_len(bytes.len() as u64)
     };
-    put(contents).inspect_err(|_| {
+    write_whole(contents).inspect_err(|_| {
         // The previous contents need no more room than before.
-        let _ = put(&earlier);
+        let _ = write_whole(&previous);
     })
 }
 
@@ -137,9 +139,10 @@ fn overwrite(place: &Path, contents: &[u8]) -> io::Result<()> {
 #[cfg(unix)]
 fn keep_owner_and_mode(file: &File, earlier: &fs::Metadata) -> io::Result<bool> {
     use std::os::unix::fs::{MetadataExt as _, fchown};
-    let own = file.metadata()?;
-    let is_other = |own: u32, earlier: u32| (own != earlier).then_some(earlier);
-    let (user, group) = (is_other(own.uid(), earlier.uid()), is_other(own.gid(), earlier.gid()));
+    let present = file.metadata()?;
+    let to_change = |present: u32, earlier: u32| (present != earlier).then_some(earlier);
+    let (user, group) =
+        (to_change(present.uid(), earlier.uid()), to_change(present.gid(), earlier.gid()));
     let is_kept = (user.is_none() && group.is_none()) || fchown(file, user, group).is_ok();
     // The mode is set after the owner, because a change of the owner clears some bits of the mode.
     file.set_permissions(earlier.permissions())?;
@@ -167,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn places_that_cannot_be_written_are_named_as_given() {
+    fn an_error_names_the_path_as_the_user_gave_it() {
         let folder = tempfile::tempdir().unwrap();
         let nowhere = folder.path().join("no/report.xml");
         for result in [write_file(&nowhere, b""), check_file(&nowhere)] {

@@ -111,21 +111,21 @@ pub(crate) fn write_list(folder: &Path) {
 /// Returns every file below a folder except the list itself, sorted by name.
 pub(crate) fn files_below(folder: &Path) -> io::Result<Vec<FolderFile>> {
     let mut found = Vec::new();
-    let mut open = vec![(folder.to_owned(), Vec::new())];
-    while let Some((next, place)) = open.pop() {
-        for entry in fs::read_dir(next)? {
+    let mut pending = vec![(folder.to_owned(), Vec::new())];
+    while let Some((folder_below, prefix)) = pending.pop() {
+        for entry in fs::read_dir(folder_below)? {
             let entry = entry?;
-            let mut name: Vec<u8> = place.clone();
+            let mut name: Vec<u8> = prefix.clone();
             name.extend(entry.file_name().as_encoded_bytes());
             if entry.file_type()?.is_dir() {
                 name.push(b'/');
-                open.push((entry.path(), name));
+                pending.push((entry.path(), name));
             } else if name != LIST_NAME.as_bytes() {
                 found.push(FolderFile { name, path: entry.path() });
             }
         }
     }
-    found.sort_by(|one, other| one.name.cmp(&other.name));
+    found.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(found)
 }
 
@@ -133,15 +133,15 @@ pub(crate) fn files_below(folder: &Path) -> io::Result<Vec<FolderFile>> {
 /// folders that are then empty. Returns whether nothing is left.
 pub(crate) fn remove_listed(folder: &Path) -> io::Result<bool> {
     let list = FileList::read(folder)?.unwrap_or_default();
-    let mut is_all = true;
+    let mut all_removed = true;
     for FolderFile { name, path } in files_below(folder)? {
         if list.has_unchanged(&name, &path) {
             fs::remove_file(&path)?;
         } else {
-            is_all = false;
+            all_removed = false;
         }
     }
-    if is_all {
+    if all_removed {
         match fs::remove_file(folder.join(LIST_NAME)) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => {}
@@ -150,16 +150,17 @@ pub(crate) fn remove_listed(folder: &Path) -> io::Result<bool> {
     Ok(remove_empty(folder))
 }
 
-/// Removes a folder with its subfolders if there is no file in it, even one that was just added.
+/// Removes a folder and its subfolders. A folder that holds a file stays, even if the file was
+/// added a moment ago.
 fn remove_empty(folder: &Path) -> bool {
-    let inside = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in inside.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir())) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir())) {
         remove_empty(&entry.path());
     }
     fs::remove_dir(folder).is_ok()
 }
 
-/// Returns the hash of contents.
+/// Returns the hash of contents in memory.
 pub(crate) fn hash(contents: &[u8]) -> FileHash {
     hexadecimal(&Sha256::digest(contents))
 }
@@ -191,7 +192,7 @@ fn hexadecimal(bytes: &[u8]) -> FileHash {
     bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
 }
 
-/// Returns a line in the format of `sha256sum`.
+/// Returns a line in the format of `sha256sum`. A backslash in front marks an escaped name.
 fn list_line(sum: &[u8], name: &[u8]) -> Vec<u8> {
     let escaped: Vec<u8> = name
         .iter()
@@ -238,13 +239,13 @@ fn unescaped(name: &[u8]) -> Option<Vec<u8>> {
 
 /// Returns a name as text on one line.
 fn shown_name(name: &[u8]) -> String {
-    let plain = |letter: char| {
+    let shown = |letter: char| {
         if letter.is_control() { letter.escape_default().to_string() } else { letter.to_string() }
     };
-    String::from_utf8_lossy(name).chars().map(plain).collect()
+    String::from_utf8_lossy(name).chars().map(shown).collect()
 }
 
-/// Returns the first of these names, and the number of further ones.
+/// Returns the first of these names, and the number of the remaining ones.
 pub(crate) fn first_names(names: &[String]) -> String {
     const SHOWN: usize = 3;
     let mut text = names[..names.len().min(SHOWN)].join(", ");
@@ -259,7 +260,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_name_comes_back_from_its_line() {
+    fn every_name_is_parsed_back_from_its_line() {
         let sum = hash(b"contents");
         for name in
             [&b"plain"[..], b"a/b c", b"back\\slash\nline\r", b"#hash", b"\xFF\xFE", b" two"]
@@ -286,8 +287,8 @@ mod tests {
                 .current_dir(folder)
                 .output()
         };
-        let Ok(ran) = check(dir.path()) else { return };
-        assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+        let Ok(output) = check(dir.path()) else { return };
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         fs::write(dir.path().join("empty"), "edited").unwrap();
         assert!(!check(dir.path()).unwrap().status.success());
     }

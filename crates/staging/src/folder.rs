@@ -40,19 +40,19 @@ impl StagedFolder {
     /// # Errors
     /// Fails if `target` has contents that may not be replaced, or cannot be written.
     pub fn new(target: &Path, kind: FolderKind, replace: bool) -> Result<Self, StagingError> {
-        let unnamed = || StagingError::InvalidPath { path: target.to_owned() };
-        let absolute = std::path::absolute(target).map_err(|_| unnamed())?;
-        let place = absolute.canonicalize().unwrap_or(absolute);
-        let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else {
-            return Err(unnamed());
+        let invalid_path = || StagingError::InvalidPath { path: target.to_owned() };
+        let absolute = std::path::absolute(target).map_err(|_| invalid_path())?;
+        let resolved = absolute.canonicalize().unwrap_or(absolute);
+        let (Some(parent), Some(name)) = (resolved.parent(), resolved.file_name()) else {
+            return Err(invalid_path());
         };
         // A killed run may have moved the existing folder away; it is restored first.
         remove_leftovers_once(parent);
-        check_replaceable(&place, target, kind, replace)?;
+        check_replaceable(&resolved, target, kind, replace)?;
         fs::create_dir_all(parent).map_err(StagingError::unwritable(target))?;
         let locked = LockedFolder::create(parent, &partial_prefix(name));
         let locked = locked.map_err(StagingError::unwritable(target))?;
-        Ok(Self { user_path: target.to_owned(), target: place, place: locked, kind, replace })
+        Ok(Self { user_path: target.to_owned(), target: resolved, place: locked, kind, replace })
     }
 
     /// Checks whether [`StagedFolder::new`] would accept `target`, without creating anything, so
@@ -116,11 +116,11 @@ impl StagedFolder {
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), StagingError> {
         let path = self.folder().join(name);
         let shown = self.user_path.join(name);
-        let failed = StagingError::unwritable(&shown);
+        let unwritable = StagingError::unwritable(&shown);
         if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(&failed)?;
+            fs::create_dir_all(parent).map_err(&unwritable)?;
         }
-        fs::write(&path, contents).map_err(&failed)
+        fs::write(&path, contents).map_err(&unwritable)
     }
 
     /// Moves the folder to its place.
@@ -129,34 +129,34 @@ impl StagedFolder {
     /// Fails if another folder has appeared in that place meanwhile, or if the place cannot be
     /// written.
     pub fn commit(self) -> Result<(), StagingError> {
-        let Self { user_path: given, target, place, kind, replace } = self;
+        let Self { user_path, target, place, kind, replace } = self;
         file_list::write_list(place.work());
-        let failed = StagingError::unwritable(&given);
-        let Ok(earlier_mode) = fs::metadata(&target).map(|about| about.permissions()) else {
-            return fs::rename(place.work(), &target).map_err(failed);
+        let unwritable = StagingError::unwritable(&user_path);
+        let Ok(previous_mode) = fs::metadata(&target).map(|about| about.permissions()) else {
+            return fs::rename(place.work(), &target).map_err(unwritable);
         };
-        fs::set_permissions(place.work(), earlier_mode).map_err(&failed)?;
-        // The previous folder is checked after it was moved away, where no other program writes,
-        // and is removed last, so that one of the two folders always exists.
-        let earlier = place.sibling(PREVIOUS_FOLDER);
-        fs::rename(&target, &earlier).map_err(&failed)?;
-        let put = check_replaceable(&earlier, &given, kind, replace)
-            .and_then(|()| fs::rename(place.work(), &target).map_err(&failed));
-        if let Err(error) = put {
+        fs::set_permissions(place.work(), previous_mode).map_err(&unwritable)?;
+        // The previous folder is moved away before it is checked, so that no other program writes
+        // into it meanwhile. It is removed last, so that one of the two folders always exists.
+        let previous = place.sibling(PREVIOUS_FOLDER);
+        fs::rename(&target, &previous).map_err(&unwritable)?;
+        let replaced = check_replaceable(&previous, &user_path, kind, replace)
+            .and_then(|()| fs::rename(place.work(), &target).map_err(&unwritable));
+        if let Err(error) = replaced {
             restore_previous(&place, &target);
             return Err(error);
         }
-        match file_list::remove_listed(&earlier) {
+        match file_list::remove_listed(&previous) {
             Ok(true) => Ok(()),
-            Ok(false) => Err(StagingError::FilesKept { path: given.clone(), kept: earlier }),
-            Err(source) => Err(StagingError::Unwritable { path: earlier, source }),
+            Ok(false) => Err(StagingError::FilesKept { path: user_path.clone(), kept: previous }),
+            Err(source) => Err(StagingError::Unwritable { path: previous, source }),
         }
     }
 }
 
-/// Fails if a folder may not be written. An empty folder may be written. Any other folder may be
-/// written only on request, if it is of the same kind and has no files of the user. `shown` is the
-/// path for messages.
+/// Fails if a folder may not be replaced. A missing or empty folder may always be replaced. Any
+/// other folder may be replaced only on request, if it is of the same kind and has no files of the
+/// user. `shown` is the path for messages.
 fn check_replaceable(
     folder: &Path,
     shown: &Path,
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_dropped_leaves_nothing() {
+    fn a_dropped_folder_leaves_nothing() {
         let dir = tempfile::tempdir().unwrap();
         let staged = StagedFolder::new(&dir.path().join("out"), KIND, false).unwrap();
         staged.write("file", b"1").unwrap();
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn only_its_own_kind_is_replaced_and_only_when_asked() {
+    fn only_a_folder_of_the_same_kind_is_replaced_and_only_on_request() {
         let dir = tempfile::tempdir().unwrap();
         let target = dir.path().join("out");
         fs::create_dir(&target).unwrap();
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn a_listed_folder_is_replaced_only_where_all_of_it_was_written() {
+    fn a_folder_is_replaced_only_if_every_file_in_it_is_listed() {
         let dir = tempfile::tempdir().unwrap();
         let target = dir.path().join("out");
         write_listed(&target).unwrap();
@@ -300,44 +300,44 @@ mod tests {
     fn a_forged_list_deletes_nothing_elsewhere() {
         use std::os::unix::fs::symlink;
         let dir = tempfile::tempdir().unwrap();
-        let (target, thesis) = (dir.path().join("out"), dir.path().join("thesis"));
-        fs::create_dir(&thesis).unwrap();
-        fs::write(thesis.join("text"), "thesis").unwrap();
+        let (target, elsewhere) = (dir.path().join("out"), dir.path().join("thesis"));
+        fs::create_dir(&elsewhere).unwrap();
+        fs::write(elsewhere.join("text"), "thesis").unwrap();
         let line = |name: &str| {
             format!("{}  {name}\n", String::from_utf8(file_list::hash(b"thesis")).unwrap())
         };
-        let forged = |names: &[&str]| {
+        let write_forged_list = |names: &[&str]| {
             let text: String = names.iter().map(|name| line(name)).collect();
             fs::write(target.join(".foveate"), text).unwrap();
         };
         write_listed(&target).unwrap();
-        let honest = fs::read_to_string(target.join(".foveate")).unwrap();
-        let absolute = thesis.join("text").display().to_string();
+        let true_list = fs::read_to_string(target.join(".foveate")).unwrap();
+        let absolute = elsewhere.join("text").display().to_string();
         let names = ["../thesis/text", &absolute, "link", "folder/text", "folder"];
         fs::write(
             target.join(".foveate"),
-            names.iter().map(|name| line(name)).collect::<String>() + &honest,
+            names.iter().map(|name| line(name)).collect::<String>() + &true_list,
         )
         .unwrap();
-        symlink(thesis.join("text"), target.join("link")).unwrap();
-        symlink(&thesis, target.join("folder")).unwrap();
+        symlink(elsewhere.join("text"), target.join("link")).unwrap();
+        symlink(&elsewhere, target.join("folder")).unwrap();
         let refused = write_listed(&target).unwrap_err().to_string();
         assert!(refused.contains("folder (changed), link (changed); move them"), "{refused}");
         fs::remove_file(target.join("link")).unwrap();
         fs::remove_file(target.join("folder")).unwrap();
         write_listed(&target).unwrap();
-        assert_eq!(fs::read(thesis.join("text")).unwrap(), b"thesis");
-        // The list itself is a link here.
-        forged(&["marker"]);
-        fs::rename(target.join(".foveate"), thesis.join("list")).unwrap();
-        symlink(thesis.join("list"), target.join(".foveate")).unwrap();
+        assert_eq!(fs::read(elsewhere.join("text")).unwrap(), b"thesis");
+        // In this case the list itself is a link.
+        write_forged_list(&["marker"]);
+        fs::rename(target.join(".foveate"), elsewhere.join("list")).unwrap();
+        symlink(elsewhere.join("list"), target.join(".foveate")).unwrap();
         assert!(matches!(write_listed(&target), Err(StagingError::NoList { .. })));
-        assert!(thesis.join("list").is_file());
+        assert!(elsewhere.join("list").is_file());
     }
 
     #[cfg(unix)]
     #[test]
-    fn modes_are_those_of_other_programs_and_stay() {
+    fn a_new_folder_has_the_usual_mode_and_a_replaced_one_keeps_its_mode() {
         use std::os::unix::fs::PermissionsExt as _;
         let dir = tempfile::tempdir().unwrap();
         let (target, plain) = (dir.path().join("out"), dir.path().join("plain"));
@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_name_the_folder_that_was_asked_for() {
+    fn messages_name_the_folder_that_the_user_gave() {
         let dir = tempfile::tempdir().unwrap();
         let target = dir.path().join("out");
         let staged = StagedFolder::new(&target, KIND, false).unwrap();
@@ -359,12 +359,12 @@ mod tests {
         assert_eq!(staged.shown_path(&inside), target.join("a/b"));
         assert_eq!(staged.shown_path(staged.folder()), target);
         assert_eq!(staged.shown_path(Path::new("/else")), Path::new("/else"));
-        let said = staged.with_shown_paths(&format!("no room for {}", inside.display()));
-        assert_eq!(said, format!("no room for {}", target.join("a/b").display()));
+        let message = staged.with_shown_paths(&format!("no room for {}", inside.display()));
+        assert_eq!(message, format!("no room for {}", target.join("a/b").display()));
     }
 
     #[test]
-    fn without_its_list_a_folder_stays() {
+    fn a_folder_without_its_list_is_not_replaced() {
         let dir = tempfile::tempdir().unwrap();
         let target = dir.path().join("out");
         write_listed(&target).unwrap();
@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn places_that_cannot_be_written_are_named() {
+    fn an_error_names_the_path_that_cannot_be_written() {
         let dir = tempfile::tempdir().unwrap();
         fs::write(dir.path().join("file"), "").unwrap();
         for target in ["file", "file/out"] {

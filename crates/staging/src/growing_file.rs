@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_go_out_when_they_are_many_or_asked_for_and_the_start_can_change() {
+    fn bytes_are_written_in_large_pieces_or_on_request_and_can_be_overwritten() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("file");
         let mut file = GrowingFile::create(&path).unwrap();
@@ -118,7 +118,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn what_does_not_fit_is_kept() {
+    fn bytes_that_do_not_fit_on_the_disk_are_kept() {
         let mut file = GrowingFile::create(Path::new("/dev/full")).unwrap();
         file.append(b"kept");
         let error = file.write_pending(true).unwrap_err();

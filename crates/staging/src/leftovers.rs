@@ -30,11 +30,11 @@ pub(crate) fn partial_prefix(name: &OsStr) -> OsString {
     prefix
 }
 
-/// Removes the leftovers of killed processes in `folder`. This is done once per folder, because
-/// this process leaves nothing while it lives.
+/// Removes the leftovers of killed processes in `folder`, the first time that it is called for this
+/// folder. Later calls do nothing, because this process leaves nothing behind while it lives.
 pub(crate) fn remove_leftovers_once(folder: &Path) {
-    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    let is_new = SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
+    static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let is_new = CLEANED.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
     if is_new {
         remove_leftovers(folder);
     }
@@ -47,8 +47,8 @@ fn remove_leftovers(folder: &Path) {
             Some(LeftoverKind::File) => remove_file(&path),
             Some(LeftoverKind::Scratch) => drop(LockedFolder::take_over(&path)),
             Some(LeftoverKind::Partial(target)) => {
-                if let Some(left) = LockedFolder::take_over(&path) {
-                    restore_previous(&left, &folder.join(target));
+                if let Some(leftover) = LockedFolder::take_over(&path) {
+                    restore_previous(&leftover, &folder.join(target));
                 }
             }
             None => {}
@@ -56,7 +56,7 @@ fn remove_leftovers(folder: &Path) {
     }
 }
 
-/// A kind of leftover, which follows from its name.
+/// The kind of a leftover. Its name shows the kind.
 #[derive(Debug, PartialEq)]
 enum LeftoverKind {
     File,
@@ -85,18 +85,18 @@ impl LeftoverKind {
     }
 }
 
-/// Moves a previous folder that was about to be replaced back to its place if that is free;
-/// otherwise removes the rest of it.
-pub(crate) fn restore_previous(left: &LockedFolder, target: &Path) {
-    let earlier = left.sibling(PREVIOUS_FOLDER);
-    if !earlier.is_dir() {
+/// Moves the previous folder, which was about to be replaced, back to `target` if nothing is there.
+/// Otherwise the new folder is there, and the listed files of the previous one are removed.
+pub(crate) fn restore_previous(locked: &LockedFolder, target: &Path) {
+    let previous = locked.sibling(PREVIOUS_FOLDER);
+    if !previous.is_dir() {
         return;
     }
     // Both the removal and the move may fail; the folder then stays where it is.
     if fs::symlink_metadata(target).is_ok() {
-        let _ = file_list::remove_listed(&earlier);
+        let _ = file_list::remove_listed(&previous);
     } else {
-        let _ = fs::rename(&earlier, target);
+        let _ = fs::rename(&previous, target);
     }
 }
 
@@ -126,11 +126,11 @@ mod tests {
     }
 
     #[test]
-    fn names_tell_what_was_left() {
-        let of = |name: &str| LeftoverKind::from_name(OsStr::new(name));
-        assert_eq!(of(".foveate-0123456789"), Some(LeftoverKind::File));
-        assert_eq!(of("foveate-abcdefghij"), Some(LeftoverKind::Scratch));
-        assert_eq!(of(".a-b.partial-abcdefghij"), Some(LeftoverKind::Partial("a-b".into())));
+    fn the_name_of_a_leftover_shows_its_kind() {
+        let kind = |name: &str| LeftoverKind::from_name(OsStr::new(name));
+        assert_eq!(kind(".foveate-0123456789"), Some(LeftoverKind::File));
+        assert_eq!(kind("foveate-abcdefghij"), Some(LeftoverKind::Scratch));
+        assert_eq!(kind(".a-b.partial-abcdefghij"), Some(LeftoverKind::Partial("a-b".into())));
         for name in [
             ".foveate-backup",
             ".foveate-0123456.89",
@@ -138,24 +138,24 @@ mod tests {
             ".foveate",
             "..partial-0123456789",
         ] {
-            assert_eq!(of(name), None, "{name}");
+            assert_eq!(kind(name), None, "{name}");
         }
     }
 
-    /// Makes a folder as a killed process leaves it: everything is there except the lock.
+    /// Makes a folder as a killed process leaves it, with all files but without a held lock.
     fn make_killed_leftover(parent: &Path, name: &str) -> PathBuf {
-        let left = LockedFolder::create(parent, &partial_prefix(OsStr::new(name))).unwrap();
-        fs::write(left.work().join("half"), "half").unwrap();
-        let root = left.work().parent().unwrap().to_owned();
-        let kept = parent.join("kept");
-        fs::rename(&root, &kept).unwrap();
-        drop(left);
-        fs::rename(&kept, &root).unwrap();
+        let leftover = LockedFolder::create(parent, &partial_prefix(OsStr::new(name))).unwrap();
+        fs::write(leftover.work().join("half"), "half").unwrap();
+        let root = leftover.work().parent().unwrap().to_owned();
+        let parked = parent.join("kept");
+        fs::rename(&root, &parked).unwrap();
+        drop(leftover);
+        fs::rename(&parked, &root).unwrap();
         root
     }
 
     #[test]
-    fn only_what_nobody_holds_goes() {
+    fn only_leftovers_of_ended_processes_are_removed() {
         let dir = tempfile::tempdir().unwrap();
         let parent = dir.path();
         let living = LockedFolder::create(parent, &partial_prefix(OsStr::new("out"))).unwrap();
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_on_its_way_out_comes_back() {
+    fn a_previous_folder_is_restored_unless_the_new_one_is_in_place() {
         let dir = tempfile::tempdir().unwrap();
         let root = make_killed_leftover(dir.path(), "out");
         fs::create_dir(root.join(PREVIOUS_FOLDER)).unwrap();
@@ -189,14 +189,14 @@ mod tests {
         assert_eq!(fs::read(dir.path().join("out/result")).unwrap(), b"result");
         // The new folder is in its place, so the listed files of the previous one are removed.
         let root = make_killed_leftover(dir.path(), "out");
-        let earlier = root.join(PREVIOUS_FOLDER);
-        fs::create_dir(&earlier).unwrap();
-        fs::write(earlier.join("listed"), "listed").unwrap();
-        file_list::write_list(&earlier);
-        fs::write(earlier.join("mine"), "mine").unwrap();
+        let previous = root.join(PREVIOUS_FOLDER);
+        fs::create_dir(&previous).unwrap();
+        fs::write(previous.join("listed"), "listed").unwrap();
+        file_list::write_list(&previous);
+        fs::write(previous.join("mine"), "mine").unwrap();
         remove_leftovers(dir.path());
-        assert_eq!(names(&earlier), [".foveate", "mine"]);
-        fs::remove_file(earlier.join("mine")).unwrap();
+        assert_eq!(names(&previous), [".foveate", "mine"]);
+        fs::remove_file(previous.join("mine")).unwrap();
         remove_leftovers(dir.path());
         assert_eq!(names(dir.path()), ["out"]);
     }

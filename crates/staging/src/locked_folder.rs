@@ -33,7 +33,7 @@ impl LockedFolder {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let root = builder.tempdir_in(parent).map_err(|error| without_path(&error))?;
         let mut lock = File::create_new(root.path().join(LOCK_FILE))?;
-        // This waits while another process inspects the folder. If files cannot be locked, no
+        // The call waits while another process inspects the folder. If files cannot be locked, no
         // process treats this folder as a leftover, because none gets the lock.
         let _ = lock.lock();
         lock.write_all(LOCK_TEXT)?;
@@ -56,7 +56,7 @@ impl LockedFolder {
         lock.try_lock().ok()?;
         let mut text = Vec::new();
         (&lock).take(LOCK_TEXT.len() as u64 + 1).read_to_end(&mut text).ok()?;
-        // Its holder may have removed the file between the checks and the lock.
+        // The previous process may have removed the file between the checks and the lock.
         let is_same = is_same_file(&lock, &path);
         (text == LOCK_TEXT && is_same).then(|| Self {
             root: root.to_owned(),
@@ -115,9 +115,9 @@ pub(crate) fn is_own(_: &fs::Metadata) -> bool {
 #[cfg(unix)]
 pub(crate) fn is_same_file(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
-    let place = |about: fs::Metadata| (about.dev(), about.ino());
+    let identity = |about: fs::Metadata| (about.dev(), about.ino());
     match (file.metadata(), fs::symlink_metadata(path)) {
-        (Ok(open), Ok(named)) => place(open) == place(named),
+        (Ok(open), Ok(named)) => identity(open) == identity(named),
         _ => false,
     }
 }

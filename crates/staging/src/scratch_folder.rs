@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_goes_with_its_value() {
+    fn a_scratch_folder_is_removed_with_its_value() {
         let scratch = ScratchFolder::new().unwrap();
         let path = scratch.path().to_owned();
         std::fs::write(path.join("file"), "contents").unwrap();

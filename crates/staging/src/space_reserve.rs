@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn room_is_taken_and_given_back() {
+    fn a_reserve_occupies_space_until_it_is_dropped() {
         let dir = tempfile::tempdir().unwrap();
         assert!(has_room(dir.path(), 100_000));
         assert!(!has_room(&dir.path().join("missing"), 1));
