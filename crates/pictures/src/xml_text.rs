@@ -15,8 +15,8 @@ pub(crate) fn comment_text(text: &str) -> String {
 /// Returns a whole document in which U+FFFD replaces the characters that XML cannot represent.
 /// Names of files may contain them.
 pub(crate) fn valid_document(text: String) -> String {
-    let is_wrong = |letter: char| matches!(letter, '\0'..='\x08' | '\x0B' | '\x0C' | '\x0E'..='\x1F' | '\u{fffe}' | '\u{ffff}');
-    if text.contains(is_wrong) { text.replace(is_wrong, "\u{fffd}") } else { text }
+    let is_invalid = |letter: char| matches!(letter, '\0'..='\x08' | '\x0B' | '\x0C' | '\x0E'..='\x1F' | '\u{fffe}' | '\u{ffff}');
+    if text.contains(is_invalid) { text.replace(is_invalid, "\u{fffd}") } else { text }
 }
 
 #[cfg(test)]
@@ -24,7 +24,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hyphens_end_no_comment() {
+    fn hyphens_do_not_end_a_comment() {
         assert_eq!(comment_text("a-b --no-area"), "a-b - -no-area");
         for text in ["--->", "x----->", "---", "--", "<!-- -->"] {
             assert!(!comment_text(text).contains("--"), "{text}");
@@ -32,7 +32,7 @@ mod tests {
     }
 
     #[test]
-    fn a_document_has_characters_of_xml_alone() {
+    fn a_document_has_only_characters_of_xml() {
         assert_eq!(valid_document("a\tb\r\n\u{e4}".to_owned()), "a\tb\r\n\u{e4}");
         assert_eq!(valid_document("a\0b\u{1b}[2J".to_owned()), "a\u{fffd}b\u{fffd}[2J");
     }

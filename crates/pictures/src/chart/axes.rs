@@ -48,16 +48,16 @@ pub(crate) fn draw_linear_axes<'a, DB: DrawingBackend>(
     let last = if last > 0.0 { last } else { 1.0 };
     let height = axis_top(points().map(|point| point.1));
     let mut context = line_chart_builder(chart, area).build_cartesian_2d(0.0..last, 0.0..height)?;
-    // If every value is a whole number, there are no more labels than whole numbers.
-    let whole = points().all(|(x, _)| x.fract() == 0.0).then(|| whole_labels(last));
-    draw_grid(chart, &mut context, whole.unwrap_or(MAX_LABELS), &|&x| number_label(x))?;
+    // If every horizontal value is a whole number, each whole number has at most one label.
+    let label_count = points().all(|(x, _)| x.fract() == 0.0).then(|| whole_labels(last));
+    draw_grid(chart, &mut context, label_count.unwrap_or(MAX_LABELS), &|&x| number_label(x))?;
     Ok(context)
 }
 
 /// Returns the number of labels from 0 to `last`, at most one for each whole number.
 fn whole_labels(last: f64) -> u8 {
-    let more = (1..MAX_LABELS).take_while(|&label| f64::from(label) <= last);
-    more.last().unwrap_or(0) + 1
+    let positive_labels = (1..MAX_LABELS).take_while(|&label| f64::from(label) <= last);
+    positive_labels.last().unwrap_or(0) + 1
 }
 
 /// Draws the grid with labels on it.

@@ -31,7 +31,7 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
     area: &DrawingArea<DB, Shift>,
 ) -> DrawResult<DB> {
     let number = |count: usize| f64::from(u32::try_from(count).expect("bars are few"));
-    let tops = series.iter().flat_map(|bars| {
+    let upper_ends = series.iter().flat_map(|bars| {
         bars.values.iter().copied().chain(bars.ranges.iter().map(|range| range.1))
     });
     let names: Vec<String> = groups.iter().map(|name| truncated(name, MAX_NAME_LETTERS)).collect();
@@ -42,15 +42,15 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
         (widest, tallest) = (widest.max(width), tallest.max(height));
     }
     let (width, height) = area.dim_in_pixel();
-    let room = width.saturating_sub(2 * MARGIN + AXIS_WIDTH)
+    let width_per_group = width.saturating_sub(2 * MARGIN + AXIS_WIDTH)
         / u32::try_from(names.len().max(1)).unwrap_or(u32::MAX);
-    let is_level = widest + MIN_NAME_DISTANCE <= room;
+    let is_horizontal = widest + MIN_NAME_DISTANCE <= width_per_group;
     let mut context = ChartBuilder::on(area)
         .caption(&chart.title, ("sans-serif", 20))
         .margin(MARGIN)
-        .x_label_area_size(NAME_GAP + TITLE_HEIGHT + if is_level { tallest } else { widest })
+        .x_label_area_size(NAME_GAP + TITLE_HEIGHT + if is_horizontal { tallest } else { widest })
         .y_label_area_size(AXIS_WIDTH)
-        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..axis_top(tops))?;
+        .build_cartesian_2d(0.0..number(groups.len().max(1)), 0.0..axis_top(upper_ends))?;
     context
         .configure_mesh()
         .disable_x_mesh()
@@ -62,21 +62,21 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
         .light_line_style(BACKGROUND)
         .bold_line_style(GRID)
         .draw()?;
-    let wide = 0.8 / number(series.len().max(1));
+    let bar_width = 0.8 / number(series.len().max(1));
     for (at, bars) in series.iter().enumerate() {
-        let left = |group: usize| number(group) + 0.1 + wide * number(at);
+        let left = |group: usize| number(group) + 0.1 + bar_width * number(at);
         let bar = |(group, &value): (usize, &f64)| {
-            let corners = [(left(group), 0.0), (left(group) + 0.9 * wide, value)];
+            let corners = [(left(group), 0.0), (left(group) + 0.9 * bar_width, value)];
             Rectangle::new(corners, rgb(bars.colour).filled())
         };
         context.draw_series(bars.values.iter().enumerate().map(bar))?;
         let whisker = |(group, &(from, to)): (usize, &(f64, f64))| {
-            let middle = left(group) + 0.45 * wide;
+            let middle = left(group) + 0.45 * bar_width;
             PathElement::new(vec![(middle, from), (middle, to)], INK.stroke_width(2))
         };
         context.draw_series(bars.ranges.iter().enumerate().map(whisker))?;
     }
-    let style = if is_level {
+    let style = if is_horizontal {
         style.pos(Pos::new(HPos::Center, VPos::Top))
     } else {
         // Vertical names end below their group.

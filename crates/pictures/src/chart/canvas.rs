@@ -79,14 +79,15 @@ impl DrawingBackend for ChartCanvas<'_> {
         style: &S,
         fill: bool,
     ) -> CanvasResult {
-        // A ring extends half of its line width beyond its radius.
-        let half = f64::from(style.stroke_width()) / 2.0;
+        // A ring extends half of its line width beyond its radius. The coverage of a pixel changes
+        // from 1 to 0 over the width of a pixel across the border, which smooths it.
+        let half_stroke = f64::from(style.stroke_width()) / 2.0;
         let reach = i32::try_from(radius + style.stroke_width()).unwrap_or(i32::MAX - 1) + 1;
         for (dx, dy) in (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy))) {
             let inside = f64::from(radius) - f64::from(dx).hypot(f64::from(dy));
-            let covered = 0.5 + if fill { inside } else { half - inside.abs() };
+            let coverage = 0.5 + if fill { inside } else { half_stroke - inside.abs() };
             let colour = style.color();
-            let alpha = colour.alpha * covered.clamp(0.0, 1.0);
+            let alpha = colour.alpha * coverage.clamp(0.0, 1.0);
             self.draw_pixel((x + dx, y + dy), BackendColor { alpha, ..colour })?;
         }
         Ok(())
@@ -102,13 +103,13 @@ impl DrawingBackend for ChartCanvas<'_> {
         for glyph in glyphs {
             let Some(outline) = self.font.outline_glyph(glyph) else { continue };
             let corner = outline.px_bounds().min;
-            let mut dots = Vec::new();
-            outline.draw(|dx, dy, covered| dots.push((dx, dy, covered)));
-            for (dx, dy, covered) in dots {
+            let mut covered_pixels = Vec::new();
+            outline.draw(|dx, dy, coverage| covered_pixels.push((dx, dy, coverage)));
+            for (dx, dy, coverage) in covered_pixels {
                 let (dx, dy) =
                     transform.transform(dot_position(corner.x, dx), dot_position(corner.y, dy));
                 let colour = style.color();
-                let alpha = colour.alpha * f64::from(covered.clamp(0.0, 1.0));
+                let alpha = colour.alpha * f64::from(coverage.clamp(0.0, 1.0));
                 self.draw_pixel((x + dx, y + dy), BackendColor { alpha, ..colour })?;
             }
         }
@@ -171,9 +172,9 @@ fn dot_position(corner: f32, step: u32) -> i32 {
 
 /// Returns the pixel positions between two ends in any order, limited to the `end` pixels of the
 /// canvas.
-fn clipped_range(one: i32, other: i32, end: u32) -> Range<usize> {
+fn clipped_range(a: i32, b: i32, end: u32) -> Range<usize> {
     let place = |at: i64| usize::try_from(at.clamp(0, end.into())).unwrap_or(usize::MAX);
-    place(one.min(other).into())..place(i64::from(one.max(other)) + 1)
+    place(a.min(b).into())..place(i64::from(a.max(b)) + 1)
 }
 
 /// Returns the mix of two values, in which `above` has the weight `alpha`.
@@ -191,14 +192,14 @@ mod tests {
     /// A rectangle over any edge of the canvas, with its corners in any order, equals that of the
     /// rasterizer of `plotters`.
     #[test]
-    fn a_rectangle_that_hides_what_is_below_has_all_its_pixels() {
-        let places = [-3, -1, 0, 2, 6, 7, 8, 12];
-        let pairs = || places.into_iter().flat_map(|one| places.map(|other| (one, other)));
+    fn an_opaque_rectangle_equals_that_of_the_rasterizer() {
+        let coordinates = [-3, -1, 0, 2, 6, 7, 8, 12];
+        let pairs = || coordinates.into_iter().flat_map(|a| coordinates.map(|b| (a, b)));
         for ((x0, x1), (y0, y1)) in pairs().flat_map(|x| pairs().map(move |y| (x, y))) {
-            let drawn = |by: fn(&mut ChartCanvas<'_>, BackendCoord, BackendCoord)| {
+            let pixels_of = |draw: fn(&mut ChartCanvas<'_>, BackendCoord, BackendCoord)| {
                 let mut pixels = vec![9; 3 * 7 * 8];
                 let font = FontRef::try_from_slice(dejavu::sans::regular()).unwrap();
-                by(
+                draw(
                     &mut ChartCanvas { pixels: &mut pixels, size: (7, 8), font },
                     (x0, y0),
                     (x1, y1),
@@ -206,9 +207,9 @@ mod tests {
                 pixels
             };
             let ours =
-                drawn(|page, from, to| page.draw_rect(from, to, &RED.filled(), true).unwrap());
+                pixels_of(|page, from, to| page.draw_rect(from, to, &RED.filled(), true).unwrap());
             let theirs =
-                drawn(|page, from, to| draw_rect(page, from, to, &RED.filled(), true).unwrap());
+                pixels_of(|page, from, to| draw_rect(page, from, to, &RED.filled(), true).unwrap());
             assert_eq!(ours, theirs, "{x0}..{x1}, {y0}..{y1}");
         }
     }
@@ -228,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn points_and_commas_stand_on_the_line_of_digits() {
+    fn points_and_commas_stand_on_the_baseline_of_digits() {
         for size in 11..=30 {
             let [digit, point, comma] = ["1", ".", ","].map(|text| inked_rows(text, size));
             // Half-covered rows may count for one text and not for the other.

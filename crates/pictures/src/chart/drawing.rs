@@ -85,9 +85,9 @@ fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
         let dashes = |ends: &[(f64, f64)], style| {
             DashedLineSeries::new(ends.to_vec(), 6, 4, style).into_iter()
         };
-        // Each segment is drawn separately, because a thick line drawn as a whole gets a spike
-        // across the page at a sharp corner. The gaps of a line whose points lie close together
-        // require the line as a whole.
+        // Each segment is drawn separately, because a thick line that is drawn as a whole gets a
+        // spike across the page at a sharp corner. An open line whose points lie close together is
+        // nevertheless drawn as a whole, because its segments are too short for gaps. It is thin.
         match (is_open, is_long) {
             (true, true) => context.draw_series(dashes(&line.points, colour.stroke_width(1)))?,
             (true, false) => {
@@ -116,9 +116,9 @@ fn draw_points<DB: DrawingBackend>(
     series: &[ChartSeries],
     context: &mut AxesContext<'_, DB, RangedCoordf64>,
 ) -> DrawResult<DB> {
-    for (number, points) in styled_lines(series) {
-        let dot = |&point: &(f64, f64)| Circle::new(point, 3, number.colour.filled());
-        context.draw_series(points.points.iter().map(dot))?;
+    for (style, line) in styled_lines(series) {
+        let dot = |&point: &(f64, f64)| Circle::new(point, 3, style.colour.filled());
+        context.draw_series(line.points.iter().map(dot))?;
     }
     Ok(())
 }

@@ -34,16 +34,16 @@ pub(crate) fn draw_line_names<DB: DrawingBackend>(
     lines: &[ChartSeries],
     area: &DrawingArea<DB, Shift>,
 ) -> DrawResult<DB> {
-    for ((number, line), y) in styled_lines(lines).zip(row_heights()) {
+    for ((style, line), y) in styled_lines(lines).zip(row_heights()) {
         draw_name::<DB>(&line.name, y, area)?;
         if line.look == LineLook::Target {
             target_mark((13, y)).into_iter().try_for_each(|part| area.draw(&part))?;
             continue;
         }
-        let pieces: &[(i32, i32)] = if number.is_open { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
+        let pieces: &[(i32, i32)] = if style.is_open { &[(4, 11), (16, 23)] } else { &[(4, 23)] };
         for &(from, to) in pieces {
-            let style = number.colour.stroke_width(3);
-            area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
+            let stroke = style.colour.stroke_width(3);
+            area.draw(&PathElement::new(vec![(from, y), (to, y)], stroke))?;
         }
     }
     Ok(())
@@ -53,9 +53,9 @@ pub(crate) fn draw_point_names<DB: DrawingBackend>(
     series: &[ChartSeries],
     area: &DrawingArea<DB, Shift>,
 ) -> DrawResult<DB> {
-    for ((number, points), y) in styled_lines(series).zip(row_heights()) {
-        area.draw(&Circle::new((13, y), 4, number.colour.filled()))?;
-        draw_name::<DB>(&points.name, y, area)?;
+    for ((style, line), y) in styled_lines(series).zip(row_heights()) {
+        area.draw(&Circle::new((13, y), 4, style.colour.filled()))?;
+        draw_name::<DB>(&line.name, y, area)?;
     }
     Ok(())
 }

@@ -65,17 +65,18 @@ impl PlotAxis {
             let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
             return Self { low, high, kind: AxisScale::Linear };
         }
-        let around = if low == 0.0 { 1.0 } else { low.abs() / 2.0 };
-        Self { low: low - around, high: low + around, kind: AxisScale::Linear }
+        let margin = if low == 0.0 { 1.0 } else { low.abs() / 2.0 };
+        Self { low: low - margin, high: low + margin, kind: AxisScale::Linear }
     }
 
     /// Makes an axis for errors, which are best at zero; if their range is wide, it is logarithmic
     /// above a small error.
     #[must_use]
     pub fn starting_at_zero(values: impl Iterator<Item = f64>) -> Self {
-        let mut zero = false;
+        // The values can be read only once, so the filter also notes whether one of them is zero.
+        let mut has_zero = false;
         let positive = values.filter(|&value| {
-            zero |= value == 0.0;
+            has_zero |= value == 0.0;
             value > 0.0
         });
         let Some((low, high)) = finite_range(positive) else {
@@ -86,15 +87,15 @@ impl PlotAxis {
         if high / low < LOG_RATIO_FROM_ZERO {
             return linear;
         }
-        let least = 10.0_f64.powi(-MAX_DECADES) * high;
-        if !zero && low >= least {
+        let smallest_shown = 10.0_f64.powi(-MAX_DECADES) * high;
+        if !has_zero && low >= smallest_shown {
             return Self {
                 low: round_value(low, false),
                 high: round_value(high, true),
                 kind: AxisScale::Log,
             };
         }
-        let small = 10.0_f64.powf(low.max(least).log10().floor());
+        let small = 10.0_f64.powf(low.max(smallest_shown).log10().floor());
         Self { low: 0.0, high: round_value(high, true), kind: AxisScale::LinearAtZero(small) }
     }
 
@@ -157,34 +158,37 @@ fn finite_range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 
 /// Returns a round step of about a fifth of a length.
 fn round_step(length: f64) -> f64 {
-    let ten = 10.0_f64.powf((length / 5.0).log10().floor());
-    let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|factor| factor * ten);
-    steps.into_iter().find(|step| length / step <= 5.5).unwrap_or(10.0 * ten)
+    let power_of_ten = 10.0_f64.powf((length / 5.0).log10().floor());
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|factor| factor * power_of_ten);
+    steps.into_iter().find(|step| length / step <= 5.5).unwrap_or(10.0 * power_of_ten)
 }
 
 /// Returns the nearest number of the form 1, 2 or 5 times a power of ten that is not below `value`,
 /// or not above it.
 fn round_value(value: f64, above: bool) -> f64 {
-    let ten = 10.0_f64.powf(value.log10().floor());
-    let mut all = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * ten).into_iter();
+    let power_of_ten = 10.0_f64.powf(value.log10().floor());
+    let mut candidates = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power_of_ten).into_iter();
     let slack = 1e-9 * value;
     let found = if above {
-        all.find(|nice| *nice >= value - slack)
+        candidates.find(|candidate| *candidate >= value - slack)
     } else {
-        all.rfind(|nice| *nice <= value + slack)
+        candidates.rfind(|candidate| *candidate <= value + slack)
     };
     found.unwrap_or(value)
 }
 
-/// Returns powers of ten between two numbers, and if there are few decades, also 2 and 5 times
-/// each.
+/// Returns the powers of ten between two numbers. If there are few decades, twice and five times
+/// each power are included, too. Rounding must not exclude an end, so the ends have a tolerance.
 fn round_values_between(low: f64, high: f64) -> Vec<f64> {
-    let few = (high / low).log10() < 2.4;
-    let factors: &[f64] = if few { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let has_few_decades = (high / low).log10() < 2.4;
+    let factors: &[f64] = if has_few_decades { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let first = 10.0_f64.powf((low * (1.0 + 1e-9)).log10().floor());
     let decades = (0..=20).map(|power| first * 10.0_f64.powi(power));
-    let all = decades.flat_map(|ten| factors.iter().map(move |factor| factor * ten));
-    all.filter(|value| *value >= low * (1.0 - 1e-9) && *value <= high * (1.0 + 1e-9)).collect()
+    let candidates =
+        decades.flat_map(|power_of_ten| factors.iter().map(move |factor| factor * power_of_ten));
+    candidates
+        .filter(|value| *value >= low * (1.0 - 1e-9) && *value <= high * (1.0 + 1e-9))
+        .collect()
 }
 
 #[cfg(test)]
@@ -220,8 +224,8 @@ mod tests {
     }
 
     #[test]
-    fn whatever_the_numbers_are_places_are_on_the_axis() {
-        let kinds: [&[f64]; 7] = [
+    fn positions_and_ticks_are_on_the_axis_for_any_numbers() {
+        let cases: [&[f64]; 7] = [
             &[],
             &[0.0],
             &[3.0],
@@ -230,7 +234,7 @@ mod tests {
             &[1e-300, 1e300],
             &[0.0, 1e-12],
         ];
-        for values in kinds {
+        for values in cases {
             let all = || values.iter().copied();
             for axis in [
                 PlotAxis::with_free_start(all()),
@@ -242,8 +246,11 @@ mod tests {
                     ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.position)),
                     "{values:?} {ticks:?}"
                 );
-                let places = values.iter().filter_map(|value| axis.position(*value));
-                assert!(places.into_iter().all(|place| (0.0..=1.0).contains(&place)), "{values:?}");
+                let positions = values.iter().filter_map(|value| axis.position(*value));
+                assert!(
+                    positions.into_iter().all(|position| (0.0..=1.0).contains(&position)),
+                    "{values:?}"
+                );
             }
         }
         assert_eq!(

@@ -12,8 +12,9 @@ const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chro
 #[must_use]
 pub fn chromium() -> Option<PathBuf> {
     let folders: Vec<PathBuf> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
-    let places = NAMES.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    places.into_iter().find(|place| place.is_file())
+    let candidates =
+        NAMES.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+    candidates.into_iter().find(|candidate| candidate.is_file())
 }
 
 /// The properties that a test expects of the marks of a page.
@@ -25,8 +26,8 @@ pub struct ExpectedMark {
     pub links: usize,
 }
 
-/// Returns the findings of `probe.js` on a page in a window of this width, which must be at least
-/// 500.
+/// Returns the findings of `probe.js` on a page in a window of this width. The width must be at
+/// least 500.
 ///
 /// # Panics
 /// Panics if Chromium does not run or prints nothing.

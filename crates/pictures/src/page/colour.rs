@@ -21,15 +21,15 @@ pub fn group_look(group: usize) -> (String, &'static str) {
 #[must_use]
 pub fn colour_variables(style: &ChartStyle) -> String {
     let mut text = String::new();
-    let mut say = |name: &str, [red, green, blue]: Colour| {
+    let mut add_variable = |name: &str, [red, green, blue]: Colour| {
         let _ = write!(text, "--{name}:#{red:02x}{green:02x}{blue:02x};");
     };
-    say("card", style.background);
-    say("ink", style.ink);
-    say("quiet", style.secondary);
-    say("grid", style.grid);
+    add_variable("card", style.background);
+    add_variable("ink", style.ink);
+    add_variable("quiet", style.secondary);
+    add_variable("grid", style.grid);
     for (number, colour) in style.series.into_iter().chain([style.further_series]).enumerate() {
-        say(&format!("k{number}"), colour);
+        add_variable(&format!("k{number}"), colour);
     }
     text
 }
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_beyond_those_that_can_be_told_apart_are_grey() {
+    fn groups_without_a_look_of_their_own_are_grey() {
         let looks = [0, COLOUR_COUNT, 2 * COLOUR_COUNT, 99].map(group_look);
         assert_eq!(looks.each_ref().map(|(class, _)| class.as_str()), ["k0", "k0", "k7", "k7"]);
         assert_eq!(looks.map(|(_, shape)| shape), ["dot", "box", "dot", "dot"]);

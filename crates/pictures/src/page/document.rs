@@ -79,8 +79,8 @@ impl ResultPage<'_> {
     /// Fails if the page cannot be rendered.
     pub fn render(&self) -> Result<String, PageError> {
         let (light, dark) = (colour_variables(&LIGHT), colour_variables(&DARK));
-        let whole = PageTemplate { page: self, light, dark };
-        whole
+        let template = PageTemplate { page: self, light, dark };
+        template
             .render()
             .map(xml_text::valid_document)
             .map_err(|error| PageError { page: self.title.to_owned(), problem: error.to_string() })

@@ -20,9 +20,9 @@ pub fn percent(share: f64) -> String {
     match value.abs() {
         _ if !value.is_finite() => MISSING.to_owned(),
         0.0 => "0".to_owned(),
-        size if size < 0.0005 => "<0.001".to_owned(),
-        size if size < 0.9995 => format!("{value:.3}"),
-        size if size < 9.995 => format!("{value:.2}"),
+        magnitude if magnitude < 0.0005 => "<0.001".to_owned(),
+        magnitude if magnitude < 0.9995 => format!("{value:.3}"),
+        magnitude if magnitude < 9.995 => format!("{value:.2}"),
         _ => format!("{value:.1}"),
     }
 }
@@ -44,11 +44,11 @@ pub fn real_number(value: f64, digits: usize) -> String {
 /// Formats the number at a tick: short, with k, M or G.
 #[must_use]
 pub fn tick_label(value: f64) -> String {
-    let size = value.abs();
-    let (value, unit) = match size {
-        _ if size >= 1e9 => (value / 1e9, " G"),
-        _ if size >= 1e6 => (value / 1e6, " M"),
-        _ if size >= 1e3 => (value / 1e3, " k"),
+    let magnitude = value.abs();
+    let (value, unit) = match magnitude {
+        _ if magnitude >= 1e9 => (value / 1e9, " G"),
+        _ if magnitude >= 1e6 => (value / 1e6, " M"),
+        _ if magnitude >= 1e3 => (value / 1e3, " k"),
         _ => (value, ""),
     };
     let text = format!("{value:.6}");

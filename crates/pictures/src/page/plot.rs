@@ -78,7 +78,7 @@ pub struct PlotMark {
     pub x: String,
     /// The vertical coordinate in the picture.
     pub y: String,
-    /// True if the mark is large.
+    /// True if the mark is on a front, and so is large.
     pub front: bool,
     /// The factor of its size, which makes marks of one position rings around each other.
     pub scale: Option<String>,
@@ -149,40 +149,43 @@ pub fn coordinate_text(value: f64) -> String {
     format!("{value:.1}")
 }
 
-/// Makes marks of one position that look different into rings around each other; the last one is in
-/// front. `size` is the size of marks as a share of the usual one.
+/// Makes marks at the same position into rings around each other if they look different. The last
+/// mark is in front. `size` is the size of marks as a share of the usual one.
 pub fn nest_marks(marks: &mut [PlotMark], size: f64) {
-    let place = |mark: &PlotMark| (mark.x.clone(), mark.y.clone());
-    let drawn = |mark: &PlotMark| (mark.class.clone(), mark.shape);
-    // The looks at a position are listed from the front.
-    let mut at: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    let position = |mark: &PlotMark| (mark.x.clone(), mark.y.clone());
+    let look = |mark: &PlotMark| (mark.class.clone(), mark.shape);
+    // The looks at a position are in order from the front one to the rear one.
+    let mut looks_by_position: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for mark in marks.iter().rev() {
-        let looks = at.entry(place(mark)).or_default();
-        if !looks.contains(&drawn(mark)) {
-            looks.push(drawn(mark));
+        let looks = looks_by_position.entry(position(mark)).or_default();
+        if !looks.contains(&look(mark)) {
+            looks.push(look(mark));
         }
     }
     for mark in marks {
-        let looks = &at[&place(mark)];
-        let above = looks.iter().position(|other| *other == drawn(mark));
-        let above = above.expect("every mark was looked at");
-        let above = u8::try_from(above).unwrap_or(u8::MAX);
-        let scale = size * (1.0 + f64::from(above) / 2.0);
-        mark.scale = (above > 0 || size < 1.0).then(|| coordinate_text(scale));
+        let looks = &looks_by_position[&position(mark)];
+        let looks_in_front = looks.iter().position(|other| *other == look(mark));
+        let looks_in_front = looks_in_front.expect("every mark was looked at");
+        let looks_in_front = u8::try_from(looks_in_front).unwrap_or(u8::MAX);
+        let scale = size * (1.0 + f64::from(looks_in_front) / 2.0);
+        mark.scale = (looks_in_front > 0 || size < 1.0).then(|| coordinate_text(scale));
     }
 }
 
 /// Returns the ticks whose labels do not overlap; the first one is always included.
-fn spaced_ticks(ticks: impl Iterator<Item = (f64, AxisTick)>, least: f64) -> Vec<AxisPosition> {
-    let mut found = Vec::new();
+fn spaced_ticks(
+    ticks: impl Iterator<Item = (f64, AxisTick)>,
+    min_distance: f64,
+) -> Vec<AxisPosition> {
+    let mut spaced = Vec::new();
     let mut last = f64::NEG_INFINITY;
     for (at, tick) in ticks {
-        if last == f64::NEG_INFINITY || (at - last).abs() >= least {
+        if last == f64::NEG_INFINITY || (at - last).abs() >= min_distance {
             last = at;
-            found.push(AxisPosition { at: coordinate_text(at), label: tick.label });
+            spaced.push(AxisPosition { at: coordinate_text(at), label: tick.label });
         }
     }
-    found
+    spaced
 }
 
 /// Returns the path of a line through points.
@@ -196,12 +199,12 @@ pub fn line_path(places: &[(f64, f64)]) -> String {
 }
 
 /// Returns the border of the area that a front dominates: from each point along the cost axis to
-/// the cost of the next, then to its error. `left` says that the best costs are on the left, and
-/// `low` that the best errors are below.
+/// the cost of the next, then to its error. `left` is true if the best costs are on the left, and
+/// `low` is true if the best errors are at the bottom.
 #[must_use]
 pub fn front_path(places: &[(f64, f64)], left: bool, low: bool) -> String {
     let mut places = places.to_vec();
-    places.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.total_cmp(&one.1)));
+    places.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
     if !left {
         places.reverse();
     }
@@ -219,7 +222,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_front_is_steps_from_the_best_cost() {
+    fn a_front_is_drawn_as_steps_from_the_best_cost() {
         let places = [(100.0, 200.0), (300.0, 300.0), (200.0, 250.0)];
         assert_eq!(
             front_path(&places, true, true),
@@ -231,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_that_would_be_hidden_are_rings() {
+    fn marks_that_would_hide_each_other_are_rings() {
         let mark = |x: &str, class: &str| PlotMark {
             id: String::new(),
             x: x.to_owned(),
@@ -259,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_do_not_touch() {
+    fn ticks_whose_labels_would_touch_are_left_out() {
         let tick = |at: f64| (at, AxisTick { position: 0.0, label: at.to_string() });
         let ticks = spaced_ticks([10.0, 20.0, 70.0].map(tick).into_iter(), 46.0);
         let labels: Vec<&str> = ticks.iter().map(|tick| tick.label.as_str()).collect();

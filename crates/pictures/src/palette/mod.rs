@@ -72,28 +72,32 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_can_be_told_apart_with_any_colour_vision() {
+    fn colours_are_distinguishable_with_any_colour_vision() {
         for (vision, style) in VISIONS.into_iter().flat_map(|v| [(v, LIGHT), (v, DARK)]) {
             for (index, &first) in style.series.iter().enumerate() {
                 for &second in &style.series[..index] {
-                    let seen = distance(first, second, vision);
-                    assert!(seen > 30.0, "{first:?} {second:?}: {seen}");
+                    let difference = distance(first, second, vision);
+                    assert!(difference > 30.0, "{first:?} {second:?}: {difference}");
                 }
-                let seen = distance(first, style.background, vision);
-                assert!(seen > 60.0, "{first:?} is lost on {:?}: {seen}", style.background);
+                let difference = distance(first, style.background, vision);
+                assert!(
+                    difference > 60.0,
+                    "{first:?} is lost on {:?}: {difference}",
+                    style.background
+                );
             }
         }
     }
 
     #[test]
-    fn a_series_has_one_colour_on_every_ground() {
+    fn a_series_has_one_colour_on_every_background() {
         for (light, dark) in LIGHT.series.into_iter().zip(DARK.series) {
             assert!(light == dark || (light, dark) == ([0; 3], [255; 3]), "{light:?} {dark:?}");
         }
     }
 
     #[test]
-    fn meanings_come_last() {
+    fn colours_with_a_meaning_come_last() {
         let first = |colour| SERIES.iter().position(|&other| other == colour);
         assert!([ACTIVE, RELEVANT, CHANGED].into_iter().all(|colour| first(colour) >= Some(4)));
     }

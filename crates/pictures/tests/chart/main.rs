@@ -35,13 +35,13 @@ fn a_line_shows_through_an_open_one_on_it() {
     let layers = [(1.0, 6.5), (2.0, 7.6), (3.0, 8.7), (4.0, 9.8)];
     let frames: Vec<(f64, f64)> = (0..600).map(|at| (f64::from(at), f64::from(at % 7))).collect();
     for points in [&layers[..], &frames[..]] {
-        let of = |look| {
+        let chart_with_look = |look| {
             chart(ChartData::Lines(vec![
                 line("needed", points, LineLook::Plain),
                 line("passed on", points, look),
             ]))
         };
-        let (covered, open) = (of(LineLook::Plain), of(LineLook::Open));
+        let (covered, open) = (chart_with_look(LineLook::Plain), chart_with_look(LineLook::Open));
         // Even where lines overlap, at least a fifth of each is visible.
         for colour in [SERIES[0], SERIES[1]] {
             let alone = count_pixels(
@@ -86,7 +86,7 @@ fn the_target_is_in_front_and_unlike_any_line() {
 }
 
 #[test]
-fn axes_of_whole_numbers_count_whole_numbers() {
+fn an_axis_of_whole_numbers_has_whole_labels() {
     for last in 1..=60 {
         let points: Vec<(f64, f64)> = (1..=last).map(|x| (f64::from(x), 1.0)).collect();
         let drawn = chart(ChartData::Lines(vec![line("layers", &points, LineLook::Plain)]));
@@ -130,14 +130,14 @@ fn bars(groups: &[&str]) -> (Chart, u32) {
 }
 
 #[test]
-fn bars_take_the_page_that_their_names_leave() {
+fn bars_are_as_high_as_the_names_below_them_allow() {
     let (_, highest) = bars(&["still (n = 4)", "slow (n = 229)", "fast (n = 16)"]);
     assert!(highest > 400, "{highest} of 560 rows");
     let short: Vec<String> = (0..30).map(|number| format!("c{number}")).collect();
     let long: Vec<String> =
         (0..30).map(|number| format!("a clip of the street {number}")).collect();
-    let of = |names: &[String]| bars(&names.iter().map(String::as_str).collect::<Vec<_>>());
-    let ((upright, shorter), (_, longer)) = (of(&short), of(&long));
+    let bars_of = |names: &[String]| bars(&names.iter().map(String::as_str).collect::<Vec<_>>());
+    let ((upright, shorter), (_, longer)) = (bars_of(&short), bars_of(&long));
     // Many names are vertical, and take as much room as the longest needs.
     assert!(highest > shorter - 10 && shorter > longer + 60, "{highest}, {shorter}, {longer}");
     assert!(longer > 260, "{longer}");
