@@ -57,18 +57,19 @@ impl Canvas {
         inside: impl Fn(i64, i64) -> bool,
     ) {
         let (columns, rows) = self.pixel_ranges(bounds);
-        let full = OPAQUE * 16;
+        let full_weight = OPAQUE * 16;
         for y in rows {
             for x in columns.clone() {
                 let covered = self.covered_samples(x, y, bounds, &inside);
                 if covered == 0 {
                     continue;
                 }
-                let weight = (opacity * covered).min(full);
+                let weight = (opacity * covered).min(full_weight);
                 let index = y as usize * self.width as usize + x as usize;
                 if let Some(pixel) = self.pixels.get_mut(index) {
-                    let sum = u32::from(*pixel) * (full - weight) + u32::from(shade) * weight;
-                    *pixel = u16::try_from(sum / full).expect("a mean of two shades");
+                    let sum =
+                        u32::from(*pixel) * (full_weight - weight) + u32::from(shade) * weight;
+                    *pixel = u16::try_from(sum / full_weight).expect("a mean of two shades");
                 }
             }
         }
@@ -100,8 +101,8 @@ impl Canvas {
     }
 
     fn pixel_ranges(&self, bounds: ShapeBounds) -> (std::ops::Range<u32>, std::ops::Range<u32>) {
-        let whole = UNITS_HIGH * UNIT;
-        let pixel = |parts: i64| parts * i64::from(self.height) / whole;
+        let parts_high = UNITS_HIGH * UNIT;
+        let pixel = |parts: i64| parts * i64::from(self.height) / parts_high;
         let clamp = |pixel: i64, max: u32| {
             u32::try_from(pixel.clamp(0, i64::from(max)))
                 .expect("between 0 and the side of a canvas")
@@ -157,7 +158,7 @@ impl ShapePainter<'_> {
     }
 
     /// Paints a convex polygon that reflects daylight. Its corners are in parts of units from the
-    /// origin, in either direction of rotation.
+    /// origin, in clockwise or counterclockwise order.
     pub(crate) fn polygon(&mut self, corners: &[(i64, i64)], shade: u32) {
         let shade = self.reflected_shade(shade);
         self.fill_polygon(corners, shade, OPAQUE);
@@ -195,10 +196,12 @@ impl ShapePainter<'_> {
         let next = corners.iter().cycle().skip(1);
         let sides: Vec<_> = corners.iter().zip(next).collect();
         self.canvas.fill(bounds, shade, opacity, |u, v| {
-            let turn = |(a, b): &(&(i64, i64), &(i64, i64))| {
+            // A point is inside if it lies on the same side of every edge.
+            let cross_product = |(a, b): &(&(i64, i64), &(i64, i64))| {
                 (b.0 - a.0) * (v - a.1) - (b.1 - a.1) * (u - a.0)
             };
-            sides.iter().all(|side| turn(side) >= 0) || sides.iter().all(|side| turn(side) <= 0)
+            sides.iter().all(|side| cross_product(side) >= 0)
+                || sides.iter().all(|side| cross_product(side) <= 0)
         });
     }
 

@@ -3,7 +3,7 @@
 
 use crate::{Scene, SceneParameters, noise};
 
-/// Number of frames between two switchings of the light.
+/// Number of frames from one switch of the light to the next.
 const LIGHT_PERIOD: u32 = 8;
 
 /// Returns the pixel at (`x`, `y`) of frame `t`. The street scenes are made elsewhere, so their
@@ -39,18 +39,18 @@ fn checks(high: u32, x: u32, y: u32) -> u32 {
 fn hot_pixels(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
-    let turn = column + 3 * row + t;
-    let corner = ((n - 1) * (turn & 1), (n - 1) * (turn >> 1 & 1));
+    let step = column + 3 * row + t;
+    let corner = ((n - 1) * (step & 1), (n - 1) * (step >> 1 & 1));
     if (x % n, y % n) == corner {
-        return size.pixel_max() * (turn >> 2 & 1);
+        return size.pixel_max() * (step >> 2 & 1);
     }
     size.pixel_max() / 2
 }
 
 /// Returns a pixel of a ramp along x, along y or along the diagonal, or of a step, one for each
 /// region, starting from 0. The slope grows by one level from region to region and from frame to
-/// frame. So for any threshold some region meets it exactly, one is a level below it and one a
-/// level above.
+/// frame. So for any threshold there are a region that meets it exactly, a region one level below
+/// it, and a region one level above it.
 fn ramps(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
@@ -66,29 +66,29 @@ fn ramps(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
 }
 
 /// Returns a pixel of a region whose first pixels are one level above the others. Their number
-/// makes the mean end in one half at some number of fraction bits. In the following frames it is
-/// one pixel less, then one more.
+/// makes the mean end in one half at some number of fraction bits. In the next frame their number
+/// is one less than that, and in the frame after it one more.
 fn half_means(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
     let pixels = n * n;
     let halvings = 1 + (column + row) % pixels.ilog2();
     let half = pixels >> halvings;
-    let above = match t % 3 {
+    let raised = match t % 3 {
         0 => half,
         1 => half.saturating_sub(1),
         _ => half + 1,
     };
     let base = noise::pick(0x4A1F, column, row, 0, size.pixel_max());
-    base + u32::from((y % n) * n + x % n < above)
+    base + u32::from((y % n) * n + x % n < raised)
 }
 
-/// Returns a pixel of checks of half contrast under a light that rises and falls by one level per
-/// frame.
+/// Returns a pixel of a checkerboard of half contrast under a light that rises and falls by one
+/// level per frame.
 fn fade(max: u32, t: u32, x: u32, y: u32) -> u32 {
-    let reach = max - max / 2;
-    let phase = t % (2 * reach);
-    checks(max / 2, x, y) + phase.min(2 * reach - phase)
+    let amplitude = max - max / 2;
+    let phase = t % (2 * amplitude);
+    checks(max / 2, x, y) + phase.min(2 * amplitude - phase)
 }
 
 /// Returns a pixel of a frame of a quarter of the largest level with one bright pixel, which moves
@@ -110,7 +110,7 @@ fn bouncing_position(t: u32, side: u32) -> u32 {
     phase.min(2 * (side - 1) - phase)
 }
 
-/// Returns a pixel of static checks. In the last frame every second region is inverted.
+/// Returns a pixel of a static checkerboard. In the last frame every second region is inverted.
 fn late_change(size: &SceneParameters, t: u32, x: u32, y: u32) -> u32 {
     let still = checks(size.pixel_max(), x, y);
     let changed = (x / size.region_size + y / size.region_size).is_multiple_of(2);

@@ -97,7 +97,7 @@ impl Scene {
     /// Returns an error if there is no scene of that name. The message names the most similar scene
     /// and lists all.
     pub fn find(name: &str) -> Result<Self, SceneError> {
-        /// A name below this similarity would only confuse.
+        /// The least similarity of a name that is suggested. Less similar names would only confuse.
         const SIMILAR: f64 = 0.7;
         if let Some(&scene) = Self::ALL.iter().find(|scene| scene.name() == name) {
             return Ok(scene);

@@ -45,35 +45,35 @@ impl Street {
 }
 
 fn paint_backdrop(canvas: &mut Canvas, mood: TimeOfDay) {
-    let wide = canvas.parts_wide() / UNIT + 1;
+    let canvas_width = canvas.parts_wide() / UNIT + 1;
     let mut pen = ShapePainter { canvas, origin: (0, 0), facing: 1, light: mood.light() };
     for step in 0..GROUND / 4 {
         let shade = u32::try_from(196 + step).expect("a shade");
         // Each band overlaps the next one, so that no seam is visible.
-        pen.rect(0, 4 * step, wide, 4 * step + 8, shade);
+        pen.rect(0, 4 * step, canvas_width, 4 * step + 8, shade);
     }
-    weather::sky(&mut pen, wide, mood);
-    buildings::paint(&mut pen, wide, mood);
-    paint_road(&mut pen, wide);
-    weather::lamps(&mut pen, wide, mood);
+    weather::sky(&mut pen, canvas_width, mood);
+    buildings::paint(&mut pen, canvas_width, mood);
+    paint_road(&mut pen, canvas_width);
+    weather::lamps(&mut pen, canvas_width, mood);
 }
 
-fn paint_road(pen: &mut ShapePainter<'_>, wide: i64) {
+fn paint_road(pen: &mut ShapePainter<'_>, canvas_width: i64) {
     let (top, bottom) = ROAD;
-    pen.rect(0, GROUND, wide, top, 172);
-    pen.rect(0, top - 3, wide, top + 1, 206);
+    pen.rect(0, GROUND, canvas_width, top, 172);
+    pen.rect(0, top - 3, canvas_width, top + 1, 206);
     for row in top..bottom {
         let shade = u32::try_from(78 + (row - top) / 4).expect("a shade");
-        pen.rect(0, row, wide, row + 2, shade);
+        pen.rect(0, row, canvas_width, row + 2, shade);
     }
     for lane in [163, 184] {
-        for dash in 0..=wide / 30 {
+        for dash in 0..=canvas_width / 30 {
             pen.rect(30 * dash + 6, lane, 30 * dash + 22, lane + 2, 226);
         }
     }
-    pen.rect(0, bottom, wide, bottom + 4, 206);
-    pen.rect(0, bottom + 3, wide, 225, 164);
-    for slab in 0..=wide / 20 {
+    pen.rect(0, bottom, canvas_width, bottom + 4, 206);
+    pen.rect(0, bottom + 3, canvas_width, 225, 164);
+    for slab in 0..=canvas_width / 20 {
         pen.rect(20 * slab + 11, bottom + 3, 20 * slab + 12, 224, 140);
     }
 }

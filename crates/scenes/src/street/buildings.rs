@@ -8,10 +8,10 @@ use crate::noise::pick;
 
 const SEED: u64 = 0xB01D;
 
-pub(super) fn paint(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
+pub(super) fn paint(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay) {
     let mut left = -14;
     let mut number = 0;
-    while left < wide {
+    while left < canvas_width {
         if number % 4 == 3 {
             tree(pen, left + 9, number);
             left += 18;
@@ -31,8 +31,9 @@ struct House {
 }
 
 impl House {
-    fn choose(&self, what: u32, bound: u32) -> u32 {
-        pick(SEED, self.number, what, 1, bound)
+    /// Returns a random number below `bound` for one property of this house.
+    fn choose(&self, property: u32, bound: u32) -> u32 {
+        pick(SEED, self.number, property, 1, bound)
     }
 
     fn floors(&self) -> i64 {
@@ -56,25 +57,26 @@ impl House {
     }
 
     fn roof(&self, pen: &mut ShapePainter<'_>, top: i64, wall: u32) {
-        let dark = wall / 2 + 6;
+        let roof_shade = wall / 2 + 6;
         let (left, right) = (self.left, self.right);
         if self.choose(3, 3) == 0 {
-            pen.rect(left + 6, top - 5, left + 18, top, dark + 24);
+            pen.rect(left + 6, top - 5, left + 18, top, roof_shade + 24);
             return;
         }
         let height = 8 + i64::from(self.choose(4, 8));
-        pen.rect(right - 13, top - height - 2, right - 8, top, dark + 20);
+        pen.rect(right - 13, top - height - 2, right - 8, top, roof_shade + 20);
         let corners = [
             (left * UNIT, top * UNIT),
             (right * UNIT, top * UNIT),
             ((right - 9) * UNIT, (top - height) * UNIT),
             ((left + 9) * UNIT, (top - height) * UNIT),
         ];
-        pen.polygon(&corners, dark);
+        pen.polygon(&corners, roof_shade);
     }
 
     /// Paints a window, or a door in some places of the ground floor.
     fn window(&self, pen: &mut ShapePainter<'_>, x: i64, y: i64, wall: u32) {
+        // The place identifies the window, so that its random properties are the same every time.
         let place = x.rem_euclid(1 << 20) * 512 + y.rem_euclid(512);
         let place = u32::try_from(place).expect("29 bits");
         let bottom = y + 9;
@@ -84,8 +86,8 @@ impl House {
             return;
         }
         pen.rect(x - 1, y - 1, x + 7, bottom + 1, (wall + 52).min(244));
-        let lit = self.mood == TimeOfDay::Night && self.choose(place, 5) < 2;
-        if lit {
+        let is_lit = self.mood == TimeOfDay::Night && self.choose(place, 5) < 2;
+        if is_lit {
             let shade = 150 + 30 * self.choose(place + 1, 3);
             pen.glow_rect([x, y, x + 6, bottom], shade, OPAQUE);
         } else {

@@ -39,21 +39,23 @@ pub(super) fn paint(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
 
 impl TrafficLane {
     fn paint(&self, canvas: &mut Canvas, mood: TimeOfDay, t: u32, number: u32) {
-        let wide = canvas.parts_wide();
+        let canvas_width = canvas.parts_wide();
         let spacing = self.spacing * UNIT;
         let shift = self.start * UNIT + self.facing * self.speed * i64::from(t);
         let first = (-REACH * UNIT - shift).div_euclid(spacing);
-        let last = (wide + REACH * UNIT - shift).div_euclid(spacing);
+        let last = (canvas_width + REACH * UNIT - shift).div_euclid(spacing);
+        // Only cars that are at least partly on the canvas are painted.
         for car in first..=last {
             let origin = (shift + car * spacing, self.ground * UNIT);
-            let which = u32::try_from(car.rem_euclid(1 << 20)).expect("20 bits");
+            let car_number = u32::try_from(car.rem_euclid(1 << 20)).expect("20 bits");
             let mut pen = ShapePainter { canvas, origin, facing: self.facing, light: mood.light() };
-            let paint = [218, 44, 160, 232, 92][pick(0xCA2, number, which, 0, 5) as usize];
-            let spin = i64::from(t) * self.speed / UNIT;
+            let body_shade =
+                [218, 44, 160, 232, 92][pick(0xCA2, number, car_number, 0, 5) as usize];
+            let distance = i64::from(t) * self.speed / UNIT;
             if self.has_vans {
-                van(&mut pen, paint, spin);
+                van(&mut pen, body_shade, distance);
             } else {
-                car_body(&mut pen, paint, spin);
+                car_body(&mut pen, body_shade, distance);
             }
             if mood == TimeOfDay::Night {
                 headlights(&mut pen);
@@ -68,30 +70,30 @@ fn points<const COUNT: usize>(corners: [(i64, i64); COUNT]) -> [(i64, i64); COUN
 }
 
 /// Paints a car of 50 units that drives to the right. Its wheels touch the road at y = 0.
-fn car_body(pen: &mut ShapePainter<'_>, paint: u32, spin: i64) {
+fn car_body(pen: &mut ShapePainter<'_>, body_shade: u32, distance: i64) {
     shadow(pen, 50);
-    pen.polygon(&points([(9, -12), (37, -12), (31, -20), (15, -20)]), paint);
+    pen.polygon(&points([(9, -12), (37, -12), (31, -20), (15, -20)]), body_shade);
     pen.polygon(&points([(12, -12), (22, -12), (22, -18), (16, -18)]), 50);
     pen.polygon(&points([(24, -12), (34, -12), (30, -18), (24, -18)]), 66);
-    pen.polygon(&points([(0, -4), (0, -11), (3, -13), (38, -13), (48, -10), (50, -4)]), paint);
-    pen.rect(0, -5, 50, -3, paint / 2 + 12);
-    pen.rect(23, -12, 24, -5, paint * 3 / 4);
+    pen.polygon(&points([(0, -4), (0, -11), (3, -13), (38, -13), (48, -10), (50, -4)]), body_shade);
+    pen.rect(0, -5, 50, -3, body_shade / 2 + 12);
+    pen.rect(23, -12, 24, -5, body_shade * 3 / 4);
     lights(pen, 50, -9);
-    wheel(pen, 10, 5, spin);
-    wheel(pen, 40, 5, spin);
+    wheel(pen, 10, 5, distance);
+    wheel(pen, 40, 5, distance);
 }
 
 /// Paints a van of 58 units that drives to the right.
-fn van(pen: &mut ShapePainter<'_>, paint: u32, spin: i64) {
+fn van(pen: &mut ShapePainter<'_>, body_shade: u32, distance: i64) {
     shadow(pen, 58);
-    pen.polygon(&points([(0, -4), (0, -25), (44, -25), (44, -4)]), paint);
-    pen.polygon(&points([(43, -4), (43, -25), (49, -24), (56, -13), (58, -4)]), paint);
+    pen.polygon(&points([(0, -4), (0, -25), (44, -25), (44, -4)]), body_shade);
+    pen.polygon(&points([(43, -4), (43, -25), (49, -24), (56, -13), (58, -4)]), body_shade);
     pen.polygon(&points([(45, -13), (45, -22), (49, -22), (54, -13)]), 56);
-    pen.rect(4, -19, 38, -13, if paint > 128 { paint - 70 } else { paint + 70 });
-    pen.rect(0, -5, 58, -3, paint / 2 + 12);
+    pen.rect(4, -19, 38, -13, if body_shade > 128 { body_shade - 70 } else { body_shade + 70 });
+    pen.rect(0, -5, 58, -3, body_shade / 2 + 12);
     lights(pen, 58, -10);
-    wheel(pen, 11, 5, spin);
-    wheel(pen, 46, 5, spin);
+    wheel(pen, 11, 5, distance);
+    wheel(pen, 46, 5, distance);
 }
 
 fn shadow(pen: &mut ShapePainter<'_>, length: i64) {
@@ -103,11 +105,11 @@ fn lights(pen: &mut ShapePainter<'_>, length: i64, y: i64) {
     pen.glow_rect([0, y - 1, 2, y + 2], 120, OPAQUE);
 }
 
-/// Paints a wheel whose hub turns with the distance that the car has driven.
-fn wheel(pen: &mut ShapePainter<'_>, x: i64, radius: i64, spin: i64) {
+/// Paints a wheel whose hub turns with the `distance` that the car has driven, in units.
+fn wheel(pen: &mut ShapePainter<'_>, x: i64, radius: i64, distance: i64) {
     pen.disc(x, -radius + 1, radius * UNIT, 24);
     pen.disc(x, -radius + 1, (radius - 2) * UNIT, 176);
-    let upright = spin / 4 % 2 == 0;
+    let upright = distance / 4 % 2 == 0;
     let (dx, dy) = if upright { (0, 2) } else { (2, 0) };
     pen.rect(x - dx, -radius + 1 - dy, x + dx + 1, -radius + 2 + dy, 92);
 }
@@ -122,10 +124,10 @@ fn headlights(pen: &mut ShapePainter<'_>) {
 /// Paints the pedestrians on the pavement in front, one every 380 units.
 fn pedestrians(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
     const SPACING: i64 = 380 * UNIT;
-    let wide = canvas.parts_wide();
+    let canvas_width = canvas.parts_wide();
     let shift = 58 * UNIT + 44 * i64::from(t);
     let first = (-20 * UNIT - shift).div_euclid(SPACING);
-    let last = (wide + 20 * UNIT - shift).div_euclid(SPACING);
+    let last = (canvas_width + 20 * UNIT - shift).div_euclid(SPACING);
     for person in first..=last {
         let origin = (shift + person * SPACING, 220 * UNIT);
         let mut pen = ShapePainter { canvas, origin, facing: 1, light: mood.light() };
@@ -133,10 +135,11 @@ fn pedestrians(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
     }
 }
 
-/// Paints a pedestrian of 36 units whose legs and arms swing with the distance walked.
-fn pedestrian(pen: &mut ShapePainter<'_>, way: i64) {
+/// Paints a pedestrian of 36 units whose legs and arms swing with the `distance` that was walked,
+/// in parts of units.
+fn pedestrian(pen: &mut ShapePainter<'_>, distance: i64) {
     const STRIDE: i64 = 12 * UNIT;
-    let phase = way.rem_euclid(2 * STRIDE);
+    let phase = distance.rem_euclid(2 * STRIDE);
     let swing = phase.min(2 * STRIDE - phase) - STRIDE / 2;
     let leg = |foot: i64| {
         [(-2 * UNIT, -17 * UNIT), (2 * UNIT, -17 * UNIT), (foot + 2 * UNIT, 0), (foot - UNIT, 0)]

@@ -8,10 +8,10 @@ use crate::noise::pick;
 
 const SEED: u64 = 0x3EA7;
 
-pub(super) fn sky(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
+pub(super) fn sky(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay) {
     match mood {
         TimeOfDay::Day => {
-            for cloud in 0..=wide / 90 {
+            for cloud in 0..=canvas_width / 90 {
                 let number = u32::try_from(cloud).expect("few clouds");
                 let x = 90 * cloud + i64::from(pick(SEED, number, 0, 0, 50));
                 let y = 14 + i64::from(pick(SEED, number, 1, 0, 18));
@@ -21,7 +21,7 @@ pub(super) fn sky(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
             }
         }
         TimeOfDay::Night => {
-            for star in 0..=wide / 9 {
+            for star in 0..=canvas_width / 9 {
                 let number = u32::try_from(star).expect("few stars");
                 let x = 9 * star + i64::from(pick(SEED, number, 2, 0, 9));
                 let y = i64::from(pick(SEED, number, 3, 0, 60));
@@ -32,8 +32,8 @@ pub(super) fn sky(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
 }
 
 /// Paints the street lamps on the far pavement.
-pub(super) fn lamps(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
-    for lamp in 0..=wide / 112 {
+pub(super) fn lamps(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay) {
+    for lamp in 0..=canvas_width / 112 {
         let x = 112 * lamp + 66;
         pen.rect(x, GROUND - 62, x + 2, GROUND + 10, 46);
         pen.rect(x - 9, GROUND - 63, x + 2, GROUND - 61, 46);
@@ -50,20 +50,21 @@ pub(super) fn lamps(pen: &mut ShapePainter<'_>, wide: i64, mood: TimeOfDay) {
 /// Paints the streaks of rain. Each falls at its own speed, and the wind slants them.
 pub(super) fn rain(canvas: &mut Canvas, t: u32) {
     const LENGTH: i64 = 13;
-    let wide = canvas.parts_wide() / UNIT + 1;
-    let fall = (UNITS_HIGH + 2 * LENGTH) * UNIT;
-    for drop in 0..=wide / 2 {
+    let canvas_width = canvas.parts_wide() / UNIT + 1;
+    let fall_height = (UNITS_HIGH + 2 * LENGTH) * UNIT;
+    for drop in 0..=canvas_width / 2 {
         let number = u32::try_from(drop).expect("few drops");
         let speed = UNIT * (11 + i64::from(pick(SEED, number, 5, 0, 6)));
-        let way = i64::from(pick(SEED, number, 6, 0, 1 << 14)) + speed * i64::from(t);
-        let round = u32::try_from(way / fall % (1 << 20)).expect("20 bits");
-        let (min, span) = (-20, u32::try_from(wide + 40).expect("a width in units"));
-        let x = UNIT * (min + i64::from(pick(SEED, number, 7, round, span)));
-        let y = way % fall - LENGTH * UNIT;
+        let distance = i64::from(pick(SEED, number, 6, 0, 1 << 14)) + speed * i64::from(t);
+        let fall_number = u32::try_from(distance / fall_height % (1 << 20)).expect("20 bits");
+        let (min, span) = (-20, u32::try_from(canvas_width + 40).expect("a width in units"));
+        // A drop begins every fall at another column.
+        let x = UNIT * (min + i64::from(pick(SEED, number, 7, fall_number, span)));
+        let y = distance % fall_height - LENGTH * UNIT;
         let mut pen = ShapePainter { canvas, origin: (x - y / 6, y), facing: 1, light: 256 };
-        let foot = LENGTH * UNIT;
+        let bottom = LENGTH * UNIT;
         pen.glow_polygon(
-            &[(0, 0), (UNIT, 0), (UNIT - foot / 6, foot), (-foot / 6, foot)],
+            &[(0, 0), (UNIT, 0), (UNIT - bottom / 6, bottom), (-bottom / 6, bottom)],
             170,
             OPAQUE * 3 / 8,
         );

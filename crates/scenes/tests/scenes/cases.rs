@@ -48,7 +48,7 @@ fn hot_pixels_are_hot_and_dead_at_each_corner_of_every_region() {
     let frames = frames(Scene::HotPixels, 8);
     for row in 0..6 {
         for column in 0..8 {
-            let mut seen: Vec<(usize, u16)> = Vec::new();
+            let mut odd_pixels: Vec<(usize, u16)> = Vec::new();
             for frame in &frames {
                 let odd: Vec<(usize, u16)> = region(frame, column, row, 8)
                     .into_iter()
@@ -56,11 +56,11 @@ fn hot_pixels_are_hot_and_dead_at_each_corner_of_every_region() {
                     .filter(|&(_, pixel)| pixel != 127)
                     .collect();
                 assert_eq!(odd.len(), 1, "one odd pixel per region");
-                seen.extend(odd);
+                odd_pixels.extend(odd);
             }
-            seen.sort_unstable();
+            odd_pixels.sort_unstable();
             let corners = [0, 7, 56, 63].into_iter().flat_map(|at| [(at, 0), (at, 255)]);
-            assert_eq!(seen, corners.collect::<Vec<_>>());
+            assert_eq!(odd_pixels, corners.collect::<Vec<_>>());
         }
     }
 }
@@ -82,7 +82,7 @@ fn ramps_grow_by_one_level_from_region_to_region_and_frame_to_frame() {
 #[test]
 fn half_means_end_in_one_half_then_just_below_then_just_above() {
     let frames = frames(Scene::HalfMeans, 3);
-    let mut halvings_seen = [false; 6];
+    let mut halvings_found = [false; 6];
     for row in 0..6 {
         for column in 0..8 {
             let sums = frames
@@ -92,10 +92,10 @@ fn half_means_end_in_one_half_then_just_below_then_just_above() {
             assert_eq!((sums[1] + 1, sums[2]), (sums[0], sums[0] + 1));
             // The value 2^f * sum / 64 ends in one half for the f at which the remainder is 32.
             let f = (0..6_usize).find(|f| (sums[0] << f) % 64 == 32).unwrap();
-            halvings_seen[f] = true;
+            halvings_found[f] = true;
         }
     }
-    assert_eq!(halvings_seen, [true; 6], "every number of fraction bits has its half");
+    assert_eq!(halvings_found, [true; 6], "every number of fraction bits has its half");
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn every_size_and_depth_works() {
 }
 
 #[test]
-fn sizes_out_of_range_are_brought_in() {
+fn sizes_out_of_range_are_clamped() {
     for scene in Scene::ALL {
         let frame = scene.frames(size(0, 0, 0, 0, 1)).next().unwrap();
         assert_eq!((frame.width(), frame.height(), frame.bits()), (1, 1, 1));
