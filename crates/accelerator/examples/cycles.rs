@@ -67,13 +67,17 @@ fn layer(name: &str, record: &csv::StringRecord) -> Result<Layer, CyclesError> {
     let number = |at: usize| number(name, record, at);
     let (inputs, kernel) = ([number(1)?, number(2)?], [number(3)?, number(4)?]);
     let (channels, filters, stride) = (number(5)?, number(6)?, number(7)?);
-    let places = |at: usize| -> Result<u64, CyclesError> {
+    let output_length = |at: usize| -> Result<u64, CyclesError> {
         let room = inputs[at].checked_sub(kernel[at]);
         Ok(room.ok_or_else(|| format!("{name}: the kernel is larger than the input"))? / stride + 1)
     };
     let groups = if is_depthwise(name) { channels } else { 1 };
     let inputs_shape = TensorShape { channels, height: inputs[0], width: inputs[1] };
-    let outputs = TensorShape { channels: filters * groups, height: places(0)?, width: places(1)? };
+    let outputs = TensorShape {
+        channels: filters * groups,
+        height: output_length(0)?,
+        width: output_length(1)?,
+    };
     let windows = kernel.map(|kernel| KernelWindow::of(kernel, stride, 0));
     Ok(Layer::convolution(inputs_shape, outputs, windows, groups)?)
 }

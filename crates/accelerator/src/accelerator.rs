@@ -72,7 +72,7 @@ pub struct RowStationaryArray {
     pub inputs_per_cycle: u64,
     /// The number of weights that enter the array per cycle.
     pub weights_per_cycle: u64,
-    /// The number of sums that enter the array per cycle, and of those that leave it.
+    /// The number of sums that enter the array per cycle. As many can leave it in the same cycle.
     pub sums_per_cycle: u64,
     /// The objective by which the mapping of a layer is chosen.
     pub mapping: MappingObjective,
@@ -105,13 +105,15 @@ pub struct AccessEnergies {
     pub dram_pj: f64,
 }
 
-/// Replaces the type names of the program in the description of a problem by words.
+/// Replaces a Rust type name at the end of a message by words that users know.
 fn problem_in_words(problem: &str) -> String {
     let number = "expected a number";
-    let whole = "expected a whole number from 1 on";
-    let types = [("expected u64", whole), ("expected u32", whole), ("expected f64", number)];
-    let end = types.iter().find_map(|(named, told)| Some((problem.strip_suffix(named)?, told)));
-    end.map_or_else(|| problem.to_owned(), |(start, told)| format!("{start}{told}"))
+    let whole_number = "expected a whole number from 1 on";
+    let types =
+        [("expected u64", whole_number), ("expected u32", whole_number), ("expected f64", number)];
+    let replaced =
+        types.iter().find_map(|(type_name, words)| Some((problem.strip_suffix(type_name)?, words)));
+    replaced.map_or_else(|| problem.to_owned(), |(start, words)| format!("{start}{words}"))
 }
 
 impl Accelerator {

@@ -57,33 +57,34 @@ impl<'a> ComputedPositions<'a> {
     pub(crate) fn input_count(&self, rows: Range<u64>) -> u64 {
         let [down, across] = self.layer.windows;
         let (height, width) = (self.layer.inputs.height, self.layer.inputs.width);
-        let mut is_seen = vec![Vec::new(); index(height)];
+        // A row of the input is empty until a computed output depends on it.
+        let mut needed_rows = vec![Vec::new(); index(height)];
         for row in rows {
-            let Some(seen) = self.input_columns(row, across, width) else { continue };
+            let Some(needed) = self.input_columns(row, across, width) else { continue };
             for input in down.taps(row, height) {
-                let place: &mut Vec<bool> = &mut is_seen[index(input)];
-                place.resize(seen.len(), false);
-                place.iter_mut().zip(&seen).for_each(|(place, &seen)| *place |= seen);
+                let needed_row: &mut Vec<bool> = &mut needed_rows[index(input)];
+                needed_row.resize(needed.len(), false);
+                needed_row.iter_mut().zip(&needed).for_each(|(bit, &needed)| *bit |= needed);
             }
         }
-        is_seen.iter().flatten().map(|&seen| u64::from(seen)).sum()
+        needed_rows.iter().flatten().map(|&needed| u64::from(needed)).sum()
     }
 
-    /// Returns which columns of the input the computed outputs of a row depend on; `None` if there
-    /// are no such outputs.
+    /// Returns true for each column of the input that a computed output of a row depends on; `None`
+    /// if the row has no computed output.
     fn input_columns(&self, row: u64, across: KernelWindow, width: u64) -> Option<Vec<bool>> {
         let outputs = self.row(row);
         outputs.contains(&true).then(|| {
-            let mut seen = vec![false; index(width)];
-            for (column, _) in (0..).zip(outputs).filter(|&(_, &is)| is) {
-                across.taps(column, width).for_each(|input| seen[index(input)] = true);
+            let mut is_needed = vec![false; index(width)];
+            for (column, _) in (0..).zip(outputs).filter(|&(_, &is_computed)| is_computed) {
+                across.taps(column, width).for_each(|input| is_needed[index(input)] = true);
             }
-            seen
+            is_needed
         })
     }
 
     fn count_in_row(&self, row: u64) -> u64 {
-        self.row(row).iter().map(|&is| u64::from(is)).sum()
+        self.row(row).iter().map(|&is_computed| u64::from(is_computed)).sum()
     }
 
     fn row(&self, row: u64) -> &[bool] {

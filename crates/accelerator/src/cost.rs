@@ -138,17 +138,17 @@ fn dram_cycles(dram: &MemoryAccesses, accelerator: &Accelerator) -> u64 {
 fn energy(counts: &LayerCounts, accelerator: &Accelerator) -> EnergyCost {
     let table = &accelerator.energy;
     // The energy of an access grows in proportion to the bits of the value.
-    let wider = f64::from(accelerator.sum_bits) / f64::from(accelerator.value_bits);
-    let of = |traffic: &MemoryAccesses, access: f64| {
+    let sum_to_value_bits = f64::from(accelerator.sum_bits) / f64::from(accelerator.value_bits);
+    let level_energy = |traffic: &MemoryAccesses, access: f64| {
         let values = (traffic.inputs + traffic.weights + traffic.outputs) as f64;
-        access * (values + wider * traffic.sums as f64)
+        access * (values + sum_to_value_bits * traffic.sums as f64)
     };
     EnergyCost {
         mac: table.mac_pj * counts.macs as f64,
-        register: of(&counts.register, table.register_pj),
-        array: of(&counts.array, table.array_pj),
-        buffer: of(&counts.buffer, table.buffer_pj),
-        dram: of(&counts.dram, table.dram_pj),
+        register: level_energy(&counts.register, table.register_pj),
+        array: level_energy(&counts.array, table.array_pj),
+        buffer: level_energy(&counts.buffer, table.buffer_pj),
+        dram: level_energy(&counts.dram, table.dram_pj),
     }
 }
 

@@ -4,13 +4,13 @@
 use crate::AcceleratorError;
 use std::ops::RangeInclusive;
 
-/// The most multiplications of a layer; with this limit no count can overflow.
+/// The largest number of multiplications of a layer. With this limit no count can overflow.
 const MAX_MACS: u128 = 1_000_000_000_000_000;
-/// The most values along an axis.
+/// The largest number of values along an axis.
 const MAX_AXIS_LENGTH: u64 = 1 << 20;
-/// The most images that run together.
+/// The largest number of images that run together.
 const MAX_IMAGES: u64 = 1024;
-/// The most positions of a tensor, whose masks are kept in memory.
+/// The largest number of positions of a tensor, because a mask of them is kept in memory.
 const MAX_POSITIONS: u64 = 1 << 28;
 
 /// The channels, rows and columns of a tensor.
@@ -39,7 +39,7 @@ impl TensorShape {
 }
 
 /// The inputs that an output depends on along one axis: output `o` depends on the inputs
-/// `o * stride - before + k * dilation`, for `k` below `kernel`, as far as they exist.
+/// `o * stride - padding_before + k * dilation`, for `k` below `kernel`, as far as they exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KernelWindow {
     /// The number of inputs of an output.

@@ -17,8 +17,8 @@
 //!   `K + R + C - 2` cycles, and there are `ceil(T / R) * ceil(M / C)` folds.
 //! * **Row-stationary**, as on Eyeriss (Chen et al., JSSC 2017): see the module `row_stationary`.
 //!
-//! The first two agree with SCALE-Sim 3.0, which prints the number of the last cycle, counted from
-//! 0: one less.
+//! The first two formulas agree with SCALE-Sim 3.0. It prints the number of the last cycle, counted
+//! from 0, which is one less than the number of cycles.
 //!
 //! The positions that a mask needs are rounded up to tiles of the accelerator. All weights are
 //! fetched if any position is computed, and none otherwise. The inputs that computed positions

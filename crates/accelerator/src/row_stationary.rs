@@ -7,9 +7,9 @@
 //! pass through it along diagonals, sums upwards. The part of a layer that runs at once is a
 //! *pass*: `filters` filters and `channels` channels in each element, `filter_sets` times as many
 //! filters and `channel_sets` times as many channels in several sets. The buffer keeps the inputs
-//! of a pass, and the unfinished sums of `kept` filters of a strip, for `images` images.
+//! of a pass, and the unfinished sums of `kept_filters` filters of a strip, for `images` images.
 //!
-//! There is a pass for each `kept` filters, each strip, each part of the channels, and each
+//! There is a pass for each `kept_filters` filters, each strip, each part of the channels, and each
 //! `filters * filter_sets` filters. With L the number of computed positions of the strip's longest
 //! row, a pass takes:
 //!
@@ -17,9 +17,10 @@
 //!   waits for them;
 //! * for each image, the longest of these: `L * columns of the kernel * filters * channels`
 //!   multiplications in an element, its inputs at `inputs_per_cycle`, and its sums at
-//!   `sums_per_cycle` (they enter and leave at once).
+//!   `sums_per_cycle` (sums enter and leave in the same cycle).
 //!
-//! A strip without a computed position is left out. A mask does not move the strips of a layer.
+//! A strip without a computed position is left out. The strips of a layer are the same for every
+//! mask.
 //!
 //! The mapping is chosen for the whole layer and is the same for every mask, so a mask never costs
 //! more than a larger one.
@@ -39,9 +40,9 @@ use std::ops::Range;
 pub(crate) struct ComputedStrip {
     /// The number of computed positions of the output.
     positions: u64,
-    /// The number of computed positions in the row that has most.
+    /// The number of computed positions in the row with the most of them.
     longest: u64,
-    /// The number of input positions that they depend on.
+    /// The number of input positions that the computed positions depend on.
     inputs: u64,
 }
 
@@ -164,8 +165,8 @@ fn strip_cycles(
     products.groups * cuts.filters * cuts.channels * pass
 }
 
-/// Returns the accesses to the DRAM: inputs are read once for each `kept` filters, weights once for
-/// each strip, and outputs are written once.
+/// Returns the accesses to the DRAM. Inputs are read once for each `kept_filters` filters, weights
+/// once for each strip, and outputs are written once.
 fn dram_accesses(
     layer: &Layer,
     products: &ChannelGroups,

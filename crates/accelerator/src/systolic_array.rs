@@ -3,9 +3,9 @@
 //! ISPASS 2020).
 //!
 //! For each group, a layer is a product of a matrix of T positions by K inputs with a matrix of K
-//! inputs by M channels. An array of R x C elements holds a part of it, a fold. A part of a fold
-//! costs as much as a whole one, so an array that is larger than a group of channels is mostly
-//! idle: a depthwise layer has a fold for every channel.
+//! inputs by M channels. An array of R x C elements holds a part of it, a fold. A fold that fills
+//! only a part of the array costs as much as a full one, so an array that is larger than a group of
+//! channels is mostly idle: a depthwise layer has a fold for every channel.
 //!
 //! Inputs and weights are fetched once from the DRAM if their buffer holds them. Otherwise those of
 //! one kind are fetched again for each part of the other kind. There are two orders, and the one
@@ -16,9 +16,9 @@
 //! * Positions are the outer loop: for each part of the positions, all channels are computed.
 //!   Inputs are fetched once if those of a part fit.
 //!
-//! A part of the positions is R of them in an output-stationary array. In a weight-stationary one
-//! it is as many as the buffer holds sums of, so that no sum goes to the DRAM. Cutting the
-//! positions costs `2R + C - 2` cycles for each further part; SCALE-Sim does not cut them.
+//! A part has R positions in an output-stationary array. In a weight-stationary array it has as
+//! many positions as the buffer holds sums for, so that no sum goes to the DRAM. Each further part
+//! of the positions costs `2R + C - 2` cycles. SCALE-Sim does not cut the positions.
 
 use crate::accelerator::{Accelerator, SystolicArray};
 use crate::computed_positions::ComputedPositions;
@@ -62,16 +62,16 @@ pub(crate) fn weight_stationary(
     let (rows, columns) = (array.rows, array.columns);
     let row_folds = product.inner.div_ceil(rows);
     let sums = accelerator.sum_bytes(columns.min(product.channels));
-    let part = (array.output_bytes / sums).max(1);
+    let positions_per_part = (array.output_bytes / sums).max(1);
     let cuts = ProductCuts {
         channels: product.channels.div_ceil(columns),
-        positions: product.positions.div_ceil(part),
-        part_fits: share_fits(accelerator, array, layer, products, part),
+        positions: product.positions.div_ceil(positions_per_part),
+        part_fits: share_fits(accelerator, array, layer, products, positions_per_part),
     };
     let folds = product.groups * cuts.channels * row_folds;
     let dram = product.dram_accesses(accelerator, array, &cuts);
     let weights = product.weights() * cuts.positions;
-    let unfinished = product.outputs() * 2 * (row_folds - 1);
+    let unfinished_sums = product.outputs() * 2 * (row_folds - 1);
     LayerCounts {
         array_cycles: folds * (cuts.positions * (2 * rows + columns - 2) + product.positions),
         macs: product.macs,
@@ -84,7 +84,7 @@ pub(crate) fn weight_stationary(
         buffer: MemoryAccesses {
             inputs: dram.inputs + product.streamed_inputs(&cuts),
             weights: dram.weights + weights,
-            sums: unfinished,
+            sums: unfinished_sums,
             outputs: 2 * product.outputs(),
         },
         dram,
@@ -165,7 +165,7 @@ impl MatrixProduct {
         let weights_fit =
             |channels| accelerator.value_bytes(self.inner * channels) <= array.weight_bytes;
         let inputs_fit = accelerator.value_bytes(self.input_values) <= array.input_bytes;
-        let once_if = |fits: bool, else_times: u64| if fits { 1 } else { else_times };
+        let once_if = |fits: bool, times_otherwise: u64| if fits { 1 } else { times_otherwise };
         let widest = array.columns.min(self.channels);
         let orders = [
             (once_if(inputs_fit, cuts.channels), once_if(weights_fit(widest), cuts.positions)),
@@ -200,6 +200,7 @@ fn share_fits(
 ) -> bool {
     let all = layer.images * layer.outputs.positions();
     let inputs = layer.images * layer.inputs.positions() * products.inputs;
-    let share = (u128::from(inputs) * u128::from(positions.min(all))).div_ceil(all.into());
-    share * u128::from(accelerator.value_bits) <= u128::from(array.input_bytes) * 8
+    let inputs_of_share =
+        (u128::from(inputs) * u128::from(positions.min(all))).div_ceil(all.into());
+    inputs_of_share * u128::from(accelerator.value_bits) <= u128::from(array.input_bytes) * 8
 }

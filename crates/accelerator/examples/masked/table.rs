@@ -44,9 +44,9 @@ pub(crate) fn shares_table() -> Result<String, Box<dyn std::error::Error>> {
 /// Returns the percentages of multiplications, cycles, accesses to the DRAM, and energy.
 #[allow(clippy::cast_precision_loss, reason = "shares")]
 fn percentages(part: &LayerCost, whole: &LayerCost) -> [f64; 4] {
-    let of = |cost: &LayerCost| {
+    let figures = |cost: &LayerCost| {
         [cost.macs as f64, cost.cycles as f64, cost.dram.access_count() as f64, cost.energy.total()]
     };
-    let (part, whole) = (of(part), of(whole));
+    let (part, whole) = (figures(part), figures(whole));
     std::array::from_fn(|figure| 100.0 * part[figure] / whole[figure])
 }

@@ -41,8 +41,14 @@ struct KernelParts {
 impl KernelParts {
     fn of(array: &RowStationaryArray, layer: &Layer) -> Self {
         let [down, across] = layer.windows.map(|window| window.kernel);
-        let (below, beside) = (down.div_ceil(array.rows), across.div_ceil(array.element_inputs));
-        Self { rows: down.div_ceil(below), columns: across.div_ceil(beside), count: below * beside }
+        let row_parts = down.div_ceil(array.rows);
+        let column_parts = across.div_ceil(array.element_inputs);
+        // The parts are about equal, so that the last one is not much smaller than the others.
+        Self {
+            rows: down.div_ceil(row_parts),
+            columns: across.div_ceil(column_parts),
+            count: row_parts * column_parts,
+        }
     }
 }
 
@@ -86,14 +92,14 @@ pub(crate) fn best_mapping(
     let mut needed = u64::MAX;
     for strip in strip_heights(layer.outputs.height, array, parts) {
         let strips = ComputedStrip::all(layer, strip, &whole);
-        let room = BufferCapacity::of(accelerator, array, &strips);
-        needed = needed.min(room.needed_bytes(1, 1, 1));
+        let capacity = BufferCapacity::of(accelerator, array, &strips);
+        needed = needed.min(capacity.needed_bytes(1, 1, 1));
         for pass in possible_passes(array, layer, products, parts, strip) {
-            let Some(mapping) = room.with_most_kept(pass, products) else { continue };
+            let Some(mapping) = capacity.with_most_kept(pass, products) else { continue };
             let counts = count_strips(array, layer, products, &mapping, &strips);
-            let price = objective_values(accelerator, array.mapping, &counts);
-            if best.as_ref().is_none_or(|(least, _)| price < *least) {
-                best = Some((price, mapping));
+            let objective = objective_values(accelerator, array.mapping, &counts);
+            if best.as_ref().is_none_or(|(least, _)| objective < *least) {
+                best = Some((objective, mapping));
             }
         }
     }
@@ -101,7 +107,7 @@ pub(crate) fn best_mapping(
     best.map(|(_, mapping)| mapping).ok_or(too_small)
 }
 
-/// Returns the quantity to minimize; the second number decides between equal first ones.
+/// Returns the numbers to minimize. The second one decides if the first ones are equal.
 #[allow(clippy::cast_precision_loss, reason = "compared, not counted")]
 fn objective_values(
     accelerator: &Accelerator,
@@ -119,8 +125,8 @@ fn objective_values(
     }
 }
 
-/// Returns the heights of strips that can run at once: of those that need the same number of
-/// strips, the lowest.
+/// Returns the heights of strips that can run at once. Of several heights that need the same number
+/// of strips, only the lowest is returned.
 fn strip_heights(
     height: u64,
     array: &RowStationaryArray,
@@ -133,11 +139,11 @@ fn strip_heights(
 /// Returns the number of sets of elements that fit into the array. A set that is wider than the
 /// array continues below.
 fn set_count(array: &RowStationaryArray, parts: KernelParts, strip: u64) -> u64 {
-    let below = array.rows / parts.rows;
+    let sets_per_column = array.rows / parts.rows;
     if strip <= array.columns {
-        below * (array.columns / strip)
+        sets_per_column * (array.columns / strip)
     } else {
-        below / strip.div_ceil(array.columns)
+        sets_per_column / strip.div_ceil(array.columns)
     }
 }
 
@@ -151,7 +157,8 @@ fn possible_passes(
     strip: u64,
 ) -> Vec<PassMapping> {
     let sets = set_count(array, parts, strip);
-    // These numbers leave room for different numbers of channel sets.
+    // Of several numbers of filter sets that leave room for the same number of channel sets, only
+    // the largest is tried.
     let all_filter_sets = (1..=sets).filter(|&filters| filters == sets / (sets / filters));
     let mut all = Vec::new();
     for filter_sets in all_filter_sets.filter(|&filters| filters <= products.outputs) {
@@ -161,6 +168,8 @@ fn possible_passes(
                 .min(array.element_sums)
                 .min(products.outputs);
             for filters in 1..=most {
+                // Of several numbers of images that need the same number of parts, only the
+                // smallest is tried.
                 let images = (1..=layer.images).filter(|&images| {
                     images == layer.images.div_ceil(layer.images.div_ceil(images))
                 });
@@ -183,9 +192,9 @@ fn possible_passes(
 struct BufferCapacity<'a> {
     accelerator: &'a Accelerator,
     bytes: u64,
-    /// The number of inputs of a channel and an image, in the strip that has most.
+    /// The number of inputs of a channel and an image, in the strip with the most inputs.
     inputs: u64,
-    /// The number of sums of a filter and an image, in the strip that has most.
+    /// The number of sums of a filter and an image, in the strip with the most sums.
     sums: u64,
 }
 
@@ -195,12 +204,13 @@ impl<'a> BufferCapacity<'a> {
         array: &RowStationaryArray,
         strips: &[ComputedStrip],
     ) -> Self {
-        let most = |of: fn(&ComputedStrip) -> u64| strips.iter().map(of).max().unwrap_or_default();
+        let largest =
+            |size: fn(&ComputedStrip) -> u64| strips.iter().map(size).max().unwrap_or_default();
         Self {
             accelerator,
             bytes: array.buffer_bytes,
-            inputs: most(|strip| strip.inputs),
-            sums: most(|strip| strip.positions),
+            inputs: largest(|strip| strip.inputs),
+            sums: largest(|strip| strip.positions),
         }
     }
 
@@ -214,18 +224,19 @@ impl<'a> BufferCapacity<'a> {
     /// Returns the pass with as many kept filters as the buffer can hold; `None` if it cannot hold
     /// those of one pass.
     fn with_most_kept(&self, pass: PassMapping, products: &ChannelGroups) -> Option<PassMapping> {
-        let at_once = pass.filters * pass.filter_sets;
+        let filters_at_once = pass.filters * pass.filter_sets;
         let channels = pass.channels * pass.channel_sets;
-        let fits =
-            |passes: u64| self.needed_bytes(channels, passes * at_once, pass.images) <= self.bytes;
-        let all = products.outputs.div_ceil(at_once);
-        let inputs = self.needed_bytes(channels, 0, pass.images);
-        let one = self.needed_bytes(0, at_once, pass.images);
+        let fits = |passes: u64| {
+            self.needed_bytes(channels, passes * filters_at_once, pass.images) <= self.bytes
+        };
+        let all_passes = products.outputs.div_ceil(filters_at_once);
+        let input_bytes = self.needed_bytes(channels, 0, pass.images);
+        let bytes_per_pass = self.needed_bytes(0, filters_at_once, pass.images);
         // Rounding up to bytes can make the quotient one too large or too small.
-        let near = (self.bytes.saturating_sub(inputs) / one).min(all);
-        let passes = [near + 1, near, near.saturating_sub(1)]
+        let estimate = (self.bytes.saturating_sub(input_bytes) / bytes_per_pass).min(all_passes);
+        let passes = [estimate + 1, estimate, estimate.saturating_sub(1)]
             .into_iter()
-            .find(|&passes| (1..=all).contains(&passes) && fits(passes))?;
-        Some(PassMapping { kept_filters: passes * at_once, ..pass })
+            .find(|&passes| (1..=all_passes).contains(&passes) && fits(passes))?;
+        Some(PassMapping { kept_filters: passes * filters_at_once, ..pass })
     }
 }

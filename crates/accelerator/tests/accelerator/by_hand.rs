@@ -40,7 +40,7 @@ fn traffic(inputs: u64, weights: u64, sums: u64, outputs: u64) -> MemoryAccesses
 }
 
 #[track_caller]
-fn energy_is(cost: &LayerCost, [mac, register, array, buffer, dram]: [f64; 5]) {
+fn assert_energy(cost: &LayerCost, [mac, register, array, buffer, dram]: [f64; 5]) {
     let found = &cost.energy;
     let all = [found.mac, found.register, found.array, found.buffer, found.dram];
     assert_eq!(all.map(f64::to_bits), [mac, register, array, buffer, dram].map(f64::to_bits));
@@ -48,7 +48,7 @@ fn energy_is(cost: &LayerCost, [mac, register, array, buffer, dram]: [f64; 5]) {
 }
 
 #[test]
-fn weight_stationary_by_hand() {
+fn a_weight_stationary_layer_has_the_cost_computed_by_hand() {
     let accelerator = accelerator(Dataflow::WeightStationary(systolic(2, 2)));
     let plan = accelerator.plan(small()).unwrap();
     let cost = plan.whole_cost();
@@ -60,18 +60,18 @@ fn weight_stationary_by_hand() {
     assert_eq!(cost.register, traffic(0, 8 + 32, 0, 0));
     assert_eq!(cost.array, traffic(32, 0, 32, 0));
     // Sums have twice the bits of a value.
-    energy_is(&cost, [32.0, 2.0 * 40.0, 3.0 * (32.0 + 64.0), 4.0 * (57.0 + 32.0), 5.0 * 25.0]);
+    assert_energy(&cost, [32.0, 2.0 * 40.0, 3.0 * (32.0 + 64.0), 4.0 * (57.0 + 32.0), 5.0 * 25.0]);
     assert!((cost.utilization(&accelerator) - 32.0 / 64.0).abs() < 1e-12);
 
-    let one = plan.masked_cost(|x, y| (x, y) == (1, 0));
-    assert_eq!((one.cycles, one.macs), (2 * 5, 8));
+    let one_position = plan.masked_cost(|x, y| (x, y) == (1, 0));
+    assert_eq!((one_position.cycles, one_position.macs), (2 * 5, 8));
     // All weights are fetched, and the 4 inputs in the window.
-    assert_eq!(one.dram, traffic(4, 8, 0, 2));
+    assert_eq!(one_position.dram, traffic(4, 8, 0, 2));
     assert_eq!(plan.masked_cost(|_, _| false), LayerCost::default());
 }
 
 #[test]
-fn output_stationary_by_hand() {
+fn an_output_stationary_layer_has_the_cost_computed_by_hand() {
     let accelerator = accelerator(Dataflow::OutputStationary(systolic(2, 2)));
     let plan = accelerator.plan(small()).unwrap();
     let cost = plan.whole_cost();
@@ -91,53 +91,56 @@ fn a_mask_is_rounded_up_to_tiles() {
     let mut accelerator = accelerator(Dataflow::WeightStationary(systolic(2, 2)));
     accelerator.tile = [2, 1];
     let plan = accelerator.plan(small()).unwrap();
-    let one = plan.masked_cost(|x, y| (x, y) == (1, 0));
-    assert_eq!(one, plan.masked_cost(|x, _| x == 1));
+    let one_position = plan.masked_cost(|x, y| (x, y) == (1, 0));
+    assert_eq!(one_position, plan.masked_cost(|x, _| x == 1));
     // Both positions of the column are computed: they depend on 3 x 2 inputs.
-    assert_eq!((one.macs, one.dram.inputs), (16, 6));
+    assert_eq!((one_position.macs, one_position.dram.inputs), (16, 6));
 }
 
 #[test]
-fn small_buffers_fetch_again() {
-    let text = systolic(2, 1);
-    let of = |array: SystolicArray| {
+fn values_that_do_not_fit_a_buffer_are_fetched_again() {
+    let large_buffers = systolic(2, 1);
+    let cost_with = |array: SystolicArray| {
         let accelerator = accelerator(Dataflow::WeightStationary(array));
         accelerator.plan(small()).unwrap().whole_cost()
     };
     // Inputs do not fit, so they are fetched once for each of the two filters, or the positions are
     // cut with all filters for each part. All sums fit, so there is only one part.
-    assert_eq!(of(SystolicArray { input_bytes: 8, ..text.clone() }).dram, traffic(18, 8, 0, 8));
+    assert_eq!(
+        cost_with(SystolicArray { input_bytes: 8, ..large_buffers.clone() }).dram,
+        traffic(18, 8, 0, 8)
+    );
     // Two sums of 16 bits fit: two parts of two positions, each with 2 x 2 + 1 - 2 cycles of
     // filling, in 2 x 2 folds.
-    let cut = of(SystolicArray { output_bytes: 4, ..text.clone() });
+    let cut = cost_with(SystolicArray { output_bytes: 4, ..large_buffers.clone() });
     assert_eq!(cut.array_cycles, 4 * (2 * 3 + 4));
     assert_eq!(cut.buffer.weights, 8 + 2 * 8);
     assert_eq!(cut.dram, traffic(9, 8, 0, 8));
     // The weights of one filter do not fit either, so they are fetched again for the second part.
-    let cut = of(SystolicArray { output_bytes: 4, weight_bytes: 3, ..text });
+    let cut = cost_with(SystolicArray { output_bytes: 4, weight_bytes: 3, ..large_buffers });
     assert_eq!(cut.dram, traffic(9, 16, 0, 8));
 }
 
-/// There are two parts of the channels, and two of the positions, which depend on 5 of 9 inputs on
+/// The channels have two parts. The positions have two parts, too, which depend on 5 of 9 inputs on
 /// average.
 #[test]
-fn the_better_of_two_orders_counts() {
-    let of = |input_bytes, weight_bytes| {
+fn the_order_with_less_traffic_is_used() {
+    let dram_accesses = |input_bytes, weight_bytes| {
         let array = SystolicArray { input_bytes, weight_bytes, ..systolic(2, 1) };
         let accelerator = accelerator(Dataflow::OutputStationary(array));
         accelerator.plan(small()).unwrap().whole_cost().dram
     };
     // The inputs of a part and the weights of a filter fit: fetching inputs once and weights twice
     // is less than the reverse.
-    assert_eq!(of(8, 4), traffic(9, 16, 0, 8));
+    assert_eq!(dram_accesses(8, 4), traffic(9, 16, 0, 8));
     // All weights fit, so everything is fetched once.
-    assert_eq!(of(5, 8), traffic(9, 8, 0, 8));
+    assert_eq!(dram_accesses(5, 8), traffic(9, 8, 0, 8));
     // The inputs of a part do not fit: inputs are fetched twice, and the weights of a filter once.
-    assert_eq!(of(4, 4), traffic(18, 8, 0, 8));
+    assert_eq!(dram_accesses(4, 4), traffic(18, 8, 0, 8));
 }
 
 #[test]
-fn the_longer_of_array_and_dram_counts() {
+fn a_layer_takes_the_longer_time_of_array_and_dram() {
     let mut accelerator = accelerator(Dataflow::WeightStationary(systolic(2, 2)));
     accelerator.dram_bytes_per_cycle = Some(1.5);
     let cost = accelerator.plan(small()).unwrap().whole_cost();
@@ -149,7 +152,7 @@ fn the_longer_of_array_and_dram_counts() {
 }
 
 #[test]
-fn a_layer_without_products_costs_transfers_alone() {
+fn a_layer_without_products_costs_only_transfers() {
     let accelerator = accelerator(Dataflow::WeightStationary(systolic(2, 2)));
     let inputs = TensorShape { channels: 3, height: 4, width: 4 };
     let outputs = TensorShape { channels: 3, height: 2, width: 2 };
@@ -177,7 +180,7 @@ fn row_stationary() -> RowStationaryArray {
 }
 
 #[test]
-fn row_stationary_by_hand() {
+fn a_row_stationary_layer_has_the_cost_computed_by_hand() {
     let accelerator = accelerator(Dataflow::RowStationary(row_stationary()));
     let plan = accelerator.plan(small()).unwrap();
     let cost = plan.whole_cost();
@@ -212,8 +215,8 @@ fn rows_without_a_computed_position_are_left_out() {
 #[test]
 fn images_share_weights_where_the_buffer_holds_their_sums() {
     let accelerator = accelerator(Dataflow::RowStationary(row_stationary()));
-    let two = accelerator.plan(small().with_images(2).unwrap()).unwrap().whole_cost();
-    assert_eq!((two.array_cycles, two.dram), (2 + 2 * 9, traffic(18, 8, 0, 16)));
+    let together = accelerator.plan(small().with_images(2).unwrap()).unwrap().whole_cost();
+    assert_eq!((together.array_cycles, together.dram), (2 + 2 * 9, traffic(18, 8, 0, 16)));
     // An image has 9 inputs of 8 bits and 8 sums of 16 bits.
     let array = RowStationaryArray { buffer_bytes: 49, ..row_stationary() };
     let accelerator = self::accelerator(Dataflow::RowStationary(array));

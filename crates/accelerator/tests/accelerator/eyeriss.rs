@@ -9,14 +9,14 @@ mod table;
 use foveate_accelerator::Layer;
 
 #[test]
-fn the_page_shows_the_table() {
+fn the_documentation_shows_the_table() {
     let page = include_str!("../../../../docs/accelerators.md");
     let table = table::totals_table().unwrap();
     assert!(page.contains(&table), "docs/accelerators.md should hold this table:\n{table}");
 }
 
 #[test]
-fn every_figure_is_right_in_magnitude() {
+fn every_figure_has_the_magnitude_of_the_measurement() {
     let table = table::totals_table().unwrap();
     for row in table.lines().skip(2) {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
@@ -36,14 +36,14 @@ fn the_networks_have_the_published_sizes() {
         (networks::vgg16().unwrap(), 15.3e9, 14.7e6),
     ] {
         let sum =
-            |of: fn(&Layer) -> u64| -> u64 { network.layers.iter().map(|(_, l)| of(l)).sum() };
-        let near = |found: u64, published: f64| {
+            |size: fn(&Layer) -> u64| -> u64 { network.layers.iter().map(|(_, l)| size(l)).sum() };
+        let assert_near = |found: u64, published: f64| {
             #[allow(clippy::cast_precision_loss, reason = "a ratio")]
             let ratio = found as f64 / published;
             assert!((0.98..1.02).contains(&ratio), "{}: {found} and {published}", network.name);
         };
-        near(sum(Layer::macs) / network.images, macs);
-        near(sum(Layer::weights), weights);
+        assert_near(sum(Layer::macs) / network.images, macs);
+        assert_near(sum(Layer::weights), weights);
     }
     assert_eq!(table::layers_table().unwrap().lines().count(), 2 + 5 + 13);
 }

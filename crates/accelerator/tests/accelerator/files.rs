@@ -85,34 +85,34 @@ fn every_mistake_has_one_line_that_names_it() {
 fn layers_that_contradict_themselves_are_refused() {
     let shape = |channels, height, width| TensorShape { channels, height, width };
     let window = [KernelWindow::of(3, 1, 1); 2];
-    let refused = |layer: Result<Layer, AcceleratorError>, expected: &str| {
+    let assert_refused = |layer: Result<Layer, AcceleratorError>, expected: &str| {
         assert_eq!(layer.unwrap_err().to_string(), expected);
     };
-    let of = |inputs, outputs, groups| Layer::convolution(inputs, outputs, window, groups);
-    refused(
-        of(shape(0, 4, 4), shape(4, 4, 4), 1),
+    let convolution = |inputs, outputs, groups| Layer::convolution(inputs, outputs, window, groups);
+    assert_refused(
+        convolution(shape(0, 4, 4), shape(4, 4, 4), 1),
         "the layer's number of input channels is 0, but must be 1 to 1048576",
     );
-    refused(
-        of(shape(6, 4, 4), shape(4, 4, 4), 4),
+    assert_refused(
+        convolution(shape(6, 4, 4), shape(4, 4, 4), 4),
         "the layer's number of input channels is 6, but must be a multiple of its 4 groups",
     );
-    refused(
-        of(shape(4, 4, 4), shape(4, 1 << 20, 1 << 20), 1),
+    assert_refused(
+        convolution(shape(4, 4, 4), shape(4, 1 << 20, 1 << 20), 1),
         "the layer's number of output positions is 1099511627776, but must be 1 to 268435456",
     );
-    refused(
-        of(shape(1 << 20, 1 << 14, 1 << 14), shape(1 << 20, 1, 1), 1),
+    assert_refused(
+        convolution(shape(1 << 20, 1 << 14, 1 << 14), shape(1 << 20, 1, 1), 1),
         "the layer's number of multiplications is 2656331146614175432704, but must be at most 1000000000000000, were it dense",
     );
-    refused(
+    assert_refused(
         Layer::product(1, 1, 1).unwrap().with_images(0),
         "the layer's number of images is 0, but must be 1 to 1024",
     );
 }
 
 #[test]
-fn a_buffer_that_is_too_small_is_named_with_what_is_needed() {
+fn a_buffer_that_is_too_small_is_named_with_the_needed_size() {
     let text = PRESETS[2].toml.replace("buffer_bytes = 102400", "buffer_bytes = 20");
     let accelerator = Accelerator::from_toml(&text).unwrap();
     let shape = TensorShape { channels: 1, height: 8, width: 8 };

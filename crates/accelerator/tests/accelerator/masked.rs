@@ -5,7 +5,7 @@
 mod table;
 
 #[test]
-fn the_data_are_the_table() {
+fn the_data_in_the_documentation_are_those_of_the_table() {
     let data = include_str!("../../../../docs/data/accelerators-masked.csv");
     let table = table::shares_table().unwrap();
     let cells = |row: &str| row.trim_matches(['|', ' ']).replace(" | ", ",");

@@ -24,31 +24,31 @@ pub(crate) fn weight_stationary(
     inner: u64,
     channels: u64,
 ) -> SimulatedCounts {
-    let mut seen = SimulatedCounts::default();
+    let mut counts = SimulatedCounts::default();
     for first_channel in (0..channels).step_by(size(columns)) {
         for first_inner in (0..inner).step_by(size(rows)) {
             let mut last = 0;
             // A row of weights enters per clock, until the array is full.
-            let begin = seen.clocks + rows;
+            let begin = counts.clocks + rows;
             for row in 0..rows {
                 for column in 0..columns {
                     let has_weight = first_inner + row < inner && first_channel + column < channels;
-                    seen.weights += u64::from(has_weight);
+                    counts.weights += u64::from(has_weight);
                     for position in 0..positions {
                         // An input enters each row one clock later than the row above, and advances
                         // by a column per clock.
                         let clock = begin + position + row + column;
                         last = last.max(clock);
-                        seen.macs += u64::from(has_weight);
+                        counts.macs += u64::from(has_weight);
                         let enters = column == 0 && first_inner + row < inner;
-                        seen.inputs += u64::from(enters);
+                        counts.inputs += u64::from(enters);
                     }
                 }
             }
-            seen.clocks = last + 1;
+            counts.clocks = last + 1;
         }
     }
-    seen
+    counts
 }
 
 /// Simulates the same product, with sums held in the array.
@@ -58,10 +58,10 @@ pub(crate) fn output_stationary(
     inner: u64,
     channels: u64,
 ) -> SimulatedCounts {
-    let mut seen = SimulatedCounts::default();
+    let mut counts = SimulatedCounts::default();
     for first_channel in (0..channels).step_by(size(columns)) {
         for first_position in (0..positions).step_by(size(rows)) {
-            let (begin, mut last) = (seen.clocks, 0);
+            let (begin, mut last) = (counts.clocks, 0);
             for row in 0..rows {
                 for column in 0..columns {
                     let has_position = first_position + row < positions;
@@ -70,16 +70,16 @@ pub(crate) fn output_stationary(
                         // An input and a weight meet after they have passed the previous rows and
                         // columns.
                         last = last.max(begin + tap + row + column);
-                        seen.macs += u64::from(has_position && has_channel);
-                        seen.inputs += u64::from(column == 0 && has_position);
-                        seen.weights += u64::from(row == 0 && has_channel);
+                        counts.macs += u64::from(has_position && has_channel);
+                        counts.inputs += u64::from(column == 0 && has_position);
+                        counts.weights += u64::from(row == 0 && has_channel);
                     }
                 }
             }
-            seen.clocks = last + 1;
+            counts.clocks = last + 1;
         }
     }
-    seen
+    counts
 }
 
 fn size(value: u64) -> usize {
@@ -89,26 +89,27 @@ fn size(value: u64) -> usize {
 /// The kernel, stride, dilation and padding of one axis.
 pub(crate) type AxisWindow = [u64; 4];
 
-/// Returns the inputs that computed outputs depend on, each once. A position is a row and a column.
-pub(crate) fn inputs_seen(
+/// Returns the inputs that computed outputs depend on. A position is a row and a column.
+pub(crate) fn needed_inputs(
     computed: &BTreeSet<[u64; 2]>,
     axes: [AxisWindow; 2],
     inputs: [u64; 2],
 ) -> BTreeSet<[u64; 2]> {
-    let reach = |axis: usize, output: u64| -> Vec<u64> {
-        let [kernel, stride, dilation, before] = axes[axis].map(|n| i64::try_from(n).unwrap());
+    let inputs_of_output = |axis: usize, output: u64| -> Vec<u64> {
+        let [kernel, stride, dilation, padding_before] =
+            axes[axis].map(|n| i64::try_from(n).unwrap());
         let output = i64::try_from(output).unwrap();
-        let all = (0..kernel).map(|tap| output * stride - before + tap * dilation);
+        let all = (0..kernel).map(|tap| output * stride - padding_before + tap * dilation);
         let inside = all.filter_map(|input| u64::try_from(input).ok());
         inside.filter(|&input| input < inputs[axis]).collect()
     };
-    let mut seen = BTreeSet::new();
+    let mut needed = BTreeSet::new();
     for &[row, column] in computed {
-        for y in reach(0, row) {
-            seen.extend(reach(1, column).into_iter().map(|x| [y, x]));
+        for y in inputs_of_output(0, row) {
+            needed.extend(inputs_of_output(1, column).into_iter().map(|x| [y, x]));
         }
     }
-    seen
+    needed
 }
 
 /// Returns the positions whose tile has a needed one.

@@ -3,7 +3,7 @@
 
 use crate::by_hand;
 use crate::oracle::{
-    SimulatedCounts, inputs_seen, output_stationary, round_up_to_tiles, weight_stationary,
+    SimulatedCounts, needed_inputs, output_stationary, round_up_to_tiles, weight_stationary,
 };
 use crate::random::{LayerCase, accelerator, layer_case, masks};
 use foveate_accelerator::{Accelerator, Dataflow, LayerCost, MemoryAccesses};
@@ -73,22 +73,22 @@ proptest! {
         // All weights are fetched a whole number of times, and inputs at least once.
         prop_assert_eq!(cost.dram.weights % per_position, 0);
         prop_assert_eq!(cost.dram.weights > 0, positions > 0);
-        let seen = inputs_seen(&computed, case.axes, case.inputs).len() as u64;
-        prop_assert!(cost.dram.inputs >= case.images * case.groups * case.channels[0] * seen);
+        let input_positions = needed_inputs(&computed, case.axes, case.inputs).len() as u64;
+        prop_assert!(cost.dram.inputs >= case.images * case.groups * case.channels[0] * input_positions);
         prop_assert_eq!(cost.cycles, cost.array_cycles.max(cost.dram_cycles));
         let share = cost.utilization(&accelerator);
         prop_assert!((0.0..=1.0).contains(&share), "{share}");
     }
 
     #[test]
-    fn systolic_arrays_do_what_one_does_clock_by_clock(case in layer_case(), masks in masks(), sides in [1..6_u64, 1..6_u64]) {
+    fn systolic_arrays_cost_what_a_simulation_of_every_clock_counts(case in layer_case(), masks in masks(), sides in [1..6_u64, 1..6_u64]) {
         type ArrayOracle = fn([u64; 2], u64, u64, u64) -> SimulatedCounts;
         let array = by_hand::systolic(sides[0], sides[1]);
         let both: [(Dataflow, ArrayOracle); 2] = [
             (Dataflow::WeightStationary(array.clone()), weight_stationary),
             (Dataflow::OutputStationary(array), output_stationary),
         ];
-        for (dataflow, run) in both {
+        for (dataflow, simulate) in both {
             let accelerator = by_hand::accelerator(dataflow);
             let computed = computed(&accelerator, &case, &masks[0]);
             let cost = masked(&accelerator, &case, &masks[0]);
@@ -96,15 +96,15 @@ proptest! {
             if positions == 0 {
                 continue;
             }
-            let seen = run(sides, positions, case.inner(), case.channels[1]);
-            prop_assert_eq!(cost.array_cycles, case.groups * seen.clocks);
-            prop_assert_eq!(cost.macs, case.groups * seen.macs);
+            let simulated = simulate(sides, positions, case.inner(), case.channels[1]);
+            prop_assert_eq!(cost.array_cycles, case.groups * simulated.clocks);
+            prop_assert_eq!(cost.macs, case.groups * simulated.macs);
             // The buffer holds everything, so it is filled once.
-            let inputs = case.images * case.groups * case.channels[0] * inputs_seen(&computed, case.axes, case.inputs).len() as u64;
+            let inputs = case.images * case.groups * case.channels[0] * needed_inputs(&computed, case.axes, case.inputs).len() as u64;
             let weights = case.groups * case.channels[1] * case.inner();
             prop_assert_eq!(cost.dram, MemoryAccesses { inputs, weights, sums: 0, outputs: positions * case.groups * case.channels[1] });
-            prop_assert_eq!(cost.buffer.inputs, inputs + case.groups * seen.inputs);
-            prop_assert_eq!(cost.buffer.weights, weights + case.groups * seen.weights);
+            prop_assert_eq!(cost.buffer.inputs, inputs + case.groups * simulated.inputs);
+            prop_assert_eq!(cost.buffer.weights, weights + case.groups * simulated.weights);
         }
     }
 }

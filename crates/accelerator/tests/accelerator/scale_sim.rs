@@ -7,7 +7,7 @@ use foveate_accelerator::{Dataflow, KernelWindow, Layer, TensorShape};
 /// The first layer of AlexNet on 32 x 32 has 36 folds of 3,119 cycles. The last of them has number
 /// 112,283 in SCALE-Sim's trace.
 #[test]
-fn the_golden_trace_of_scale_sim() {
+fn the_cycles_match_the_golden_trace_of_scale_sim() {
     let accelerator = accelerator(Dataflow::WeightStationary(systolic(32, 32)));
     let inputs = TensorShape { channels: 3, height: 227, width: 227 };
     let outputs = TensorShape { channels: 96, height: 55, width: 55 };
@@ -33,18 +33,27 @@ const SCALE_SIM: &[(u64, u64, u64, u64, u64, u64, u64)] = &[
 ];
 
 #[test]
-fn the_cycles_of_scale_sim() {
+fn the_cycles_match_the_prints_of_scale_sim() {
     for &(side, kernel, channels, filters, groups, ws, os) in SCALE_SIM {
         let inputs = TensorShape { channels, height: side, width: side };
-        let places = side - kernel + 1;
-        let outputs = TensorShape { channels: filters, height: places, width: places };
+        let side_of_output = side - kernel + 1;
+        let outputs =
+            TensorShape { channels: filters, height: side_of_output, width: side_of_output };
         let windows = [KernelWindow::of(kernel, 1, 0); 2];
         let layer = Layer::convolution(inputs, outputs, windows, groups).unwrap();
-        let last = |dataflow: Dataflow| {
+        let last_cycle = |dataflow: Dataflow| {
             let accelerator = accelerator(dataflow);
             accelerator.plan(layer.clone()).unwrap().whole_cost().array_cycles - groups
         };
-        assert_eq!(last(Dataflow::WeightStationary(systolic(32, 32))), ws, "{side} {channels}");
-        assert_eq!(last(Dataflow::OutputStationary(systolic(32, 32))), os, "{side} {channels}");
+        assert_eq!(
+            last_cycle(Dataflow::WeightStationary(systolic(32, 32))),
+            ws,
+            "{side} {channels}"
+        );
+        assert_eq!(
+            last_cycle(Dataflow::OutputStationary(systolic(32, 32))),
+            os,
+            "{side} {channels}"
+        );
     }
 }
