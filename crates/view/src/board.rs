@@ -16,8 +16,8 @@ use serde_json::{Value, json};
 use crate::ViewError;
 use crate::shared_stream::{RegisterReading, SharedStream};
 
-/// The time to wait for an answer. It is longer than the pause after which a board takes the next
-/// byte for the first byte of a command.
+/// The time to wait for an answer. After a shorter pause than this a board takes the next byte for
+/// the first byte of a command, so an incomplete command does not spoil the next one.
 const ANSWER_LIMIT: Duration = Duration::from_millis(300);
 /// The number of times that a command is sent.
 const ATTEMPTS: u32 = 3;
@@ -62,8 +62,8 @@ impl BoardRegisters {
             let (write, writes) = channel();
             self.table.get_or_init(|| table);
             self.writes.get_or_init(|| write);
-            let (own, live) = (Arc::clone(self), Arc::clone(live));
-            crate::start_thread("registers", move || own.run(&live, &writes, &answers))?;
+            let (registers, live) = (Arc::clone(self), Arc::clone(live));
+            crate::start_thread("registers", move || registers.run(&live, &writes, &answers))?;
         }
         Ok(answer)
     }
@@ -87,9 +87,9 @@ impl BoardRegisters {
             json!({"name": name, "low": low, "width": width, "kind": kind_name(kind), "doc": doc})
         };
         self.table.get().map_or(Value::Null, |table| {
-            let register = |own: &Register| {
-                let fields: Vec<Value> = own.fields.iter().map(field).collect();
-                json!({"name": own.name, "address": own.address, "doc": own.doc, "fields": fields})
+            let register = |entry: &Register| {
+                let fields: Vec<Value> = entry.fields.iter().map(field).collect();
+                json!({"name": entry.name, "address": entry.address, "doc": entry.doc, "fields": fields})
             };
             table.iter().map(register).collect()
         })
@@ -99,23 +99,23 @@ impl BoardRegisters {
     /// large, or the board does not answer.
     pub(crate) fn write(&self, address: u64, value: u64) -> Result<(), String> {
         let table = self.table.get().ok_or("there is no core whose registers can be written")?;
-        let own = table.iter().find(|own| u64::from(own.address) == address);
-        let own = own.ok_or_else(|| format!("there is no register {address:#x}"))?;
-        let width = own.fields.iter().filter(|field| may_be_written(field));
+        let register = table.iter().find(|register| u64::from(register.address) == address);
+        let register = register.ok_or_else(|| format!("there is no register {address:#x}"))?;
+        let width = register.fields.iter().filter(|field| may_be_written(field));
         let width = width.map(|field| field.low + field.width).max();
-        let width = width.ok_or_else(|| format!("`{}` cannot be set here", own.name))?;
+        let width = width.ok_or_else(|| format!("`{}` cannot be set here", register.name))?;
         if value >> width != 0 {
             let most = (1u64 << width) - 1;
-            return Err(format!("`{}` is at most {most}, not {value}", own.name));
+            return Err(format!("`{}` is at most {most}, not {value}", register.name));
         }
-        let narrow = u16::try_from(own.address).ok().zip(u32::try_from(value).ok());
-        let (address, value) = narrow.ok_or("a register has 32 bits")?;
-        let (done, answer) = channel();
+        let fitting = u16::try_from(register.address).ok().zip(u32::try_from(value).ok());
+        let (address, value) = fitting.ok_or("a register has 32 bits")?;
+        let (sender, receiver) = channel();
         let sent = self
             .writes
             .get()
-            .and_then(|to| to.send(RegisterWrite { address, value, result: done }).ok());
-        match sent.and_then(|()| answer.recv_timeout(WRITE_LIMIT).ok()) {
+            .and_then(|writes| writes.send(RegisterWrite { address, value, result: sender }).ok());
+        match sent.and_then(|()| receiver.recv_timeout(WRITE_LIMIT).ok()) {
             Some(true) => Ok(()),
             Some(false) | None => Err("the board does not answer; it may have been set".to_owned()),
         }
@@ -130,13 +130,13 @@ impl BoardRegisters {
         let table = self.table.get().map_or(&[][..], Vec::as_slice);
         while !live.is_over() {
             let mut readings = Vec::with_capacity(table.len());
-            for own in table {
+            for register in table {
                 while let Ok(write) = writes.try_recv() {
                     self.send_write(&write, answers);
                 }
                 let is_silent =
                     readings.first().is_some_and(|first: &RegisterReading| first.value.is_none());
-                let address = u16::try_from(own.address).unwrap_or(u16::MAX);
+                let address = u16::try_from(register.address).unwrap_or(u16::MAX);
                 // If the first register of a round has no answer, the others are not asked for
                 // until the next round.
                 let value = if is_silent {
@@ -144,7 +144,7 @@ impl BoardRegisters {
                 } else {
                     self.ask(RegisterCommand::read(address), answers)
                 };
-                readings.push(RegisterReading { address: own.address, value });
+                readings.push(RegisterReading { address: register.address, value });
             }
             live.set_registers(readings);
             match writes.recv_timeout(ROUND_PAUSE) {
@@ -202,9 +202,10 @@ fn read_registers(design: &Design) -> Option<Vec<Register>> {
     };
     // The first register shows that there is a core. Other constant registers are left out, because
     // every FRAME packet has their values.
-    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(may_change);
+    let is_read =
+        |register: &Register| register.address == 0 || register.fields.iter().any(may_change);
     let all = register_table(design)?;
-    Some(all.into_iter().filter(is_told).chain([board]).collect())
+    Some(all.into_iter().filter(is_read).chain([board]).collect())
 }
 
 /// Returns true if a field may read as another value later.

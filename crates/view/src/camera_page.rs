@@ -19,7 +19,7 @@ macro_rules! web_files {
     ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../web/", $name))),*] };
 }
 
-/// The modules of the page. Each stands behind those that it imports.
+/// The modules of the page. Each comes after the modules that it imports.
 const MODULES: [&str; 20] = web_files![
     "engine.js",
     "elements.js",
@@ -70,8 +70,8 @@ fn joined_modules(modules: &[&str]) -> String {
     modules.iter().map(|module| module_part(module)).collect()
 }
 
-/// Turns a module into a part of one script. It imports nothing, because its imports stand above
-/// it.
+/// Turns a module into a part of one script. The part imports nothing, because the modules that it
+/// needs come before it.
 fn module_part(module: &str) -> String {
     let lines = module.lines().filter(|line| !line.starts_with("import "));
     lines.map(|line| format!("{}\n", line.strip_prefix("export ").unwrap_or(line))).collect()
@@ -124,11 +124,12 @@ mod tests {
     }
 
     #[test]
-    fn every_module_of_the_folder_is_in_it() {
+    fn every_module_of_the_folder_is_in_the_page() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/web");
         let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let modules: Vec<_> =
-            files.filter(|path| path.extension().is_some_and(|own| own == "js")).collect();
+        let modules: Vec<_> = files
+            .filter(|path| path.extension().is_some_and(|extension| extension == "js"))
+            .collect();
         // Both scripts have the engine.
         assert_eq!(modules.len(), MODULES.len() + WORKER_MODULES.len() - 1, "{modules:?}");
         for path in modules {
@@ -139,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_module_stands_behind_what_it_imports() {
+    fn a_module_comes_after_the_modules_that_it_imports() {
         for modules in [&MODULES[..], &WORKER_MODULES] {
             assert_imports_precede(modules);
         }

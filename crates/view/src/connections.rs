@@ -47,8 +47,8 @@ pub(crate) struct ConnectionPlace {
 }
 
 impl ConnectionTable {
-    /// Takes a new connection. There is no place only while the threads of [`CONNECTIONS`] closed
-    /// connections have not ended.
+    /// Registers a new connection. Returns `None` only if the threads of [`CONNECTIONS`] closed
+    /// connections do not end in time.
     pub(crate) fn register(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<ConnectionPlace> {
         let until = Instant::now() + NEW_CONNECTION_LIMIT;
         let mut state = self.lock();
@@ -62,9 +62,9 @@ impl ConnectionTable {
         }
         let number = state.next;
         state.next += 1;
-        let (stream, since) = (Arc::clone(stream), Instant::now());
+        let (stream, now) = (Arc::clone(stream), Instant::now());
         let connection =
-            Connection { stream, is_admitted: false, last_request: since, is_closed: false };
+            Connection { stream, is_admitted: false, last_request: now, is_closed: false };
         state.open.insert(number, connection);
         Some(ConnectionPlace { table: Arc::clone(self), number })
     }
@@ -78,12 +78,14 @@ impl OpenConnections {
     /// Closes the connection that has been silent for the longest time. Connections that have not
     /// shown the token are closed first.
     fn close_one(&mut self) {
-        let open = self.open.values_mut().filter(|own| !own.is_closed);
-        if let Some(longest) = open.min_by_key(|own| (own.is_admitted, own.last_request)) {
-            longest.is_closed = true;
+        let open = self.open.values_mut().filter(|connection| !connection.is_closed);
+        if let Some(oldest) =
+            open.min_by_key(|connection| (connection.is_admitted, connection.last_request))
+        {
+            oldest.is_closed = true;
             // The thread of the connection sees the end of the stream. A failure means that the
             // connection is closed already.
-            let _ = longest.stream.shutdown(Shutdown::Both);
+            let _ = oldest.stream.shutdown(Shutdown::Both);
         }
     }
 }
@@ -91,8 +93,8 @@ impl OpenConnections {
 impl ConnectionPlace {
     /// Notes that the connection has sent a request with the token.
     pub(crate) fn admit(&self) {
-        if let Some(own) = self.table.lock().open.get_mut(&self.number) {
-            (own.is_admitted, own.last_request) = (true, Instant::now());
+        if let Some(connection) = self.table.lock().open.get_mut(&self.number) {
+            (connection.is_admitted, connection.last_request) = (true, Instant::now());
         }
     }
 }

@@ -16,7 +16,7 @@ use serde_json::json;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum InputStatus {
     Running,
-    /// All frames were shown.
+    /// The input has no more frames.
     Ended,
     /// The input cannot be read any further.
     Failed,
@@ -71,7 +71,7 @@ impl PlayerState {
     }
 }
 
-/// The way in which frames come.
+/// The way in which an input delivers frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FrameDelivery {
     /// Frames come when they are asked for, and the input can be read again.
@@ -122,7 +122,7 @@ impl FramePlayer {
         let source = open(&inputs, &byte_camera(), &options)?;
         let name = format!("`{}`", source.inputs().join(", "));
         let state = PlayerState::new(name.clone());
-        let reel = Self {
+        let player = Self {
             kind: FrameDelivery::for_inputs(&inputs),
             name,
             inputs,
@@ -130,7 +130,7 @@ impl FramePlayer {
             state: Mutex::new(state),
             changed: Condvar::new(),
         };
-        Ok((reel, source))
+        Ok((player, source))
     }
 
     /// Reads frames until the player ends.
@@ -181,9 +181,9 @@ impl FramePlayer {
             if Self::is_stopped(&state) {
                 return Ok(None);
             }
-            let shot =
+            let numbered =
                 NumberedFrame { number: state.next, time_us: read.time_us, frame: read.frame };
-            state.newest = Some(shot);
+            state.newest = Some(numbered);
             state.next += 1;
             self.changed.notify_all();
         }
@@ -201,37 +201,39 @@ impl FramePlayer {
         state.is_over || state.restart_requested
     }
 
-    /// Returns the frame after frame `after`, or no frame if none comes within `patience`: the
-    /// length of a JSON text in bytes as a 32-bit number, the text, and a byte per pixel.
-    pub(crate) fn frame_after(&self, after: Option<u64>, patience: Duration) -> Vec<u8> {
-        let until = Instant::now() + patience;
+    /// Returns the answer for the frame after frame `after`: the length of a JSON text in bytes as
+    /// a 32-bit number, the text, and a byte per pixel. The answer has no pixels if no such frame
+    /// comes within `time_limit`.
+    pub(crate) fn frame_after(&self, after: Option<u64>, time_limit: Duration) -> Vec<u8> {
+        let until = Instant::now() + time_limit;
         let first = after.map_or(0, |after| after.saturating_add(1));
         let mut state = self.lock();
-        // At most the next frame is asked for, whatever number a page gives.
+        // A page may give any number, but cannot ask for more than the next frame.
         state.largest_requested = state.largest_requested.max(first.min(state.next));
         self.changed.notify_all();
-        let is_new =
-            |state: &PlayerState| state.newest.as_ref().is_some_and(|shot| shot.number >= first);
+        let is_new = |state: &PlayerState| {
+            state.newest.as_ref().is_some_and(|newest| newest.number >= first)
+        };
         while !is_new(&state) && state.status == InputStatus::Running && !state.is_over {
             let Some(left) = until.checked_duration_since(Instant::now()) else { break };
             let waited = self.changed.wait_timeout(state, left);
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
-        let shot = state.newest.as_ref().filter(|_| is_new(&state));
+        let newest = state.newest.as_ref().filter(|_| is_new(&state));
         // An existing frame is shown before the end of the clip is reported.
-        let status = if shot.is_some() { InputStatus::Running } else { state.status };
+        let status = if newest.is_some() { InputStatus::Running } else { state.status };
         let text = json!({
             "status": status.name(),
             "text": state.text,
             "live": self.kind == FrameDelivery::Camera,
-            "number": shot.map(|shot| shot.number),
-            "t_us": shot.map(|shot| shot.time_us),
-            "width": shot.map(|shot| shot.frame.width()),
-            "height": shot.map(|shot| shot.frame.height()),
+            "number": newest.map(|newest| newest.number),
+            "t_us": newest.map(|newest| newest.time_us),
+            "width": newest.map(|newest| newest.frame.width()),
+            "height": newest.map(|newest| newest.frame.height()),
         });
         let text = text.to_string();
         let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
-        let pixels = match shot.map(|shot| shot.frame.borrowed_pixels()) {
+        let pixels = match newest.map(|newest| newest.frame.borrowed_pixels()) {
             Some(FramePixels::Bytes(pixels)) => pixels,
             // The source reads frames as bytes.
             Some(FramePixels::Words(_)) | None => &[],
@@ -295,37 +297,37 @@ mod tests {
     }
 
     #[test]
-    fn a_camera_that_has_broken_off_is_opened_again_and_one_that_sends_goes_on() {
+    fn a_camera_that_has_broken_off_is_opened_again_and_a_running_one_goes_on() {
         let options = InputOptions { frames: Some(3), ..InputOptions::default() };
-        let (mut reel, source) =
+        let (mut player, source) =
             FramePlayer::open(vec!["scene:street".to_owned()], options).unwrap();
         // The scene behaves as a camera, which does not wait.
-        reel.kind = FrameDelivery::Camera;
-        reel.restart().unwrap();
-        assert!(!reel.lock().restart_requested);
+        player.kind = FrameDelivery::Camera;
+        player.restart().unwrap();
+        assert!(!player.lock().restart_requested);
         // The status changes at once, before the reader has noticed the request.
         for status in [InputStatus::Ended, InputStatus::Failed] {
-            *reel.lock() =
+            *player.lock() =
                 PlayerState { status, restart_requested: false, ..PlayerState::new(String::new()) };
-            reel.restart().unwrap();
-            let state = reel.lock();
+            player.restart().unwrap();
+            let state = player.lock();
             assert!(state.restart_requested && state.status == InputStatus::Running);
         }
-        let reel = Arc::new(reel);
+        let player = Arc::new(player);
         let reading = {
-            let reel = Arc::clone(&reel);
-            std::thread::spawn(move || reel.run(source))
+            let player = Arc::clone(&player);
+            std::thread::spawn(move || player.run(source))
         };
-        let long = Duration::from_secs(60);
+        let time_limit = Duration::from_secs(60);
         for run in 1..=2 {
             // The first two frames are never asked for.
-            let last = head(&reel.frame_after(Some(3 * run - 2), long));
+            let last = head(&player.frame_after(Some(3 * run - 2), time_limit));
             assert_eq!((&last["number"], &last["live"]), (&(3 * run - 1).into(), &true.into()));
-            assert_eq!(head(&reel.frame_after(Some(3 * run - 1), long))["status"], "ended");
-            reel.restart().unwrap();
+            assert_eq!(head(&player.frame_after(Some(3 * run - 1), time_limit))["status"], "ended");
+            player.restart().unwrap();
         }
-        reel.end();
+        player.end();
         reading.join().unwrap();
-        assert!(reel.take_messages().is_empty());
+        assert!(player.take_messages().is_empty());
     }
 }

@@ -100,8 +100,8 @@ impl RequestStream {
             body.len()
         );
         let stream = self.requests.get_mut();
-        let more = u64::try_from(body.len() / BYTES_PER_SECOND).unwrap_or(u64::MAX);
-        stream.set_deadline(ANSWER_TIME.saturating_add(Duration::from_secs(more)));
+        let extra_seconds = u64::try_from(body.len() / BYTES_PER_SECOND).unwrap_or(u64::MAX);
+        stream.set_deadline(ANSWER_TIME.saturating_add(Duration::from_secs(extra_seconds)));
         stream.write_all(&[head.as_bytes(), body].concat())
     }
 }
@@ -122,8 +122,8 @@ fn read_line(head: &mut impl BufRead) -> io::Result<Option<String>> {
 }
 
 /// Sets a header that may occur only once.
-fn set_once<T>(place: &mut Option<T>, value: T) -> io::Result<()> {
-    match place.replace(value) {
+fn set_once<T>(header: &mut Option<T>, value: T) -> io::Result<()> {
+    match header.replace(value) {
         None => Ok(()),
         Some(_) => Err(invalid("a line that comes twice")),
     }

@@ -54,15 +54,15 @@ impl Player {
         let PlayerOptions { inputs, input, preset, camera, address } = options;
         let settings = link_settings(preset.as_deref(), camera.as_ref())?;
         let opened = if inputs.is_empty() { None } else { Some(FramePlayer::open(inputs, input)?) };
-        let (reel, source) = opened.unzip();
+        let (frames, source) = opened.unzip();
         let (page, is_over) = (OnceLock::new(), AtomicBool::new(false));
-        let site = Arc::new(PlayerSite { frames: reel, page, is_over });
+        let site = Arc::new(PlayerSite { frames, page, is_over });
         let server = PageServer::start(address, Arc::clone(&site))?;
         if let Some(source) = source {
             let site = Arc::clone(&site);
             start_thread("reader", move || {
-                if let Some(reel) = &site.frames {
-                    reel.run(source);
+                if let Some(frames) = &site.frames {
+                    frames.run(source);
                 }
             })?;
         }
@@ -92,8 +92,8 @@ impl Player {
 impl Drop for Player {
     fn drop(&mut self) {
         self.site.is_over.store(true, Ordering::Relaxed);
-        if let Some(reel) = &self.site.frames {
-            reel.end();
+        if let Some(frames) = &self.site.frames {
+            frames.end();
         }
         self.server.wake();
     }
@@ -124,14 +124,14 @@ impl PageSite for PlayerSite {
         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'".to_owned()
     }
 
-    fn answer(&self, method: &str, within: &str, query: &str, _body: &[u8]) -> Option<HttpAnswer> {
-        let reel = self.frames.as_ref()?;
-        Some(match (method, within) {
+    fn answer(&self, method: &str, subpath: &str, query: &str, _body: &[u8]) -> Option<HttpAnswer> {
+        let frames = self.frames.as_ref()?;
+        Some(match (method, subpath) {
             ("GET", "frames") => {
                 let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
-                HttpAnswer::binary(reel.frame_after(after, FRAME_WAIT))
+                HttpAnswer::binary(frames.frame_after(after, FRAME_WAIT))
             }
-            ("POST", "restart") => match reel.restart() {
+            ("POST", "restart") => match frames.restart() {
                 Ok(()) => HttpAnswer::text("200 OK", "begins again"),
                 Err(why) => HttpAnswer::text("409 Conflict", &why),
             },
@@ -154,18 +154,20 @@ fn link_settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<
     if preset.is_none() {
         text = format!("preset={name}");
     }
-    let (before, now) = (dotted_keys(&Preset::find(name)?.config()?.camera), dotted_keys(camera));
+    let (before, present) =
+        (dotted_keys(&Preset::find(name)?.config()?.camera), dotted_keys(camera));
     let is_feature = |key: &str| key.starts_with("spatial.");
     let differs = |(key, value): &&(String, Value)| {
         !before.iter().any(|(other, old)| other == key && old == value)
     };
     let feature_differs = before.iter().filter(|(key, _)| is_feature(key)).count()
-        != now.iter().filter(|(key, _)| is_feature(key)).count()
-        || now.iter().filter(differs).any(|(key, _)| is_feature(key));
-    // Features are numbered, and so are given all together if one of them differs.
-    let taken =
-        |own: &&(String, Value)| if is_feature(&own.0) { feature_differs } else { differs(own) };
-    for (key, value) in now.iter().filter(taken) {
+        != present.iter().filter(|(key, _)| is_feature(key)).count()
+        || present.iter().filter(differs).any(|(key, _)| is_feature(key));
+    // The keys of features are numbered, so all of them are given if one differs.
+    let is_included = |entry: &&(String, Value)| {
+        if is_feature(&entry.0) { feature_differs } else { differs(entry) }
+    };
+    for (key, value) in present.iter().filter(is_included) {
         let value = value.to_string().replace('"', "%22").replace(' ', "%20");
         write!(text, "&{key}={value}").expect("a String takes everything");
     }
@@ -203,18 +205,18 @@ mod tests {
     use super::link_settings;
 
     #[test]
-    fn the_link_has_what_differs_from_the_preset() {
-        let of = |preset, set: &[&str]| {
+    fn the_link_has_the_keys_that_differ_from_the_preset() {
+        let settings_of = |preset, set: &[&str]| {
             let toml = foveate_design::Preset::find(preset).unwrap().toml;
             let camera = DesignConfig::from_toml_with(toml, set).unwrap().camera;
             link_settings(Some(preset), Some(&camera)).unwrap()
         };
-        assert_eq!(of("fovea", &[]), "preset=fovea");
+        assert_eq!(settings_of("fovea", &[]), "preset=fovea");
         assert_eq!(
-            of("fovea", &["region.size=16", "render.irrelevant='hold'", "frame.width=64"]),
+            settings_of("fovea", &["region.size=16", "render.irrelevant='hold'", "frame.width=64"]),
             "preset=fovea&region.size=16&render.irrelevant=%22hold%22"
         );
-        let all = of("fovea", &["spatial.0.level=77"]);
+        let all = settings_of("fovea", &["spatial.0.level=77"]);
         assert!(
             all.contains("spatial.0.feature=%22") && all.contains("spatial.0.level=77"),
             "{all}"

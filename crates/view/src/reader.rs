@@ -38,14 +38,14 @@ pub(crate) struct StreamReader {
 }
 
 impl StreamReader {
-    /// Reads until the view ends. If a port is gone, it waits for the port. `first` is a source
-    /// that is open already.
+    /// Reads until the view ends. If a port is gone, it waits until the port comes back. `first` is
+    /// a source that is open already.
     pub(crate) fn run(self, mut first: Option<OpenInput>) {
         let name = self.input.name();
         while !self.live.is_over() {
             let source = match first.take().map_or_else(|| self.input.open(), Ok) {
                 Ok(source) => source,
-                // It has been reported that the port is gone.
+                // The end of the port was reported already.
                 Err(_) if self.input.is_port() => {
                     sleep(REOPEN_INTERVAL);
                     continue;
@@ -85,7 +85,7 @@ impl StreamReader {
     /// Reads to the end of the stream. Returns the error that ended it, if there was one.
     fn read(&self, mut reader: Box<dyn Read + Send>) -> Option<std::io::Error> {
         let mut stream = PacketStream::new(&self.config);
-        let (mut chunk, mut pace) = (vec![0; CHUNK_BYTES], PlaybackClock::default());
+        let (mut chunk, mut clock) = (vec![0; CHUNK_BYTES], PlaybackClock::default());
         loop {
             let read = match reader.read(&mut chunk) {
                 Err(error) if error.kind() == ErrorKind::Interrupted => continue,
@@ -96,7 +96,7 @@ impl StreamReader {
                 Ok(0) | Err(_) => stream.complete(),
             }
             self.live.note_bytes();
-            self.take_packets(&mut stream, &mut pace);
+            self.take_packets(&mut stream, &mut clock);
             match read {
                 Ok(0) => return None,
                 Ok(_) if self.live.is_over() => return None,
@@ -108,7 +108,7 @@ impl StreamReader {
 
     /// Takes all packets that are complete. A few bytes may make many frames, so the end of the
     /// view is checked between two of them.
-    fn take_packets(&self, stream: &mut PacketStream, pace: &mut PlaybackClock) {
+    fn take_packets(&self, stream: &mut PacketStream, clock: &mut PlaybackClock) {
         while !self.live.is_over() {
             match stream.receive() {
                 Ok(None) => return,
@@ -120,10 +120,10 @@ impl StreamReader {
                 }
                 Ok(Some(StreamItem::Frame(frame))) => {
                     if self.play != PlayMode::AtOnce {
-                        pace.wait_for_frame(&frame, &self.live);
+                        clock.wait_for_frame(&frame, &self.live);
                     }
-                    let bytes = stream.position() - pace.position;
-                    pace.position = stream.position();
+                    let bytes = stream.position() - clock.position;
+                    clock.position = stream.position();
                     if self.live.is_over() {
                         return;
                     }
@@ -157,7 +157,7 @@ impl PlaybackClock {
         let (start, start_us) = *self.start.get_or_insert((Instant::now(), time_us));
         let gap = Duration::from_micros(time_us.saturating_sub(self.last_us.max(start_us)));
         self.last_us = time_us;
-        if let Some(more) = gap.checked_sub(LONGEST_PAUSE).filter(|more| !more.is_zero()) {
+        if let Some(excess) = gap.checked_sub(LONGEST_PAUSE).filter(|excess| !excess.is_zero()) {
             if self.cut_time.is_zero() {
                 live.add_message(format!(
                     "frame {} comes {} s after the frame before; pauses of more than {} s are cut to that",
@@ -166,7 +166,7 @@ impl PlaybackClock {
                     LONGEST_PAUSE.as_secs()
                 ));
             }
-            self.cut_time = self.cut_time.saturating_add(more);
+            self.cut_time = self.cut_time.saturating_add(excess);
         }
         let due =
             Duration::from_micros(time_us.saturating_sub(start_us)).saturating_sub(self.cut_time);

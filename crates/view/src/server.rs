@@ -34,8 +34,9 @@ pub(crate) trait PageSite: Send + Sync + 'static {
         )
     }
 
-    /// Returns the answer to a request for anything but the page; `None` if it does not exist.
-    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<HttpAnswer>;
+    /// Returns the answer to a request for `subpath`, the path below the link; `None` if there is
+    /// nothing at this path. It is not called for the page itself, whose path is empty.
+    fn answer(&self, method: &str, subpath: &str, query: &str, body: &[u8]) -> Option<HttpAnswer>;
 
     /// Returns true if the server must end.
     fn is_over(&self) -> bool;
@@ -101,10 +102,11 @@ fn accept_connections(listener: &TcpListener, shared: &Arc<ServerContext<impl Pa
             continue;
         };
         let Some(place) = connections.register(&stream) else { continue };
-        let own = Arc::clone(shared);
-        // A browser that goes away is no error, and a thread that does not start ends the
-        // connection.
-        let _ = crate::start_thread("browser", move || drop(own.answer_requests(stream, &place)));
+        let context = Arc::clone(shared);
+        // It is no error that a browser goes away. If the thread does not start, the connection
+        // ends.
+        let _ =
+            crate::start_thread("browser", move || drop(context.answer_requests(stream, &place)));
     }
 }
 
@@ -115,20 +117,20 @@ impl<S: PageSite> ServerContext<S> {
         place: &ConnectionPlace,
     ) -> std::io::Result<()> {
         stream.set_nodelay(true)?;
-        let mut dialogue = RequestStream::new(stream);
-        while let Some(request) = dialogue.next()? {
+        let mut requests = RequestStream::new(stream);
+        while let Some(request) = requests.next()? {
             let admitted = self.admit(&request);
             if admitted.is_ok() {
                 place.admit();
             }
             // A browser without the token gets one answer, and its connection is closed.
-            let is_stranger = admitted.is_err();
+            let is_refused = admitted.is_err();
             let answer = admitted.map_or_else(
                 |refusal| refusal,
-                |(within, query)| self.answer(&request, within, query),
+                |(subpath, query)| self.answer(&request, subpath, query),
             );
-            let is_last = is_stranger || self.site.is_over();
-            dialogue.answer(&answer, &self.policy, is_last)?;
+            let is_last = is_refused || self.site.is_over();
+            requests.answer(&answer, &self.policy, is_last)?;
             if is_last {
                 break;
             }
@@ -136,16 +138,16 @@ impl<S: PageSite> ServerContext<S> {
         Ok(())
     }
 
-    /// Returns the path below the link and the query of a request with the token, or else the
-    /// answer that refuses the request.
+    /// Returns the path below the link and the query of a request that has the token. Any other
+    /// request gives the answer that refuses it.
     fn admit<'a>(&self, request: &'a HttpRequest) -> Result<(&'a str, &'a str), HttpAnswer> {
         if !self.hosts.contains(&request.host.to_ascii_lowercase()) {
             return Err(HttpAnswer::text("403 Forbidden", "this page has another address"));
         }
         let (path, query) = request.target.split_once('?').unwrap_or((&request.target, ""));
-        let within = path.strip_prefix('/').and_then(|path| path.split_once('/'));
-        match within.filter(|(token, _)| equal_in_constant_time(token, &self.token)) {
-            Some((_, within)) => Ok((within, query)),
+        let subpath = path.strip_prefix('/').and_then(|path| path.split_once('/'));
+        match subpath.filter(|(token, _)| equal_in_constant_time(token, &self.token)) {
+            Some((_, subpath)) => Ok((subpath, query)),
             None => {
                 let text = format!("open the link that `{}` prints", self.site.command());
                 Err(HttpAnswer::text("403 Forbidden", &text))
@@ -153,15 +155,15 @@ impl<S: PageSite> ServerContext<S> {
         }
     }
 
-    fn answer(&self, request: &HttpRequest, within: &str, query: &str) -> HttpAnswer {
-        match (request.method.as_str(), within) {
+    fn answer(&self, request: &HttpRequest, subpath: &str, query: &str) -> HttpAnswer {
+        match (request.method.as_str(), subpath) {
             ("GET", "") => {
                 let body = self.site.page(&self.nonce).into_bytes();
                 HttpAnswer { status: "200 OK", kind: "text/html; charset=utf-8", body }
             }
             (_, "") => HttpAnswer::method_not_allowed(),
-            (method, within) => {
-                let answer = self.site.answer(method, within, query, &request.body);
+            (method, subpath) => {
+                let answer = self.site.answer(method, subpath, query, &request.body);
                 answer.unwrap_or_else(|| HttpAnswer::text("404 Not Found", "there is nothing"))
             }
         }
@@ -169,9 +171,9 @@ impl<S: PageSite> ServerContext<S> {
 }
 
 /// Compares two texts in a time that does not depend on the place where they differ.
-fn equal_in_constant_time(given: &str, own: &str) -> bool {
-    let differ = given.bytes().zip(own.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
-    given.len() == own.len() && differ == 0
+fn equal_in_constant_time(given: &str, expected: &str) -> bool {
+    let differ = given.bytes().zip(expected.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
+    given.len() == expected.len() && differ == 0
 }
 
 /// Returns a random text of 128 bits.

@@ -21,7 +21,8 @@ const SILENCE_LIMIT: Duration = Duration::from_secs(2);
 const HISTORY_LENGTH: usize = 240;
 /// The number of losses that the page lists, the newest ones.
 const LISTED_LOSSES: usize = 50;
-/// The number of losses, and of refusals, that are reported in the terminal, the first ones.
+/// The number of losses that are reported in the terminal, the first ones. The same number applies
+/// to refusals.
 const REPORTED_LIMIT: u64 = 10;
 /// The number of messages that wait for the terminal. Further messages are left out until they are
 /// fetched.
@@ -44,7 +45,7 @@ pub(crate) enum StreamStatus {
 /// The figures of a frame.
 #[derive(Clone, Debug, Serialize)]
 struct FrameFigures {
-    /// The [`ChangeCount`] that added the frame.
+    /// The number of the change that added the frame.
     #[serde(skip)]
     change: u64,
     number: u32,
@@ -62,7 +63,7 @@ pub(crate) struct RegisterReading {
     pub(crate) value: Option<u32>,
 }
 
-/// A count of all changes, by which a browser asks for what it does not know.
+/// A count of all changes. A browser sends the count that it knows, and gets all later changes.
 type ChangeCount = u64;
 
 #[derive(Debug)]
@@ -98,7 +99,7 @@ impl StreamState {
     }
 }
 
-/// The state of the stream, and what waits for its changes.
+/// The state of the stream, and the signal of its changes.
 #[derive(Debug)]
 pub(crate) struct SharedStream {
     state: Mutex<StreamState>,
@@ -228,13 +229,13 @@ impl SharedStream {
         state.text = format!("showing `{}`", self.name);
         state.refused = None;
         self.note_change(&mut state);
-        let at = state.change;
-        state.picture = (at, picture);
+        let change = state.change;
+        state.picture = (change, picture);
         state.frames += 1;
         state.bytes += bytes;
         state.history.truncate(HISTORY_LENGTH - 1);
         state.history.push_front(FrameFigures {
-            change: at,
+            change,
             number: frame.number,
             active,
             bytes,
@@ -249,11 +250,12 @@ impl SharedStream {
         state.registers = (state.change, registers);
     }
 
-    /// Returns what a browser needs that knows all changes up to `after`: the length of a JSON text
-    /// in bytes as a 32-bit number, the text, and, if the newest frame is new, its decisions and
-    /// pixels with a byte per region and a byte per pixel. Waits up to `patience` for a change.
-    pub(crate) fn changes_after(&self, after: ChangeCount, patience: Duration) -> Vec<u8> {
-        let until = Instant::now() + patience;
+    /// Returns the answer to a browser that knows all changes up to `after`: the length of a JSON
+    /// text in bytes as a 32-bit number, and the text. If the browser does not know the newest
+    /// frame, its decisions follow with a byte per region, and its pixels with a byte per pixel.
+    /// Waits up to `time_limit` for a change.
+    pub(crate) fn changes_after(&self, after: ChangeCount, time_limit: Duration) -> Vec<u8> {
+        let until = Instant::now() + time_limit;
         let mut state = self.lock_noting_silence();
         while state.change <= after && !self.is_over() {
             let Some(left) = until.checked_duration_since(Instant::now()) else { break };
@@ -263,7 +265,7 @@ impl SharedStream {
         let (changed, picture) = &state.picture;
         let picture: &[u8] = if *changed > after { picture } else { &[] };
         let history: Vec<&FrameFigures> =
-            state.history.iter().take_while(|own| own.change > after).collect();
+            state.history.iter().take_while(|figures| figures.change > after).collect();
         let registers = (state.registers.0 > after).then_some(&state.registers.1);
         let text = json!({
             "change": state.change,
@@ -287,9 +289,9 @@ impl SharedStream {
     /// Locks the state. If nothing has come for too long, this is noted in it.
     fn lock_noting_silence(&self) -> MutexGuard<'_, StreamState> {
         let mut state = self.lock();
-        let comes =
+        let is_sending =
             matches!(state.status, StreamStatus::Waiting | StreamStatus::Running) && self.is_live;
-        if comes && !state.is_silent && state.last_byte.elapsed() > SILENCE_LIMIT {
+        if is_sending && !state.is_silent && state.last_byte.elapsed() > SILENCE_LIMIT {
             state.is_silent = true;
             let seconds = SILENCE_LIMIT.as_secs();
             state.push_message(format!("nothing has come from `{}` for {seconds} s", self.name));

@@ -31,8 +31,8 @@ impl PageSite for StreamSite {
         page::stream_page(nonce, &self.board.describe())
     }
 
-    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<HttpAnswer> {
-        Some(match (method, within) {
+    fn answer(&self, method: &str, subpath: &str, query: &str, body: &[u8]) -> Option<HttpAnswer> {
+        Some(match (method, subpath) {
             ("GET", "next") => {
                 let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
                 HttpAnswer::binary(self.live.changes_after(after.unwrap_or(0), CHANGE_WAIT))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A connection with one deadline for all bytes that are read and written until then. The timeouts
-//! of a socket apply to each byte, so that a peer that sends a byte every few seconds would never
-//! exceed them.
+//! A connection with one deadline for a sequence of reads and writes. The timeouts of a socket
+//! apply to each read or write alone, so that a peer that sends a byte every few seconds would
+//! never exceed them.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -66,8 +66,8 @@ mod tests {
         (TimedStream::new(Arc::new(listener.accept().unwrap().0)), peer)
     }
 
-    /// Calls `act` on the other end every 20 ms until `work` has ended. Returns the time that
-    /// `work` took.
+    /// Calls `act` on the other end of the connection every 20 ms until `work` has ended. Returns
+    /// the time that `work` took.
     fn run_disturbed(
         mut peer: TcpStream,
         act: fn(&mut TcpStream),
@@ -94,25 +94,25 @@ mod tests {
     }
 
     #[test]
-    fn a_peer_that_sends_a_byte_now_and_then_meets_the_deadline() {
-        let (mut own, peer) = connected_pair();
-        own.set_deadline(Duration::from_millis(300));
-        let drip = |peer: &mut TcpStream| drop(peer.write_all(&[7]));
-        let took = run_disturbed(peer, drip, || {
-            let error = own.read_exact(&mut [0; 1000]).unwrap_err();
+    fn a_peer_that_sends_a_byte_now_and_then_does_not_extend_the_deadline() {
+        let (mut timed, peer) = connected_pair();
+        timed.set_deadline(Duration::from_millis(300));
+        let send_byte = |peer: &mut TcpStream| drop(peer.write_all(&[7]));
+        let took = run_disturbed(peer, send_byte, || {
+            let error = timed.read_exact(&mut [0; 1000]).unwrap_err();
             assert!(is_timeout(&error), "{error}");
         });
         assert!(took > Duration::from_millis(290) && took < Duration::from_secs(5), "{took:?}");
     }
 
     #[test]
-    fn a_peer_that_takes_a_byte_now_and_then_meets_the_deadline() {
-        let (mut own, peer) = connected_pair();
-        own.set_deadline(Duration::from_millis(300));
-        let sip = |peer: &mut TcpStream| drop(peer.read(&mut [0; 1]));
-        let took = run_disturbed(peer, sip, || {
+    fn a_peer_that_takes_a_byte_now_and_then_does_not_extend_the_deadline() {
+        let (mut timed, peer) = connected_pair();
+        timed.set_deadline(Duration::from_millis(300));
+        let take_byte = |peer: &mut TcpStream| drop(peer.read(&mut [0; 1]));
+        let took = run_disturbed(peer, take_byte, || {
             // This is more than the buffers of both ends hold.
-            let error = own.write_all(&vec![7; 64 << 20]).unwrap_err();
+            let error = timed.write_all(&vec![7; 64 << 20]).unwrap_err();
             assert!(is_timeout(&error), "{error}");
         });
         assert!(took > Duration::from_millis(290) && took < Duration::from_secs(5), "{took:?}");
@@ -120,12 +120,12 @@ mod tests {
 
     #[test]
     fn another_deadline_gives_more_time() {
-        let (mut own, mut peer) = connected_pair();
+        let (mut timed, mut peer) = connected_pair();
         peer.write_all(b"ab").unwrap();
-        assert!(is_timeout(&own.read(&mut [0; 1]).unwrap_err()));
-        own.set_deadline(Duration::from_secs(10));
-        own.read_exact(&mut [0; 2]).unwrap();
-        own.write_all(b"cd").unwrap();
+        assert!(is_timeout(&timed.read(&mut [0; 1]).unwrap_err()));
+        timed.set_deadline(Duration::from_secs(10));
+        timed.read_exact(&mut [0; 2]).unwrap();
+        timed.write_all(b"cd").unwrap();
         peer.read_exact(&mut [0; 2]).unwrap();
     }
 }

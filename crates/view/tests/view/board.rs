@@ -18,25 +18,26 @@ fn answer_commands(
     mut line: SerialLine,
     spoil: impl Fn(usize, Vec<u8>) -> Vec<u8> + Send + 'static,
 ) -> Receiver<RegisterPacket> {
-    let (tell, told) = channel();
+    let (sender, commands) = channel();
     thread::spawn(move || {
         for number in 0.. {
-            let asked = line.command();
-            let value = if asked.is_write { asked.value } else { u32::from(asked.address) + 1 };
+            let command = line.command();
+            let value =
+                if command.is_write { command.value } else { u32::from(command.address) + 1 };
             let mut bytes = Vec::new();
-            packet_writer::append_register(&mut bytes, RegisterPacket { value, ..asked });
+            packet_writer::append_register(&mut bytes, RegisterPacket { value, ..command });
             line.send(&spoil(number, bytes));
-            if tell.send(asked).is_err() {
+            if sender.send(command).is_err() {
                 return;
             }
         }
     });
-    told
+    commands
 }
 
-fn value(told: &Value, address: u32) -> Option<u64> {
-    let list = told["registers"].as_array()?;
-    list.iter().find(|own| own["address"] == address)?["value"].as_u64()
+fn value(state: &Value, address: u32) -> Option<u64> {
+    let list = state["registers"].as_array()?;
+    list.iter().find(|register| register["address"] == address)?["value"].as_u64()
 }
 
 #[test]
@@ -44,11 +45,11 @@ fn registers_are_read_and_thresholds_written() {
     let line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     let commands = answer_commands(line, |_, bytes| bytes);
-    let page = wait_for(view.link(), "registers", |told| value(told, 0x1000) == Some(0x1001));
+    let page = wait_for(view.link(), "registers", |state| value(state, 0x1000) == Some(0x1001));
     for address in [0x20, 0x24, 0x28, 0x2C, 0x34, 0x38, 0x3C, 0x40, 0x100, 0x104] {
         assert_eq!(value(&page.state, address), Some(u64::from(address) + 1), "{address:#x}");
     }
-    assert!(commands.try_iter().all(|asked| !asked.is_write && asked.value == 0));
+    assert!(commands.try_iter().all(|command| !command.is_write && command.value == 0));
     let page = String::from_utf8(get(view.link(), "").body).unwrap();
     for part in [
         "\"name\":\"edge_level\"",
@@ -60,7 +61,8 @@ fn registers_are_read_and_thresholds_written() {
     }
 
     assert_eq!(write(view.link(), 0x104, 5).status, 200);
-    let written: Vec<RegisterPacket> = commands.try_iter().filter(|asked| asked.is_write).collect();
+    let written: Vec<RegisterPacket> =
+        commands.try_iter().filter(|command| command.is_write).collect();
     assert_eq!(written, [RegisterPacket { address: 0x104, is_write: true, value: 5 }]);
     assert_eq!(write(view.link(), 0x28, 0x41).status, 200);
     // This is a restart, with the other bits of the control as they are.
@@ -72,14 +74,15 @@ fn registers_are_read_and_thresholds_written() {
         let refused = write(view.link(), address, value);
         assert_eq!(refused.status, 409, "{address:#x}: {}", String::from_utf8_lossy(&refused.body));
     }
-    let written: Vec<RegisterPacket> = commands.try_iter().filter(|asked| asked.is_write).collect();
+    let written: Vec<RegisterPacket> =
+        commands.try_iter().filter(|command| command.is_write).collect();
     let written: Vec<(u16, u32)> =
-        written.iter().map(|asked| (asked.address, asked.value)).collect();
+        written.iter().map(|command| (command.address, command.value)).collect();
     assert_eq!(written, [(0x28, 0x41), (0x20, 5)]);
 }
 
 #[test]
-fn answers_that_are_lost_or_of_others_are_asked_for_again() {
+fn a_register_is_read_again_if_its_answer_is_lost_or_of_another_register() {
     let line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
     let commands = answer_commands(line, |number, mut bytes| match number {
@@ -99,7 +102,7 @@ fn answers_that_are_lost_or_of_others_are_asked_for_again() {
         _ => bytes,
     });
     // The registers are complete after the first round.
-    let page = wait_for(view.link(), "registers", |told| told["registers"].is_array());
+    let page = wait_for(view.link(), "registers", |state| state["registers"].is_array());
     assert_eq!((value(&page.state, 0), value(&page.state, 0x40)), (Some(1), Some(0x41)));
     assert_eq!(page.state["losses"]["bytes"], 1);
     let asked: Vec<u16> = commands.try_iter().take(3).map(|asked| asked.address).collect();
@@ -119,22 +122,22 @@ fn answers_between_packets_change_no_frame() {
         let mut bytes = Vec::new();
         packet_writer::append_register(&mut bytes, RegisterPacket { value: 7, ..asked });
         line.send(&bytes);
-        let page = wait_for(view.link(), "frame", |told| told["frames"] == number);
+        let page = wait_for(view.link(), "frame", |state| state["frames"] == number);
         assert_eq!(page.state["losses"], serde_json::json!({}));
     }
 }
 
 #[test]
-fn a_board_that_does_not_answer_is_said_and_asked_again() {
+fn a_board_that_does_not_answer_is_reported_and_asked_again() {
     let mut line = SerialLine::new();
     let view = open(&line.path, &CORE, None).unwrap();
-    let asked = |line: &mut SerialLine| line.command().address;
+    let next_address = |line: &mut SerialLine| line.command().address;
     // There are three attempts, and three more in the next round.
-    assert_eq!(asked(&mut line), 0);
-    let page = wait_for(view.link(), "list", |told| told["registers"].is_array());
+    assert_eq!(next_address(&mut line), 0);
+    let page = wait_for(view.link(), "list", |state| state["registers"].is_array());
     let list = page.state["registers"].as_array().unwrap();
-    assert!(list.iter().all(|own| own["value"].is_null()), "{list:?}");
-    let all: Vec<u16> = (0..5).map(|_| asked(&mut line)).collect();
+    assert!(list.iter().all(|register| register["value"].is_null()), "{list:?}");
+    let all: Vec<u16> = (0..5).map(|_| next_address(&mut line)).collect();
     assert_eq!(all, [0; 5]);
 }
 

@@ -31,7 +31,7 @@ fn printed(command: &mut Command, file: &Path) -> String {
 }
 
 #[test]
-fn a_browser_draws_the_screen_and_says_what_is_lost() {
+fn a_browser_draws_the_screen_and_lists_the_losses() {
     let Some(program) = chromium() else { return eprintln!("skipped: there is no Chromium") };
     let folder = tempfile::tempdir().unwrap();
     let (sent, file) = (street_stream(&CORE, 3), folder.path().join("packets.bin"));
@@ -41,7 +41,7 @@ fn a_browser_draws_the_screen_and_says_what_is_lost() {
     bytes[row + 9] ^= 1;
     fs::write(&file, bytes).unwrap();
     let view = open(&file, &CORE, None).unwrap();
-    wait_for(view.link(), "end", |told| told["status"] == "ended");
+    wait_for(view.link(), "end", |state| state["status"] == "ended");
     let picture = folder.path().join("page.png");
     let run = |more: &str| {
         let mut command = Command::new(&program);

@@ -56,9 +56,9 @@ pub(crate) fn request(host: &str, text: &str) -> HttpResponse {
     let mut body = bytes.split_off(head_end);
     let head = String::from_utf8(bytes).unwrap();
     let length = head.lines().find_map(|line| line.strip_prefix("Content-Length: ")).unwrap();
-    let had = body.len();
+    let received = body.len();
     body.resize(length.parse().unwrap(), 0);
-    stream.read_exact(&mut body[had..]).unwrap();
+    stream.read_exact(&mut body[received..]).unwrap();
     HttpResponse { status: head.split(' ').nth(1).unwrap().parse().unwrap(), head, body }
 }
 
@@ -98,13 +98,13 @@ pub(crate) fn page_after(link: &str, after: u64) -> PageData {
 
 /// Asks until the state of the page fulfils `wanted`. Each answer has the whole state.
 pub(crate) fn wait_for(link: &str, what: &str, wanted: impl Fn(&Value) -> bool) -> PageData {
-    let patience = Instant::now() + TIME_LIMIT;
+    let deadline = Instant::now() + TIME_LIMIT;
     loop {
         let page = page_after(link, 0);
         if wanted(&page.state) {
             return page;
         }
-        assert!(Instant::now() < patience, "no {what}: {}", page.state);
+        assert!(Instant::now() < deadline, "no {what}: {}", page.state);
         std::thread::sleep(Duration::from_millis(5));
     }
 }

@@ -31,11 +31,11 @@ fn only_the_link_opens_the_page() {
     assert_eq!(status(&format!("GET /{token}/"), host), 200);
     assert_eq!(status(&format!("GET /{token}/"), &format!("localhost:{port}")), 200);
 
-    let wrong = format!("{}{}", &token[..31], if token.ends_with('0') { '1' } else { '0' });
-    let all = ["", "next?after=0", "register"];
-    for path in all {
+    let wrong_token = format!("{}{}", &token[..31], if token.ends_with('0') { '1' } else { '0' });
+    let paths = ["", "next?after=0", "register"];
+    for path in paths {
         for (token, named) in [
-            (wrong.as_str(), host),
+            (wrong_token.as_str(), host),
             (&token[..31], host),
             ("", host),
             ("x", host),
@@ -64,18 +64,18 @@ fn only_the_link_opens_the_page() {
     // A request that is too long, or that is no request, ends the connection.
     assert_eq!(status(&format!("GET /{token}/{}", "x".repeat(40_000)), host), 0);
     assert_eq!(status("nonsense", host), 403);
-    let long = format!(
+    let announced = format!(
         "POST /{token}/register HTTP/1.1\r\nHost: {host}\r\nContent-Length: 99999999\r\n\r\n"
     );
     // The connection ends at once: no memory is kept for a client that only announces much data.
     let start = Instant::now();
-    assert_eq!(request(host, &long).status, 0);
+    assert_eq!(request(host, &announced).status, 0);
     assert!(start.elapsed() < Duration::from_secs(15), "{:?}", start.elapsed());
     assert_ne!(open(&folder.path().join("packets.bin"), &CORE, None).unwrap().link(), view.link());
 }
 
 #[test]
-fn the_page_loads_nothing_and_is_kept_by_nobody() {
+fn the_page_loads_nothing_and_is_not_stored() {
     let folder = tempfile::tempdir().unwrap();
     let view = view(folder.path());
     let answer = get(view.link(), "");
@@ -98,13 +98,13 @@ fn the_page_loads_nothing_and_is_kept_by_nobody() {
 }
 
 #[test]
-fn what_cannot_be_shown_is_refused_at_once() {
+fn an_input_that_cannot_be_shown_is_refused_at_once() {
     let folder = tempfile::tempdir().unwrap();
-    let refused = |input: &Path, play| open(input, &CORE, play).unwrap_err().to_string();
-    assert!(refused(&folder.path().join("none"), None).contains("none"));
-    assert!(refused(folder.path(), None).contains("is a folder"));
-    assert!(refused(Path::new("/dev/null"), None).contains("no serial port"));
-    assert!(refused(Path::new("-"), Some(PlayMode::Looped)).contains("no file"));
+    let refusal = |input: &Path, play| open(input, &CORE, play).unwrap_err().to_string();
+    assert!(refusal(&folder.path().join("none"), None).contains("none"));
+    assert!(refusal(folder.path(), None).contains("is a folder"));
+    assert!(refusal(Path::new("/dev/null"), None).contains("no serial port"));
+    assert!(refusal(Path::new("-"), Some(PlayMode::Looped)).contains("no file"));
     let file = folder.path().join("packets.bin");
     fs::write(&file, "").unwrap();
     for (address, is_refused) in

@@ -86,7 +86,7 @@ fn a_clip_waits_for_the_page_and_loses_no_frame() {
 }
 
 #[test]
-fn a_page_that_asks_for_a_frame_far_ahead_does_not_run_the_clip_off() {
+fn a_request_for_a_frame_far_ahead_does_not_read_the_whole_clip() {
     let player = play(&["scene:street"]).unwrap();
     let link = player.link();
     let (head, found) = frame(&link, i64::MAX);
@@ -107,8 +107,8 @@ fn only_the_link_opens_the_page_and_its_frames() {
     let (host, token) = link_parts(&link);
     for path in ["", "frames?after=-1"] {
         for (token, named) in [("x", host), (&token[1..], host), (token, "evil.example")] {
-            let asked = format!("GET /{token}/{path} HTTP/1.1\r\nHost: {named}\r\n\r\n");
-            assert_eq!(request(host, &asked).status, 403, "{path}");
+            let text = format!("GET /{token}/{path} HTTP/1.1\r\nHost: {named}\r\n\r\n");
+            assert_eq!(request(host, &text).status, 403, "{path}");
         }
     }
     // Without an input the page offers what the browser has.
@@ -119,7 +119,7 @@ fn only_the_link_opens_the_page_and_its_frames() {
 }
 
 #[test]
-fn an_input_that_breaks_off_says_why() {
+fn an_input_that_breaks_off_is_reported_with_the_reason() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("cut.y4m");
     let mut clip = b"YUV4MPEG2 W4 H2 F25:1 Cmono\n".to_vec();
@@ -133,22 +133,22 @@ fn an_input_that_breaks_off_says_why() {
     assert_eq!(frame(&link, -1).1, b"12345678");
     let (head, found) = frame(&link, 0);
     assert!(head["status"] != "running" && found.is_empty(), "{head}");
-    let patience = Instant::now() + Duration::from_secs(20);
-    let news = loop {
-        let news = player.take_messages();
-        if !news.is_empty() || Instant::now() > patience {
-            break news;
+    let deadline = Instant::now() + Duration::from_secs(20);
+    let messages = loop {
+        let messages = player.take_messages();
+        if !messages.is_empty() || Instant::now() > deadline {
+            break messages;
         }
     };
-    assert_eq!(news, [head["text"].as_str().unwrap()]);
+    assert_eq!(messages, [head["text"].as_str().unwrap()]);
 }
 
 #[test]
-fn what_cannot_be_played_is_refused_at_once() {
-    let refused = |input: &str| play(&[input]).unwrap_err().to_string();
-    assert!(refused("missing.mp4").contains("`missing.mp4` does not exist"));
-    assert!(refused("scene:nothing").contains("nothing"));
-    assert!(refused("rtsp://me:secret@127.0.0.1:9/x").contains("rtsp://127.0.0.1:9/x"));
+fn an_input_that_cannot_be_played_is_refused_at_once() {
+    let refusal = |input: &str| play(&[input]).unwrap_err().to_string();
+    assert!(refusal("missing.mp4").contains("`missing.mp4` does not exist"));
+    assert!(refusal("scene:nothing").contains("nothing"));
+    assert!(refusal("rtsp://me:secret@127.0.0.1:9/x").contains("rtsp://127.0.0.1:9/x"));
     let outside = play_at(&["scene:street"], "0.0.0.0:0");
     assert!(matches!(outside, Err(ViewError::Address { .. })), "{outside:?}");
     assert!(!Path::new("missing.mp4").exists());

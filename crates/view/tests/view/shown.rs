@@ -34,7 +34,7 @@ fn frames_over_a_line_are_those_of_the_simulator() {
         for (number, (packets, picture)) in (0u64..).zip(frames.iter().zip(&pictures)) {
             // A line delivers bytes in pieces.
             packets.chunks(1000).for_each(|piece| line.send(piece));
-            let page = wait_for(view.link(), "frame", |told| told["frames"] == number + 1);
+            let page = wait_for(view.link(), "frame", |state| state["frames"] == number + 1);
             assert!(page.picture == *picture, "frame {number} of {set:?} differs");
             let newest = &page.state["history"][0];
             assert_eq!(
@@ -51,16 +51,16 @@ fn frames_over_a_line_are_those_of_the_simulator() {
             assert_eq!(page.state["losses"], serde_json::json!({}));
         }
         // A browser that knows all changes gets nothing again.
-        let told = page_after(view.link(), 0).state;
-        let again = page_after(view.link(), told["change"].as_u64().unwrap());
+        let state = page_after(view.link(), 0).state;
+        let again = page_after(view.link(), state["change"].as_u64().unwrap());
         assert!(again.picture.is_empty() && again.state["history"] == serde_json::json!([]));
         assert_eq!(view.frames_shown(), 5);
     }
 }
 
 /// Returns the number of pixels of a frame.
-fn pixels(told: &serde_json::Value) -> usize {
-    let side = |name: &str| told["design"][name].as_u64().unwrap();
+fn pixels(state: &serde_json::Value) -> usize {
+    let side = |name: &str| state["design"][name].as_u64().unwrap();
     usize::try_from(side("width") * side("height")).unwrap()
 }
 
@@ -72,19 +72,22 @@ fn a_file_is_played_by_its_times_to_its_end() {
     // The frames have 1/30 s between them.
     for (play, least, most) in [(None, 199, 5000), (Some(PlayMode::AtOnce), 0, 199)] {
         let view = open(&file, &CORE, play).unwrap();
-        let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
+        let page = wait_for(view.link(), "end", |state| state["status"] == "ended");
         assert!(page.picture == sent.pictures[6]);
         assert_eq!(page.state["frames"], 7);
         let shown: Vec<u64> = page.state["history"]
             .as_array()
             .unwrap()
             .iter()
-            .map(|own| own["shown_ms"].as_u64().unwrap())
+            .map(|figures| figures["shown_ms"].as_u64().unwrap())
             .collect();
         let took = shown[0] - shown[6];
         assert!((least..most).contains(&took), "{play:?}: {took} ms");
-        let news = view.take_messages();
-        assert!(news.iter().any(|text| text.contains("has ended; frames shown: 7")), "{news:?}");
+        let messages = view.take_messages();
+        assert!(
+            messages.iter().any(|text| text.contains("has ended; frames shown: 7")),
+            "{messages:?}"
+        );
     }
 }
 
@@ -94,7 +97,7 @@ fn a_file_is_played_again_and_again() {
     let (sent, file) = (street_stream(&CORE, 3), folder.path().join("packets.bin"));
     fs::write(&file, sent.bytes()).unwrap();
     let view = open(&file, &CORE, Some(PlayMode::Looped)).unwrap();
-    let page = wait_for(view.link(), "third round", |told| told["frames"].as_u64() > Some(8));
+    let page = wait_for(view.link(), "third round", |state| state["frames"].as_u64() > Some(8));
     assert_eq!(
         (&page.state["status"], &page.state["losses"]),
         (&"running".into(), &serde_json::json!({}))
@@ -112,22 +115,22 @@ fn a_fifo_is_shown_as_it_comes() {
     assert_eq!(page_after(view.link(), 0).state["status"], "waiting");
     let mut writer = fs::OpenOptions::new().write(true).open(&fifo).unwrap();
     writer.write_all(&sent.frames[0]).unwrap();
-    let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    let page = wait_for(view.link(), "frame", |state| state["frames"] == 1);
     assert!(page.picture == sent.pictures[0]);
     drop(writer);
-    wait_for(view.link(), "end", |told| told["status"] == "ended");
+    wait_for(view.link(), "end", |state| state["status"] == "ended");
 }
 
 /// The frames have a megabyte, so that no buffer of a connection holds many of them.
 #[test]
-fn a_browser_that_does_not_read_stops_nobody() {
+fn a_browser_that_does_not_read_does_not_stop_the_stream() {
     let set = ["frame={width=1280,height=800}", "region.size=16"];
     let sent = street_stream(&set, 2);
-    let (first, again) = (&sent.frames[0], &sent.frames[1]);
+    let (first, second) = (&sent.frames[0], &sent.frames[1]);
     let mut line = SerialLine::new();
     let view = open(&line.path, &set, None).unwrap();
     line.send(first);
-    wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    wait_for(view.link(), "frame", |state| state["frames"] == 1);
     let (host, token) = link_parts(view.link());
     let mut stuck = TcpStream::connect(host).unwrap();
     for _ in 0..20 {
@@ -140,8 +143,8 @@ fn a_browser_that_does_not_read_stops_nobody() {
         // The frame has the number and the time of the first one, which restarts the stream.
         line.send(first);
     }
-    line.send(again);
-    let page = wait_for(view.link(), "last frame", |told| told["frames"] == 22);
+    line.send(second);
+    let page = wait_for(view.link(), "last frame", |state| state["frames"] == 22);
     assert!(page.picture == sent.pictures[1]);
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
     drop(stuck);

@@ -49,26 +49,26 @@ fn begin_requests(host: &str, text: &str) -> Vec<TcpStream> {
     (0..CONNECTION_COUNT).map(begin).collect()
 }
 
-fn is_served_promptly(link: &str, what: &str) {
+fn assert_served_promptly(link: &str, what: &str) {
     let start = Instant::now();
     assert_eq!(get(link, what).status, 200, "{what:?} is not served");
     assert!(start.elapsed() < SERVING_LIMIT, "{what:?} took {:?}", start.elapsed());
 }
 
 #[test]
-fn connections_of_strangers_keep_the_page_from_nobody() {
+fn connections_without_the_token_do_not_block_the_page() {
     on_both_pages(|link| {
         let (host, _) = link_parts(link);
         for text in ["", "G", "GET /x/ HTTP/1.1\r\n", "GET /x/ HTTP/1.1\r\nHost: x\r\n\r\n"] {
             let held = begin_requests(host, text);
-            is_served_promptly(link, "");
+            assert_served_promptly(link, "");
             drop(held);
         }
     });
 }
 
 #[test]
-fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
+fn browsers_that_are_idle_or_do_not_read_do_not_block_the_page() {
     on_both_pages(|link| {
         let (host, token) = link_parts(link);
         let whole = format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n");
@@ -76,7 +76,7 @@ fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
         // connection holds, and do not read it.
         for text in [whole.clone(), whole.repeat(30)] {
             let held = begin_requests(host, &text);
-            is_served_promptly(link, "");
+            assert_served_promptly(link, "");
             drop(held);
         }
     });
@@ -116,17 +116,17 @@ fn a_request_has_a_time_in_total_not_for_each_byte() {
         format!("POST /{token}/register HTTP/1.1\r\nHost: {host}\r\nContent-Length: 4000\r\n\r\n"),
     ];
     std::thread::scope(|scope| {
-        let listen = |text| scope.spawn(move || drip_request(host, text));
-        let all: Vec<_> = texts.iter().map(|text| listen(text.as_str())).collect();
-        for listened in all {
-            let listened = listened.join().unwrap();
-            assert!(listened > Duration::from_secs(4), "only {listened:?}");
+        let start_drip = |text| scope.spawn(move || drip_request(host, text));
+        let drips: Vec<_> = texts.iter().map(|text| start_drip(text.as_str())).collect();
+        for duration in drips {
+            let duration = duration.join().unwrap();
+            assert!(duration > Duration::from_secs(4), "only {duration:?}");
         }
     });
 }
 
 #[test]
-fn a_request_that_is_too_long_or_says_a_thing_twice_ends_the_connection() {
+fn a_request_that_is_too_long_or_repeats_a_header_ends_the_connection() {
     on_both_pages(|link| {
         let (host, token) = link_parts(link);
         let status = |more: &str| {
