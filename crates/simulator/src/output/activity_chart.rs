@@ -45,10 +45,11 @@ impl ActivityChart {
             return;
         }
         if self.bars.len() >= most.max(2) {
-            let odd = self.bars.len() % 2;
+            let remainder = self.bars.len() % 2;
             self.bars = self.bars.chunks(2).map(|pair| pair.iter().sum()).collect();
             self.frames_per_bar *= 2;
-            if odd == 1 {
+            // An odd last bar was merged with no other, so it has room for more frames.
+            if remainder == 1 {
                 self.frames_in_last = self.frames_per_bar / 2;
                 return self.push(active, most);
             }
@@ -73,11 +74,12 @@ impl ActivityChart {
             self.bars.iter().zip((0..).step_by(bar as usize)).enumerate()
         {
             let frames = if index == last { self.frames_in_last } else { self.frames_per_bar };
-            let share = active * u64::from(height) / (regions * frames);
+            let bar_height = active * u64::from(height) / (regions * frames);
             // A bar with any active region is visible.
-            let share = u32::try_from(share).expect("no more regions are active than there are");
-            let share = share.max(u32::from(active > 0));
-            canvas.fill_rectangle(left, bottom - share, bar, share, colour);
+            let bar_height =
+                u32::try_from(bar_height).expect("no more regions are active than there are");
+            let bar_height = bar_height.max(u32::from(active > 0));
+            canvas.fill_rectangle(left, bottom - bar_height, bar, bar_height, colour);
         }
         let right = canvas.width.saturating_sub(4 * 4 * layout.dot);
         canvas.draw_text(right, bottom - height, layout.dot, "100%");
@@ -92,15 +94,15 @@ mod tests {
     #[test]
     fn every_frame_counts_once_however_many_there_are() {
         for most in [2, 5, 8] {
-            let mut strip = ActivityChart::default();
+            let mut chart = ActivityChart::default();
             for frame in 1..=100u64 {
-                strip.push(frame, most);
-                assert!(strip.bars.len() <= most, "{most} bars, {frame} frames");
-                assert_eq!(strip.bars.iter().sum::<u64>(), frame * (frame + 1) / 2);
-                let whole = strip.bars.len() as u64 - 1;
-                assert_eq!(whole * strip.frames_per_bar + strip.frames_in_last, frame);
-                let first: u64 = (1..=frame.min(strip.frames_per_bar)).sum();
-                assert_eq!(strip.bars[0], first);
+                chart.push(frame, most);
+                assert!(chart.bars.len() <= most, "{most} bars, {frame} frames");
+                assert_eq!(chart.bars.iter().sum::<u64>(), frame * (frame + 1) / 2);
+                let whole = chart.bars.len() as u64 - 1;
+                assert_eq!(whole * chart.frames_per_bar + chart.frames_in_last, frame);
+                let first: u64 = (1..=frame.min(chart.frames_per_bar)).sum();
+                assert_eq!(chart.bars[0], first);
             }
         }
     }

@@ -33,8 +33,8 @@ impl ArraySink {
         let array = |name: &str, max: u64| {
             NpyWriter::create(&folder.join(name), ElementType::smallest_for(max), &shape)
         };
-        let known = if has_scores { camera.features() } else { &[] };
-        let scores = known
+        let features = if has_scores { camera.features() } else { &[] };
+        let scores = features
             .iter()
             .map(|feature| array(&format!("score_{}.npy", feature.kind()), feature.score_max()));
         Ok(Self {

@@ -90,6 +90,8 @@ impl CameraTraffic {
     }
 }
 
+/// Returns the time from the first frame to the end of the last one, which is as long as the mean
+/// of the other frames; `None` if this is unknown.
 fn run_duration_us(sums: &TrafficSums) -> Option<u64> {
     let (first, last) = sums.times?;
     let intervals = u128::from(sums.frames.checked_sub(1).filter(|&intervals| intervals > 0)?);
@@ -110,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_second_of_thirty_frames_is_a_second() {
+    fn thirty_frames_at_thirty_per_second_last_one_second() {
         let sums = TrafficSums { frames: 30, times: Some((0, 966_667)), ..TrafficSums::default() };
         assert_eq!(run_duration_us(&sums), Some(1_000_000));
         assert_eq!(rate_per_second(1234, 1_000_000), Some(1234.0));

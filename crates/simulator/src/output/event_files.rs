@@ -44,8 +44,8 @@ pub(super) fn event_sinks(
 impl FrameSink for EventFileSink {
     fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let SinkFrame { camera, number, outcome, .. } = *step;
-        let moment = EventFrame { camera, number, time_us: step.source.time_us, outcome };
-        self.writer.rows(&self.table, &moment);
+        let frame = EventFrame { camera, number, time_us: step.source.time_us, outcome };
+        self.writer.rows(&self.table, &frame);
         Ok(())
     }
 

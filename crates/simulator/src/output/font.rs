@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_f_looks_like_one() {
+    fn the_letter_f_has_the_dots_of_an_f() {
         let row =
             |y| (0..3).map(|x| if has_dot('f', x, y) { '#' } else { '.' }).collect::<String>();
         assert_eq!([0, 1, 2, 3, 4].map(row), ["###", "#..", "##.", "#..", "#.."]);

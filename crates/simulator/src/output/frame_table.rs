@@ -26,7 +26,7 @@ pub(super) struct FrameRow<'a> {
 /// The open file.
 pub(super) struct FrameTable {
     csv: CsvFile,
-    /// Irrelevant regions send summaries, so the table has a column for them.
+    /// True if irrelevant regions send summaries, so that the table has a column for them.
     has_summaries: bool,
 }
 

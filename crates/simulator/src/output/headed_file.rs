@@ -81,15 +81,15 @@ mod tests {
             body.chunks(999).for_each(|chunk| file.write(chunk));
             file.finish(b"head").unwrap();
             let bytes = std::fs::read(&path).unwrap();
-            let mut seen = Vec::new();
+            let mut unpacked = Vec::new();
             if packed {
                 assert!(bytes.len() < 10_000);
                 // The file has one gzip member, with checksum and length.
-                flate2::read::GzDecoder::new(&bytes[..]).read_to_end(&mut seen).unwrap();
+                flate2::read::GzDecoder::new(&bytes[..]).read_to_end(&mut unpacked).unwrap();
             } else {
-                seen = bytes;
+                unpacked = bytes;
             }
-            assert_eq!(seen, [&b"head"[..], &body].concat());
+            assert_eq!(unpacked, [&b"head"[..], &body].concat());
             assert!(HeadedFile::<4>::create(&path, packed).is_err(), "nothing is written over");
         }
     }

@@ -63,18 +63,18 @@ impl HeatmapPainter {
         }
     }
 
-    /// Returns the place of a score on the scale, in `0..STEPS`.
+    /// Returns the step of a score on the scale, in `0..SCALE_STEPS`.
     fn scale_step(&self, score: u64) -> u64 {
         let last = u128::from(SCALE_STEPS - 1);
         let (score, max) = (u128::from(score.min(self.max)), u128::from(self.max.max(1)));
-        let place = match self.score {
+        let step = match self.score {
             MappedScore::Spatial(_, ScoreUnit::SquaredLevels) => {
                 (score * last * last / max).isqrt()
             }
             MappedScore::Spatial(_, ScoreUnit::Pixels | ScoreUnit::Levels)
             | MappedScore::Temporal => score * last / max,
         };
-        u64::try_from(place).expect("no score is above the largest")
+        u64::try_from(step).expect("no score is above the largest")
     }
 
     fn draw_bar(&self, canvas: &mut PictureCanvas, layout: PictureLayout) {
@@ -121,8 +121,8 @@ impl PicturePainter for HeatmapPainter {
     }
 }
 
-fn scale_colour(place: u64) -> Colour {
-    let place = usize::try_from(place.min(SCALE_STEPS - 1)).expect("STEPS are few");
-    let colour = VIRIDIS.eval_rational(place, 256);
+fn scale_colour(step: u64) -> Colour {
+    let step = usize::try_from(step.min(SCALE_STEPS - 1)).expect("STEPS are few");
+    let colour = VIRIDIS.eval_rational(step, 256);
     [colour.r, colour.g, colour.b]
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! NPZ: a ZIP archive of NPY files, deflated. The large array is compressed into its place while it
-//! grows. Its sizes, its checksum and its length are filled in at the end. Every entry has ZIP64
+//! NPZ: a ZIP archive of NPY files, deflated. An array is compressed while it grows. The sizes, the
+//! checksum and the length in its headers are filled in at the end. Every entry has ZIP64
 //! sizes, so that archives beyond 4 GiB need no other format.
 
 use flate2::Compression;
@@ -88,9 +88,9 @@ impl NpzArchive {
         let header =
             stored_block(&foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
-        let room = [self.open.local_header(), header].concat();
-        self.position += length(&room);
-        self.file.append(&room);
+        let placeholder = [self.open.local_header(), header].concat();
+        self.position += length(&placeholder);
+        self.file.append(&placeholder);
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
@@ -154,6 +154,7 @@ impl ArchiveEntry {
 
 /// Returns the end of the central directory, in its ZIP64 form and in its short form.
 fn end_of_directory(start: u64, size: u64, entries: u64) -> Vec<u8> {
+    // The ZIP64 end: 44 more bytes, version 4.5 on Unix, and no further disks.
     let mut bytes = b"PK\x06\x06".to_vec();
     bytes.extend(44u64.to_le_bytes());
     bytes.extend([0x2d, 3, 0x2d, 0]);
@@ -161,9 +162,11 @@ fn end_of_directory(start: u64, size: u64, entries: u64) -> Vec<u8> {
     for number in [entries, entries, size, start] {
         bytes.extend(number.to_le_bytes());
     }
+    // The locator of the ZIP64 end, which is behind the directory, and the number of disks.
     bytes.extend(b"PK\x06\x07\x00\x00\x00\x00");
     bytes.extend((start + size).to_le_bytes());
     bytes.extend(1u32.to_le_bytes());
+    // The short end, whose fields refer to the ZIP64 end, and a comment of length 0.
     bytes.extend(b"PK\x05\x06\x00\x00\x00\x00");
     bytes.extend([0xFF; 12]);
     bytes.extend([0; 2]);

@@ -32,11 +32,11 @@ pub struct PixelEventOptions {
     pub npz: bool,
     /// Writes `pixel_events.csv`.
     pub csv: bool,
-    /// The change of a pixel that makes an event, in grey levels, or as a natural logarithm with
-    /// `log`. The default is the smallest change that the camera's temporal score counts, or 0.2
-    /// with `log`.
+    /// The change of a pixel that makes an event, in grey levels, or as a natural logarithm if
+    /// `is_logarithmic` is set. The default is the smallest change that the camera's temporal score
+    /// counts, or 0.2 if `is_logarithmic` is set.
     pub contrast: Option<Decimal>,
-    /// Measures changes in logarithms.
+    /// Measures changes in natural logarithms.
     pub is_logarithmic: bool,
 }
 

@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn states_can_be_told_apart_with_any_colour_vision() {
+    fn states_are_distinguishable_with_any_colour_vision() {
         let tints = [Some(ACTIVE), Some(RELEVANT), Some(CHANGED), None];
         for (kind, vision) in VISIONS.into_iter().enumerate() {
             for grey in (0..256).step_by(5) {

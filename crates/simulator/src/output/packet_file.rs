@@ -41,7 +41,7 @@ impl PacketFileSink {
 }
 
 /// Appends the packets of the frame that an engine computed last, in an order in which a core can
-/// send them. `time` is the time of the frame in ticks, and a flag that is set for the first frame
+/// send them. `time` is the time of the frame in ticks, with true if the frame is the first one
 /// after a reset.
 ///
 /// # Errors
@@ -85,17 +85,17 @@ fn write_row(
     for region in regions {
         let action = outcome.actions[region as usize];
         values.clear();
-        let summary = match action {
+        let is_summary = match action {
             RegionAction::Forward => false,
             RegionAction::Summarize => true,
             RegionAction::Hold | RegionAction::Blank => continue,
         };
-        match (summary, camera.payload()) {
+        match (is_summary, camera.payload()) {
             (true, _) => engine.summary(region, &mut values),
             (false, Payload::Denoised) => engine.denoised_region(region, &mut values),
             (false, Payload::Raw) => append_raw_region(camera, source, region, &mut values),
         }
-        let flags = RegionFlags { raw: layout.info().raw, summary };
+        let flags = RegionFlags { raw: layout.info().raw, summary: is_summary };
         let place = (row, region - start);
         packet_writer::append_region(out, layout, frame, place, (flags, &values))?;
         sent += 1;
@@ -122,10 +122,10 @@ fn region_scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = 
 fn append_raw_region(camera: &Camera, frame: &ByteFrame, region: u32, pixels: &mut Vec<u16>) {
     let side = camera.region_size();
     let (left, top) = (region % camera.columns() * side, region / camera.columns() * side);
-    let last = |at: u32, size: u32| at.min(size - 1);
+    let clamped = |at: u32, size: u32| at.min(size - 1);
     for y in top..top + side {
-        let y = last(y, frame.height());
-        pixels.extend((left..left + side).map(|x| frame.get(last(x, frame.width()), y)));
+        let y = clamped(y, frame.height());
+        pixels.extend((left..left + side).map(|x| frame.get(clamped(x, frame.width()), y)));
     }
 }
 

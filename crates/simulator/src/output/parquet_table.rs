@@ -19,7 +19,7 @@ const GROUP_ROWS: usize = 1 << 18;
 pub(super) struct ParquetTable {
     path: PathBuf,
     writer: ParquetWriter<File>,
-    /// A group could not be written, so the file cannot be completed.
+    /// True if a group could not be written, so that the file cannot be completed.
     is_broken: bool,
 }
 
@@ -33,8 +33,8 @@ impl ParquetTable {
 }
 
 impl RowWriter for ParquetTable {
-    fn rows(&mut self, table: &EventTable, moment: &EventFrame<'_>) {
-        table.rows(moment, |values| self.writer.push(values.map(parquet_value)));
+    fn rows(&mut self, table: &EventTable, frame: &EventFrame<'_>) {
+        table.rows(frame, |values| self.writer.push(values.map(parquet_value)));
     }
 
     fn write_out(&mut self, _all: bool) -> Result<(), SimulatorError> {

@@ -37,22 +37,22 @@ impl PictureSeriesSink {
     /// Makes the series of the rendered frames.
     pub(super) fn rendered(
         folder: &Path,
-        medium: PictureFormat,
+        format: PictureFormat,
         interrupt: &Interrupt,
     ) -> Result<Self, SimulatorError> {
         Ok(Self {
             painter: None,
-            series: SeriesFiles::create(folder, "rendered", medium, interrupt)?,
+            series: SeriesFiles::create(folder, "rendered", format, interrupt)?,
         })
     }
 
     pub(super) fn with_painter(
         folder: &Path,
         name: &str,
-        (medium, interrupt): (PictureFormat, &Interrupt),
+        (format, interrupt): (PictureFormat, &Interrupt),
         painter: impl PicturePainter + 'static,
     ) -> Result<Self, SimulatorError> {
-        let series = SeriesFiles::create(folder, name, medium, interrupt)?;
+        let series = SeriesFiles::create(folder, name, format, interrupt)?;
         Ok(Self { painter: Some(Box::new(painter)), series })
     }
 }
@@ -111,14 +111,14 @@ impl SeriesFiles {
     fn create(
         folder: &Path,
         name: &str,
-        medium: PictureFormat,
+        picture_format: PictureFormat,
         interrupt: &Interrupt,
     ) -> Result<Self, SimulatorError> {
         let video = |extension: &str| {
             let path = folder.join(format!("{name}.{extension}"));
             VideoFile::create(&path, interrupt).map(Self::Video)
         };
-        match medium {
+        match picture_format {
             PictureFormat::Png => PngSeries::create(folder.join(name)).map(Self::Folder),
             PictureFormat::Mkv => video("mkv"),
             PictureFormat::Mp4 => video("mp4"),

@@ -32,7 +32,7 @@ pub struct PixelEvent {
     pub x: u32,
     /// The row of the pixel.
     pub y: u32,
-    /// The pixel became brighter.
+    /// True if the pixel became brighter.
     pub brighter: bool,
 }
 
@@ -68,15 +68,15 @@ impl PixelCamera {
 
     /// Takes the next frame and calls `send` with its events, row by row.
     pub fn step(&mut self, frame: &Frame, mut send: impl FnMut(PixelEvent)) {
-        let now = frame.pixels().iter().map(|&pixel| self.levels[usize::from(pixel)]);
+        let present = frame.pixels().iter().map(|&pixel| self.levels[usize::from(pixel)]);
         if self.stored_levels.is_empty() {
-            self.stored_levels = now.collect();
+            self.stored_levels = present.collect();
             return;
         }
         let places = (0..frame.height()).flat_map(|y| (0..frame.width()).map(move |x| (x, y)));
-        for ((remembered, now), (x, y)) in self.stored_levels.iter_mut().zip(now).zip(places) {
-            let steps = (now - *remembered) / self.contrast;
-            *remembered += steps * self.contrast;
+        for ((stored, present), (x, y)) in self.stored_levels.iter_mut().zip(present).zip(places) {
+            let steps = (present - *stored) / self.contrast;
+            *stored += steps * self.contrast;
             for _ in 0..steps.unsigned_abs() {
                 send(PixelEvent { x, y, brighter: steps > 0 });
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A pool of threads that write PNG files in parallel, since compressing a picture takes longer
-//! than all other work for a frame. A picture that found no space on the disk is kept until the
-//! end.
+//! A pool of threads that write PNG files in parallel, because the compression of a picture takes
+//! longer than all other work for a frame. A picture for which the disk has no space is kept in
+//! memory until the end.
 
 use std::io;
 use std::path::PathBuf;
@@ -41,7 +41,7 @@ impl PngWriters {
         let (jobs, queue) = sync_channel(size);
         let (sender, done) = channel();
         let queue = Arc::new(Mutex::new(queue));
-        let mut crew = Self {
+        let mut writers = Self {
             jobs: Some(jobs),
             done,
             threads: Vec::new(),
@@ -53,22 +53,22 @@ impl PngWriters {
             let thread = Builder::new().name("pictures".to_owned());
             let thread = thread.spawn(move || write_pictures(&queue, &sender));
             let refused = |error: io::Error| SimulatorError::Thread { reason: error.to_string() };
-            crew.threads.push(thread.map_err(refused)?);
+            writers.threads.push(thread.map_err(refused)?);
         }
-        Ok(crew)
+        Ok(writers)
     }
 
     fn size() -> usize {
         rayon::current_num_threads().min(MAX_THREADS)
     }
 
-    /// Returns the largest number of pictures that may be in work at once.
+    /// Returns the largest number of pictures that may be queued or in compression at once.
     fn max_pictures_in_work() -> usize {
         2 * Self::size() + 1
     }
 
-    /// Returns the largest number of bytes that the pictures in work need. A pixel has `samples`
-    /// bytes.
+    /// Returns the largest number of bytes that the pictures in the queue and in compression need
+    /// on the disk. A pixel has `samples` bytes.
     pub(super) fn max_bytes_in_work(width: u32, height: u32, samples: u64) -> u64 {
         // A PNG is larger than its pixels by at most a byte per row, some bytes per block, and the
         // fixed chunks.

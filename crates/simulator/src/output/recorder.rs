@@ -45,9 +45,9 @@ pub(crate) struct RunRecorder {
     sinks: Vec<Box<dyn FrameSink>>,
     data_set: Option<DataSetPaths>,
     totals: RunTotals,
-    /// The disk space to complete every file on a full disk. The field `spare` is the space for the
-    /// videos.
+    /// The disk space with which every file except a video can be completed on a full disk.
     reserve: Option<SpaceReserve>,
+    /// The disk space with which ffmpeg can complete a video.
     video_reserve: Option<SpaceReserve>,
 }
 
@@ -66,24 +66,24 @@ impl RunRecorder {
         if let Some(packets) = options.packets {
             sinks.push(Box::new(PacketFileSink::create(folder, design, packets)?));
         }
-        if let Some(medium) = options.rendered {
-            sinks.push(Box::new(PictureSeriesSink::rendered(folder, medium, interrupt)?));
+        if let Some(format) = options.rendered {
+            sinks.push(Box::new(PictureSeriesSink::rendered(folder, format, interrupt)?));
         }
-        if let Some(medium) = options.overlay {
+        if let Some(format) = options.overlay {
             let overlay = OverlayPainter::default();
             sinks.push(Box::new(PictureSeriesSink::with_painter(
                 folder,
                 "overlay",
-                (medium, interrupt),
+                (format, interrupt),
                 overlay,
             )?));
         }
-        if let Some(medium) = options.heatmap {
+        if let Some(format) = options.heatmap {
             for (name, map) in HeatmapPainter::all_maps(design) {
                 sinks.push(Box::new(PictureSeriesSink::with_painter(
                     folder,
                     &name,
-                    (medium, interrupt),
+                    (format, interrupt),
                     map,
                 )?));
             }
@@ -94,31 +94,34 @@ impl RunRecorder {
         if options.data_set {
             sinks.append(&mut data_set::data_set_sinks(folder, form)?);
         }
-        let owed: u64 = sinks.iter().map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
-        let apart = sinks.iter().any(|sink| sink.is_written_by_other_program());
-        let spare = apart.then(|| SpaceReserve::new(folder, ".spare", MIN_RESERVE_BYTES));
-        let pixels = options.pixel_events;
-        let pixels = pixels.is_wanted().then(|| PixelEventFiles::create(folder, design, pixels));
+        let owed_bytes: u64 =
+            sinks.iter().map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
+        let has_video = sinks.iter().any(|sink| sink.is_written_by_other_program());
+        let video_reserve =
+            has_video.then(|| SpaceReserve::new(folder, ".spare", MIN_RESERVE_BYTES));
+        let pixel_events = options.pixel_events;
+        let pixel_events =
+            pixel_events.is_wanted().then(|| PixelEventFiles::create(folder, design, pixel_events));
         Ok(Self {
             table,
             data_set: options.data_set.then(|| DataSetPaths::of(form)),
-            pixel_events: pixels.transpose()?,
+            pixel_events: pixel_events.transpose()?,
             sinks,
             totals: RunTotals::default(),
-            reserve: Some(SpaceReserve::new(folder, ".reserve", MIN_RESERVE_BYTES + owed)),
-            video_reserve: spare,
+            reserve: Some(SpaceReserve::new(folder, ".reserve", MIN_RESERVE_BYTES + owed_bytes)),
+            video_reserve,
             design: design.clone(),
         })
     }
 
-    /// Writes the outcome of one frame, which must be the last that `engine` took.
+    /// Writes the outcome of one frame, which must be the last frame that `engine` took.
     pub(crate) fn push(
         &mut self,
         source: &SourceFrame,
         engine: &Engine,
-        first: bool,
+        is_first: bool,
     ) -> Result<(), SimulatorError> {
-        self.push_step(&SinkFrame::new(engine, self.totals.frames, source, first))
+        self.push_step(&SinkFrame::new(engine, self.totals.frames, source, is_first))
     }
 
     /// Writes a received frame with the screen after it.
@@ -151,8 +154,8 @@ impl RunRecorder {
         pixels.and(sinks)
     }
 
-    /// Writes the buffered data if it is much, or all of it with `all`. On a full disk the data is
-    /// kept, and every file has the same frames.
+    /// Writes the buffered data if there is much of it, or in any case with `all`. On a full disk
+    /// the data stays in memory, and every file has the same frames.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.table.write_out(all)?;
         self.pixel_events.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
@@ -160,9 +163,9 @@ impl RunRecorder {
     }
 
     /// Completes every file and adds the summary. `problem` is the reason why the run ended early,
-    /// if it did. On a full disk the reserved space is released. Then outputs that can be spared
-    /// are left out: pictures, Parquet tables, videos. A video is also left out if its ffmpeg was
-    /// interrupted.
+    /// if it did. On a full disk the reserved space is released, and the expendable outputs are
+    /// left out as far as necessary: pictures, Parquet tables, videos. A video is also left out if
+    /// its ffmpeg was interrupted.
     pub(crate) fn finish(
         mut self,
         folder: &Path,
@@ -170,22 +173,22 @@ impl RunRecorder {
         mut problem: Option<String>,
     ) -> Result<RunSummary, SimulatorError> {
         let interrupted = problem.as_deref() == Some(INTERRUPTED);
-        let lost = |error: &SimulatorError| {
+        let may_leave_out = |error: &SimulatorError| {
             let video = matches!(error, SimulatorError::VideoOutput { .. });
             error.is_full() || (interrupted && video)
         };
         if let Err(error) = self.write_out(true)
-            && !lost(&error)
+            && !may_leave_out(&error)
         {
             return Err(error);
         }
-        // Files that other programs write are ended first, because they would use the space that
-        // the others need.
+        // Files that another program writes are completed first. That program would otherwise use
+        // the space that is released for the other files.
         drop(self.video_reserve.take());
-        let (apart, sinks): (Vec<_>, Vec<_>) = std::mem::take(&mut self.sinks)
+        let (videos, sinks): (Vec<_>, Vec<_>) = std::mem::take(&mut self.sinks)
             .into_iter()
             .partition(|sink| sink.is_written_by_other_program());
-        finish_expendable(apart, &lost, &mut problem)?;
+        finish_expendable(videos, &may_leave_out, &mut problem)?;
         drop(self.reserve.take());
         let (expendable, needed) =
             sinks.into_iter().partition::<Vec<_>, _>(|sink| sink.expendable_path().is_some());
@@ -202,12 +205,12 @@ impl RunRecorder {
         };
         // The summary is written while there is space, before the last outputs are completed.
         let written = summary(problem.clone())?;
-        finish_expendable(expendable, &lost, &mut problem)?;
+        finish_expendable(expendable, &may_leave_out, &mut problem)?;
         if written.problem == problem { Ok(written) } else { summary(problem) }
     }
 
-    /// Writes all needed outputs. While there is no space, gives up one expendable output after the
-    /// other. Returns the remaining ones.
+    /// Writes all needed outputs. Gives up one expendable output after the other until there is
+    /// enough space. Returns the expendable outputs that remain.
     fn make_room(
         &mut self,
         mut expendable: Vec<Box<dyn FrameSink>>,
@@ -244,19 +247,19 @@ impl RunRecorder {
 /// Completes outputs. An expendable output that fails is given up.
 fn finish_expendable(
     sinks: Vec<Box<dyn FrameSink>>,
-    lost: &dyn Fn(&SimulatorError) -> bool,
+    may_leave_out: &dyn Fn(&SimulatorError) -> bool,
     problem: &mut Option<String>,
 ) -> Result<(), SimulatorError> {
     for sink in sinks {
         match (sink.expendable_path(), sink.finish()) {
-            (Some(path), Err(error)) if lost(&error) => leave_out(&path, problem),
+            (Some(path), Err(error)) if may_leave_out(&error) => leave_out(&path, problem),
             (_, other) => other?,
         }
     }
     Ok(())
 }
 
-/// Removes a file or a folder of pictures that cannot be completed, and adds it to the problem of
+/// Removes a file or a folder of pictures that cannot be completed, and names it in the problem of
 /// the run.
 fn leave_out(path: &Path, problem: &mut Option<String>) {
     // The path lies in the folder of this run. If it cannot be removed, the summary still names it.

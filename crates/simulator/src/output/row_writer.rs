@@ -11,7 +11,7 @@ use crate::SimulatorError;
 /// An open file of the table.
 pub(super) trait RowWriter: Send {
     /// Appends the rows of a frame.
-    fn rows(&mut self, table: &EventTable, moment: &EventFrame<'_>);
+    fn rows(&mut self, table: &EventTable, frame: &EventFrame<'_>);
     /// Writes the buffered data, as [`super::sink::FrameSink::write_out`] does.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
     /// Returns the path that can be given up, as [`super::sink::FrameSink::expendable_path`] does.
@@ -22,8 +22,8 @@ pub(super) trait RowWriter: Send {
 }
 
 impl RowWriter for CsvFile {
-    fn rows(&mut self, table: &EventTable, moment: &EventFrame<'_>) {
-        table.csv(moment, self.buffer());
+    fn rows(&mut self, table: &EventTable, frame: &EventFrame<'_>) {
+        table.csv(frame, self.buffer());
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {

@@ -19,35 +19,36 @@ pub(super) struct SinkFrame<'a> {
     pub(super) outcome: &'a FrameOutcome,
     /// The screen after the frame.
     pub(super) screen: FramePixels<'a>,
-    /// The frame is the first one after a reset of the camera.
+    /// True if the frame is the first one after a reset of the camera.
     pub(super) is_first: bool,
     /// The engine that computed the outcome, or `None` for a recording.
     pub(super) engine: Option<&'a Engine>,
 }
 
 impl<'a> SinkFrame<'a> {
-    /// Makes the step of the frame `source`, which must be the last that `engine` took.
+    /// Describes the frame `source`, which must be the last frame that `engine` took.
     pub(super) fn new(
         engine: &'a Engine,
         number: u64,
         source: &'a SourceFrame,
-        first: bool,
+        is_first: bool,
     ) -> Self {
         let (camera, outcome) = (engine.camera(), engine.outcome());
         let screen = engine.rendered();
-        Self { camera, number, source, outcome, screen, is_first: first, engine: Some(engine) }
+        Self { camera, number, source, outcome, screen, is_first, engine: Some(engine) }
     }
 }
 
 /// An output that grows frame by frame in constant memory. The sinks of one run work in parallel.
 ///
-/// A full disk is found in [`FrameSink::write_out`], which is called before a frame is taken. So
-/// all sinks take a frame or none does, and the data that they have taken can still be written.
+/// A full disk is noticed in [`FrameSink::write_out`], which is called before a frame is taken. So
+/// either all sinks take a frame or none does, and the data that they have taken can still be
+/// written.
 pub(super) trait FrameSink: Send {
     /// Takes the next frame.
     fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError>;
 
-    /// Writes the buffered data if it is much, or all of it with `all`.
+    /// Writes the buffered data if there is much of it, or in any case with `all`.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
 
     /// Returns the largest number of bytes, besides some buffers, that may have to be written after

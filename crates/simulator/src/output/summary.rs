@@ -42,7 +42,7 @@ pub struct RunSummary {
     pub foveate_version: &'static str,
     /// The fingerprint of the design.
     pub design_fingerprint: String,
-    /// The source was run to its end.
+    /// True if there was no problem: the source was run to its end, and every output is complete.
     pub complete: bool,
     /// The reason why the run is not complete.
     pub problem: Option<String>,

@@ -62,13 +62,13 @@ impl VideoFile {
             EncoderState::Empty => EncoderState::OnePicture(picture, time_us),
             EncoderState::OnePicture(first, start) => {
                 let rate = frame_rate(time_us.saturating_sub(start));
-                let feeder = self.start(&first, &rate)?;
-                match self.feed(feeder, &first)? {
-                    EncoderState::Running(feeder) => self.feed(feeder, &picture)?,
+                let writer = self.start(&first, &rate)?;
+                match self.feed(writer, &first)? {
+                    EncoderState::Running(writer) => self.feed(writer, &picture)?,
                     other => other,
                 }
             }
-            EncoderState::Running(feeder) => self.feed(feeder, &picture)?,
+            EncoderState::Running(writer) => self.feed(writer, &picture)?,
             failed @ EncoderState::Failed(_) => failed,
         };
         Ok(())
@@ -85,11 +85,11 @@ impl VideoFile {
 
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
         if let EncoderState::OnePicture(first, _) = &self.encoder {
-            let feeder = self.start(first, "30")?;
-            self.encoder = self.feed(feeder, first)?;
+            let writer = self.start(first, "30")?;
+            self.encoder = self.feed(writer, first)?;
         }
-        if let EncoderState::Running(feeder) = &mut self.encoder {
-            match feeder.finish() {
+        if let EncoderState::Running(writer) = &mut self.encoder {
+            match writer.finish() {
                 Ok((true, _)) => {}
                 Ok((false, said)) => self.encoder = self.failed_state(said),
                 Err(error) => self.encoder = EncoderState::of_tool_error(&error),
@@ -142,14 +142,14 @@ impl VideoFile {
 
     fn feed(
         &self,
-        mut feeder: ProgramWriter,
+        mut writer: ProgramWriter,
         picture: &RawImage,
     ) -> Result<EncoderState, SimulatorError> {
-        if feeder.write_all(&picture.bytes).is_ok() {
-            return Ok(EncoderState::Running(feeder));
+        if writer.write_all(&picture.bytes).is_ok() {
+            return Ok(EncoderState::Running(writer));
         }
         // ffmpeg has ended, or has taken no data since an interrupt.
-        Ok(feeder.finish_after_failed_write().map_or_else(
+        Ok(writer.finish_after_failed_write().map_or_else(
             |error| EncoderState::of_tool_error(&error),
             |said| self.failed_state(said),
         ))
@@ -157,14 +157,14 @@ impl VideoFile {
 
     /// Makes the failed state. The last message of ffmpeg may not be the reason for its end, so the
     /// free disk space is tested, too.
-    fn failed_state(&self, said: Option<String>) -> EncoderState {
-        let said = said.map(|line| line.trim().to_owned());
-        let said = said.unwrap_or_else(|| "ffmpeg ended too early".to_owned());
-        let words = ["No space left on device", "Disk quota exceeded"];
+    fn failed_state(&self, message: Option<String>) -> EncoderState {
+        let message = message.map(|line| line.trim().to_owned());
+        let message = message.unwrap_or_else(|| "ffmpeg ended too early".to_owned());
+        let reasons = ["No space left on device", "Disk quota exceeded"];
         let has_room =
             || self.path.parent().is_none_or(|folder| has_room(folder, ENCODER_SPACE_BYTES));
-        let is_full = words.iter().any(|words| said.contains(words)) || !has_room();
-        EncoderState::Failed(EncoderFailure { said, is_full })
+        let is_full = reasons.iter().any(|reason| message.contains(reason)) || !has_room();
+        EncoderState::Failed(EncoderFailure { said: message, is_full })
     }
 }
 
@@ -184,8 +184,9 @@ fn file_argument(path: &Path) -> std::ffi::OsString {
     name
 }
 
-/// Returns the rate for an interval between frames in microseconds. It is a whole number, or whole
-/// * 1000/1001, if rounding to microseconds gives this interval, otherwise one frame per interval.
+/// Returns the rate for an interval between frames in microseconds. The rate is a whole number, or
+/// a whole number times 1000/1001, if its interval is this one after rounding to microseconds.
+/// Otherwise it is one frame per interval.
 fn frame_rate(interval_us: u64) -> String {
     if interval_us == 0 {
         return "30".to_owned();

@@ -46,11 +46,11 @@ impl ImageTreeSink {
 
     /// Creates a new file for an image. Returns its path below the folder of the run.
     fn create_image_file(&self, step: &SinkFrame<'_>) -> Result<PathBuf, SimulatorError> {
-        let mut below = PathBuf::from(FOLDER);
+        let mut relative = PathBuf::from(FOLDER);
         if let Some(label) = &step.source.label {
-            below.push(folder_name_of_label(label));
+            relative.push(folder_name_of_label(label));
         }
-        let folder = self.folder.join(&below);
+        let folder = self.folder.join(&relative);
         fs::create_dir_all(&folder).map_err(cannot_write(&folder))?;
         let number = format!("{:06}", step.number);
         let stem = match self.naming {
@@ -59,19 +59,19 @@ impl ImageTreeSink {
             }
             FileNaming::Numbers => None,
         };
-        let first = below.join(format!("{}.png", stem.unwrap_or(&number)));
-        match (create_new_file(&self.folder.join(&first)), stem) {
+        let preferred = relative.join(format!("{}.png", stem.unwrap_or(&number)));
+        match (create_new_file(&self.folder.join(&preferred)), stem) {
             // The name is used already: the inputs are `a.png` and `a.jpg`, or files of one name
             // from several folders.
             (Err(error), Some(stem)) if error.kind() == ErrorKind::AlreadyExists => {
-                let other = below.join(format!("{stem}-{number}.png"));
-                let path = self.folder.join(&other);
+                let alternative = relative.join(format!("{stem}-{number}.png"));
+                let path = self.folder.join(&alternative);
                 create_new_file(&path).map_err(cannot_write(&path))?;
-                Ok(other)
+                Ok(alternative)
             }
             (file, _) => {
-                file.map_err(cannot_write(&self.folder.join(&first)))?;
-                Ok(first)
+                file.map_err(cannot_write(&self.folder.join(&preferred)))?;
+                Ok(preferred)
             }
         }
     }
@@ -79,11 +79,11 @@ impl ImageTreeSink {
 
 impl FrameSink for ImageTreeSink {
     fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let below = self.create_image_file(step)?;
+        let relative = self.create_image_file(step)?;
         let picture = RawImage::of_screen(step, self.writers.take_spare_buffer());
-        self.writers.push(self.folder.join(&below), picture);
+        self.writers.push(self.folder.join(&relative), picture);
         let label = step.source.label.as_deref().unwrap_or_default();
-        self.table.quoted_line([&step.number.to_string(), &below.display().to_string(), label]);
+        self.table.quoted_line([&step.number.to_string(), &relative.display().to_string(), label]);
         Ok(())
     }
 
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_label_is_one_folder() {
+    fn a_label_that_is_no_folder_name_becomes_other() {
         assert_eq!(["7", "a b", "..", "/", "a/b", ""].map(folder_name_of_label), {
             ["7", "a b", "other", "other", "other", "other"]
         });
