@@ -24,12 +24,12 @@ pub enum ExecutionMode {
     /// Computes what [`ExecutionMode::Exact`] does, but an output that is equal to its kept value
     /// does not count as changed. Results are equal to [`ExecutionMode::Dense`] bit for bit.
     Compare,
-    /// A position keeps the values that it passed on last while each of its new values is within
-    /// this limit of them. Integers are compared as the real numbers that they stand for if their
-    /// scale is known, and as integers otherwise.
+    /// A position keeps the values that it last passed on as long as each new value differs from
+    /// them by at most this limit. Integers are compared as the real numbers that they stand for if
+    /// their scale is known, and as integers otherwise.
     Truncate(f32),
-    /// In every tensor only the positions are computed that lie under a changed part of the frame.
-    /// Results are wrong at the borders of these parts.
+    /// Only positions at a changed part of the frame are computed, in every tensor. Results are
+    /// wrong at the borders of these parts.
     Fixed,
 }
 
@@ -69,7 +69,7 @@ pub struct Executor<'a> {
 }
 
 impl<'a> Executor<'a> {
-    /// Returns an executor that has seen no frame.
+    /// Returns an executor that has not run on a frame yet.
     #[must_use]
     pub fn new(network: &'a Network, mode: ExecutionMode) -> Self {
         let forms = || (0..=network.nodes().len()).map(|value| network.form(value));
@@ -79,17 +79,21 @@ impl<'a> Executor<'a> {
             ExecutionMode::Truncate(limit) => Some(limit),
         };
         let is_compared = limit.is_some() || mode == ExecutionMode::Fixed;
-        let fresh = |element| {
-            let own = forms().filter(|form| is_compared && form.encoding().element == element);
-            TensorValues::zeros(element, own.map(TensorForm::element_count).max().unwrap_or(0))
+        let scratch_values = |element| {
+            let compared_forms =
+                forms().filter(|form| is_compared && form.encoding().element == element);
+            TensorValues::zeros(
+                element,
+                compared_forms.map(TensorForm::element_count).max().unwrap_or(0),
+            )
         };
-        let mut limits: Vec<_> = forms().map(|_| limit).collect();
+        let mut change_limits: Vec<_> = forms().map(|_| limit).collect();
         // The limit of the frame is 0: its changes are never truncated.
-        limits[0] = limit.map(|_| 0.0);
+        change_limits[0] = limit.map(|_| 0.0);
         Self {
             network,
             mode,
-            change_limits: limits,
+            change_limits,
             tensors: forms().map(|form| Tensor::zeros(form.clone())).collect(),
             change_masks: forms().map(|form| Mask::empty(form.height(), form.width())).collect(),
             needed_masks: forms()
@@ -97,7 +101,7 @@ impl<'a> Executor<'a> {
                 .map(|form| Mask::empty(form.height(), form.width()))
                 .collect(),
             work: vec![NodeWork::default(); network.nodes().len()],
-            scratch: ElementType::ALL.map(fresh),
+            scratch: ElementType::ALL.map(scratch_values),
             has_begun: false,
             operator_times: vec![Duration::ZERO; network.nodes().len()],
             overhead: Duration::ZERO,
@@ -112,8 +116,8 @@ impl<'a> Executor<'a> {
     pub fn with_limits(network: &'a Network, limits: &[f32]) -> Self {
         assert_eq!(limits.len(), network.nodes().len(), "a limit per node");
         let mut executor = Self::new(network, ExecutionMode::Truncate(0.0));
-        for (own, &limit) in executor.change_limits[1..].iter_mut().zip(limits) {
-            *own = Some(limit);
+        for (change_limit, &limit) in executor.change_limits[1..].iter_mut().zip(limits) {
+            *change_limit = Some(limit);
         }
         executor
     }
@@ -160,10 +164,10 @@ impl<'a> Executor<'a> {
     /// Returns each input of a node with its positions that the needed outputs of the last frame
     /// depend on.
     pub fn needed_inputs(&self, node: usize) -> impl Iterator<Item = (usize, Mask)> {
-        let place = &self.network.nodes()[node];
-        place.inputs().iter().map(move |&value| {
+        let network_node = &self.network.nodes()[node];
+        network_node.inputs().iter().map(move |&value| {
             let form = self.network.form(value);
-            (value, place.operator.needed_input(&self.needed_masks[node], form))
+            (value, network_node.operator.needed_input(&self.needed_masks[node], form))
         })
     }
 
@@ -221,61 +225,64 @@ impl<'a> Executor<'a> {
     }
 
     /// Returns the positions of a node's output that are to be computed.
-    fn positions_to_compute(&self, node: usize, camera: &Mask) -> Mask {
-        let is_under = self.network.is_aligned_with_frame(node + 1);
+    fn positions_to_compute(&self, node: usize, frame_mask: &Mask) -> Mask {
+        let is_aligned = self.network.is_aligned_with_frame(node + 1);
         let (node, form) = (&self.network.nodes()[node], self.network.form(node + 1));
         if self.is_dense_frame() {
             return Mask::full(form.height(), form.width());
         }
-        // If rows were merged into one axis or reduced away, the positions have no place in the
-        // frame.
-        if self.mode == ExecutionMode::Fixed && is_under {
-            return camera.scaled_to(form.height(), form.width());
+        // The positions have no place in the frame if its rows and columns were merged into one
+        // axis or reduced away. Changes then spread as in the other modes.
+        if self.mode == ExecutionMode::Fixed && is_aligned {
+            return frame_mask.scaled_to(form.height(), form.width());
         }
-        let source = |&value: &usize| (self.network.form(value), &self.change_masks[value]);
-        node.operator.spread(&node.inputs().iter().map(source).collect::<Vec<_>>(), form)
+        let form_and_changes =
+            |&value: &usize| (self.network.form(value), &self.change_masks[value]);
+        node.operator.spread(&node.inputs().iter().map(form_and_changes).collect::<Vec<_>>(), form)
     }
 
-    fn run_node(&mut self, node: usize, camera: &Mask) {
-        let (at, limit) =
-            (self.positions_to_compute(node, camera), self.comparison_limit(node + 1));
-        self.needed_masks[node].clone_from(&at);
-        let place = &self.network.nodes()[node];
+    fn run_node(&mut self, node: usize, frame_mask: &Mask) {
+        let (positions, limit) =
+            (self.positions_to_compute(node, frame_mask), self.comparison_limit(node + 1));
+        self.needed_masks[node].clone_from(&positions);
+        let network_node = &self.network.nodes()[node];
         let form = self.network.form(node + 1);
-        let (needed, scheduled) = (at.count(), place.operator.scheduled_positions(&at));
+        let (needed, scheduled) =
+            (positions.count(), network_node.operator.scheduled_positions(&positions));
         let (before, rest) = self.tensors.split_at_mut(node + 1);
-        let inputs: Vec<&Tensor> = place.inputs().iter().map(|&value| &before[value]).collect();
+        let inputs: Vec<&Tensor> =
+            network_node.inputs().iter().map(|&value| &before[value]).collect();
         let kept = &mut rest[0];
-        let computing = &mut self.operator_times[node];
+        let operator_time = &mut self.operator_times[node];
         let mut compute = |output: &mut TensorValues| {
             let start = OptionalInstant::now();
-            if !at.is_empty() {
-                place.operator.compute(OperatorJob {
+            if !positions.is_empty() {
+                network_node.operator.compute(OperatorJob {
                     inputs: &inputs,
                     form,
                     output,
-                    positions: &at,
+                    positions: &positions,
                 });
             }
-            *computing = start.elapsed();
+            *operator_time = start.elapsed();
         };
         // Outside of the needed positions an operator may write only the values that a dense
-        // computation would write. Those are in the kept tensor already, unless an input differs
-        // from that of a dense computation.
+        // computation would write. The kept tensor has these values already, unless an input
+        // differs from that of a dense computation.
         let in_place = limit.is_none() && (self.mode != ExecutionMode::Fixed || !self.has_begun);
         let changed = if in_place {
             compute(kept.values_mut());
-            at
+            positions
         } else {
-            let fresh = &mut self.scratch[form.encoding().element as usize];
-            compute(fresh);
+            let computed = &mut self.scratch[form.encoding().element as usize];
+            compute(computed);
             with_element_type!(form.encoding().element, T => {
-                let (fresh, kept) = (T::slice_of(fresh), T::slice_of_mut(kept.values_mut()));
+                let (computed, kept) = (T::slice_of(computed), T::slice_of_mut(kept.values_mut()));
                 let changed = match limit {
-                    Some(limit) => changed_positions(form, kept, fresh, &at, limit),
-                    None => at,
+                    Some(limit) => changed_positions(form, kept, computed, &positions, limit),
+                    None => positions,
                 };
-                copy_positions(form, fresh, kept, &changed);
+                copy_positions(form, computed, kept, &changed);
                 changed
             })
         };

@@ -14,8 +14,8 @@ pub struct Mask {
 }
 
 /// The dependence of the positions of an output on those of an input along one axis: output `o`
-/// sees the inputs `o * stride - before + k * dilation`, for `k` from 0 to `kernel - 1`, as far as
-/// these inputs exist.
+/// sees the inputs `o * stride - padding_before + k * dilation`, for `k` from 0 to `kernel - 1`, as
+/// far as these inputs exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AxisWindow {
     /// The number of inputs that an output sees.
@@ -159,8 +159,8 @@ impl Mask {
         })
     }
 
-    /// Returns the runs of positions that follow each other in memory. A run at the end of a row
-    /// and a run at the beginning of the next row are one.
+    /// Returns the runs of positions that follow each other in memory. A run at the end of a row is
+    /// joined with a run at the beginning of the next row.
     pub(crate) fn memory_ranges(&self) -> Vec<Range<usize>> {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         for y in 0..self.height {
@@ -181,11 +181,12 @@ impl Mask {
         let (mut x, mut y) = (start % self.width, start / self.width);
         while !marks.is_empty() {
             // One step sets bits of a single word of a row.
-            let (own, rest) = marks.split_at(marks.len().min(64 - x % 64).min(self.width - x));
+            let (marks_of_word, rest) =
+                marks.split_at(marks.len().min(64 - x % 64).min(self.width - x));
             let word = |word, (bit, &mark): (usize, &u32)| word | u64::from(mark != 0) << bit;
-            let word = own.iter().enumerate().fold(0, word);
+            let word = marks_of_word.iter().enumerate().fold(0, word);
             self.words[y * self.words_per_row + x / 64] |= word << (x % 64);
-            x += own.len();
+            x += marks_of_word.len();
             if x == self.width {
                 (x, y) = (0, y + 1);
             }
@@ -203,7 +204,7 @@ impl Mask {
         height: usize,
         width: usize,
     ) -> Self {
-        let mut seen = Self::empty(height, width);
+        let mut outputs = Self::empty(height, width);
         let mut line = vec![0; self.words_per_row];
         for y in 0..height {
             line.fill(0);
@@ -215,10 +216,10 @@ impl Mask {
                 }
             }
             if line.iter().any(|&word| word != 0) {
-                seen.insert_outputs_of(y, &line, self.width, columns);
+                outputs.insert_outputs_of(y, &line, self.width, columns);
             }
         }
-        seen
+        outputs
     }
 
     /// Returns the positions of `height` x `width` inputs that an output at a position of this mask
@@ -231,7 +232,7 @@ impl Mask {
         height: usize,
         width: usize,
     ) -> Self {
-        let mut seen = Self::empty(height, width);
+        let mut inputs = Self::empty(height, width);
         let mut line = Self::empty(1, width);
         for y in (0..self.height).filter(|&y| self.row(y).iter().any(|&word| word != 0)) {
             line.words.fill(0);
@@ -239,11 +240,11 @@ impl Mask {
                 (x..x + count).for_each(|x| line.insert_inputs_of(x, columns));
             }
             for input in (0..rows.kernel).filter_map(|tap| rows.input_index(y, tap, height)) {
-                let row = &mut seen.words[input * seen.words_per_row..][..seen.words_per_row];
+                let row = &mut inputs.words[input * inputs.words_per_row..][..inputs.words_per_row];
                 row.iter_mut().zip(&line.words).for_each(|(row, word)| *row |= word);
             }
         }
-        seen
+        inputs
     }
 
     /// Adds the inputs that output `x` sees to this mask, which has a single row.
@@ -264,6 +265,7 @@ impl Mask {
     #[must_use]
     pub fn scaled_to(&self, height: usize, width: usize) -> Self {
         let range = |outputs: usize, inputs: usize| -> Vec<(usize, usize)> {
+            // Output `at` covers the inputs up to the start of the next output, but at least one.
             let first = |at: usize| (at * inputs / outputs).min(inputs - 1);
             (0..outputs)
                 .map(|at| (first(at), ((at + 1) * inputs).div_ceil(outputs).max(first(at) + 1) - 1))
@@ -272,23 +274,23 @@ impl Mask {
         self.outputs_of_ranges(&range(height, self.height), &range(width, self.width))
     }
 
-    /// Returns the positions of outputs that see a position of this mask, if output `i` of an axis
-    /// sees the inputs of range `i`. A range is the first and the last input.
+    /// Returns the positions of outputs that see a position of this mask. Output `i` of an axis
+    /// sees the inputs of range `i`, which is given by its first and its last input.
     #[must_use]
     pub fn outputs_of_ranges(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
-        let mut seen = Self::empty(rows.len(), columns.len());
-        let is_taken = |y: usize| self.row(y).iter().any(|&word| word != 0);
+        let mut outputs = Self::empty(rows.len(), columns.len());
+        let has_position = |y: usize| self.row(y).iter().any(|&word| word != 0);
         for (y, &(top, bottom)) in rows.iter().enumerate() {
-            if !(top..=bottom).any(is_taken) {
+            if !(top..=bottom).any(has_position) {
                 continue;
             }
             for (x, &(left, right)) in columns.iter().enumerate() {
                 if self.has_any(top..bottom + 1, left..right + 1) {
-                    seen.insert(x, y);
+                    outputs.insert(x, y);
                 }
             }
         }
-        seen
+        outputs
     }
 
     /// Returns true if the mask has a position in these rows and columns.
@@ -379,7 +381,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn outputs_see_what_their_windows_see(
+        fn outputs_and_inputs_through_windows_equal_those_of_a_naive_search(
             rows in window(), columns in window(), bits in proptest::collection::vec(any::<u32>(), 7),
             width in 1..140usize, height in 1..7usize,
         ) {
@@ -409,16 +411,16 @@ mod tests {
         }
 
         #[test]
-        fn runs_are_the_positions(bits in any::<u128>(), width in 1..128usize) {
+        fn runs_cover_the_positions_of_the_mask(bits in any::<u128>(), width in 1..128usize) {
             let mask = Mask::from_fn(1, width, |x, _| bits >> x & 1 == 1);
-            let mut again = Mask::empty(1, width);
-            let mut before = None;
+            let mut rebuilt = Mask::empty(1, width);
+            let mut previous_end = None;
             for (start, length) in mask.runs(0) {
-                prop_assert!(length > 0 && before.is_none_or(|end| end < start));
-                (start..start + length).for_each(|x| again.insert(x, 0));
-                before = Some(start + length);
+                prop_assert!(length > 0 && previous_end.is_none_or(|end| end < start));
+                (start..start + length).for_each(|x| rebuilt.insert(x, 0));
+                previous_end = Some(start + length);
             }
-            prop_assert_eq!(&mask, &again);
+            prop_assert_eq!(&mask, &rebuilt);
             prop_assert_eq!(mask.count(), (0..width).filter(|x| bits >> x & 1 == 1).count());
         }
     }

@@ -145,19 +145,19 @@ impl Network {
     /// The rows and columns of the frame to which the positions of a tensor made of these inputs
     /// belong.
     fn frame_grid(&self, form: &TensorForm, inputs: &[usize]) -> Option<(usize, usize)> {
-        let own = (form.height(), form.width());
-        let of = |&value: &usize| match (
+        let own_grid = (form.height(), form.width());
+        let inherited_grid = |&value: &usize| match (
             form.position_axes().len(),
             self.forms[value].position_axes().len(),
         ) {
-            (2, 2) => self.frame_grids[value].map(|_| own),
+            (2, 2) => self.frame_grids[value].map(|_| own_grid),
             // A flattened axis becomes rows and columns again if their numbers are those of before.
-            (2, _) => self.frame_grids[value].filter(|&grid| grid == own),
+            (2, _) => self.frame_grids[value].filter(|&grid| grid == own_grid),
             (1, _) => self.frame_grids[value]
                 .filter(|&(height, width)| height * width == form.position_count()),
             _ => None,
         };
-        inputs.iter().find_map(of)
+        inputs.iter().find_map(inherited_grid)
     }
 
     /// Returns true if the tensor has rows and columns of positions that belong to those of the
@@ -239,14 +239,14 @@ impl Network {
     #[must_use]
     pub fn macs(&self, node: usize) -> u64 {
         let (node, form) = (&self.nodes[node], &self.forms[node + 1]);
-        let of_each = match node.products() {
+        let macs_per_value = match node.products() {
             ProductKind::None | ProductKind::NoComputation => 0,
             ProductKind::Transposed { inputs } | ProductKind::Matrix { inputs } => inputs,
             ProductKind::Convolution { rows, columns, groups } => {
                 self.forms[node.inputs[0]].shape()[1] / groups * rows.kernel * columns.kernel
             }
         };
-        (form.element_count() * of_each) as u64
+        (form.element_count() * macs_per_value) as u64
     }
 
     /// The multiply-accumulate operations of all nodes for a complete frame.

@@ -78,25 +78,25 @@ pub(crate) fn convolve_bytes<X: ByteNumber, Y: TensorNumber>(
     outputs: ConvOutputs<'_, Y>,
     finish: impl Fn(usize, i32) -> Y,
 ) {
-    let ConvOutputs { channels: mut planes, first_position: start, blocks, width } = outputs;
+    let ConvOutputs { channels: mut planes, first_position, blocks, width } = outputs;
     let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
     let (first, stride) = (first.start, last.end - first.start);
     let taps = picture.columns.kernel;
     let rows = weights.packed.depth() / taps;
-    let at_once = rows.min(MAX_EXACT_PRODUCTS / taps);
+    let rows_at_once = rows.min(MAX_EXACT_PRODUCTS / taps);
     let lanes = weights.packed.blocking().lanes;
-    let room = (picture.columns, BYTE_PANELS_PER_PASS * lanes / CHUNK_POSITIONS, at_once);
+    let room = (picture.columns, BYTE_PANELS_PER_PASS * lanes / CHUNK_POSITIONS, rows_at_once);
     let mut gathered = GatheredInputs::new(room.0, room.1, room.2);
     let mut wide = GatheredInputs::new(room.0, room.1, room.2);
-    let mut products = vec![0.0; at_once * taps * MAX_BLOCK_CHANNELS];
+    let mut products = vec![0.0; rows_at_once * taps * MAX_BLOCK_CHANNELS];
     let mut sums = vec![0i32; stride * BYTE_PANELS_PER_PASS * lanes];
     for chunks in chunks.chunks(BYTE_PANELS_PER_PASS * lanes / CHUNK_POSITIONS) {
         let panels = chunks.len().div_ceil(lanes / CHUNK_POSITIONS);
         sums.fill(0);
         gathered.select_chunks(chunks);
         wide.select_chunks(chunks);
-        for from in (0..rows).step_by(at_once) {
-            let rows = from..rows.min(from + at_once);
+        for from in (0..rows).step_by(rows_at_once) {
+            let rows = from..rows.min(from + rows_at_once);
             let inputs = rows.start * taps..rows.end * taps;
             let (gathered, wide) = (&mut gathered, &mut wide);
             level.run(GatherTask { picture, rows, gathered, wide });
@@ -117,8 +117,8 @@ pub(crate) fn convolve_bytes<X: ByteNumber, Y: TensorNumber>(
         {
             for ((channel, sums), plane) in (first..).zip(sums.chunks(lanes)).zip(&mut planes) {
                 for (sums, chunk) in sums.chunks(CHUNK_POSITIONS).zip(chunks) {
-                    let places = chunk.memory_range(width);
-                    let to = &mut plane[places.start - start..places.end - start];
+                    let range = chunk.memory_range(width);
+                    let to = &mut plane[range.start - first_position..range.end - first_position];
                     for (output, &sum) in to.iter_mut().zip(sums) {
                         *output = finish(channel, sum);
                     }

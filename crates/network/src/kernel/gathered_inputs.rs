@@ -18,28 +18,28 @@ pub(crate) struct ConvInput<'a, T = f32> {
     pub(crate) padding: T,
 }
 
-/// The inputs of a row of the window that are kept, as strands. A strand holds inputs that are a
-/// stride apart, so that neighboring positions have neighboring inputs of a tap.
+/// The layout of the gathered inputs of a row of the window: its phases. A phase holds inputs that
+/// are a stride apart, so that the inputs of a tap for neighboring positions are neighbors.
 #[derive(Clone, Debug)]
 struct WindowRowLayout {
-    /// The first column of each strand, from the first column of the window.
+    /// The first column of each phase, counted from the first column of the window.
     phase_columns: Vec<usize>,
-    /// The number of inputs of a strand beyond one per position.
+    /// The number of inputs of a phase beyond one per position.
     extra_inputs: usize,
-    /// The strand of each tap, and the offset of its first input in the strand.
+    /// The phase of each tap, and the offset of its first input in the phase.
     taps: Vec<(usize, usize)>,
 }
 
 impl WindowRowLayout {
     fn new(columns: AxisWindow) -> Self {
         let AxisWindow { kernel, stride, dilation, .. } = columns;
-        let (strands, more) = (stride.min(columns.span()), (columns.span() - 1) / stride);
+        let (phases, more) = (stride.min(columns.span()), (columns.span() - 1) / stride);
         let tap = |tap| tap * dilation;
-        if strands * (CHUNK_POSITIONS + more) <= kernel * CHUNK_POSITIONS {
+        if phases * (CHUNK_POSITIONS + more) <= kernel * CHUNK_POSITIONS {
             let taps = (0..kernel).map(tap).map(|column| (column % stride, column / stride));
-            Self { phase_columns: (0..strands).collect(), extra_inputs: more, taps: taps.collect() }
+            Self { phase_columns: (0..phases).collect(), extra_inputs: more, taps: taps.collect() }
         } else {
-            // Taps that are far from each other share no inputs, so each has a strand of its own.
+            // Taps that are far from each other share no inputs, so each has a phase of its own.
             let taps = (0..kernel).map(|tap| (tap, 0)).collect();
             Self { phase_columns: (0..kernel).map(tap).collect(), extra_inputs: 0, taps }
         }
@@ -50,9 +50,9 @@ impl WindowRowLayout {
 #[derive(Clone, Debug)]
 struct ChunkRun {
     first: PositionChunk,
-    /// The offset of the inputs of the run in each strand.
+    /// The offset of the inputs of the run in each phase.
     offset: usize,
-    /// The number of inputs of the run in each strand.
+    /// The number of inputs of the run in each phase.
     length: usize,
 }
 
@@ -61,7 +61,7 @@ struct ChunkRun {
 pub(super) struct GatheredInputs<T = f32> {
     layout: WindowRowLayout,
     chunk_runs: Vec<ChunkRun>,
-    /// The number of values of a strand over all stretches.
+    /// The number of values of a phase over all runs.
     phase_length: usize,
     /// The offset of the inputs of each chunk, for a tap at offset 0.
     pub(super) chunk_offsets: Vec<usize>,
@@ -92,7 +92,7 @@ impl<T: Copy + Default> GatheredInputs<T> {
     /// Selects the chunks. If there are fewer than there is room for, the missing ones use the
     /// inputs of the first.
     pub(super) fn select_chunks(&mut self, chunks: &[PositionChunk]) {
-        let WindowRowLayout { phase_columns: strands, extra_inputs: more, taps } = &self.layout;
+        let WindowRowLayout { phase_columns: phases, extra_inputs: more, taps } = &self.layout;
         self.chunk_runs.clear();
         self.chunk_offsets.fill(0);
         let (mut end, mut next) = (0, None);
@@ -113,10 +113,10 @@ impl<T: Copy + Default> GatheredInputs<T> {
         }
         // The offsets are computed anew only if the number of inputs has changed, which is rare.
         if self.phase_length != end {
-            (self.phase_length, self.pitch) = (end, end * strands.len());
+            (self.phase_length, self.pitch) = (end, end * phases.len());
             for (row, own) in self.tap_offsets.chunks_mut(taps.len()).enumerate() {
-                for (to, (strand, at)) in own.iter_mut().zip(taps) {
-                    *to = row * self.pitch + strand * end + at;
+                for (to, (phase, at)) in own.iter_mut().zip(taps) {
+                    *to = row * self.pitch + phase * end + at;
                 }
             }
         }
@@ -125,36 +125,36 @@ impl<T: Copy + Default> GatheredInputs<T> {
     /// Gathers some rows of the window, which count from the first row of the first channel.
     #[inline(always)]
     pub(super) fn gather(&mut self, picture: &ConvInput<'_, T>, rows: &Range<usize>) {
-        for stretch in &self.chunk_runs {
-            for (at, &strand) in self.layout.phase_columns.iter().enumerate() {
-                let to = &mut self.window_rows[at * self.phase_length + stretch.offset..];
-                picture.gather(stretch, strand, rows, to, self.pitch);
+        for run in &self.chunk_runs {
+            for (at, &phase) in self.layout.phase_columns.iter().enumerate() {
+                let to = &mut self.window_rows[at * self.phase_length + run.offset..];
+                picture.gather(run, phase, rows, to, self.pitch);
             }
         }
     }
 }
 
 impl<T: Copy> ConvInput<'_, T> {
-    /// Gathers the inputs of a strand for some rows of the window. Rows are `pitch` values apart in
+    /// Gathers the inputs of a phase for some rows of the window. Rows are `pitch` values apart in
     /// `to`.
     #[inline(always)]
     fn gather(
         &self,
-        stretch: &ChunkRun,
-        strand: usize,
+        run: &ChunkRun,
+        phase: usize,
         rows: &Range<usize>,
         to: &mut [T],
         pitch: usize,
     ) {
-        let first = stretch.first.x * self.columns.stride + strand;
-        let strand = StridedInputs::new(self.columns, first, stretch.length, self.width);
+        let first = run.first.x * self.columns.stride + phase;
+        let phase = StridedInputs::new(self.columns, first, run.length, self.width);
         let kernel = self.rows.kernel;
         let (mut channel, mut tap) = (rows.start / kernel, rows.start % kernel);
         for to in to.chunks_mut(pitch).take(rows.len()) {
-            let y = self.rows.input_index(stretch.first.y, tap, self.height);
+            let y = self.rows.input_index(run.first.y, tap, self.height);
             let row = y.map(|y| channel * self.height + y);
             let row = row.map(|row| &self.values[row * self.width..][..self.width]);
-            strand.gather(row, self.padding, &mut to[..stretch.length]);
+            phase.gather(row, self.padding, &mut to[..run.length]);
             tap += 1;
             if tap == kernel {
                 (channel, tap) = (channel + 1, 0);
@@ -165,7 +165,7 @@ impl<T: Copy> ConvInput<'_, T> {
 
 /// Inputs of a row that are a stride apart.
 pub(super) struct StridedInputs {
-    /// The inputs that exist, by their number in the strand.
+    /// The inputs that exist, by their number in the sequence.
     inside: Range<usize>,
     /// The column of the first existing input.
     column: usize,
@@ -173,8 +173,8 @@ pub(super) struct StridedInputs {
 }
 
 impl StridedInputs {
-    /// Returns a strand of `length` inputs from column `first`, which counts from the first column
-    /// of the padding.
+    /// Returns a sequence of `length` inputs from column `first`, which counts from the first
+    /// column of the padding.
     #[inline(always)]
     pub(super) fn new(columns: AxisWindow, first: usize, length: usize, width: usize) -> Self {
         let AxisWindow { stride, padding_before: before, .. } = columns;
@@ -219,8 +219,8 @@ fn copy_strided<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
     }
 }
 
-/// Copies values. Short runs are copied with two accesses that may overlap, because most stretches
-/// are short.
+/// Copies values. Short runs are copied with two accesses that may overlap, because most runs are
+/// short.
 #[inline(always)]
 pub(super) fn copy_short_run<T: Copy>(from: &[T], to: &mut [T]) {
     match to.len() {

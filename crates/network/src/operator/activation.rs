@@ -202,10 +202,10 @@ impl Operator for ActivationOperator {
     }
 }
 
-fn apply_to_job(job: OperatorJob<'_>, of: impl Fn(f32) -> f32 + Sync) {
+fn apply_to_job(job: OperatorJob<'_>, function: impl Fn(f32) -> f32 + Sync) {
     let from = job.inputs[0].values::<f32>();
     let level = InstructionSet::detect();
-    job.fill(|run, to| level.run(ActivationTask { from: &from[run], to, of: &of }));
+    job.fill(|run, to| level.run(ActivationTask { from: &from[run], to, of: &function }));
 }
 
 /// A function of some values, applied in vector lanes.

@@ -97,9 +97,9 @@ impl Operator for BinaryOperator {
         broadcast_mask(inputs, output)
     }
 
-    fn with_activation(&self, finish: Activation) -> Option<Arc<dyn Operator>> {
+    fn with_activation(&self, activation: Activation) -> Option<Arc<dyn Operator>> {
         let is_free = self.activation == Activation::Identity;
-        is_free.then(|| Arc::new(Self { activation: finish, ..self.clone() }) as Arc<dyn Operator>)
+        is_free.then(|| Arc::new(Self { activation, ..self.clone() }) as Arc<dyn Operator>)
     }
 
     fn weight_bytes(&self) -> u64 {
@@ -124,7 +124,9 @@ impl Operator for BinaryOperator {
             (ArithmeticKind::Div, Activation::Identity) => {
                 self.compute_lines(job, |a: f32, b| a / b);
             }
-            (kind, finish) => self.compute_lines(job, |a, b| finish.apply(kind.apply(a, b))),
+            (kind, activation) => {
+                self.compute_lines(job, |a, b| activation.apply(kind.apply(a, b)))
+            }
         }
     }
 }
@@ -134,27 +136,28 @@ impl BinaryOperator {
     pub(super) fn compute_lines<T: TensorNumber, Y: TensorNumber>(
         &self,
         job: OperatorJob<'_>,
-        of: impl Fn(T, T) -> Y + Sync,
+        operation: impl Fn(T, T) -> Y + Sync,
     ) {
         let (inputs, form) = (job.inputs, job.form);
         let [a, b] =
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
-        let (of_a, of_b) = (form.broadcast_strides(a.form()), form.broadcast_strides(b.form()));
+        let (strides_of_a, strides_of_b) =
+            (form.broadcast_strides(a.form()), form.broadcast_strides(b.form()));
         let last = form.shape().last().copied().unwrap_or(1);
         if [a, b].iter().all(|operand| operand.form().shape() == form.shape()) {
             let (a, b) = (a.values(), b.values());
-            return job.fill(|run, to| compute_line(&a[run.clone()], &b[run], to, &of));
+            return job.fill(|run, to| compute_line(&a[run.clone()], &b[run], to, &operation));
         }
         job.fill(|run, to| {
             let (first, mut start) = (run.start, run.start);
             while start < run.end {
                 let end = run.end.min((start / last + 1) * last);
                 let (a, b) = (
-                    line_values(a, &of_a, form, start..end),
-                    line_values(b, &of_b, form, start..end),
+                    line_values(a, &strides_of_a, form, start..end),
+                    line_values(b, &strides_of_b, form, start..end),
                 );
                 let to = &mut to[start - first..end - first];
-                compute_line(a, b, to, &of);
+                compute_line(a, b, to, &operation);
                 start = end;
             }
         });
@@ -163,29 +166,30 @@ impl BinaryOperator {
 
 /// Computes a line of values. An operand of one value is repeated.
 #[inline(always)]
-fn compute_line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], of: impl Fn(T, T) -> Y) {
+fn compute_line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], operation: impl Fn(T, T) -> Y) {
     match (a.len() == to.len(), b.len() == to.len()) {
         (true, true) => {
-            to.iter_mut().zip(a.iter().zip(b)).for_each(|(to, (&a, &b))| *to = of(a, b));
+            to.iter_mut().zip(a.iter().zip(b)).for_each(|(to, (&a, &b))| *to = operation(a, b));
         }
-        (true, false) => to.iter_mut().zip(a).for_each(|(to, &a)| *to = of(a, b[0])),
-        (false, true) => to.iter_mut().zip(b).for_each(|(to, &b)| *to = of(a[0], b)),
-        (false, false) => to.fill(of(a[0], b[0])),
+        (true, false) => to.iter_mut().zip(a).for_each(|(to, &a)| *to = operation(a, b[0])),
+        (false, true) => to.iter_mut().zip(b).for_each(|(to, &b)| *to = operation(a[0], b)),
+        (false, false) => to.fill(operation(a[0], b[0])),
     }
 }
 
 /// Returns the form of a broadcast result with this shape. Its positions are those of the input
 /// that has the most axes of positions and repeats none of them.
 pub(super) fn broadcast_form(inputs: &[&TensorForm], shape: Vec<usize>) -> TensorForm {
-    let new = |form: &TensorForm| shape.len() - form.shape().len();
+    let new_axes = |form: &TensorForm| shape.len() - form.shape().len();
     let axes = |form: &TensorForm| {
-        form.position_axes().start + new(form)..form.position_axes().end + new(form)
+        form.position_axes().start + new_axes(form)..form.position_axes().end + new_axes(form)
     };
     let is_kept = |form: &&&TensorForm| {
-        form.has_positions() && axes(form).all(|axis| shape[axis] == form.shape()[axis - new(form)])
+        form.has_positions()
+            && axes(form).all(|axis| shape[axis] == form.shape()[axis - new_axes(form)])
     };
-    let own = inputs.iter().filter(is_kept).rev().max_by_key(|form| form.position_axes().len());
-    match own.map(|form| axes(form)) {
+    let kept = inputs.iter().filter(is_kept).rev().max_by_key(|form| form.position_axes().len());
+    match kept.map(|form| axes(form)) {
         Some(axes) => TensorForm::with_positions(shape, axes),
         None => TensorForm::without_positions(shape),
     }
@@ -193,12 +197,12 @@ pub(super) fn broadcast_form(inputs: &[&TensorForm], shape: Vec<usize>) -> Tenso
 
 /// Returns the positions of a broadcast result that depend on changed positions of the inputs.
 pub(super) fn broadcast_mask(inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
-    let mut seen = Mask::empty(output.height(), output.width());
+    let mut changed = Mask::empty(output.height(), output.width());
     for &(form, mask) in inputs {
-        let new = output.shape().len() - form.shape().len();
-        seen.union(&aligned_mask((form, mask), output, |axis| Some(axis + new)));
+        let new_axes = output.shape().len() - form.shape().len();
+        changed.union(&aligned_mask((form, mask), output, |axis| Some(axis + new_axes)));
     }
-    seen
+    changed
 }
 
 /// Returns the shape of both operands after broadcasting, or `None` if they do not fit together.
@@ -207,12 +211,12 @@ pub(crate) fn broadcast_shape(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
     let size = |shape: &[usize], axis: usize| {
         (axis + shape.len()).checked_sub(axes).map_or(1, |axis| shape[axis])
     };
-    let together = |axis| match (size(a, axis), size(b, axis)) {
+    let broadcast_length = |axis| match (size(a, axis), size(b, axis)) {
         (a, b) if a == b || b == 1 => Some(a),
         (1, b) => Some(b),
         _ => None,
     };
-    (0..axes).map(together).collect()
+    (0..axes).map(broadcast_length).collect()
 }
 
 /// Returns the values of an operand for a line of the output, or the single value that is repeated

@@ -142,8 +142,8 @@ pub(crate) trait Operator: Debug + Send + Sync {
         ProductKind::None
     }
 
-    /// Returns the windows, along rows and columns, through which outputs see the only input. An
-    /// operator without windows sees the input at the position of the output, or all inputs.
+    /// Returns the windows, along rows and columns, through which outputs depend on the only input.
+    /// Without windows an output depends on the input at its own position, or on all inputs.
     fn axis_windows(&self) -> Option<[AxisWindow; 2]> {
         match self.products() {
             ProductKind::Convolution { rows, columns, .. } => Some([rows, columns]),
@@ -151,7 +151,7 @@ pub(crate) trait Operator: Debug + Send + Sync {
         }
     }
 
-    /// Returns the positions of an input that the outputs at the positions `at` see.
+    /// Returns the positions of an input on which the outputs at the positions `at` depend.
     fn needed_input(&self, at: &Mask, input: &TensorForm) -> Mask {
         let (height, width) = (input.height(), input.width());
         match self.axis_windows() {
@@ -231,8 +231,8 @@ pub(crate) fn moved_encoding(inputs: &[Encoding]) -> Result<Encoding, String> {
     if let Some(other) = inputs.iter().find(|input| input.element != first.element) {
         return Err(wrong_element_message(first.element, other.element));
     }
-    let alike = inputs.iter().all(|input| *input == first);
-    Ok(if alike { first } else { Encoding::plain(first.element) })
+    let all_equal = inputs.iter().all(|input| *input == first);
+    Ok(if all_equal { first } else { Encoding::plain(first.element) })
 }
 
 /// Returns `to`, the encoding of the output of an operator on 8-bit values, and fails if an input
@@ -255,24 +255,24 @@ pub(crate) fn wrong_element_message(wanted: ElementType, found: ElementType) -> 
 /// Returns the union of all masks. An input whose positions differ from those of the output changes
 /// all of the output.
 pub(crate) fn position_union(inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
-    let mut seen = Mask::empty(output.height(), output.width());
+    let mut positions = Mask::empty(output.height(), output.width());
     for (form, mask) in inputs {
         if (form.height(), form.width()) == (output.height(), output.width()) {
-            seen.union(mask);
+            positions.union(mask);
         } else if !mask.is_empty() {
-            seen.fill();
+            positions.fill();
         }
     }
-    seen
+    positions
 }
 
 /// Returns all positions if any input has changed, and none otherwise.
 pub(crate) fn full_if_changed(inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
-    let mut seen = Mask::empty(output.height(), output.width());
+    let mut positions = Mask::empty(output.height(), output.width());
     if inputs.iter().any(|(_, mask)| !mask.is_empty()) {
-        seen.fill();
+        positions.fill();
     }
-    seen
+    positions
 }
 
 /// Returns the form of the only input.

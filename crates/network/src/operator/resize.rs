@@ -13,8 +13,8 @@ use crate::values::TensorNumber;
 pub(crate) enum ResizeKind {
     Nearest(NearestRounding),
     Linear,
-    /// Interpolation of four inputs along each axis. Inputs outside of the border are replaced by
-    /// the nearest inside, or do not count if `is_inside_only`.
+    /// Interpolation of four inputs along each axis. An input beyond the border is replaced by the
+    /// nearest existing one, or does not count if `is_inside_only`.
     Cubic {
         a: f32,
         is_inside_only: bool,
@@ -56,8 +56,8 @@ pub(crate) enum ResizeSize {
     Sizes([usize; 2]),
 }
 
-/// The inputs of an output along one axis, up to four, with their weights. One tap has weights of 0
-/// that are not used; two taps have weights that are 0 from the third on.
+/// The inputs of an output along one axis, up to four, with their weights. The weights of a single
+/// input are 0 and not used. With two inputs, the third and the fourth weight are 0.
 #[derive(Clone, Copy, Debug)]
 struct AxisTaps {
     at: [usize; 4],
@@ -81,12 +81,12 @@ impl AxisTaps {
     }
 }
 
-/// Returns the weights of four neighbors in cubic convolution interpolation (R. Keys, 1981) for a
-/// coordinate that is `behind` after the second.
-fn cubic_weights(a: f32, behind: f32) -> [f32; 4] {
-    let near = |d: f32| ((a + 2.0) * d - (a + 3.0)) * d * d + 1.0;
-    let far = |d: f32| ((a * d - 5.0 * a) * d + 8.0 * a) * d - 4.0 * a;
-    [far(behind + 1.0), near(behind), near(1.0 - behind), far(2.0 - behind)]
+/// Returns the weights of four neighbors in cubic convolution interpolation (R. Keys, 1981). The
+/// coordinate lies behind the second neighbor, at the distance `fraction`.
+fn cubic_weights(a: f32, fraction: f32) -> [f32; 4] {
+    let near = |distance: f32| ((a + 2.0) * distance - (a + 3.0)) * distance * distance + 1.0;
+    let far = |distance: f32| ((a * distance - 5.0 * a) * distance + 8.0 * a) * distance - 4.0 * a;
+    [far(fraction + 1.0), near(fraction), near(1.0 - fraction), far(2.0 - fraction)]
 }
 
 impl Resize {
@@ -145,18 +145,18 @@ impl Resize {
                 }
                 ResizeKind::Cubic { a, is_inside_only } => {
                     let first = at.floor() - 1.0;
-                    let places = [0.0, 1.0, 2.0, 3.0].map(|tap| first + tap);
-                    let mut shares = cubic_weights(a, at - at.floor());
+                    let positions = [0.0, 1.0, 2.0, 3.0].map(|tap| first + tap);
+                    let mut weights = cubic_weights(a, at - at.floor());
                     if is_inside_only {
-                        for (share, place) in shares.iter_mut().zip(places) {
-                            *share =
-                                if (0.0..=last as f32).contains(&place) { *share } else { 0.0 };
+                        for (weight, position) in weights.iter_mut().zip(positions) {
+                            *weight =
+                                if (0.0..=last as f32).contains(&position) { *weight } else { 0.0 };
                         }
-                        let sum: f32 = shares.iter().sum();
-                        shares = shares.map(|share| share / sum);
+                        let sum: f32 = weights.iter().sum();
+                        weights = weights.map(|weight| weight / sum);
                     }
-                    let at = places.map(|place| (place.max(0.0) as usize).min(last));
-                    AxisTaps { at, weights: shares }
+                    let at = positions.map(|position| (position.max(0.0) as usize).min(last));
+                    AxisTaps { at, weights }
                 }
             }
         };
@@ -222,17 +222,17 @@ impl Operator for Resize {
 
 /// Returns the weighted sum of inputs.
 #[inline(always)]
-fn weighted_sum(taps: &AxisTaps, of: impl Fn(usize) -> f32) -> f32 {
-    taps.at.iter().zip(taps.weights).map(|(&at, share)| share * of(at)).sum()
+fn weighted_sum(taps: &AxisTaps, value: impl Fn(usize) -> f32) -> f32 {
+    taps.at.iter().zip(taps.weights).map(|(&at, weight)| weight * value(at)).sum()
 }
 
 impl Resize {
-    /// Fills every output. `of` takes the plane of the channel, the length of its rows, and the
-    /// taps of the row and of the column.
+    /// Fills every output. `compute_value` takes the plane of the channel, the length of its rows,
+    /// and the taps of the row and of the column.
     fn fill<T: TensorNumber>(
         &self,
         job: OperatorJob<'_>,
-        of: impl Fn(&[T], usize, &AxisTaps, &AxisTaps) -> T + Sync,
+        compute_value: impl Fn(&[T], usize, &AxisTaps, &AxisTaps) -> T + Sync,
     ) {
         let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
@@ -247,14 +247,14 @@ impl Resize {
                 start += line.len();
                 to = rest;
                 for (to, column) in line.iter_mut().zip(&columns[x..]) {
-                    *to = of(plane, width, &rows[y], column);
+                    *to = compute_value(plane, width, &rows[y], column);
                 }
             }
         });
     }
 }
 
-/// Interpolates between two values. If the share of the second is 0 the result is the first, even
+/// Interpolates between two values. If the share of the second is 0, the result is the first, even
 /// if the second is infinite or NaN.
 #[inline(always)]
 fn interpolated(first: f32, second: f32, share: f32) -> f32 {

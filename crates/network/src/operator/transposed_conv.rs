@@ -123,44 +123,46 @@ impl TransposedConv {
         groups: usize,
         level: InstructionSet,
     ) -> Result<Self, String> {
-        let &[inputs, own, height, width] = shape else {
+        let &[inputs, channels_per_group, height, width] = shape else {
             return Err(format!("its weights have {} axes, not 4", shape.len()));
         };
         if shape.contains(&0) || inputs % groups != 0 {
             return Err(format!("its weights {shape:?} do not fit {groups} groups"));
         }
-        let channels = own.checked_mul(groups).ok_or("it has too many channels")?;
+        let channels = channels_per_group.checked_mul(groups).ok_or("it has too many channels")?;
         let bias = bias.map_or_else(|| vec![0.0; channels], <[f32]>::to_vec);
         if bias.len() != channels {
             return Err(format!("its bias has {} values, not {channels}", bias.len()));
         }
-        let of_group = inputs / groups;
+        let inputs_per_group = inputs / groups;
         let pack = |group: usize, [y, x]: [OutputPhase; 2]| {
             let mut packed = Vec::new();
-            for (channel, input) in
-                (0..own).flat_map(|channel| (0..of_group).map(move |input| (channel, input)))
+            for (channel, input) in (0..channels_per_group)
+                .flat_map(|channel| (0..inputs_per_group).map(move |input| (channel, input)))
             {
-                let plane = ((group * of_group + input) * own + channel) * height * width;
+                let plane = ((group * inputs_per_group + input) * channels_per_group + channel)
+                    * height
+                    * width;
                 for tap_y in (0..y.window.kernel).map(|tap| y.last_tap - tap * y.tap_step) {
                     let taps = (0..x.window.kernel).map(|tap| x.last_tap - tap * x.tap_step);
                     packed.extend(taps.map(|tap_x| weights[plane + tap_y * width + tap_x]));
                 }
             }
-            let depth = of_group * y.window.kernel * x.window.kernel;
+            let depth = inputs_per_group * y.window.kernel * x.window.kernel;
             PackedWeights::new(
                 &packed,
                 depth,
-                &bias[group * own..][..own],
+                &bias[group * channels_per_group..][..channels_per_group],
                 BlockSizes::for_instruction_set(level),
             )
         };
-        let (of_rows, of_columns) = (rows.phases(), columns.phases());
-        let pairs = of_rows.iter().flat_map(|&y| of_columns.iter().map(move |&x| [y, x]));
+        let (row_phases, column_phases) = (rows.phases(), columns.phases());
+        let pairs = row_phases.iter().flat_map(|&y| column_phases.iter().map(move |&x| [y, x]));
         let phases = pairs
             .map(|pair| (pair, (0..groups).map(|group| pack(group, pair)).collect()))
             .collect();
         let weight_bytes = 4 * (weights.len() + bias.len()) as u64;
-        let finish = Activation::Identity;
+        let activation = Activation::Identity;
         Ok(Self {
             rows,
             columns,
@@ -170,7 +172,7 @@ impl TransposedConv {
             level,
             bias,
             phases,
-            activation: finish,
+            activation,
             weight_bytes,
         })
     }
@@ -194,13 +196,13 @@ impl TransposedConv {
             return;
         }
         let input = job.inputs[0].form();
-        let own = self.channels / self.groups;
-        let form = TensorForm::features(vec![1, own, height, width]);
-        let seen = self.inputs / self.groups * input.position_count();
+        let channels_per_group = self.channels / self.groups;
+        let form = TensorForm::features(vec![1, channels_per_group, height, width]);
+        let values_per_group = self.inputs / self.groups * input.position_count();
         let mut planes = vec![0.0; form.element_count()];
         for (group, weights) in weights.iter().enumerate() {
             let picture = ConvInput {
-                values: &job.inputs[0].values()[group * seen..][..seen],
+                values: &job.inputs[0].values()[group * values_per_group..][..values_per_group],
                 height: input.height(),
                 width: input.width(),
                 rows: y.window,
@@ -215,7 +217,7 @@ impl TransposedConv {
                 kernel::thread_parts(weights.blocks(), &chunks, &mut planes, [height, width]);
             threads::for_each_part(parts, &part);
             let to = &mut output_values::<f32>(job.output, job.form)
-                [group * own * job.form.position_count()..];
+                [group * channels_per_group * job.form.position_count()..];
             for (plane, to) in
                 planes.chunks(form.position_count()).zip(to.chunks_mut(job.form.position_count()))
             {
@@ -266,7 +268,7 @@ impl Operator for TransposedConv {
     }
 
     fn products(&self) -> ProductKind {
-        let taps = |reach: TransposedWindow| reach.kernel.div_ceil(reach.stride);
+        let taps = |window: TransposedWindow| window.kernel.div_ceil(window.stride);
         let inputs = self.inputs / self.groups * taps(self.rows) * taps(self.columns);
         ProductKind::Transposed { inputs }
     }
@@ -282,9 +284,9 @@ impl Operator for TransposedConv {
         )
     }
 
-    fn with_activation(&self, finish: Activation) -> Option<Arc<dyn Operator>> {
+    fn with_activation(&self, activation: Activation) -> Option<Arc<dyn Operator>> {
         let is_free = self.activation == Activation::Identity;
-        is_free.then(|| Arc::new(Self { activation: finish, ..self.clone() }) as Arc<dyn Operator>)
+        is_free.then(|| Arc::new(Self { activation, ..self.clone() }) as Arc<dyn Operator>)
     }
 
     fn weight_bytes(&self) -> u64 {

@@ -73,8 +73,8 @@ impl Constant {
     /// Encodes the values as `raw_data` of an element type. Floating-point values have 32 bits,
     /// whatever the type.
     pub(super) fn encode(&self, kind: i32) -> Result<TensorProto, String> {
-        let own = self.cast(kind)?;
-        let (bytes, kind) = match &own.values {
+        let converted = self.cast(kind)?;
+        let (bytes, kind) = match &converted.values {
             ConstantValues::Floats(values) => {
                 (values.iter().flat_map(|value| value.to_le_bytes()).collect(), data_type::FLOAT)
             }
@@ -84,8 +84,8 @@ impl Constant {
                     data_type::INT32 => 4,
                     _ => 8,
                 };
-                let low = |value: &i64| value.to_le_bytes().into_iter().take(width);
-                (values.iter().flat_map(low).collect(), kind)
+                let low_bytes = |value: &i64| value.to_le_bytes().into_iter().take(width);
+                (values.iter().flat_map(low_bytes).collect(), kind)
             }
         };
         Ok(TensorProto {

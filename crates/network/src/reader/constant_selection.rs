@@ -26,8 +26,8 @@ pub(super) fn fill_constant(node: &NodeReader<'_>, shape: &Constant) -> Result<C
     Ok(Constant { shape, values, data_type: value.data_type })
 }
 
-/// Returns the values in another shape, in which one length may be -1 and a length of 0 is that of
-/// the input.
+/// Returns the values in another shape. One length may be -1, and then follows from the others. A
+/// length of 0 is that of the input.
 pub(super) fn reshape_constant(
     node: &NodeReader<'_>,
     from: &Constant,
@@ -39,9 +39,9 @@ pub(super) fn reshape_constant(
             "its shape {wanted:?} holds a 0 and allowzero is 1, so that its output is empty"
         ));
     }
-    let wrong = || format!("its input {:?} cannot become {wanted:?}", from.shape);
+    let misfit_message = || format!("its input {:?} cannot become {wanted:?}", from.shape);
     if wanted.len() > MAX_AXES {
-        return Err(wrong());
+        return Err(misfit_message());
     }
     let length = |(axis, &length): (usize, &i64)| match length {
         -1 => Some(1),
@@ -49,14 +49,17 @@ pub(super) fn reshape_constant(
         length => usize::try_from(length).ok(),
     };
     let shape: Option<Vec<usize>> = wanted.iter().enumerate().map(length).collect();
-    let mut shape = shape.ok_or_else(wrong)?;
-    if let Some(open) = wanted.iter().position(|&length| length == -1) {
+    let mut shape = shape.ok_or_else(misfit_message)?;
+    if let Some(inferred_axis) = wanted.iter().position(|&length| length == -1) {
         let known = checked_element_count(&shape);
-        shape[open] =
-            from.values.value_count().checked_div(known.ok_or_else(wrong)?).ok_or_else(wrong)?;
+        shape[inferred_axis] = from
+            .values
+            .value_count()
+            .checked_div(known.ok_or_else(misfit_message)?)
+            .ok_or_else(misfit_message)?;
     }
     if checked_element_count(&shape) != Some(from.values.value_count()) {
-        return Err(wrong());
+        return Err(misfit_message());
     }
     Ok(Constant { shape, ..from.clone() })
 }
@@ -123,39 +126,45 @@ pub(super) fn slice_bounds(
 ) -> Result<(i64, usize), String> {
     let (start, end, all) =
         (index_from_start(start, length), index_from_start(end, length), length_to_i64(length));
-    // With a negative step, an end of -1 is in front of the first element.
+    // With a negative step the end may lie in front of the first element, at -1.
     let (low, high) = if step < 0 { (-1, all - 1) } else { (0, all) };
     let (start, end) = (start.clamp(low.max(0), high.max(0)), end.clamp(low, high));
-    let way = if step < 0 { start - end } else { end - start };
-    let way = usize::try_from(way.max(0)).expect("not negative");
+    let distance = if step < 0 { start - end } else { end - start };
+    let distance = usize::try_from(distance.max(0)).expect("not negative");
     match usize::try_from(step.unsigned_abs()) {
         Ok(0) => Err("its step is 0".to_owned()),
-        Ok(step) => Ok((start, way.div_ceil(step))),
+        Ok(step) => Ok((start, distance.div_ceil(step))),
         Err(_) => Err(format!("its step is {step}")),
     }
 }
 
-/// Broadcasts a constant to a shape: repeats it along axes of one element, and along new axes in
-/// front.
+/// Broadcasts a constant to a shape. The constant is repeated along axes of one element, and along
+/// new axes in front.
 pub(super) fn broadcast_constant(
     folder: &ModelFolder,
-    of: &Constant,
+    source: &Constant,
     shape: &[usize],
 ) -> Result<Constant, String> {
-    if of.shape == shape {
-        return Ok(of.clone());
+    if source.shape == shape {
+        return Ok(source.clone());
     }
-    let new = shape.len().checked_sub(of.shape.len());
-    let fits = |new: &usize| {
-        of.shape.iter().zip(&shape[*new..]).all(|(&own, &wanted)| own == wanted || own == 1)
+    let new_axes = shape.len().checked_sub(source.shape.len());
+    let fits = |new_axes: &usize| {
+        source
+            .shape
+            .iter()
+            .zip(&shape[*new_axes..])
+            .all(|(&length, &wanted)| length == wanted || length == 1)
     };
-    let new = new.filter(fits).ok_or_else(|| format!("{:?} cannot become {shape:?}", of.shape))?;
-    select_values(folder, of, shape.to_vec(), |place| {
-        let along = |axis: usize| match of.shape[axis] {
+    let new_axes = new_axes
+        .filter(fits)
+        .ok_or_else(|| format!("{:?} cannot become {shape:?}", source.shape))?;
+    select_values(folder, source, shape.to_vec(), |place| {
+        let along = |axis: usize| match source.shape[axis] {
             1 => 0,
-            _ => place[axis + new] * stride(&of.shape, axis),
+            _ => place[axis + new_axes] * stride(&source.shape, axis),
         };
-        (0..of.shape.len()).map(along).sum()
+        (0..source.shape.len()).map(along).sum()
     })
 }
 
@@ -173,19 +182,20 @@ pub(super) fn gather_constant(
         let at = usize::try_from(index_from_start(index, length)).ok().filter(|&at| at < length);
         at.ok_or_else(|| format!("its index {index} is outside of {length} elements"))
     };
-    let places: Vec<usize> = indices.as_integers()?.iter().map(index).collect::<Result<_, _>>()?;
+    let positions: Vec<usize> =
+        indices.as_integers()?.iter().map(index).collect::<Result<_, _>>()?;
     let (front, behind) = (&from.shape[..axis], &from.shape[axis + 1..]);
     if front.len() + indices.shape.len() + behind.len() > MAX_AXES {
         return Err(format!("its output has more than {MAX_AXES} axes"));
     }
     let shape = [front, indices.shape.as_slice(), behind].concat();
     // The values are selected as if all indices were one axis.
-    let (count, inner) = (places.len(), behind.iter().product::<usize>());
-    let made =
+    let (count, inner) = (positions.len(), behind.iter().product::<usize>());
+    let gathered =
         select_values(node.folder, from, vec![front.iter().product(), count, inner], |place| {
-            (place[0] * length + places[place[1]]) * inner + place[2]
+            (place[0] * length + positions[place[1]]) * inner + place[2]
         })?;
-    Ok(Constant { shape, ..made })
+    Ok(Constant { shape, ..gathered })
 }
 
 /// Concatenates constants along an axis.
@@ -236,7 +246,7 @@ pub(super) fn concat_constants(
 
 /// Returns the position of an axis in a permutation.
 fn axis_position(order: &[usize], axis: usize) -> usize {
-    order.iter().position(|&own| own == axis).expect("every axis is named")
+    order.iter().position(|&other| other == axis).expect("every axis is named")
 }
 
 /// Returns the stride of an axis, in values.
@@ -244,22 +254,22 @@ fn stride(shape: &[usize], axis: usize) -> usize {
     shape[axis + 1..].iter().product()
 }
 
-/// Returns a constant whose value at each index is selected from another constant: `from` returns
-/// the number of that value.
+/// Returns a constant whose value at each index is selected from `source`: `number_at` returns the
+/// number of that value.
 fn select_values(
     folder: &ModelFolder,
-    of: &Constant,
+    source: &Constant,
     shape: Vec<usize>,
-    from: impl Fn(&[usize]) -> usize,
+    number_at: impl Fn(&[usize]) -> usize,
 ) -> Result<Constant, String> {
-    let count = folder.check_room(&shape, &of.values)?;
-    let mut place = vec![0; shape.len()];
+    let count = folder.check_room(&shape, &source.values)?;
+    let mut index = vec![0; shape.len()];
     let numbers = (0..count).map(|_| {
-        let number = from(&place);
-        advance_index(&mut place, &shape);
+        let number = number_at(&index);
+        advance_index(&mut index, &shape);
         number
     });
-    let values = match &of.values {
+    let values = match &source.values {
         ConstantValues::Floats(values) => {
             ConstantValues::Floats(numbers.map(|at| values[at]).collect())
         }
@@ -267,16 +277,16 @@ fn select_values(
             ConstantValues::Integers(numbers.map(|at| values[at]).collect())
         }
     };
-    Ok(Constant { shape, values, data_type: of.data_type })
+    Ok(Constant { shape, values, data_type: source.data_type })
 }
 
 /// Advances to the next index of a shape, in row-major order. The first index follows the last.
-fn advance_index(place: &mut [usize], shape: &[usize]) {
-    for (at, &length) in place.iter_mut().zip(shape).rev() {
-        *at += 1;
-        if *at < length {
+fn advance_index(index: &mut [usize], shape: &[usize]) {
+    for (coordinate, &length) in index.iter_mut().zip(shape).rev() {
+        *coordinate += 1;
+        if *coordinate < length {
             return;
         }
-        *at = 0;
+        *coordinate = 0;
     }
 }

@@ -58,17 +58,19 @@ pub(super) fn read_graph(
     source: &InputSource<'_>,
     (opset, on_problem): (i64, ProblemPolicy),
 ) -> Result<GraphResult, NetworkError> {
-    let (mut known, odd) = read_constants(graph, folder)?;
+    let (mut known, non_finite) = read_constants(graph, folder)?;
     let inputs: Vec<_> =
         graph.input.iter().filter(|input| !known.contains_key(value_name(input))).collect();
-    let bound = match source {
+    let binding = match source {
         &InputSource::Frames(frames) => frame_input(&inputs, graph, frames, None)?,
-        &InputSource::DefaultFrames(open) => frame_input(&inputs, graph, None, Some(open))?,
+        &InputSource::DefaultFrames(default_size) => {
+            frame_input(&inputs, graph, None, Some(default_size))?
+        }
         InputSource::Arrays(arrays) => array_inputs(&inputs, arrays, folder)?,
     };
-    let network = Network::new(bound.form, bound.layout)?;
-    known.extend(bound.values);
-    let mut reading = GraphReader {
+    let network = Network::new(binding.form, binding.layout)?;
+    known.extend(binding.values);
+    let mut reader = GraphReader {
         network,
         values: known,
         unknown_names: HashSet::new(),
@@ -78,16 +80,16 @@ pub(super) fn read_graph(
         use_counts: count_uses(graph),
         aliased_tensors: HashSet::new(),
     };
-    if let Some((name, element)) = bound.stored_input {
-        reading.add_stored_input(&name, element)?;
+    if let Some((name, element)) = binding.stored_input {
+        reader.add_stored_input(&name, element)?;
     }
     let first = inputs.first().map_or("", |input| value_name(input));
-    let channels_last = (bound.layout == InputLayout::Nhwc).then_some(first);
-    let problems = reading.read_nodes(graph, channels_last)?;
-    let outputs = if problems.is_empty() { reading.graph_outputs(graph)? } else { Vec::new() };
-    let mut network = reading.network;
-    network.set_outputs(tensor_outputs(&outputs), odd);
-    Ok(GraphResult { network, outputs, input_values: bound.input_values, problems })
+    let channels_last = (binding.layout == InputLayout::Nhwc).then_some(first);
+    let problems = reader.read_nodes(graph, channels_last)?;
+    let outputs = if problems.is_empty() { reader.graph_outputs(graph)? } else { Vec::new() };
+    let mut network = reader.network;
+    network.set_outputs(tensor_outputs(&outputs), non_finite);
+    Ok(GraphResult { network, outputs, input_values: binding.input_values, problems })
 }
 
 /// All constants by their names, and the names of constants with values that are not finite, with
@@ -98,18 +100,18 @@ fn read_constants(
     graph: &GraphProto,
     folder: &ModelFolder,
 ) -> Result<GraphConstants, NetworkError> {
-    let (mut known, mut odd) = (HashMap::new(), Vec::new());
+    let (mut known, mut non_finite) = (HashMap::new(), Vec::new());
     for tensor in &graph.initializer {
         let name = tensor.name.clone().unwrap_or_default();
         let constant = Constant::decode(tensor, folder).map_err(|problem| {
             NetworkError::InvalidNetwork(format!("the constant `{name}`: {problem}"))
         })?;
         if constant.count_not_finite() > 0 {
-            odd.push((name.clone(), constant.count_not_finite()));
+            non_finite.push((name.clone(), constant.count_not_finite()));
         }
         known.insert(name, GraphValue::Constant(Arc::new(constant)));
     }
-    Ok((known, odd))
+    Ok((known, non_finite))
 }
 
 /// Returns the outputs that are tensors of the network, with their names.
@@ -190,17 +192,17 @@ impl GraphReader<'_> {
             self.values.insert(node.output[0].clone(), GraphValue::Tensor(value));
             return Ok(());
         }
-        let made = self.node_outputs(node).map_err(problem)?;
-        let mut beyond = node.output.iter().enumerate().skip(made.len());
+        let outputs = self.node_outputs(node).map_err(problem)?;
+        let mut unread_outputs = node.output.iter().enumerate().skip(outputs.len());
         if let Some((at, output)) =
-            beyond.find(|(_, output)| self.use_counts.contains_key(output.as_str()))
+            unread_outputs.find(|(_, output)| self.use_counts.contains_key(output.as_str()))
         {
             return Err(problem(format!("its output {at}, `{output}`, is not supported")));
         }
-        for (made, output) in made.into_iter().zip(&node.output) {
-            self.check_name_is_new(output).map_err(problem)?;
-            let known = self.add_output(node, &name, made)?;
-            self.values.insert(output.clone(), known);
+        for (output, output_name) in outputs.into_iter().zip(&node.output) {
+            self.check_name_is_new(output_name).map_err(problem)?;
+            let known = self.add_output(node, &name, output)?;
+            self.values.insert(output_name.clone(), known);
         }
         Ok(())
     }
@@ -210,10 +212,10 @@ impl GraphReader<'_> {
         &mut self,
         node: &NodeProto,
         name: &str,
-        made: NodeOutput,
+        output: NodeOutput,
     ) -> Result<GraphValue, NetworkError> {
         let kind = node.op_type.clone().unwrap_or_default();
-        Ok(match made {
+        Ok(match output {
             NodeOutput::Constant(constant) => GraphValue::Constant(Arc::new(constant)),
             NodeOutput::Alias(known) => {
                 if let GraphValue::Tensor(value) = known {
@@ -226,10 +228,10 @@ impl GraphReader<'_> {
             }
             NodeOutput::Activated(activation, value) => {
                 let fused = self.fuse_activation(&kind, activation, value, &node.input[0]);
-                let own = pointwise_operators::activation_operator(activation);
+                let activation_operator = pointwise_operators::activation_operator(activation);
                 GraphValue::Tensor(match fused {
                     Some(value) => value,
-                    None => self.network.push(name, &kind, own, vec![value])?,
+                    None => self.network.push(name, &kind, activation_operator, vec![value])?,
                 })
             }
         })
@@ -256,18 +258,18 @@ impl GraphReader<'_> {
     ) -> Result<usize, NetworkError> {
         let mut inputs = Vec::new();
         for (at, operand) in operands.into_iter().enumerate() {
-            let made_for = |what: &str| format!("{name}/{what}{at}");
+            let helper_name = |what: &str| format!("{name}/{what}{at}");
             inputs.push(match operand {
                 Operand::Constant(tensor) => {
-                    let fixed = Arc::new(ConstantTensor(tensor));
-                    self.network.push(&made_for("constant"), "Constant", fixed, Vec::new())?
+                    let constant = Arc::new(ConstantTensor(tensor));
+                    self.network.push(&helper_name("constant"), "Constant", constant, Vec::new())?
                 }
                 Operand::Tensor(value)
                     if operator.takes_features()
                         && FeatureView::applies_to(self.network.form(value)) =>
                 {
-                    let placed = Arc::new(FeatureView);
-                    self.network.push(&made_for("features"), "Reshape", placed, vec![value])?
+                    let view = Arc::new(FeatureView);
+                    self.network.push(&helper_name("features"), "Reshape", view, vec![value])?
                 }
                 Operand::Tensor(value) => value,
             });
@@ -318,12 +320,12 @@ impl GraphReader<'_> {
             opset: self.opset,
             forms: &forms,
         };
-        let made = match constant_folding::fold_node(&reader)? {
+        let outputs = match constant_folding::fold_node(&reader)? {
             Some(constant) => vec![NodeOutput::Constant(constant)],
             None => operators::read_outputs(&reader)?,
         };
         OperatorSchema::check_unread(&attributes, self.opset)?;
-        Ok(made)
+        Ok(outputs)
     }
 
     /// Returns the outputs of the graph.
@@ -331,14 +333,14 @@ impl GraphReader<'_> {
         if graph.output.is_empty() {
             return Err(NetworkError::InvalidNetwork("it has no output".to_owned()));
         }
-        let of = |output| {
+        let output_value = |output| {
             let name = value_name(output);
             let known = self.values.get(name).cloned().ok_or_else(|| {
                 NetworkError::InvalidNetwork(format!("no node makes its output `{name}`"))
             })?;
             Ok((name.to_owned(), known))
         };
-        graph.output.iter().map(of).collect()
+        graph.output.iter().map(output_value).collect()
     }
 }
 

@@ -46,17 +46,17 @@ fn input_layout(
         return Ok(InputLayout::Nchw);
     }
     let name = value_name(input);
-    let takes = |node: &NodeProto| node.input.iter().any(|taken| taken == name);
-    let mut odd = graph.node.iter().enumerate();
-    let odd = odd.find(|(_, node)| takes(node) && !puts_channels_first(node, name));
-    let odd = odd.map(|(index, node)| {
+    let is_taken_by = |node: &NodeProto| node.input.iter().any(|other| other == name);
+    let mut obstacle = graph.node.iter().enumerate();
+    let obstacle = obstacle.find(|(_, node)| is_taken_by(node) && !puts_channels_first(node, name));
+    let obstacle = obstacle.map(|(index, node)| {
         format!("node `{}` ({}) takes it so", node_name(node, index), full_operator_name(node))
     });
     let is_output = graph.output.iter().any(|output| value_name(output) == name);
-    match odd.or_else(|| is_output.then(|| "it is an output, too".to_owned())) {
+    match obstacle.or_else(|| is_output.then(|| "it is an output, too".to_owned())) {
         None => Ok(InputLayout::Nhwc),
-        Some(odd) => Err(NetworkError::InvalidNetwork(format!(
-            "its input `{name}` is [1, height, width, channels], and {odd}; only a Transpose of perm {CHANNELS_FIRST:?} may take such an input. Export it with channels first, as tf2onnx does with --inputs-as-nchw {name}"
+        Some(obstacle) => Err(NetworkError::InvalidNetwork(format!(
+            "its input `{name}` is [1, height, width, channels], and {obstacle}; only a Transpose of perm {CHANNELS_FIRST:?} may take such an input. Export it with channels first, as tf2onnx does with --inputs-as-nchw {name}"
         ))),
     }
 }
@@ -110,7 +110,7 @@ pub(super) fn array_inputs(
             arrays.len()
         )));
     }
-    let mut bound = InputBinding {
+    let mut binding = InputBinding {
         form: TensorForm::without_positions(vec![1]),
         layout: InputLayout::Nchw,
         values: Vec::new(),
@@ -128,53 +128,53 @@ pub(super) fn array_inputs(
         let is_float = matches!(constant.element(), Some(ElementType::F32));
         let is_byte = [data_type::UINT8, data_type::INT8].contains(&constant.data_type);
         if is_taken || !(is_float || is_byte) || constant.values.value_count() == 0 {
-            bound.values.push((name, GraphValue::Constant(Arc::new(constant))));
+            binding.values.push((name, GraphValue::Constant(Arc::new(constant))));
             continue;
         }
         is_taken = true;
-        bound.form = TensorForm::features(constant.shape.clone());
-        bound.values.push((name.clone(), GraphValue::Tensor(0)));
-        bound.stored_input = constant.element().filter(|_| is_byte).map(|element| (name, element));
+        binding.form = TensorForm::features(constant.shape.clone());
+        binding.values.push((name.clone(), GraphValue::Tensor(0)));
+        binding.stored_input =
+            constant.element().filter(|_| is_byte).map(|element| (name, element));
         let floats = constant.cast(data_type::FLOAT).map_err(wrong)?;
-        bound.input_values = floats.as_floats().map_err(wrong)?.to_vec();
+        binding.input_values = floats.as_floats().map_err(wrong)?.to_vec();
     }
-    Ok(bound)
+    Ok(binding)
 }
 
 /// Fails if an array has another type or shape than its input.
 fn check_array(input: &ValueInfoProto, array: &TensorProto) -> Result<(), NetworkError> {
     let name = value_name(input);
-    let tensor = input.r#type.as_ref().and_then(|of| of.tensor_type.as_ref());
+    let tensor = input.r#type.as_ref().and_then(|value_type| value_type.tensor_type.as_ref());
     let tensor = tensor.ok_or_else(|| {
         NetworkError::InvalidNetwork(format!(
             "its input `{name}` is no tensor, and others are not supported"
         ))
     })?;
-    let type_of = |kind: Option<i32>| data_type::type_name(kind.unwrap_or(0).into());
+    let type_text = |kind: Option<i32>| data_type::type_name(kind.unwrap_or(0).into());
     if tensor.elem_type != array.data_type {
         return Err(NetworkError::InvalidNetwork(format!(
             "its input `{name}` takes {}, but the array holds {}",
-            type_of(tensor.elem_type),
-            type_of(array.data_type)
+            type_text(tensor.elem_type),
+            type_text(array.data_type)
         )));
     }
     let Some(shape) = &tensor.shape else { return Ok(()) };
     let fits = shape.dim.len() == array.dims.len()
-        && shape
-            .dim
-            .iter()
-            .zip(&array.dims)
-            .all(|(own, length)| own.dim_value.is_none_or(|own| own == *length || own == -1));
+        && shape.dim.iter().zip(&array.dims).all(|(expected, length)| {
+            expected.dim_value.is_none_or(|expected| expected == *length || expected == -1)
+        });
     if fits {
         return Ok(());
     }
-    let own = shape.dim.iter().map(|own| match own.dim_value.filter(|&length| length != -1) {
-        Some(length) => length.to_string(),
-        None => "any".to_owned(),
-    });
+    let expected =
+        shape.dim.iter().map(|expected| match expected.dim_value.filter(|&length| length != -1) {
+            Some(length) => length.to_string(),
+            None => "any".to_owned(),
+        });
     Err(NetworkError::InvalidNetwork(format!(
         "its input `{name}` takes an array of shape [{}], but the array has {:?}",
-        own.collect::<Vec<_>>().join(", "),
+        expected.collect::<Vec<_>>().join(", "),
         array.dims
     )))
 }
@@ -187,30 +187,30 @@ fn input_form(
     frames: Option<FrameSize>,
     open: Option<FrameSize>,
 ) -> Result<(TensorForm, InputLayout), NetworkError> {
-    let wrong = |what: String| {
+    let form_error = |what: String| {
         NetworkError::InvalidNetwork(format!(
             "its input `{}` must be [1, channels, height, width], {what}",
             value_name(input)
         ))
     };
-    let tensor = input.r#type.as_ref().and_then(|of| of.tensor_type.as_ref());
+    let tensor = input.r#type.as_ref().and_then(|value_type| value_type.tensor_type.as_ref());
     let kind = tensor.and_then(|tensor| tensor.elem_type).unwrap_or(data_type::FLOAT);
     if ![data_type::FLOAT, data_type::FLOAT16, data_type::BFLOAT16].contains(&kind) {
-        return Err(wrong(format!(
+        return Err(form_error(format!(
             "of FLOAT, FLOAT16 or BFLOAT16, but it is of {}",
             data_type::type_name(kind.into())
         )));
     }
     let shape = tensor
         .and_then(|tensor| tensor.shape.as_ref())
-        .ok_or_else(|| wrong("but it has no shape".to_owned()))?;
+        .ok_or_else(|| form_error("but it has no shape".to_owned()))?;
     let mut lengths = Vec::new();
     for (axis, dim) in shape.dim.iter().enumerate() {
-        // Without a length, or with -1, which some exporters write, the axis has any length. A
-        // length of 0 is a length, but no frame has it.
+        // The axis has any length if it gives none, or gives -1 as some exporters do. A length of 0
+        // is valid in ONNX, but no frame has it.
         let length = dim.dim_value.filter(|&length| length != -1).map(|length| {
             usize::try_from(length).ok().filter(|&length| length > 0).ok_or_else(|| {
-                wrong(format!(
+                form_error(format!(
                     "but its axis {axis} has the length {length}; lengths are 1 and more, and an axis of any length has a name instead (dim_param)"
                 ))
             })
@@ -222,14 +222,14 @@ fn input_form(
         lengths[1..].rotate_right(1);
     }
     let &[batch, channels, height, width] = lengths.as_slice() else {
-        return Err(wrong(format!("but it has {} axes", lengths.len())));
+        return Err(form_error(format!("but it has {} axes", lengths.len())));
     };
     if batch.is_some_and(|batch| batch != 1) {
-        return Err(wrong(format!("but it takes {} pictures at once", batch.unwrap_or(0))));
+        return Err(form_error(format!("but it takes {} pictures at once", batch.unwrap_or(0))));
     }
-    let channels = channels.ok_or_else(|| wrong("but its channels are open".to_owned()))?;
+    let channels = channels.ok_or_else(|| form_error("but its channels are open".to_owned()))?;
     if channels != 1 && channels != 3 {
-        return Err(wrong(format!("with 1 or 3 channels, but it has {channels}")));
+        return Err(form_error(format!("with 1 or 3 channels, but it has {channels}")));
     }
     let height = height.or(open.map(|open| open.height));
     let width = width.or(open.map(|open| open.width));

@@ -62,7 +62,7 @@ impl<'a> NodeReader<'a> {
         self.attribute(name).map_or(default, |attribute| attribute.i.unwrap_or(0))
     }
 
-    /// Returns the type that an attribute names, a number of `data_type`.
+    /// Returns the type that an attribute gives by its number in `data_type`.
     pub(super) fn data_type(&self, name: &str) -> Result<i32, String> {
         let kind = self.int(name, 0);
         i32::try_from(kind).map_err(|_| format!("its {name} is {}", data_type::type_name(kind)))
@@ -167,7 +167,7 @@ impl<'a> NodeReader<'a> {
         kernel: [usize; 2],
         value: usize,
     ) -> Result<[AxisWindow; 2], String> {
-        let two = |name: &str| -> Result<[usize; 2], String> {
+        let pair = |name: &str| -> Result<[usize; 2], String> {
             match self.ints(name) {
                 None => Ok([1, 1]),
                 Some(&[rows, columns]) => {
@@ -176,7 +176,7 @@ impl<'a> NodeReader<'a> {
                 Some(ints) => Err(format!("its {name} has {} values, not 2", ints.len())),
             }
         };
-        let (stride, dilation) = (two("strides")?, two("dilations")?);
+        let (stride, dilation) = (pair("strides")?, pair("dilations")?);
         let form = (self.forms)(value);
         let &[_, _, height, width] = form.shape() else {
             return Err(format!(
@@ -272,7 +272,7 @@ pub(super) fn length_to_i64(length: usize) -> i64 {
     i64::try_from(length).expect("a length is below 2^63")
 }
 
-/// Converts an index that counts from the end if it is negative to one that counts from the start.
+/// Converts an index to one that counts from the start. A negative index counts from the end.
 pub(super) fn index_from_start(at: i64, length: usize) -> i64 {
     if at < 0 { at.saturating_add(length_to_i64(length)) } else { at }
 }

@@ -45,11 +45,11 @@ pub(super) fn dequantize_constant(
     let form = TensorForm::without_positions(constant.shape.clone());
     scales.check(&form)?;
     #[allow(clippy::cast_precision_loss, reason = "as the operator says")]
-    let real = |(place, &value): (usize, &i64)| {
+    let dequantized = |(place, &value): (usize, &i64)| {
         let (scale, zero) = scales.scale_and_zero_point(&form, place);
         (value as f32 - zero) * scale
     };
-    let values = constant.as_integers()?.iter().enumerate().map(real).collect();
+    let values = constant.as_integers()?.iter().enumerate().map(dequantized).collect();
     Ok(Constant::floats(constant.shape.clone(), values))
 }
 
@@ -63,13 +63,13 @@ pub(super) fn quantize_constant(
     scales.check(&form)?;
     let (lowest, highest) = to.range();
     #[allow(clippy::cast_possible_truncation, reason = "as the operator says")]
-    let stored = |(place, &value): (usize, &f32)| {
+    let quantized = |(place, &value): (usize, &f32)| {
         let (scale, zero) = scales.scale_and_zero_point(&form, place);
         ((value / scale).round_ties_even() as i64)
             .saturating_add(zero as i64)
             .clamp(lowest.into(), highest.into())
     };
-    let values = constant.as_floats()?.iter().enumerate().map(stored).collect();
+    let values = constant.as_floats()?.iter().enumerate().map(quantized).collect();
     Ok(Constant {
         shape: constant.shape.clone(),
         values: ConstantValues::Integers(values),

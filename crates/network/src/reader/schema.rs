@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The standard's description of operators by version: the numbers of inputs and outputs of a node,
-//! and its attributes. `scripts/checks/onnx_schemas.py` compares the table with the schemas of ONNX and
-//! onnxruntime.
+//! and its attributes. `scripts/checks/onnx_schemas.py` compares the table with the schemas of ONNX
+//! and onnxruntime.
 
 use super::attributes::NodeAttributes;
 use super::names;
@@ -83,13 +83,16 @@ impl OperatorSchema {
     pub(super) fn check_unread(attributes: &NodeAttributes<'_>, opset: i64) -> Result<(), String> {
         let node = attributes.node();
         let Some(schema) = Self::for_node(node, opset)? else { return Ok(()) };
-        let full = names::full_operator_name(node);
-        let idle = WITHOUT_EFFECT.iter().find(|(kind, _)| *kind == full).map(|&(_, names)| names);
+        let operator = names::full_operator_name(node);
+        let without_effect =
+            WITHOUT_EFFECT.iter().find(|(kind, _)| *kind == operator).map(|&(_, names)| names);
         for attribute in attributes.unread() {
             let name = attribute.name.as_deref().unwrap_or_default();
             let default = schema.attributes.iter().find(|known| known.name == name);
             let is_default = default.is_some_and(|known| known.has_default(attribute));
-            if !is_default && !idle.is_some_and(|idle| idle.contains(&name)) {
+            if !is_default
+                && !without_effect.is_some_and(|without_effect| without_effect.contains(&name))
+            {
                 return Err(format!("its attribute `{name}` is not supported here"));
             }
         }
@@ -189,10 +192,10 @@ fn check_count(
 fn parse_line(line: &'static str) -> Option<(&'static str, OperatorSchema)> {
     let mut words = line.split(' ');
     let name = words.next()?;
-    let since = words.next()?.parse().ok()?;
+    let first_version = words.next()?.parse().ok()?;
     let (inputs, outputs) = (parse_range(words.next()?)?, parse_range(words.next()?)?);
     let attributes = words.map(parse_attribute).collect::<Option<_>>()?;
-    Some((name, OperatorSchema { first_version: since, inputs, outputs, attributes }))
+    Some((name, OperatorSchema { first_version, inputs, outputs, attributes }))
 }
 
 fn parse_range(word: &str) -> Option<(usize, Option<usize>)> {

@@ -121,35 +121,37 @@ impl DetectionPairs {
     /// class can match.
     #[must_use]
     pub fn from_detections(detector: &Detector, whole: &[Detection], seen: &[Detection]) -> Self {
-        let counting = |all: &[Detection]| -> Vec<Detection> {
-            all.iter().filter(|one| detector.accepts(one)).cloned().collect()
+        let accepted = |all: &[Detection]| -> Vec<Detection> {
+            all.iter().filter(|detection| detector.accepts(detection)).cloned().collect()
         };
-        let (whole, seen) = (counting(whole), counting(seen));
-        let same = |one: &Detection, other: &Detection| one.class == other.class;
-        let right = match_detections(&seen, &whole, SAME_OBJECT_OVERLAP, |one| &one.rect, same);
+        let (whole, seen) = (accepted(whole), accepted(seen));
+        let same = |detection: &Detection, other: &Detection| detection.class == other.class;
+        let matches =
+            match_detections(&seen, &whole, SAME_OBJECT_OVERLAP, |detection| &detection.rect, same);
         let mut kept = vec![false; whole.len()];
-        right.iter().flatten().for_each(|&at| kept[at] = true);
+        matches.iter().flatten().for_each(|&at| kept[at] = true);
         Self {
             whole: whole.into_iter().zip(kept).collect(),
-            seen: seen.into_iter().zip(right.iter().map(Option::is_some)).collect(),
+            seen: seen.into_iter().zip(matches.iter().map(Option::is_some)).collect(),
         }
     }
 
     fn counts_by_size(&self) -> [DetectionCounts; 3] {
         let mut sizes = [DetectionCounts::default(); 3];
-        let size =
-            |one: &Detection| SIZE_AREAS.iter().filter(|&&area| one.rect.area() >= area).count();
-        for (one, kept) in &self.whole {
-            sizes[size(one)].add(DetectionCounts {
+        let size = |detection: &Detection| {
+            SIZE_AREAS.iter().filter(|&&area| detection.rect.area() >= area).count()
+        };
+        for (detection, kept) in &self.whole {
+            sizes[size(detection)].add(DetectionCounts {
                 whole: 1,
                 kept: (*kept).into(),
                 ..DetectionCounts::default()
             });
         }
-        for (one, right) in &self.seen {
-            sizes[size(one)].add(DetectionCounts {
+        for (detection, matched) in &self.seen {
+            sizes[size(detection)].add(DetectionCounts {
                 seen: 1,
-                added: (!right).into(),
+                added: (!matched).into(),
                 ..DetectionCounts::default()
             });
         }
@@ -174,18 +176,19 @@ impl AgreementSums {
         pairs: Option<&DetectionPairs>,
     ) -> Self {
         let mut sums = Self { frames: 1, ..Self::default() };
-        for (right, found) in whole.outputs.iter().zip(&seen.outputs) {
-            sums.distance.add(OutputDistance::between(&right.values, &found.values).0);
-            match right.shape[..] {
+        for (whole_output, seen_output) in whole.outputs.iter().zip(&seen.outputs) {
+            sums.distance.add(OutputDistance::between(&whole_output.values, &seen_output.values).0);
+            match whole_output.shape[..] {
                 // Detections have classes in their boxes.
                 _ if pairs.is_some() => {}
                 [1, classes] | [1, classes, 1, 1] if classes > 1 => {
-                    sums.classes.add(&right.values, &found.values);
+                    sums.classes.add(&whole_output.values, &seen_output.values);
                 }
                 [1, classes, height, width] if classes > 1 => {
-                    let places = height * width;
-                    let same = count_same_positions(&right.values, &found.values, places);
-                    sums.position_classes.0 += places as u64;
+                    let positions = height * width;
+                    let same =
+                        count_same_positions(&whole_output.values, &seen_output.values, positions);
+                    sums.position_classes.0 += positions as u64;
                     sums.position_classes.1 += same;
                 }
                 _ => {}
@@ -296,12 +299,13 @@ impl ClassSums {
 }
 
 /// Returns the number of positions at which the same channel is the largest.
-fn count_same_positions(whole: &[f32], seen: &[f32], places: usize) -> u64 {
-    let class = |values: &[f32], place: usize| {
-        let channels: Vec<f32> = values.iter().skip(place).step_by(places).copied().collect();
+fn count_same_positions(whole: &[f32], seen: &[f32], positions: usize) -> u64 {
+    let class = |values: &[f32], position: usize| {
+        let channels: Vec<f32> = values.iter().skip(position).step_by(positions).copied().collect();
         index_of_largest(&channels)
     };
-    (0..places).filter(|&place| class(whole, place) == class(seen, place)).count() as u64
+    (0..positions).filter(|&position| class(whole, position) == class(seen, position)).count()
+        as u64
 }
 
 #[cfg(test)]
@@ -316,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn classes_agree_by_frames_and_by_places() {
+    fn classes_agree_by_frames_and_by_positions() {
         let whole = findings(&[1, 3], &[1.0, 5.0, 2.0]);
         let mut sums =
             AgreementSums::from_frame(&whole, &findings(&[1, 3], &[1.0, 4.0, 3.0]), None);

@@ -21,7 +21,7 @@ pub enum DetectionFormat {
     /// `[1, 4 + classes, cells]`: center and size in pixels, class scores. `YOLOv8` and `YOLO11`
     /// have this format.
     Yolov8,
-    /// `[1, boxes, classes]` and `[1, boxes, 4]`: probabilities, the first of which is that of the
+    /// `[1, boxes, classes]` and `[1, boxes, 4]`: probabilities, of which the first belongs to the
     /// background, and corners as shares of the input.
     Ssd,
     /// `cls_8`, `obj_8`, `bbox_8`, and outputs of the same kinds for strides 16 and 32: center and
@@ -95,11 +95,11 @@ impl DetectionFormat {
             Self::Ssd => scores_and_boxes(outputs).is_some(),
             Self::Yunet => STRIDES.iter().all(|&stride| {
                 let cells = (input.0 / stride) * (input.1 / stride);
-                let is = |name: &str, values| {
+                let has_shape = |name: &str, values| {
                     let output = grid_output(outputs, name, stride);
                     output.is_some_and(|output| output.shape == [1, cells, values])
                 };
-                is("cls", 1) && is("obj", 1) && is("bbox", 4)
+                has_shape("cls", 1) && has_shape("obj", 1) && has_shape("bbox", 4)
             }),
             Self::FastestDet => matches!(first, &[1, values, _, _] if values > 5),
         };
@@ -149,13 +149,13 @@ impl DetectionFormat {
             }
             Self::Yolov8 => {
                 let [_, values, cells] = outputs[0].shape[..] else { return Vec::new() };
-                let of = |cell: usize| -> Vec<f32> {
+                let cell_values = |cell: usize| -> Vec<f32> {
                     (0..values).map(|value| outputs[0].values[value * cells + cell]).collect()
                 };
                 let read = |row: Vec<f32>| {
                     most_likely_class(&row[4..], 1.0, least, corners_from_center(&row[..4]))
                 };
-                (0..cells).map(of).filter_map(read).collect()
+                (0..cells).map(cell_values).filter_map(read).collect()
             }
             Self::Ssd => decode_ssd(outputs, input, least),
             Self::Yunet => STRIDES
@@ -187,9 +187,9 @@ fn most_likely_class(
     least: f32,
     corners: [f32; 4],
 ) -> Option<Detection> {
-    let best = classes.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-    let (class, &share) = best?;
-    checked_detection(class, share * factor, least, corners)
+    let best = classes.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    let (class, &class_score) = best?;
+    checked_detection(class, class_score * factor, least, corners)
 }
 
 fn checked_detection(class: usize, score: f32, least: f32, corners: [f32; 4]) -> Option<Detection> {
@@ -204,9 +204,9 @@ fn decode_yolox(output: &OutputTensor, input: (usize, usize), least: f32) -> Vec
         let columns = input.0 / stride;
         (0..columns * (input.1 / stride)).map(move |cell| (stride, cell % columns, cell / columns))
     });
-    let read = |(row, (stride, column, line)): (&[f32], (usize, usize, usize))| {
-        let place = corners_in_cell(&row[..4], stride, column, line);
-        most_likely_class(&row[5..], row[4], least, place)
+    let read = |(row, (stride, column, row_of_cell)): (&[f32], (usize, usize, usize))| {
+        let corners = corners_in_cell(&row[..4], stride, column, row_of_cell);
+        most_likely_class(&row[5..], row[4], least, corners)
     };
     output.values.chunks_exact(values).zip(cells).filter_map(read).collect()
 }
@@ -235,8 +235,9 @@ fn decode_yunet(
     columns: usize,
     least: f32,
 ) -> Vec<Detection> {
-    let of = |kind| grid_output(outputs, kind, stride).map_or(&[][..], |output| &output.values);
-    let (classes, objects, places) = (of("cls"), of("obj"), of("bbox"));
+    let values_of =
+        |kind| grid_output(outputs, kind, stride).map_or(&[][..], |output| &output.values);
+    let (classes, objects, places) = (values_of("cls"), values_of("obj"), values_of("bbox"));
     let read = |(cell, ((class, object), place)): (usize, ((&f32, &f32), &[f32]))| {
         let score = (class.clamp(0.0, 1.0) * object.clamp(0.0, 1.0)).sqrt();
         checked_detection(
@@ -257,13 +258,13 @@ fn first_shape(outputs: &[OutputTensor]) -> &[usize] {
 /// Returns the output of scores and that of boxes.
 fn scores_and_boxes(outputs: &[OutputTensor]) -> Option<(&OutputTensor, &OutputTensor)> {
     let is_boxes = |output: &&OutputTensor| matches!(output.shape[..], [1, _, 4]);
-    let called =
+    let has_name_of_boxes =
         |output: &&OutputTensor| ["box", "loc"].iter().any(|word| output.name.contains(word));
     let mut boxes = outputs.iter().filter(is_boxes);
-    let boxes = boxes.clone().find(called).or_else(|| boxes.next())?;
+    let boxes = boxes.clone().find(has_name_of_boxes).or_else(|| boxes.next())?;
     let fits = |output: &&OutputTensor| {
         output.name != boxes.name
-            && matches!(output.shape[..], [1, own, classes] if own == boxes.shape[1] && classes > 1)
+            && matches!(output.shape[..], [1, count, classes] if count == boxes.shape[1] && classes > 1)
     };
     Some((outputs.iter().find(fits)?, boxes))
 }
@@ -312,17 +313,17 @@ mod tests {
         OutputTensor { name: name.to_owned(), shape: shape.to_vec(), values }
     }
 
-    fn only(
-        head: DetectionFormat,
+    fn only_detection(
+        format: DetectionFormat,
         outputs: &[OutputTensor],
         input: (usize, usize),
     ) -> (usize, f32, [f64; 4]) {
-        head.check(outputs, input).unwrap();
-        let found = head.decode(outputs, input, 0.3);
-        let [one] = &found[..] else { panic!("{found:?}") };
-        let rect = one.rect;
+        format.check(outputs, input).unwrap();
+        let found = format.decode(outputs, input, 0.3);
+        let [detection] = &found[..] else { panic!("{found:?}") };
+        let rect = detection.rect;
         let corners = [rect.x0, rect.y0, rect.x1, rect.y1];
-        (one.class, one.score, corners.map(|value| (value * 1000.0).round() / 1000.0))
+        (detection.class, detection.score, corners.map(|value| (value * 1000.0).round() / 1000.0))
     }
 
     /// The grids have 8x4, 4x2 and 2x1 cells. The object is in cell (2, 1) of the second grid.
@@ -341,7 +342,7 @@ mod tests {
         ]);
         let outputs = [output("output", &[1, 42, 7], values)];
         // The center is at (2.5, 1.25) cells of 16 pixels, and the size is 32 x 64 pixels.
-        let found = only(DetectionFormat::Yolox, &outputs, (64, 32));
+        let found = only_detection(DetectionFormat::Yolox, &outputs, (64, 32));
         assert_eq!((found.0, found.2), (1, [24., -12., 56., 52.]));
         assert!((found.1 - 0.72).abs() < 1e-6);
     }
@@ -354,7 +355,7 @@ mod tests {
         values[11..14].copy_from_slice(&[0.5, 0.9, 0.2]);
         let outputs = [output("out", &[1, 3, 7], values)];
         assert_eq!(
-            only(DetectionFormat::Yolov5, &outputs, (64, 64)),
+            only_detection(DetectionFormat::Yolov5, &outputs, (64, 64)),
             (0, 0.45, [16., 8., 24., 12.])
         );
         assert_eq!(DetectionFormat::Yolov5.class_count(&outputs), 2);
@@ -364,7 +365,7 @@ mod tests {
         }
         let outputs = [output("out", &[1, 6, 3], values)];
         assert_eq!(
-            only(DetectionFormat::Yolov8, &outputs, (64, 64)),
+            only_detection(DetectionFormat::Yolov8, &outputs, (64, 64)),
             (1, 0.6, [16., 8., 24., 12.])
         );
         assert_eq!(DetectionFormat::Yolov8.class_count(&outputs), 2);
@@ -377,7 +378,7 @@ mod tests {
             output("scores", &[1, 2, 3], vec![0.9, 0.05, 0.05, 0.1, 0.1, 0.8]),
         ];
         assert_eq!(
-            only(DetectionFormat::Ssd, &outputs, (320, 240)),
+            only_detection(DetectionFormat::Ssd, &outputs, (320, 240)),
             (1, 0.8, [80., 120., 240., 240.])
         );
         // The background is not counted as a class.
@@ -397,7 +398,10 @@ mod tests {
         outputs[0].values[5] = 0.64;
         outputs[1].values[5] = 1.5;
         outputs[2].values[20..24].copy_from_slice(&[0.5, 0.5, 0.0, 0.0]);
-        assert_eq!(only(DetectionFormat::Yunet, &outputs, (32, 16)), (0, 0.8, [8., 8., 16., 16.]));
+        assert_eq!(
+            only_detection(DetectionFormat::Yunet, &outputs, (32, 16)),
+            (0, 0.8, [8., 8., 16., 16.])
+        );
     }
 
     #[test]
@@ -409,7 +413,7 @@ mod tests {
         let outputs = [output("758", &[1, 7, 2, 3], values)];
         // Cell (1, 1) begins at (32, 32). Half of the input is 48 x 32 pixels.
         assert_eq!(
-            only(DetectionFormat::FastestDet, &outputs, (96, 64)),
+            only_detection(DetectionFormat::FastestDet, &outputs, (96, 64)),
             (1, 1.0, [8., 16., 56., 48.])
         );
     }
@@ -430,7 +434,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_not_found() {
+    fn a_value_that_is_no_number_is_no_detection() {
         let outputs = [output("out", &[1, 1, 7], vec![f32::NAN, 0., 1., 1., 1., 1., 1.])];
         assert!(DetectionFormat::Yolov5.decode(&outputs, (8, 8), 0.1).is_empty());
         let outputs = [output("out", &[1, 1, 7], vec![1., 1., 1., 1., f32::NAN, 1., 1.])];

@@ -59,11 +59,11 @@ impl FrameInput {
         frames: FrameFormat,
         input: &TensorForm,
         mapping: &PixelMapping,
-        lens: Option<&FrameScaling>,
+        scaling: Option<&FrameScaling>,
     ) -> Self {
         let (channels, max) = (input.shape()[1], f64::from(frames.pixel_max));
-        let places = input.position_count();
-        let inputs = match lens {
+        let positions = input.position_count();
+        let inputs = match scaling {
             None => {
                 let table = |channel| {
                     let value = |pixel: u32| mapping.input_value(channel, f64::from(pixel) / max);
@@ -71,25 +71,28 @@ impl FrameInput {
                 };
                 PixelConversion::Lookup((0..channels).map(table).collect())
             }
-            Some(lens) => PixelConversion::Interpolated {
-                lens: Box::new(lens.clone()),
+            Some(scaling) => PixelConversion::Interpolated {
+                lens: Box::new(scaling.clone()),
                 mapping: mapping.clone(),
                 channels,
                 max,
             },
         };
         // A letterbox is grey around the frame.
-        let outside = lens.map_or(0.0, |_| f64::from(FrameScaling::padding()));
+        let outside = scaling.map_or(0.0, |_| f64::from(FrameScaling::padding()));
         let (width, height) = (frames.width as usize, frames.height as usize);
-        let across = |side: u32| side.div_ceil(frames.region_side) as usize;
+        let regions_along = |side: u32| side.div_ceil(frames.region_side) as usize;
         let mut picture = Self {
             width,
             side: frames.region_side as usize,
-            columns: across(frames.width),
+            columns: regions_along(frames.width),
             frame: vec![0; width * height],
-            changed_by_region: vec![true; across(frames.width) * across(frames.height)],
+            changed_by_region: vec![
+                true;
+                regions_along(frames.width) * regions_along(frames.height)
+            ],
             values: (0..channels)
-                .flat_map(|channel| vec![mapping.input_value(channel, outside); places])
+                .flat_map(|channel| vec![mapping.input_value(channel, outside); positions])
                 .collect(),
             inputs,
             changed: Mask::empty(input.height(), input.width()),
@@ -191,8 +194,8 @@ mod tests {
     /// Positions that are not marked as changed must keep their values, and the input must be the
     /// one that a new instance makes of the frame.
     #[test]
-    fn inputs_follow_the_frame_and_marks_cover_what_changes() {
-        let mut chance = fastrand::Rng::with_seed(7);
+    fn inputs_follow_the_frame_and_the_mask_covers_all_changes() {
+        let mut random = fastrand::Rng::with_seed(7);
         let mapping = PixelMapping { mean: vec![0.5, 0.0, 0.25], scale: vec![0.25] };
         for framing in
             [Framing::Same, Framing::Letterbox(Some((9, 20))), Framing::Stretch(Some((33, 7)))]
@@ -200,22 +203,22 @@ mod tests {
             let frames = FrameFormat { width: 27, height: 18, pixel_max: 255, region_side: 8 };
             let (width, height) = framing.input_size((27, 18)).unwrap();
             let input = TensorForm::features(vec![1, 3, height as usize, width as usize]);
-            let lens = framing.scaling((27, 18), (width, height));
-            let new = || FrameInput::new(frames, &input, &mapping, lens.as_ref());
+            let scaling = framing.scaling((27, 18), (width, height));
+            let new = || FrameInput::new(frames, &input, &mapping, scaling.as_ref());
             let (mut picture, mut pixels) = (new(), vec![0_u8; 27 * 18]);
             for _ in 0..20 {
-                for _ in 0..chance.usize(0..4) {
-                    let at = chance.usize(0..pixels.len());
-                    pixels[at] = chance.u8(..);
+                for _ in 0..random.usize(0..4) {
+                    let at = random.usize(0..pixels.len());
+                    pixels[at] = random.u8(..);
                 }
                 let before = picture.values.clone();
                 picture.set_frame(FramePixels::Bytes(&pixels));
                 let mut other = new();
                 other.set_frame(FramePixels::Bytes(&pixels));
                 assert_eq!(picture.values, other.values);
-                let places = input.position_count();
+                let positions = input.position_count();
                 for (at, (old, new)) in before.iter().zip(&picture.values).enumerate() {
-                    let (x, y) = (at % places % width as usize, at % places / width as usize);
+                    let (x, y) = (at % positions % width as usize, at % positions / width as usize);
                     assert!(old == new || picture.changed.contains(x, y), "{framing}: {x}, {y}");
                 }
             }

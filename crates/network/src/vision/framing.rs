@@ -31,7 +31,7 @@ pub enum Framing {
 /// # Errors
 /// Fails if the text is no framing; the message tells what is expected.
 pub fn parse_framing(text: &str) -> Result<Framing, String> {
-    let (way, size) = text.split_once('=').map_or((text, None), |(way, size)| (way, Some(size)));
+    let (name, size) = text.split_once('=').map_or((text, None), |(name, size)| (name, Some(size)));
     let side = |side: &str| side.parse().ok().filter(|side| (1..=16_384).contains(side));
     let size = match size {
         None => Some(None),
@@ -40,7 +40,7 @@ pub fn parse_framing(text: &str) -> Result<Framing, String> {
             sides.and_then(|(width, height)| Some(Some((side(width)?, side(height)?))))
         }
     };
-    match (way, size) {
+    match (name, size) {
         ("same", Some(None)) => Ok(Framing::Same),
         ("letterbox", Some(size)) => Ok(Framing::Letterbox(size)),
         ("stretch", Some(size)) => Ok(Framing::Stretch(size)),
@@ -52,14 +52,14 @@ pub fn parse_framing(text: &str) -> Result<Framing, String> {
 
 impl fmt::Display for Framing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (way, size) = match self {
+        let (name, size) = match self {
             Self::Same => ("same", None),
             Self::Letterbox(size) => ("letterbox", *size),
             Self::Stretch(size) => ("stretch", *size),
         };
         match size {
-            None => f.write_str(way),
-            Some((width, height)) => write!(f, "{way}={width}x{height}"),
+            None => f.write_str(name),
+            Some((width, height)) => write!(f, "{name}={width}x{height}"),
         }
     }
 }
@@ -82,12 +82,12 @@ impl Framing {
     /// Returns the scaling from frames of a size to an input of another size, or `None` for
     /// [`Framing::Same`].
     pub(super) fn scaling(self, frame: (u32, u32), input: (u32, u32)) -> Option<FrameScaling> {
-        let shown = match self {
+        let scaled_size = match self {
             Self::Same => return None,
             Self::Stretch(_) => input,
             Self::Letterbox(_) => fitted_size(frame, input),
         };
-        Some(FrameScaling::new(frame, shown, input))
+        Some(FrameScaling::new(frame, scaled_size, input))
     }
 
     /// Reads a network for frames of this size, and returns it with the scaling to its input.
@@ -108,8 +108,8 @@ impl Framing {
         let network = read(self.input_size(frame).map(pixels))?;
         let side = |side: usize| u32::try_from(side).expect("an input is smaller than 2^28 values");
         let input = (side(network.input().width()), side(network.input().height()));
-        let lens = self.scaling(frame, input);
-        Ok((network, lens))
+        let scaling = self.scaling(frame, input);
+        Ok((network, scaling))
     }
 }
 
@@ -145,12 +145,12 @@ pub(super) struct FrameScaling {
 }
 
 impl FrameScaling {
-    fn new(frame: (u32, u32), shown: (u32, u32), input: (u32, u32)) -> Self {
-        let scale = |frame: u32, shown: u32| f64::from(frame) / f64::from(shown);
-        let scale = (scale(frame.0, shown.0), scale(frame.1, shown.1));
+    fn new(frame: (u32, u32), scaled_size: (u32, u32), input: (u32, u32)) -> Self {
+        let scale = |frame: u32, scaled_size: u32| f64::from(frame) / f64::from(scaled_size);
+        let scale = (scale(frame.0, scaled_size.0), scale(frame.1, scaled_size.1));
         Self {
-            columns: axis_taps(frame.0, shown.0, scale.0),
-            rows: axis_taps(frame.1, shown.1, scale.1),
+            columns: axis_taps(frame.0, scaled_size.0, scale.0),
+            rows: axis_taps(frame.1, scaled_size.1, scale.1),
             width: frame.0 as usize,
             input_width: input.0 as usize,
             scale,
@@ -167,32 +167,33 @@ impl FrameScaling {
         self.scale
     }
 
-    /// Calls `give` for every pixel of the input that depends on a region for which `is` holds,
-    /// with its column and row, its index and its grey level. `is` gets the column and the row of a
-    /// region; regions have `side` x `side` pixels.
+    /// Calls `visit` for every pixel of the input that depends on a region for which `is_selected`
+    /// holds, with its column and row, its index and its grey level. `is_selected` gets the column
+    /// and the row of a region; regions have `side` x `side` pixels.
     pub(super) fn for_each_pixel_of_regions(
         &self,
         frame: &[u16],
         side: usize,
-        is: impl Fn(usize, usize) -> bool,
-        mut give: impl FnMut((usize, usize), usize, f32),
+        is_selected: impl Fn(usize, usize) -> bool,
+        mut visit: impl FnMut((usize, usize), usize, f32),
     ) {
         for (y, row) in self.rows.iter().enumerate() {
             let [upper, lower] = [row.first, row.second].map(|y| &frame[y * self.width..]);
             let regions = [row.first / side, row.second / side];
             for (x, column) in self.columns.iter().enumerate() {
                 let [left, right] = [column.first / side, column.second / side];
-                let is_any = regions.iter().any(|&row| is(left, row) || is(right, row));
-                if !is_any {
+                let is_dependent =
+                    regions.iter().any(|&row| is_selected(left, row) || is_selected(right, row));
+                if !is_dependent {
                     continue;
                 }
-                let along = |line: &[u16]| {
+                let interpolate = |line: &[u16]| {
                     let (first, second) =
                         (f32::from(line[column.first]), f32::from(line[column.second]));
                     first + (second - first) * column.weight
                 };
-                let (upper, lower) = (along(upper), along(lower));
-                give((x, y), y * self.input_width + x, upper + (lower - upper) * row.weight);
+                let (upper, lower) = (interpolate(upper), interpolate(lower));
+                visit((x, y), y * self.input_width + x, upper + (lower - upper) * row.weight);
             }
         }
     }
@@ -203,28 +204,33 @@ impl FrameScaling {
     clippy::cast_sign_loss,
     reason = "a place within the frame"
 )]
-fn axis_taps(frame: u32, shown: u32, scale: f64) -> Vec<BilinearTap> {
+fn axis_taps(frame: u32, outputs: u32, scale: f64) -> Vec<BilinearTap> {
     let last = f64::from(frame - 1);
     let tap = |at: u32| {
-        let place = ((f64::from(at) + 0.5) * scale - 0.5).clamp(0.0, last);
-        let first = place.floor();
+        let position = ((f64::from(at) + 0.5) * scale - 0.5).clamp(0.0, last);
+        let first = position.floor();
         let second = (first + 1.0).min(last);
         BilinearTap {
             first: first as usize,
             second: second as usize,
-            weight: (place - first) as f32,
+            weight: (position - first) as f32,
         }
     };
-    (0..shown).map(tap).collect()
+    (0..outputs).map(tap).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn all(lens: &FrameScaling, frame: &[u16], places: usize) -> Vec<Option<f32>> {
-        let mut found = vec![None; places];
-        lens.for_each_pixel_of_regions(frame, 4, |_, _| true, |_, at, grey| found[at] = Some(grey));
+    fn all_pixels(scaling: &FrameScaling, frame: &[u16], count: usize) -> Vec<Option<f32>> {
+        let mut found = vec![None; count];
+        scaling.for_each_pixel_of_regions(
+            frame,
+            4,
+            |_, _| true,
+            |_, at, grey| found[at] = Some(grey),
+        );
         found
     }
 
@@ -240,30 +246,30 @@ mod tests {
 
     #[test]
     fn pixels_lie_between_those_of_the_frame() {
-        let lens = Framing::Stretch(None).scaling((4, 2), (2, 2)).unwrap();
+        let scaling = Framing::Stretch(None).scaling((4, 2), (2, 2)).unwrap();
         let frame = [0, 2, 10, 20, 4, 6, 30, 40];
-        assert_eq!(all(&lens, &frame, 4), [1.0, 15.0, 5.0, 35.0].map(Some));
+        assert_eq!(all_pixels(&scaling, &frame, 4), [1.0, 15.0, 5.0, 35.0].map(Some));
         // The input is larger. Pixels beyond the outer centers of the frame have the values of
         // these.
-        let lens = Framing::Stretch(None).scaling((2, 1), (4, 1)).unwrap();
-        assert_eq!(all(&lens, &[0, 100], 4), [0.0, 25.0, 75.0, 100.0].map(Some));
-        assert_eq!(lens.scale(), (0.5, 1.0));
+        let scaling = Framing::Stretch(None).scaling((2, 1), (4, 1)).unwrap();
+        assert_eq!(all_pixels(&scaling, &[0, 100], 4), [0.0, 25.0, 75.0, 100.0].map(Some));
+        assert_eq!(scaling.scale(), (0.5, 1.0));
     }
 
     #[test]
     fn a_letterbox_keeps_the_shape_and_leaves_the_rest() {
-        let lens = Framing::Letterbox(None).scaling((1280, 720), (416, 416)).unwrap();
-        assert_eq!((lens.columns.len(), lens.rows.len()), (416, 234));
-        let lens = Framing::Letterbox(None).scaling((8, 4), (4, 4)).unwrap();
-        let found = all(&lens, &[7; 32], 16);
+        let scaling = Framing::Letterbox(None).scaling((1280, 720), (416, 416)).unwrap();
+        assert_eq!((scaling.columns.len(), scaling.rows.len()), (416, 234));
+        let scaling = Framing::Letterbox(None).scaling((8, 4), (4, 4)).unwrap();
+        let found = all_pixels(&scaling, &[7; 32], 16);
         assert!(found[..8].iter().all(|grey| *grey == Some(7.0)));
         assert!(found[8..].iter().all(Option::is_none));
     }
 
-    /// A pixel of the input that changes when a region changes must be given.
+    /// A pixel of the input that changes when a region changes must be visited.
     #[test]
-    fn what_comes_from_a_region_is_given() {
-        let lens = Framing::Stretch(None).scaling((12, 8), (7, 5)).unwrap();
+    fn every_pixel_that_depends_on_a_region_is_visited() {
+        let scaling = Framing::Stretch(None).scaling((12, 8), (7, 5)).unwrap();
         let before = [50; 96];
         for (column, row) in (0..3).flat_map(|column| [(column, 0), (column, 1)]) {
             let mut after = before;
@@ -272,14 +278,15 @@ mod tests {
                     *pixel = 90;
                 }
             }
-            let mut given = [false; 35];
-            let is = |x, y| (x, y) == (column, row);
-            lens.for_each_pixel_of_regions(&after, 4, is, |_, at, _| given[at] = true);
-            let [old, new] = [before, after].map(|frame| all(&lens, &frame, 35));
+            let mut is_visited = [false; 35];
+            let is_changed = |x, y| (x, y) == (column, row);
+            scaling
+                .for_each_pixel_of_regions(&after, 4, is_changed, |_, at, _| is_visited[at] = true);
+            let [old, new] = [before, after].map(|frame| all_pixels(&scaling, &frame, 35));
             for at in 0..35 {
-                assert!(given[at] || old[at] == new[at], "{column}, {row}: {at}");
+                assert!(is_visited[at] || old[at] == new[at], "{column}, {row}: {at}");
             }
-            assert!(given.iter().any(|given| !given));
+            assert!(is_visited.iter().any(|is_visited| !is_visited));
         }
     }
 }

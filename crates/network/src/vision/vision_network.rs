@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network that measures how far its outputs for two frames agree, for the search for a camera
-//! behind which it has the outputs of the input frames.
+//! A network that measures how far its outputs for two frames agree. The search for a camera uses
+//! it to find one whose screen gives the outputs of the input frames.
 
 use std::path::Path;
 use std::time::Duration;
@@ -92,10 +92,10 @@ impl VisionNetwork {
         frame: (u32, u32),
         viewing: &VisionOptions,
     ) -> Result<Self, VisionError> {
-        let (network, lens) = viewing.framing.read_network(read, frame)?;
-        let reader = FindingsReader::new(&network, frame, lens.as_ref());
+        let (network, scaling) = viewing.framing.read_network(read, frame)?;
+        let reader = FindingsReader::new(&network, frame, scaling.as_ref());
         let mapping = viewing.mapping.clone();
-        Self { network, scaling: lens, mapping, reader }
+        Self { network, scaling, mapping, reader }
             .with_mapping_and_detector(viewing.mapping.clone(), viewing.detector.clone())
     }
 

@@ -165,19 +165,19 @@ fn layer() -> impl Strategy<Value = RandomLayer> {
 /// independently of the crate.
 fn network(channels: usize, [height, width]: [usize; 2], layers: &[RandomLayer]) -> Network {
     let mut model = ModelBuilder::new(&[1, signed(channels), signed(height), signed(width)]);
-    let mut now = LayerOutput {
+    let mut previous = LayerOutput {
         name: "picture".to_owned(),
         channels,
         height: signed(height),
         width: signed(width),
     };
     for (at, layer) in layers.iter().enumerate() {
-        if let Some(next) = add_layer(&mut model, &now, layer, at as u64 + 1) {
-            now = next;
+        if let Some(next) = add_layer(&mut model, &previous, layer, at as u64 + 1) {
+            previous = next;
         }
     }
     // The last output depends on every position of the last layer.
-    let mean = model.node("GlobalAveragePool", &[&now.name], &[]);
+    let mean = model.node("GlobalAveragePool", &[&previous.name], &[]);
     let flat = model.node("Flatten", &[&mean], &[]);
     model.output(&flat);
     model.read(width, height).unwrap()
@@ -197,16 +197,16 @@ pub(crate) fn signed(length: usize) -> i64 {
 
 fn add_layer(
     model: &mut ModelBuilder,
-    now: &LayerOutput,
+    previous: &LayerOutput,
     layer: &RandomLayer,
     seed: u64,
 ) -> Option<LayerOutput> {
-    let LayerOutput { name, channels, height, width } = now.clone();
+    let LayerOutput { name, channels, height, width } = previous.clone();
     let outputs = |length: i64, kernel: i64, stride: i64, dilation: i64, pads: i64| {
         let room = length + pads - (kernel - 1) * dilation - 1;
         (room >= 0).then(|| room / stride + 1)
     };
-    let of = |name: String| Some(LayerOutput { name, ..now.clone() });
+    let same_size = |name: String| Some(LayerOutput { name, ..previous.clone() });
     match layer.clone() {
         RandomLayer::Conv { channels: outer, kernel: [h, w], strides, dilations, pads } => {
             let height = outputs(height, h, strides[0], dilations[0], pads[0] + pads[2])?;
@@ -236,7 +236,7 @@ fn add_layer(
                 ("group", AttributeValue::Int(signed(channels))),
             ];
             let name = model.node("Conv", &[&name, &weights], &attributes);
-            Some(LayerOutput { name, height, width, ..now.clone() })
+            Some(LayerOutput { name, height, width, ..previous.clone() })
         }
         RandomLayer::Grouped => {
             let inner = channels.checked_div(2).filter(|&inner| inner > 1 && channels % 2 == 0)?;
@@ -246,7 +246,7 @@ fn add_layer(
             Some(LayerOutput {
                 name: model.node("Conv", &[&name, &weights], &attributes),
                 channels: 10,
-                ..now.clone()
+                ..previous.clone()
             })
         }
         RandomLayer::Pool { max, kernel, stride, pad, ceil } => {
@@ -273,10 +273,10 @@ fn add_layer(
                 true => model.node("MaxPool", &[&name], &attributes[..attributes.len() - 1]),
                 false => model.node("AveragePool", &[&name], &attributes),
             };
-            Some(LayerOutput { name, height, width, ..now.clone() })
+            Some(LayerOutput { name, height, width, ..previous.clone() })
         }
-        RandomLayer::Relu => of(model.node("Relu", &[&name], &[])),
-        RandomLayer::Sigmoid => of(model.node("Sigmoid", &[&name], &[])),
+        RandomLayer::Relu => same_size(model.node("Relu", &[&name], &[])),
+        RandomLayer::Sigmoid => same_size(model.node("Sigmoid", &[&name], &[])),
         RandomLayer::Residual => {
             let weights = model.floats(
                 &[signed(channels), signed(channels), 3, 3],
@@ -287,7 +287,7 @@ fn add_layer(
                 &[&name, &weights],
                 &[("pads", AttributeValue::Ints(vec![1; 4]))],
             );
-            of(model.node("Add", &[&name, &branch], &[]))
+            same_size(model.node("Add", &[&name, &branch], &[]))
         }
         RandomLayer::ConcatBranch { up } => {
             let weights = model.floats(&[3, signed(channels), 1, 3], &noise(seed, channels * 9));
@@ -302,11 +302,15 @@ fn add_layer(
                 &inputs.map(String::as_str),
                 &[("axis", AttributeValue::Int(if up { 1 } else { -3 }))],
             );
-            (channels < 20).then(|| LayerOutput { name, channels: channels + 3, ..now.clone() })
+            (channels < 20).then(|| LayerOutput {
+                name,
+                channels: channels + 3,
+                ..previous.clone()
+            })
         }
         RandomLayer::Scale => {
             let factor = model.floats(&[1, signed(channels), 1, 1], &noise(seed, channels));
-            of(model.node("Mul", &[&factor, &name], &[]))
+            same_size(model.node("Mul", &[&factor, &name], &[]))
         }
         RandomLayer::SliceAxis { axis, start, step } => {
             let length = [0, signed(channels), height, width][usize::try_from(axis).unwrap()];
@@ -317,7 +321,7 @@ fn add_layer(
             let [starts, ends, axes, steps] =
                 [start, i64::MAX, axis, step].map(|value| model.ints(&[value]));
             let name = model.node("Slice", &[&name, &starts, &ends, &axes, &steps], &[]);
-            let mut next = LayerOutput { name, ..now.clone() };
+            let mut next = LayerOutput { name, ..previous.clone() };
             match axis {
                 1 => next.channels = usize::try_from(count).unwrap(),
                 2 => next.height = count,
@@ -335,7 +339,7 @@ fn add_layer(
             let [starts, ends, axes, steps] =
                 [start, [-1, -1], [2, -1], step].map(|values| model.ints(&values));
             let name = model.node("Slice", &[&name, &starts, &ends, &axes, &steps], &[]);
-            Some(LayerOutput { name, height, width, ..now.clone() })
+            Some(LayerOutput { name, height, width, ..previous.clone() })
         }
         RandomLayer::Pad { around: [top, left, bottom, right] } => {
             let pads = model.ints(&[0, 0, top, left, 0, 0, bottom, right]);
@@ -345,15 +349,15 @@ fn add_layer(
                 name,
                 height: height + top + bottom,
                 width: width + left + right,
-                ..now.clone()
+                ..previous.clone()
             })
         }
         RandomLayer::Resize { linear, halves } => {
             if height * width > 4000 || height < 2 || width < 2 {
                 return None;
             }
-            let by = f32::from(halves) / 2.0;
-            let scales = model.floats(&[4], &[1.0, 1.0, by, by]);
+            let factor = f32::from(halves) / 2.0;
+            let scales = model.floats(&[4], &[1.0, 1.0, factor, factor]);
             let mode = ("mode", AttributeValue::Text(if linear { "linear" } else { "nearest" }));
             let coordinates = (
                 "coordinate_transformation_mode",
@@ -365,27 +369,32 @@ fn add_layer(
             );
             let name = model.node("Resize", &[&name, "", &scales], &[mode, coordinates]);
             let scaled = |length: i64| length * i64::from(halves) / 2;
-            Some(LayerOutput { name, height: scaled(height), width: scaled(width), ..now.clone() })
+            Some(LayerOutput {
+                name,
+                height: scaled(height),
+                width: scaled(width),
+                ..previous.clone()
+            })
         }
         RandomLayer::Softmax => {
-            of(model.node("Softmax", &[&name], &[("axis", AttributeValue::Int(1))]))
+            same_size(model.node("Softmax", &[&name], &[("axis", AttributeValue::Int(1))]))
         }
         RandomLayer::TransposeAndBack => {
-            let turned = model.node(
+            let transposed = model.node(
                 "Transpose",
                 &[&name],
                 &[("perm", AttributeValue::Ints(vec![0, 2, 3, 1]))],
             );
-            let turned =
-                model.node("LeakyRelu", &[&turned], &[("alpha", AttributeValue::Float(0.1))]);
-            of(model.node(
+            let transposed =
+                model.node("LeakyRelu", &[&transposed], &[("alpha", AttributeValue::Float(0.1))]);
+            same_size(model.node(
                 "Transpose",
-                &[&turned],
+                &[&transposed],
                 &[("perm", AttributeValue::Ints(vec![0, 3, 1, 2]))],
             ))
         }
         RandomLayer::Integers { signed, layers } => {
-            Some(integer_layers::add_block(model, now, signed, &layers, seed))
+            Some(integer_layers::add_block(model, previous, signed, &layers, seed))
         }
         RandomLayer::Transposed { channels: outer, kernel, stride, dilation, pad, more } => {
             let along = |length: i64| {
@@ -410,17 +419,18 @@ fn add_layer(
             let half = Some(signed(channels / 2)).filter(|half| half * 2 == signed(channels))?;
             let places = height * width;
             let shapes = [vec![half, 2, places], vec![2, -1, half, height, width]];
-            let [apart, back] = shapes.map(|shape| model.ints(&shape));
-            let apart = model.node("Reshape", &[&name, &apart], &[]);
-            let turned = model.node(
+            let [split, joined] = shapes.map(|shape| model.ints(&shape));
+            let split = model.node("Reshape", &[&name, &split], &[]);
+            let transposed = model.node(
                 "Transpose",
-                &[&apart],
+                &[&split],
                 &[("perm", AttributeValue::Ints(vec![1, 0, 2]))],
             );
-            let back = model.node("Reshape", &[&turned, &back], &[]);
+            let joined = model.node("Reshape", &[&transposed, &joined], &[]);
             let index = model.index(1);
-            let own = model.node("Gather", &[&back, &index], &[("axis", AttributeValue::Int(0))]);
-            Some(LayerOutput { name: own, channels: channels / 2, ..now.clone() })
+            let part =
+                model.node("Gather", &[&joined, &index], &[("axis", AttributeValue::Int(0))]);
+            Some(LayerOutput { name: part, channels: channels / 2, ..previous.clone() })
         }
         RandomLayer::DepthBlocks { up } => {
             let side = ("blocksize", AttributeValue::Int(2));
@@ -460,20 +470,25 @@ fn add_layer(
         RandomLayer::ReverseColumns => {
             let bounds = [-1, i64::MIN, -1, -1].map(|value| model.ints(&[value]));
             let [starts, ends, axes, steps] = &bounds;
-            of(model.node("Slice", &[&name, starts, ends, axes, steps], &[]))
+            same_size(model.node("Slice", &[&name, starts, ends, axes, steps], &[]))
         }
         RandomLayer::ConcatConstant => {
-            let own = model.floats(
+            let constant = model.floats(
                 &[1, 1, height, width],
                 &noise(seed, usize::try_from(height * width).unwrap()),
             );
-            let name = model.node("Concat", &[&own, &name], &[("axis", AttributeValue::Int(1))]);
-            (channels < 20).then(|| LayerOutput { name, channels: channels + 1, ..now.clone() })
+            let name =
+                model.node("Concat", &[&constant, &name], &[("axis", AttributeValue::Int(1))]);
+            (channels < 20).then(|| LayerOutput {
+                name,
+                channels: channels + 1,
+                ..previous.clone()
+            })
         }
         RandomLayer::Centre { axes } => {
             let axes = model.ints(&axes);
             let mean = model.node("ReduceMean", &[&name, &axes], &[]);
-            of(model.node("Sub", &[&name, &mean], &[]))
+            same_size(model.node("Sub", &[&name, &mean], &[]))
         }
         RandomLayer::Normal { kind } => {
             let groups = if channels.is_multiple_of(2) { 2 } else { 1 };
@@ -483,7 +498,7 @@ fn add_layer(
             };
             let scale = model.floats(&[signed(count)], &noise(seed, count));
             let bias = model.floats(&[signed(count)], &noise(seed + 1, count));
-            of(match kind {
+            same_size(match kind {
                 "LRN" => model.node(
                     kind,
                     &[&name],
@@ -504,18 +519,18 @@ fn add_layer(
             }
             let shape = model.ints(&[1, 0, -1]);
             let flat = model.node("Reshape", &[&name, &shape], &[]);
-            let turned =
+            let transposed =
                 model.node("Transpose", &[&flat], &[("perm", AttributeValue::Ints(vec![0, 2, 1]))]);
-            let alike = model.node("MatMul", &[&turned, &flat], &[]);
-            let shares = model.node("Softmax", &[&alike], &[]);
-            let mixed = model.node("MatMul", &[&shares, &turned], &[]);
-            let turned = model.node(
+            let similarity = model.node("MatMul", &[&transposed, &flat], &[]);
+            let shares = model.node("Softmax", &[&similarity], &[]);
+            let mixed = model.node("MatMul", &[&shares, &transposed], &[]);
+            let transposed = model.node(
                 "Transpose",
                 &[&mixed],
                 &[("perm", AttributeValue::Ints(vec![0, 2, 1]))],
             );
             let shape = model.ints(&[1, -1, height, width]);
-            of(model.node("Reshape", &[&turned, &shape], &[]))
+            same_size(model.node("Reshape", &[&transposed, &shape], &[]))
         }
         RandomLayer::ConcatFlat => {
             let shape = model.ints(&[1, signed(channels), -1]);
@@ -526,26 +541,26 @@ fn add_layer(
             (height * width < 1000).then(|| LayerOutput {
                 name: model.node("Reshape", &[&both, &shape], &[]),
                 height: 2 * height,
-                ..now.clone()
+                ..previous.clone()
             })
         }
         RandomLayer::Repeat => {
             let axes = model.ints(&[1]);
-            let most = model.node("ReduceMax", &[&name, &axes], &[]);
+            let largest = model.node("ReduceMax", &[&name, &axes], &[]);
             let shape = model.ints(&[1, 3, height, 1]);
-            let name = model.node("Expand", &[&most, &shape], &[]);
-            Some(LayerOutput { name, channels: 3, ..now.clone() })
+            let name = model.node("Expand", &[&largest, &shape], &[]);
+            Some(LayerOutput { name, channels: 3, ..previous.clone() })
         }
         RandomLayer::Where => {
             let limit = model.floats(&[], &[0.125]);
-            let is = model.node("Greater", &[&name, &limit], &[]);
+            let is_above = model.node("Greater", &[&name, &limit], &[]);
             let half = model.node("Mul", &[&name, &limit], &[]);
-            of(model.node("Where", &[&is, &name, &half], &[]))
+            same_size(model.node("Where", &[&is_above, &name, &half], &[]))
         }
         RandomLayer::Gate { alone } => {
             let gate = model.node("Sigmoid", &[&name], &[]);
             let gated = model.node("Mul", &[&name, &gate], &[]);
-            of(if alone { gated } else { model.node("Sub", &[&gated, &gate], &[]) })
+            same_size(if alone { gated } else { model.node("Sub", &[&gated, &gate], &[]) })
         }
         RandomLayer::Cubic => {
             if height * width > 1000 || height < 2 || width < 2 {
@@ -557,12 +572,12 @@ fn add_layer(
                 ("exclude_outside", AttributeValue::Int(i64::from(seed.is_multiple_of(2)))),
             ];
             let name = model.node("Resize", &[&name, "", &scales], &attributes);
-            Some(LayerOutput { name, height: height * 3 / 2, width: 2 * width, ..now.clone() })
+            Some(LayerOutput { name, height: height * 3 / 2, width: 2 * width, ..previous.clone() })
         }
         RandomLayer::Squeeze => {
             let mean = model.node("GlobalAveragePool", &[&name], &[]);
             let gate = model.node("HardSigmoid", &[&mean], &[]);
-            of(model.node("Mul", &[&name, &gate], &[]))
+            same_size(model.node("Mul", &[&name, &gate], &[]))
         }
     }
 }
@@ -577,16 +592,16 @@ pub(crate) fn masked_clip(
     let mut picture = noise(7, channels * height * width);
     let mut frames = vec![(picture.clone(), Mask::empty(height, width))];
     for (number, blobs) in masks.iter().enumerate() {
-        let is = |x: usize, y: usize| {
+        let is_changed = |x: usize, y: usize| {
             blobs.iter().any(|&(left, top, side)| {
                 (left..left + side).contains(&x) && (top..top + side).contains(&y)
             })
         };
-        let mask = Mask::from_fn(height, width, is);
+        let mask = Mask::from_fn(height, width, is_changed);
         let fresh = noise(number as u64 + 50, picture.len());
         for (at, value) in picture.iter_mut().enumerate() {
             // Some pixels of a changed region keep their values.
-            if is(at % width, at / width % height) && at % 5 != 0 {
+            if is_changed(at % width, at / width % height) && at % 5 != 0 {
                 *value = fresh[at];
             }
         }
@@ -615,7 +630,7 @@ pub(crate) fn first_difference(
             if !differences.is_empty() {
                 return Some(format!("{mode:?}: frame {number}, value {value} ({})", what()));
             }
-            // The positions that have really changed must be in the mask.
+            // All positions that have changed must be in the mask.
             if let Some(before) = before.get(value)
                 && !dense
                     .tensor(value)
@@ -641,7 +656,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
     #[test]
-    fn parts_have_the_bits_of_the_whole(
+    fn recomputed_parts_have_the_bits_of_a_dense_computation(
         channels in prop_oneof![Just(1usize), Just(3)], height in 6..26usize, width in 6..40usize,
         layers in prop::collection::vec(layer(), 1..8), masks in blobs(),
     ) {
@@ -655,7 +670,7 @@ proptest! {
 
 /// Rows of many lengths have few chunks, many chunks, and chunks at borders.
 #[test]
-fn rows_of_every_length_have_the_bits_of_the_whole() {
+fn rows_of_every_length_have_the_bits_of_a_dense_computation() {
     for width in 6..30 {
         let layers = [
             three_by_three(13, 1),
@@ -673,7 +688,7 @@ fn rows_of_every_length_have_the_bits_of_the_whole() {
     }
 }
 
-/// A mask that misses a changed pixel is detected, as the negative control of these tests.
+/// The negative control of these tests: a mask that misses a changed pixel is detected.
 #[test]
 fn a_change_outside_of_the_mask_is_found() {
     let layers = [three_by_three(4, 1)];
@@ -689,7 +704,7 @@ fn a_change_outside_of_the_mask_is_found() {
 
 /// Truncation passes on few changes, so that little is computed, and the output stays close.
 #[test]
-fn truncation_computes_less_and_stays_near() {
+fn truncation_computes_less_and_stays_close() {
     let layers = [three_by_three(6, 1), RandomLayer::Relu, three_by_three(6, 1)];
     let network = network(1, [20, 20], &layers);
     let full = Mask::full(20, 20);
@@ -724,12 +739,19 @@ fn every_node_has_a_limit_of_its_own() {
         frames.iter().map(|(picture, mask)| executor.step(picture, mask).to_vec()).collect()
     };
     let nodes = network.nodes().len();
-    let of = |limits: Vec<f32>| work(Executor::with_limits(&network, &limits));
-    assert_eq!(of(vec![0.0; nodes]), work(Executor::new(&network, ExecutionMode::Compare)));
-    assert_eq!(of(vec![0.2; nodes]), work(Executor::new(&network, ExecutionMode::Truncate(0.2))));
-    let cut_at =
-        |at: usize| of((0..nodes).map(|node| if node == at { 1e9 } else { 0.0 }).collect());
-    let all = of(vec![0.0; nodes]);
+    let work_with_limits = |limits: Vec<f32>| work(Executor::with_limits(&network, &limits));
+    assert_eq!(
+        work_with_limits(vec![0.0; nodes]),
+        work(Executor::new(&network, ExecutionMode::Compare))
+    );
+    assert_eq!(
+        work_with_limits(vec![0.2; nodes]),
+        work(Executor::new(&network, ExecutionMode::Truncate(0.2)))
+    );
+    let cut_at = |at: usize| {
+        work_with_limits((0..nodes).map(|node| if node == at { 1e9 } else { 0.0 }).collect())
+    };
+    let all = work_with_limits(vec![0.0; nodes]);
     for at in 0..nodes {
         let (whole, cut) = (&all[1], &cut_at(at)[1]);
         assert_eq!(whole[..at], cut[..at], "{at}");
@@ -765,11 +787,11 @@ fn any_number_of_threads_gives_the_same_bits() {
                 .collect::<Vec<_>>()
         })
     };
-    let alone = values(1);
+    let single = values(1);
     for threads in [2, 3, 5] {
-        for (value, (alone, shared)) in alone.iter().zip(values(threads)).enumerate() {
+        for (value, (single, shared)) in single.iter().zip(values(threads)).enumerate() {
             assert!(
-                alone.differing_positions(&shared).is_empty(),
+                single.differing_positions(&shared).is_empty(),
                 "{threads} threads, value {value}"
             );
         }
@@ -779,7 +801,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 /// Blocks do not overlap, so a part never costs more than a dense computation, however scattered it
 /// is.
 #[test]
-fn a_part_is_never_more_than_the_whole() {
+fn a_part_never_costs_more_than_a_dense_computation() {
     let network = network(
         1,
         [31, 70],
@@ -803,10 +825,10 @@ fn a_part_is_never_more_than_the_whole() {
     }
 }
 
-/// Flattened positions of several scales have no place in the frame, so they are computed where the
-/// positions that they depend on are.
+/// Flattened positions of several scales have no place in the frame. They are computed if a
+/// position on which they depend has changed.
 #[test]
-fn the_fixed_mode_follows_places_in_a_row() {
+fn the_fixed_mode_follows_changes_through_flattened_positions() {
     let mut model = ModelBuilder::new(&[1, 1, 16, 16]);
     let weights = model.floats(&[4, 1, 1, 1], &noise(1, 4));
     let features = model.node("Conv", &["picture", &weights], &[]);
@@ -837,17 +859,18 @@ fn the_fixed_mode_is_wrong_at_borders_only() {
         fixed.step(picture, mask);
     }
     let wrong = dense.tensor(1).differing_positions(fixed.tensor(1));
-    let is_ring = |x: usize, y: usize| {
+    let is_border = |x: usize, y: usize| {
         (3..=10).contains(&x)
             && (3..=10).contains(&y)
             && !((4..=9).contains(&x) && (4..=9).contains(&y))
     };
-    assert!(!wrong.is_empty() && wrong.is_subset(&Mask::from_fn(16, 16, is_ring)));
+    assert!(!wrong.is_empty() && wrong.is_subset(&Mask::from_fn(16, 16, is_border)));
 }
 
-/// A tensor that has a second name is not changed by an activation of that name.
+/// An activation of a tensor that has a second name does not change the values under the first
+/// name.
 #[test]
-fn an_activation_leaves_what_others_use() {
+fn an_activation_does_not_change_a_tensor_that_other_nodes_take() {
     let mut model = ModelBuilder::new(&[1, 1, 4, 4]);
     let weights = model.floats(&[1, 1, 1, 1], &[-1.0]);
     let conv = model.node("Conv", &["picture", &weights], &[]);
@@ -869,8 +892,8 @@ fn a_sum_with_its_own_transpose_is_exact() {
     let weights = model.floats(&[8, 1, 1, 1], &noise(1, 8));
     let features = model.node("Conv", &["picture", &weights], &[]);
     let order = ("perm", AttributeValue::Ints(vec![0, 2, 3, 1]));
-    let turned = model.node("Transpose", &[&features], &[order]);
-    let sum = model.node("Add", &[&features, &turned], &[]);
+    let transposed = model.node("Transpose", &[&features], &[order]);
+    let sum = model.node("Add", &[&features, &transposed], &[]);
     model.output(&sum);
     let network = model.read(8, 8).unwrap();
     let frames = masked_clip(1, [8, 8], &[vec![(5, 2, 1)]]);

@@ -21,7 +21,7 @@ fn one_node(kind: &str, attributes: &[(&str, AttributeValue)]) -> ModelBuilder {
 }
 
 #[test]
-fn what_is_not_supported_names_node_and_operator() {
+fn an_unsupported_operator_is_reported_with_its_node() {
     assert_eq!(
         refusal(one_node("Einsum", &[])),
         "node `Einsum1` has the operator `Einsum`, which is not supported; `foveate infer --check MODEL` lists all nodes that are not"
@@ -32,7 +32,7 @@ fn what_is_not_supported_names_node_and_operator() {
 }
 
 #[test]
-fn pictures_of_another_size_are_refused_with_what_would_fit() {
+fn pictures_of_another_size_are_refused_with_the_right_size() {
     let mut model = ModelBuilder::new(&[1, 3, 224, 224]);
     let output = model.node("Relu", &["picture"], &[]);
     model.output(&output);
@@ -103,9 +103,9 @@ fn impossible_models_are_refused() {
             "its auto_pad is `SAME`",
         ),
     ];
-    for (model, says) in cases {
+    for (model, expected) in cases {
         let refusal = refusal(model);
-        assert!(refusal.contains(says) && !refusal.contains('\n'), "{refusal} for {says}");
+        assert!(refusal.contains(expected) && !refusal.contains('\n'), "{refusal} for {expected}");
     }
 }
 
@@ -123,8 +123,8 @@ fn a_length_that_no_picture_has_is_not_an_open_one() {
         let mut shape = [Some(1), Some(1), Some(8), Some(8)];
         shape[axis] = Some(length);
         let refusal = lengths(shape).unwrap_err();
-        let says = format!("its axis {axis} has the length {length}; lengths are 1 and more");
-        assert!(refusal.contains(&says) && !refusal.contains('\n'), "{refusal}");
+        let expected = format!("its axis {axis} has the length {length}; lengths are 1 and more");
+        assert!(refusal.contains(&expected) && !refusal.contains('\n'), "{refusal}");
     }
     assert_eq!(lengths([None, Some(1), None, None]), Ok(()));
     // Some exporters write an open length as -1.
@@ -136,7 +136,7 @@ fn a_length_that_no_picture_has_is_not_an_open_one() {
 /// Models are rejected that would be computed differently from the standard, or that would take the
 /// memory of the machine.
 #[test]
-fn what_is_not_as_it_seems_is_refused() {
+fn models_that_differ_from_the_standard_or_are_huge_are_refused() {
     let with = |kind: &str, constants: &[&[i64]], attributes: &[(&str, AttributeValue)]| {
         let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
         let names: Vec<String> = constants.iter().map(|values| model.ints(values)).collect();
@@ -211,17 +211,17 @@ fn what_is_not_as_it_seems_is_refused() {
             "its shape [0, -1] holds a 0 and allowzero is 1, so that its output is empty",
         ),
     ];
-    for (refusal, says) in cases {
+    for (refusal, expected) in cases {
         assert!(
-            refusal.contains(says) && !refusal.contains('\n') && refusal.len() < 800,
-            "{refusal} for {says}"
+            refusal.contains(expected) && !refusal.contains('\n') && refusal.len() < 800,
+            "{refusal} for {expected}"
         );
     }
 }
 
 /// Quantized networks that are invalid or not supported are rejected.
 #[test]
-fn quantized_networks_are_checked() {
+fn invalid_quantized_networks_are_refused() {
     // The closure builds a quantized convolution whose inputs a test case may change.
     let conv = |change: &dyn Fn(&mut ModelBuilder, &mut Vec<String>)| {
         let mut model = ModelBuilder::new(&[1, 1, 8, 8]);
@@ -341,18 +341,18 @@ fn quantized_networks_are_checked() {
             "has the operator `DynamicQuantizeLinear`, which is not supported",
         ),
     ];
-    for (refusal, says) in cases {
+    for (refusal, expected) in cases {
         let names_node = refusal.starts_with("node `");
         assert!(
-            names_node && refusal.contains(says) && !refusal.contains('\n'),
-            "{refusal} for {says}"
+            names_node && refusal.contains(expected) && !refusal.contains('\n'),
+            "{refusal} for {expected}"
         );
     }
 }
 
 /// The version of the operators determines the axes of a softmax.
 #[test]
-fn operators_have_versions() {
+fn the_axes_of_a_softmax_depend_on_the_version_of_the_operators() {
     use foveate_network::onnx::{ModelProto, OperatorSetIdProto};
     use prost::Message as _;
     let parse = |version, axis: i64| {
@@ -370,14 +370,14 @@ fn operators_have_versions() {
     assert_eq!(parse(11, 1), Ok(()));
     assert!(parse(11, 4).unwrap_err().contains("its axis 4 is behind the last"));
     for version in [6, 29] {
-        let says = format!("it uses version {version} of the ONNX operators; versions 7 to 28");
-        assert!(parse(version, 3).unwrap_err().contains(&says));
+        let expected = format!("it uses version {version} of the ONNX operators; versions 7 to 28");
+        assert!(parse(version, 3).unwrap_err().contains(&expected));
     }
 }
 
 /// An empty message has two bytes in a file, and hundreds in memory.
 #[test]
-fn what_grows_in_memory_is_refused() {
+fn a_small_file_that_is_large_in_memory_is_refused() {
     let length = |length: usize| {
         let mut bytes = Vec::new();
         prost::encode_length_delimiter(length, &mut bytes).unwrap();
@@ -404,8 +404,8 @@ fn what_grows_in_memory_is_refused() {
         nested(5, &nested(7, &vec![1; 400 << 20])),
     ];
     for graph in graphs {
-        let says = read(&graph);
-        assert!(says.contains("MiB of memory to read; at most 8192 are supported"), "{says}");
+        let refusal = read(&graph);
+        assert!(refusal.contains("MiB of memory to read; at most 8192 are supported"), "{refusal}");
     }
     assert!(read(&many(1, 1000)).contains("it must have one input"));
 }
