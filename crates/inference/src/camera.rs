@@ -22,13 +22,13 @@ pub(crate) struct ReceiverCamera {
     original: Option<KeptOriginalFrame>,
     /// The number of frames so far.
     frames: u64,
-    /// The outcome since the last frame that the network saw, including the next frame that it
-    /// sees.
+    /// The outcome of the frames after the last one that the network saw, up to and including the
+    /// next one that it sees.
     since_last_received: OutcomeTally,
 }
 
-/// A number of camera frames, and of the values of P bits (pixels and means) that the camera sent
-/// for them.
+/// A number of camera frames, and the number of values of P bits (pixels and means) that the camera
+/// sent for them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SentCount {
     pub(crate) frames: u64,

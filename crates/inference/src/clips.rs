@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clips of a run: all have one size, and each is shown to its own camera, one after the other.
+//! The clips of a run. All have the same size. They are shown one after the other, each to its own
+//! camera.
 
 use crate::InferenceError;
 use crate::camera::{CameraSetup, ReceivedFrame, ReceiverCamera};
@@ -41,11 +42,11 @@ pub(crate) trait FrameConsumer {
     fn end_clip(&mut self, problem: Option<String>);
 }
 
-/// The state of showing clips, each to its own camera.
+/// A run through clips in progress. Each clip is shown to its own camera.
 pub(crate) struct ClipPlayback<'a> {
     pub(crate) setup: CameraSetup<'a>,
     pub(crate) clips: &'a mut RunClips,
-    /// The interval of the frames that the network sees: one of so many frames of a clip.
+    /// The distance between the frames of a clip that the network sees; 1 if it sees all.
     pub(crate) every: NonZeroU32,
     /// The number of frames that are done.
     pub(crate) frames_done: u64,

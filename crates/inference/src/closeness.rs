@@ -94,8 +94,8 @@ impl ClosenessTally {
     }
 
     /// Returns the root mean squared difference as a share of the standard deviation of the outputs
-    /// over the frames of their clip; 0 without a difference. A network that is never run again has
-    /// about 1.
+    /// over the frames of their clip; 0 without a difference. The share is about 1 for a network
+    /// that runs on the first frame alone.
     pub(crate) fn rms_of_variation(&self) -> f64 {
         let varies = self.variation.squares_around_means();
         if self.distance.squared_difference() == 0.0 {

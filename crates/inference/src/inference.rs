@@ -36,11 +36,11 @@ pub struct InferenceOptions {
     pub with_whole_computation: bool,
     /// True if the network also runs on whole frames, to compare its outputs there.
     pub with_whole_frames: bool,
-    /// Standard deviations of noise in grey levels of 8 bits, each above 0. With `sight`, the
-    /// network also runs on whole frames with this noise.
+    /// Standard deviations of noise in grey levels of 8 bits, each above 0. The network also runs
+    /// on whole frames with this noise if `with_whole_frames` is set.
     pub noise: Vec<f64>,
-    /// The interval of the frames that the network sees: one of so many frames of a clip, from the
-    /// first one. The camera sees all frames.
+    /// The distance between the frames of a clip that the network sees. With 1 it sees all frames,
+    /// and with 3 the first frame, the fourth and so on. The camera sees all frames.
     pub frame_interval: NonZeroU32,
     /// The files of the outputs that are written.
     pub record: RecordOptions,

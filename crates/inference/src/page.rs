@@ -22,7 +22,7 @@ use foveate_pictures::page::{
 };
 use rows::TableRows;
 
-/// The most frames that a page shows; with more it would be too large to open.
+/// The largest number of frames that a page shows. A page with more would be too large to open.
 const MAX_FRAMES: usize = 400;
 /// The target of the links of marks: the row of a mark.
 const TARGETS: [LinkTarget; 1] = [LinkTarget { prefix: "p", name: "its row" }];
@@ -140,8 +140,8 @@ pub(crate) fn render_page(
     page.render()
 }
 
-/// Returns, of every `every` frames in a row, the frame that needs the most MACs, so that no peak
-/// is lost.
+/// Returns one frame of each `every` consecutive frames: the frame that needs the most MACs, so
+/// that no peak is lost.
 fn most_expensive_frames<'a>(frames: &[&'a FrameFigures], every: usize) -> Vec<&'a FrameFigures> {
     let by_macs = |one: &&&FrameFigures, other: &&&FrameFigures| {
         // The first of equal frames is taken.

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 /// The folder of all outputs.
 pub(crate) const OUTPUTS_FOLDER: &str = "outputs";
-/// The most letters of a file's name.
+/// The largest number of letters of a file's name.
 const MAX_NAME_LETTERS: usize = 100;
 
 /// The files of the outputs that are written.
@@ -169,8 +169,8 @@ impl RecordedOutput {
     }
 }
 
-/// Returns a safe file name for a tensor, whatever its name is. Neither the array nor the folder of
-/// that name is in `taken`, also where upper and lower case do not differ.
+/// Returns a safe file name for a tensor of any name. Neither the array nor the folder of that name
+/// is in `taken`, even if upper and lower case are not distinguished.
 pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
     let safe = |letter: char| {
         if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' }

@@ -68,7 +68,7 @@ struct BegunClip {
     problem: Option<String>,
     /// The index of the clip's first frame among the frames of all clips.
     first: usize,
-    /// The place of the clip's first frame.
+    /// The `index_in_run` of the clip's first frame.
     place: u64,
 }
 
@@ -211,7 +211,7 @@ impl<'a> InferenceRun<'a> {
         self.clips.len()
     }
 
-    /// Ends the run. Returns what is to be written next to the files that grew.
+    /// Ends the run. Returns the results that are to be written next to the files that grew.
     ///
     /// # Errors
     /// Fails if the files that grew cannot be completed.

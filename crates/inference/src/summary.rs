@@ -46,8 +46,7 @@ pub struct InferenceSummary {
     pub width: u32,
     /// The height of the frames in pixels.
     pub height: u32,
-    /// The interval of the frames that the network saw: one of so many frames of the camera, from
-    /// the first one.
+    /// The distance between the frames of the camera that the network saw; 1 if it saw all.
     pub every: NonZeroU32,
     /// The number of frames that the network saw.
     pub frames: u64,
@@ -171,7 +170,7 @@ pub struct TuningSummary {
     pub frames: u64,
     /// The number of runs over the frames that it was tuned on.
     pub runs: u64,
-    /// The trial with limits of 0, in which only equal values are not passed on.
+    /// The trial with limits of 0, in which a value is passed on unless it equals the last one.
     pub exact: TuningTrial,
     /// The trials with the same relative limit at every layer.
     pub uniform: Vec<TuningTrial>,
@@ -303,11 +302,11 @@ impl InferenceSummary {
     pub const ONLY_FRAME_NOTE: &'static str =
         "the only frame was computed whole; savings begin with a second one";
 
-    /// Returns the share of the MACs of a whole computation, both in blocks, up to which this run
-    /// is at least as fast as a whole computation. At this share the run would take as long, if
-    /// each further block took as long as the blocks of this run. Further blocks take less, because
-    /// more of them are neighbors. Returns `None` if no whole computation ran, if nothing was
-    /// computed, or if everything was computed.
+    /// Returns the share of the MACs of a whole computation up to which this run is at least as
+    /// fast as that computation. MACs are counted in whole blocks. The share is an estimate from
+    /// below: it assumes that each further block takes as long as the blocks of this run, but more
+    /// blocks would be neighbors, which take less time. Returns `None` if no whole computation ran,
+    /// if nothing was computed, or if everything was computed.
     #[must_use]
     pub fn break_even_share(&self) -> Option<f64> {
         let dense = self.error?.dense_seconds_per_frame;

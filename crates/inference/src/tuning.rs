@@ -2,9 +2,9 @@
 //! The choice of a limit for every node: a value must change by more than the limit to be passed
 //! on. The outputs stay as close to those of a whole computation as the goal asks.
 //!
-//! Limits are multiples of the root mean square of a node's values in the first frame, by powers of
-//! 2. First all nodes get the same multiple; the largest multiple that reaches the goal is halved,
-//! to leave room. Then, from front to back, each node's limit is doubled as long as the goal is
+//! A limit is the root mean square of a node's values in the first frame, multiplied by a power of
+//! 2. First all nodes get the same power. The largest one that reaches the goal is halved, to leave
+//! room for the next step: from front to back, each node's limit is doubled as long as the goal is
 //! reached and fewer MACs are needed.
 
 use crate::InferenceError;
@@ -20,7 +20,7 @@ use std::borrow::Cow;
 
 /// The exponents of 2 of the multiples that all nodes get together.
 const COMMON_POWERS: std::ops::RangeInclusive<i32> = -10..=1;
-/// The most times that a node's limit is doubled.
+/// The largest number of times that a node's limit is doubled.
 const MAX_DOUBLINGS: usize = 4;
 /// The share of the needed MACs that a doubling must save.
 const MIN_SAVING: f64 = 0.001;

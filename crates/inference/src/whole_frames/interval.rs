@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An interval for the share of all things, from the share of a few of them: Wilson's score
-//! interval.
+//! Wilson's score interval: an interval for a share among all things, computed from the share among
+//! a few of them.
 //!
 //! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of
 //! the American Statistical Association 22 (1927), pages 209 to 212. It assumes that the things are
@@ -13,7 +13,7 @@ use serde::Serialize;
 /// The number of standard deviations from the mean within which 95 % of the values of a normal
 /// variable lie.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
-/// The width above which an interval counts as an interval of few things.
+/// The width above which the user is told that an interval is wide because there are few things.
 const WIDE_INTERVAL: f64 = 0.02;
 
 /// Intervals that hold the shares of all such things with 95 % confidence, if the things are
@@ -37,8 +37,8 @@ impl ConfidenceIntervals {
         Self::new(sums.agreement(), sums.total_counts(), counted)
     }
 
-    /// Returns the intervals of an agreement over `counted` things, or over the detections if any
-    /// were read.
+    /// Returns the intervals of an agreement over the detections in `found`, or over `counted`
+    /// other things if no detections were read.
     #[must_use]
     pub fn new(agreement: f64, found: Option<DetectionCounts>, counted: Option<u64>) -> Self {
         let interval = |share, count| {

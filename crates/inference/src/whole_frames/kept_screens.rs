@@ -51,7 +51,7 @@ impl KeptScreens {
         Self { width, height, bits, kept: Vec::new() }
     }
 
-    /// Keeps a frame if it differs more than one of the kept frames.
+    /// Keeps a frame if it has more lost and added detections than one of the kept frames.
     pub(super) fn add(&mut self, clip: &str, seen: ReceivedFrame<'_>, pairs: DetectionPairs) {
         let shot = KeptScreen {
             clip: clip.to_owned(),

@@ -11,11 +11,11 @@ use serde::Serialize;
 
 /// The standard deviations of the noise in grey levels of 8 bits, if the user gives no others.
 pub const NOISE_LEVELS: [f64; 3] = [1.0, 2.0, 4.0];
-/// The most frames that get noise, which bounds its cost.
+/// The largest number of frames that get noise. It bounds the time that the comparison takes.
 const MAX_NOISY_FRAMES: usize = 48;
 
-/// The agreement of the network on whole frames with noise with the network on the same frames
-/// without.
+/// The agreement of the network's outputs for whole frames with noise with those for the same
+/// frames without noise.
 #[derive(Clone, Debug, Serialize)]
 pub struct NoiseAgreement {
     /// The standard deviation of the noise in grey levels of 8 bits.
@@ -45,7 +45,8 @@ pub struct NoiseComparison {
     /// The number of frames so far; the network runs on one of `every`.
     frames_seen: u64,
     every: u64,
-    /// The frames with noise, by their place among all frames: the sums of every level.
+    /// The sums of every level for the frames with noise, each with the number of the frame among
+    /// all frames.
     samples: Vec<(u64, Vec<AgreementSums>)>,
     noisy_frame: Vec<u16>,
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tests of a network behind a camera: the tables agree with each other, and every clip stands
-//! alone.
+//! Tests of a network behind a camera: the tables agree with each other, and no clip affects the
+//! results of another.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod clips;

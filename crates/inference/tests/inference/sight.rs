@@ -91,8 +91,8 @@ fn sight(folder: &Path, camera: &str) -> WholeFrameAgreement {
     run(folder, camera, &[]).unwrap().sight.unwrap()
 }
 
-/// Regions without edges are black for the receiver, or show their means, and this network looks
-/// only at means.
+/// The receiver shows regions without edges as black, or as their means. This network depends only
+/// on means.
 #[test]
 fn means_keep_objects_that_black_regions_lose() {
     let dir = tempfile::tempdir().unwrap();
@@ -117,8 +117,8 @@ fn means_keep_objects_that_black_regions_lose() {
     assert!(page.matches("class=\"kept\"").count() > 10);
 }
 
-/// Noise is added to a few of many frames, spread evenly, and larger noise costs more; the smallest
-/// noise changes nothing, so everything is found again.
+/// Noise is added to a few frames that are spread evenly. Larger noise loses more detections. The
+/// smallest noise changes nothing, so all detections are found again.
 #[test]
 fn detections_are_lost_under_noise() {
     let dir = tempfile::tempdir().unwrap();
@@ -188,7 +188,7 @@ fn precision_is_against_ground_truth() {
     assert!(truth.seen_ap50 < 0.95 && truth.seen_recall < 0.9, "{truth:?}");
 }
 
-/// The findings in two frames are compared: equal frames agree fully, and a frame with half of the
+/// The findings in two frames are compared. Equal frames agree fully, and a frame with half of the
 /// objects agrees by 0.5. Frames of another size and a detector that does not fit are refused.
 #[test]
 fn half_of_the_objects_give_an_agreement_of_one_half() {
