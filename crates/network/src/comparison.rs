@@ -73,8 +73,8 @@ fn mark_differing<T: TensorNumber>(
         marks.iter_mut().zip(pairs).for_each(|(mark, pair)| *mark |= differs(pair));
         return;
     }
-    let own = kept.chunks_exact(inner).zip(fresh.chunks_exact(inner));
-    for (mark, (kept, fresh)) in marks.iter_mut().zip(own) {
+    let values_of_positions = kept.chunks_exact(inner).zip(fresh.chunks_exact(inner));
+    for (mark, (kept, fresh)) in marks.iter_mut().zip(values_of_positions) {
         *mark |= kept.iter().zip(fresh).fold(0, |mark, pair| mark | differs(pair));
     }
 }
@@ -161,19 +161,19 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_moves_is_what_differs_value_by_value(form in forms(), seed: u64, limit in prop_oneof![Just(0.0f32), 0.01f32..2.0, Just(f32::INFINITY)]) {
+        fn changed_positions_are_those_of_a_comparison_value_by_value(form in forms(), seed: u64, limit in prop_oneof![Just(0.0f32), 0.01f32..2.0, Just(f32::INFINITY)]) {
             #[allow(clippy::cast_precision_loss, reason = "small numbers")]
-            let odd = |bits: u64| match bits % 16 {
+            let special_value = |bits: u64| match bits % 16 {
                 0 => f32::NAN,
                 1 => f32::INFINITY,
                 2 => 0.0,
                 3 => -0.0,
                 other => other as f32 / 8.0,
             };
-            check::<f32>(&form, seed, limit, odd);
-            let of = |element| form.clone().with_encoding(Encoding { scale: 0.25, ..Encoding::plain(element) });
-            check::<u8>(&of(ElementType::U8), seed, limit, |bits| (bits % 9).to_le_bytes()[0]);
-            check::<i32>(&of(ElementType::I32), seed, limit, |bits| i32::try_from(bits % 9).unwrap() - 4);
+            check::<f32>(&form, seed, limit, special_value);
+            let encoded_form = |element| form.clone().with_encoding(Encoding { scale: 0.25, ..Encoding::plain(element) });
+            check::<u8>(&encoded_form(ElementType::U8), seed, limit, |bits| (bits % 9).to_le_bytes()[0]);
+            check::<i32>(&encoded_form(ElementType::I32), seed, limit, |bits| i32::try_from(bits % 9).unwrap() - 4);
         }
     }
 }

@@ -40,18 +40,18 @@ impl Tensor {
     /// # Errors
     /// Fails, with a message, if a value is outside of the range of the type.
     pub(crate) fn from_integers(form: TensorForm, values: &[i64]) -> Result<Self, String> {
-        fn all<T: TryFrom<i64>>(values: &[i64]) -> Result<Vec<T>, String> {
-            let own = |&value: &i64| {
+        fn convert_all<T: TryFrom<i64>>(values: &[i64]) -> Result<Vec<T>, String> {
+            let converted = |&value: &i64| {
                 T::try_from(value)
                     .map_err(|_| format!("a constant of {value} is outside of its bits"))
             };
-            values.iter().map(own).collect()
+            values.iter().map(converted).collect()
         }
         let values = match form.encoding().element {
             ElementType::F32 => unreachable!("integers are asked for"),
-            ElementType::U8 => TensorValues::U8(all(values)?),
-            ElementType::I8 => TensorValues::I8(all(values)?),
-            ElementType::I32 => TensorValues::I32(all(values)?),
+            ElementType::U8 => TensorValues::U8(convert_all(values)?),
+            ElementType::I8 => TensorValues::I8(convert_all(values)?),
+            ElementType::I32 => TensorValues::I32(convert_all(values)?),
         };
         Ok(Self { form, values })
     }

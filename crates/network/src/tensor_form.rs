@@ -128,10 +128,10 @@ impl TensorForm {
         let count = self.shape.len();
         // The conversion cannot fail, because a network refuses more than `MAX_AXES` axes.
         let from_end = axis.checked_add(i64::try_from(count).expect("a few axes"));
-        let own = if axis < 0 { from_end.unwrap_or(-1) } else { axis };
-        usize::try_from(own)
+        let resolved = if axis < 0 { from_end.unwrap_or(-1) } else { axis };
+        usize::try_from(resolved)
             .ok()
-            .filter(|&own| own < count)
+            .filter(|&resolved| resolved < count)
             .ok_or_else(|| format!("{} has no axis {axis}", self.describe()))
     }
 
@@ -164,8 +164,8 @@ impl TensorForm {
     /// is 0 where the operand is repeated.
     pub(crate) fn broadcast_strides(&self, operand: &Self) -> Vec<usize> {
         let sizes = operand.shape.iter().zip(operand.strides());
-        let own = sizes.map(|(&size, step)| if size == 1 { 0 } else { step });
-        std::iter::repeat_n(0, self.shape.len() - operand.shape.len()).chain(own).collect()
+        let strides = sizes.map(|(&size, step)| if size == 1 { 0 } else { step });
+        std::iter::repeat_n(0, self.shape.len() - operand.shape.len()).chain(strides).collect()
     }
 
     /// The shape in messages.

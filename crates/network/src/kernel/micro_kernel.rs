@@ -24,7 +24,8 @@ pub(super) fn multiply<
     places: &[usize],
     sums: &mut [[f32; LANES]; CHANNELS],
 ) {
-    let mut own = *sums;
+    // A local copy of the sums can stay in registers during the loop.
+    let mut register_sums = *sums;
     let GatheredInputs { tap_offsets: taps, window_rows: rows, .. } = gathered;
     for (weights, &tap) in weights.iter().zip(taps) {
         let mut inputs = [0.0; LANES];
@@ -37,7 +38,7 @@ pub(super) fn multiply<
         }
         for channel in 0..CHANNELS {
             for lane in 0..LANES {
-                let sum = &mut own[channel][lane];
+                let sum = &mut register_sums[channel][lane];
                 *sum = if FUSED {
                     weights[channel].mul_add(inputs[lane], *sum)
                 } else {
@@ -46,5 +47,5 @@ pub(super) fn multiply<
             }
         }
     }
-    *sums = own;
+    *sums = register_sums;
 }

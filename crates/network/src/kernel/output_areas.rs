@@ -60,22 +60,24 @@ mod tests {
     use crate::mask::Mask;
 
     #[test]
-    fn areas_are_the_positions_of_chunks_each_once() {
+    fn areas_cover_each_position_of_the_chunks_once() {
         for width in [3, 9, 70, 4000] {
-            for is in [|_, _| true, |x, y| (x * 7 + y / 5 * 11) % 29 < 2] {
-                let chunks = chunks_of_mask(&Mask::from_fn(40, width, is));
-                let mut seen = vec![0; 40 * width];
+            for is_taken in [|_, _| true, |x, y| (x * 7 + y / 5 * 11) % 29 < 2] {
+                let chunks = chunks_of_mask(&Mask::from_fn(40, width, is_taken));
+                let mut covered = vec![0; 40 * width];
                 for OutputArea { rows, columns } in areas_of_chunks(&chunks, width) {
                     assert!(rows.len() == 1 || rows.len() * columns.len() <= MAX_AREA_POSITIONS);
                     for y in rows {
-                        seen[y * width..][columns.clone()].iter_mut().for_each(|seen| *seen += 1);
+                        covered[y * width..][columns.clone()]
+                            .iter_mut()
+                            .for_each(|covered| *covered += 1);
                     }
                 }
                 let mut wanted = vec![0; 40 * width];
                 for chunk in chunks {
                     wanted[chunk.memory_range(width)].fill(1);
                 }
-                assert_eq!(seen, wanted);
+                assert_eq!(covered, wanted);
             }
         }
     }

@@ -16,7 +16,7 @@ const GATHERED_INPUTS: usize = 288;
 /// The number of panels that share a pass over the weights.
 const PANELS_PER_PASS: usize = 6;
 
-/// The number of positions that are computed for so many chunks: panels are computed as a whole.
+/// The number of positions that are computed for some chunks. Panels are computed as a whole.
 pub(crate) fn scheduled_positions(chunks: usize, blocking: BlockSizes) -> usize {
     (chunks * CHUNK_POSITIONS).next_multiple_of(blocking.lanes)
 }
@@ -63,35 +63,35 @@ impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
         let (first, channels) = (first.start, last.end - first.start);
         let taps = picture.columns.kernel;
-        let all = weights.depth() / taps;
-        let at_once = all.min((GATHERED_INPUTS / taps).max(1));
+        let all_rows = weights.depth() / taps;
+        let rows_at_once = all_rows.min((GATHERED_INPUTS / taps).max(1));
         let mut gathered = GatheredInputs::new(
             picture.columns,
             PANELS_PER_PASS * LANES / CHUNK_POSITIONS,
-            at_once,
+            rows_at_once,
         );
         // If one gather covers all products, a sum needs room only within its block.
-        let is_once = at_once == all;
+        let is_once = rows_at_once == all_rows;
         let largest = blocks.iter().map(Range::len).max().unwrap_or_default();
         let stride = if is_once { largest } else { channels };
         let mut sums = vec![[0.0; LANES]; stride * PANELS_PER_PASS];
         for group in chunks.chunks(PANELS_PER_PASS * LANES / CHUNK_POSITIONS) {
             gathered.select_chunks(group);
-            for from in (0..all).step_by(at_once) {
-                let rows = from..all.min(from + at_once);
+            for from in (0..all_rows).step_by(rows_at_once) {
+                let rows = from..all_rows.min(from + rows_at_once);
                 gathered.gather(picture, &rows);
                 for block in blocks {
                     let products =
                         weights.block_weights(block, &(rows.start * taps..rows.end * taps));
-                    let place = if is_once { 0 } else { block.start - first };
+                    let first_sum = if is_once { 0 } else { block.start - first };
                     let panels = sums.chunks_mut(stride).zip(group.chunks(LANES / CHUNK_POSITIONS));
                     for (panel, (sums, chunks)) in panels.enumerate() {
-                        let sums = &mut sums[place..][..block.len()];
+                        let sums = &mut sums[first_sum..][..block.len()];
                         if from == 0 {
                             start_with_bias(sums, weights, block.start);
                         }
                         add_block::<LANES, FUSED>(products, &gathered, panel, sums);
-                        if rows.end == all {
+                        if rows.end == all_rows {
                             finish_sums(sums, &finish);
                             outputs.scatter(sums, block.start - first, chunks);
                         }

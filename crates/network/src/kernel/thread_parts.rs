@@ -29,16 +29,16 @@ pub(crate) fn thread_parts<'a, T>(
 /// chunks share no position.
 fn cut_chunks(chunks: &[PositionChunk], parts: usize, width: usize) -> Vec<&[PositionChunk]> {
     let mut rest = chunks;
-    let mut found = Vec::new();
-    for left in (1..=parts).rev() {
-        let Some(last) = rest.len().div_ceil(left).checked_sub(1) else { break };
+    let mut cut = Vec::new();
+    for parts_left in (1..=parts).rev() {
+        let Some(last) = rest.len().div_ceil(parts_left).checked_sub(1) else { break };
         let done = rest[last].memory_range(width).end;
         let end = rest.partition_point(|chunk| chunk.memory_range(width).start < done);
-        let (own, others) = rest.split_at(end);
-        found.push(own);
+        let (part, others) = rest.split_at(end);
+        cut.push(part);
         rest = others;
     }
-    found
+    cut
 }
 
 fn split_by_positions<'a, T>(
@@ -56,9 +56,9 @@ fn split_by_positions<'a, T>(
         let mut done = 0;
         for (chunks, outputs) in &mut found {
             let end = chunks[chunks.len() - 1].memory_range(width).end;
-            let (_, own) = rest.split_at_mut(outputs.first_position - done);
-            let (own, others) = own.split_at_mut(end - outputs.first_position);
-            outputs.channels.push(own);
+            let (_, part) = rest.split_at_mut(outputs.first_position - done);
+            let (part, others) = part.split_at_mut(end - outputs.first_position);
+            outputs.channels.push(part);
             (rest, done) = (others, end);
         }
     }
@@ -92,7 +92,7 @@ mod tests {
     /// Each chunk is in exactly one part, whose planes hold its positions. Each part adds 1 at the
     /// first position of its chunks, and no other part may write there.
     #[test]
-    fn parts_are_all_chunks_and_share_no_position() {
+    fn parts_cover_all_chunks_and_share_no_position() {
         let form = TensorForm::features(vec![1, 13, 40, 70]);
         let blocks = BlockSizes::for_instruction_set(InstructionSet::detect()).blocks(13);
         let masks = [
@@ -109,11 +109,11 @@ mod tests {
             let parts =
                 split_by_positions(&blocks, cut_chunks(&all, threads, 70), &mut values, [40, 70]);
             assert!(parts.len() <= threads);
-            let mut seen = Vec::new();
-            for (own, outputs) in parts {
+            let mut all_of_parts = Vec::new();
+            for (part, outputs) in parts {
                 assert_eq!(outputs.channels.len(), 13);
                 for plane in outputs.channels {
-                    for chunk in own {
+                    for chunk in part {
                         for value in
                             &mut plane[chunk.y * 70 + chunk.x - outputs.first_position..][..1]
                         {
@@ -121,9 +121,9 @@ mod tests {
                         }
                     }
                 }
-                seen.extend_from_slice(own);
+                all_of_parts.extend_from_slice(part);
             }
-            assert_eq!(seen, all);
+            assert_eq!(all_of_parts, all);
             for (at, &value) in values.iter().enumerate() {
                 let (_, y, x) = form.coordinates(at);
                 assert_eq!(
@@ -134,7 +134,7 @@ mod tests {
             }
             let parts = split_by_channels(&blocks, &all, &mut values, [40, 70], threads);
             let planes: usize = parts.iter().map(|(_, outputs)| outputs.channels.len()).sum();
-            assert!(planes == 13 && parts.iter().all(|(own, _)| *own == all));
+            assert!(planes == 13 && parts.iter().all(|(part, _)| *part == all));
         }
     }
 }

@@ -64,22 +64,26 @@ pub(crate) struct AxisGather {
 
 impl AxisGather {
     /// Returns a selection along one of `axes` axes, which takes all elements of the others.
-    pub(crate) fn along_axis(axis: usize, picked: AxisSelection, axes: usize) -> Self {
+    pub(crate) fn along_axis(axis: usize, selection: AxisSelection, axes: usize) -> Self {
         let mut all = vec![AxisSelection::All; axes];
-        all[axis] = picked;
+        all[axis] = selection;
         Self { axes: all, dropped_axis: None, padding: None }
     }
 
     /// The lengths of all axes, including the one that the output does not have.
     fn lengths(&self, input: &TensorForm) -> Vec<usize> {
-        self.axes.iter().zip(input.shape()).map(|(picked, &length)| picked.count(length)).collect()
+        self.axes
+            .iter()
+            .zip(input.shape())
+            .map(|(selection, &length)| selection.count(length))
+            .collect()
     }
 }
 
 impl Operator for AxisGather {
     fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         let input = only_input(inputs)?;
-        let fits = |(picked, &length): (&AxisSelection, &usize)| match picked {
+        let fits = |(selection, &length): (&AxisSelection, &usize)| match selection {
             AxisSelection::All => true,
             AxisSelection::Indices(places) => {
                 places.iter().filter_map(|&at| input_element(at)).all(|at| at < length)
@@ -101,10 +105,11 @@ impl Operator for AxisGather {
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
-        let own = self.padding.as_ref().map(|padding| padding.form().encoding().element);
-        match (inputs.first(), own) {
-            (Some(input), Some(own)) if input.element != own => {
-                Err(wrong_element_message(own, input.element))
+        let padding_element =
+            self.padding.as_ref().map(|padding| padding.form().encoding().element);
+        match (inputs.first(), padding_element) {
+            (Some(input), Some(padding_element)) if input.element != padding_element => {
+                Err(wrong_element_message(padding_element, input.element))
             }
             _ => moved_encoding(inputs),
         }
@@ -114,19 +119,19 @@ impl Operator for AxisGather {
         let (form, mask) = inputs[0];
         let ranges = |axis: usize| self.axes[axis].ranges(form.shape()[axis]);
         let axes = form.position_axes();
-        let seen = match axes.len() {
+        let dependent = match axes.len() {
             2 => mask.outputs_of_ranges(&ranges(axes.start), &ranges(axes.start + 1)),
             1 => mask.outputs_of_ranges(&[(0, 0)], &ranges(axes.start)),
             _ => return mask.clone(),
         };
-        // If one column of each row is taken and its axis is dropped, the rows become a row of
-        // positions.
-        if (seen.height(), seen.width()) == (output.height(), output.width()) {
-            return seen;
+        // If a single column is taken and its axis is dropped, the rows of the input become the
+        // columns of the output.
+        if (dependent.height(), dependent.width()) == (output.height(), output.width()) {
+            return dependent;
         }
-        let is_row = seen.width() == 1;
+        let is_row = dependent.width() == 1;
         Mask::from_fn(output.height(), output.width(), |x, y| {
-            if is_row { seen.contains(0, x) } else { seen.contains(x, y) }
+            if is_row { dependent.contains(0, x) } else { dependent.contains(x, y) }
         })
     }
 
@@ -143,38 +148,41 @@ impl AxisGather {
         let padding = self.padding.as_ref().map_or(T::default(), |value| value.values::<T>()[0]);
         // Behind the last axis with a selection, neighbors in the input are neighbors in the
         // output.
-        let line = self.axes.iter().rposition(|picked| matches!(picked, AxisSelection::Indices(_)));
+        let line =
+            self.axes.iter().rposition(|selection| matches!(selection, AxisSelection::Indices(_)));
         let Some(line) = line else {
             return job.fill::<T>(|run, to| to.copy_from_slice(&values[run]));
         };
-        let (length, solid) = (lengths[line], steps[line]);
+        let (length, run_length) = (lengths[line], steps[line]);
         let AxisSelection::Indices(places) = &self.axes[line] else { unreachable!("it was found") };
         // Returns the start of a line of the input, or `None` if an axis in front is in the
         // padding.
-        let base = |line_number: usize| -> Option<usize> {
+        let line_start = |line_number: usize| -> Option<usize> {
             let (mut rest, mut at) = (line_number, 0);
             for axis in (0..line).rev() {
-                let own = rest % lengths[axis];
+                let element = rest % lengths[axis];
                 rest /= lengths[axis];
                 let from = match &self.axes[axis] {
-                    AxisSelection::All => own,
-                    AxisSelection::Indices(places) => input_element(places[own])?,
+                    AxisSelection::All => element,
+                    AxisSelection::Indices(places) => input_element(places[element])?,
                 };
                 at += from * steps[axis];
             }
             Some(at)
         };
-        let whole = length * solid;
+        let line_values = length * run_length;
         job.fill::<T>(|run, to| {
             let (mut start, mut to) = (run.start, to);
             while !to.is_empty() {
-                let inside = start % whole;
-                let (own, rest) = to.split_at_mut(to.len().min(whole - inside));
-                start += own.len();
+                let inside = start % line_values;
+                let (part, rest) = to.split_at_mut(to.len().min(line_values - inside));
+                start += part.len();
                 to = rest;
-                match base((start - 1) / whole) {
-                    None => own.fill(padding),
-                    Some(at) => gather_line(&values[at..], places, solid, inside, own, padding),
+                match line_start((start - 1) / line_values) {
+                    None => part.fill(padding),
+                    Some(at) => {
+                        gather_line(&values[at..], places, run_length, inside, part, padding)
+                    }
                 }
             }
         });
@@ -185,12 +193,12 @@ impl AxisGather {
 fn gather_line<T: TensorNumber>(
     values: &[T],
     places: &[u32],
-    solid: usize,
+    run_length: usize,
     first: usize,
     to: &mut [T],
     padding: T,
 ) {
-    if solid == 1 {
+    if run_length == 1 {
         for (to, place) in to.iter_mut().zip(&places[first..]) {
             *to = input_element(*place).map_or(padding, |at| values[at]);
         }
@@ -198,13 +206,15 @@ fn gather_line<T: TensorNumber>(
     }
     let (mut at, mut to) = (first, to);
     while !to.is_empty() {
-        let inside = at % solid;
-        let (own, rest) = to.split_at_mut(to.len().min(solid - inside));
-        match input_element(places[at / solid]) {
-            None => own.fill(padding),
-            Some(place) => own.copy_from_slice(&values[place * solid + inside..][..own.len()]),
+        let inside = at % run_length;
+        let (part, rest) = to.split_at_mut(to.len().min(run_length - inside));
+        match input_element(places[at / run_length]) {
+            None => part.fill(padding),
+            Some(place) => {
+                part.copy_from_slice(&values[place * run_length + inside..][..part.len()])
+            }
         }
-        at += own.len();
+        at += part.len();
         to = rest;
     }
 }

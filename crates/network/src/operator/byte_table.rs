@@ -18,21 +18,24 @@ pub(crate) struct ByteTable {
 
 impl ByteTable {
     /// Returns the table of a function of stored values.
-    pub(crate) fn from_stored_function(element: ElementType, of: impl Fn(i32) -> i32) -> Self {
-        Self { from: element, to: None, values: value_range(element).map(of).collect() }
+    pub(crate) fn from_stored_function(
+        element: ElementType,
+        function: impl Fn(i32) -> i32,
+    ) -> Self {
+        Self { from: element, to: None, values: value_range(element).map(function).collect() }
     }
 
     /// Returns the table of an activation of the real numbers that the values stand for.
     #[allow(clippy::cast_precision_loss, reason = "a difference of 8-bit values")]
     pub(crate) fn from_activation(from: Encoding, to: Encoding, activation: Activation) -> Self {
-        let of = |value: i32| {
+        let entry = |value: i32| {
             let steps = activation.apply((value - from.zero_point) as f32 * from.scale) / to.scale;
             with_byte_type!(to.element, Y => i32::from(quantize_steps::<Y>(steps, to.zero_point)))
         };
         Self {
             from: from.element,
             to: Some(to),
-            values: value_range(from.element).map(of).collect(),
+            values: value_range(from.element).map(entry).collect(),
         }
     }
 

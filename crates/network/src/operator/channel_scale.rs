@@ -56,12 +56,12 @@ impl Operator for ChannelScale {
             let (mut start, mut to) = (run.start, to);
             while !to.is_empty() {
                 let channel = start / plane;
-                let (own, rest) = to.split_at_mut(to.len().min((channel + 1) * plane - start));
+                let (part, rest) = to.split_at_mut(to.len().min((channel + 1) * plane - start));
                 let (factor, offset) = (self.factors[channel], self.offsets[channel]);
-                for (to, &from) in own.iter_mut().zip(&from[start..]) {
+                for (to, &from) in part.iter_mut().zip(&from[start..]) {
                     *to = from * factor + offset;
                 }
-                start += own.len();
+                start += part.len();
                 to = rest;
             }
         });

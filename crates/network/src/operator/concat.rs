@@ -53,20 +53,21 @@ impl Operator for Concat {
             return broadcast_mask(inputs, output);
         }
         let is_column = axis + 1 == output.position_axes().end;
-        let mut seen = Mask::empty(output.height(), output.width());
+        let mut dependent = Mask::empty(output.height(), output.width());
         let mut first = 0;
         for &(form, mask) in inputs {
-            let own = TensorForm::with_positions(form.shape().to_vec(), output.position_axes());
-            let mask = aligned_mask((form, mask), &own, Some);
+            let aligned_form =
+                TensorForm::with_positions(form.shape().to_vec(), output.position_axes());
+            let mask = aligned_mask((form, mask), &aligned_form, Some);
             let (left, top) = if is_column { (first, 0) } else { (0, first) };
             for y in 0..mask.height() {
                 for (x, length) in mask.runs(y) {
-                    (x..x + length).for_each(|x| seen.insert(left + x, top + y));
+                    (x..x + length).for_each(|x| dependent.insert(left + x, top + y));
                 }
             }
             first += form.shape()[axis];
         }
-        seen
+        dependent
     }
 
     fn compute(&self, job: OperatorJob<'_>) {
@@ -86,26 +87,26 @@ impl Concat {
     ) {
         let (inputs, form) = (job.inputs, job.form);
         let axis = form.resolve_axis(self.axis).expect("the form has it");
-        let behind = |form: &TensorForm| form.shape()[axis..].iter().product::<usize>();
-        let whole = behind(form);
+        let values_from_axis = |form: &TensorForm| form.shape()[axis..].iter().product::<usize>();
+        let line_values = values_from_axis(form);
         // The end of each input in a line of the output.
         let ends: Vec<usize> = inputs
             .iter()
             .scan(0, |end, input| {
-                *end += behind(input.form());
+                *end += values_from_axis(input.form());
                 Some(*end)
             })
             .collect();
         job.fill::<Y>(|run, to| {
             let (mut start, mut to) = (run.start, to);
             while !to.is_empty() {
-                let (line, inside) = (start / whole, start % whole);
+                let (line, inside) = (start / line_values, start % line_values);
                 let number = ends.partition_point(|&end| end <= inside);
                 let first = number.checked_sub(1).map_or(0, |before| ends[before]);
-                let (own, rest) = to.split_at_mut(to.len().min(ends[number] - inside));
+                let (part, rest) = to.split_at_mut(to.len().min(ends[number] - inside));
                 let from = line * (ends[number] - first) + inside - first;
-                copy(number, &inputs[number].values()[from..from + own.len()], own);
-                start += own.len();
+                copy(number, &inputs[number].values()[from..from + part.len()], part);
+                start += part.len();
                 to = rest;
             }
         });

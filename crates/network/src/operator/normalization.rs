@@ -48,10 +48,11 @@ impl Operator for Normalization {
         let form = only_input(inputs)?;
         let (wanted, what) = match self.mean_group {
             MeanGroup::Axes(axis) => {
-                let behind = form.shape().get(axis..).filter(|behind| !behind.is_empty());
-                let behind =
-                    behind.ok_or_else(|| format!("{} has no axis {axis}", form.describe()))?;
-                (vec![behind.iter().product(), 1], "values that share a mean")
+                let shared_axes =
+                    form.shape().get(axis..).filter(|shared_axes| !shared_axes.is_empty());
+                let shared_axes =
+                    shared_axes.ok_or_else(|| format!("{} has no axis {axis}", form.describe()))?;
+                (vec![shared_axes.iter().product(), 1], "values that share a mean")
             }
             MeanGroup::Groups(groups) => {
                 let channels = form.shape().get(1).copied().unwrap_or(0);
@@ -97,7 +98,7 @@ impl Operator for Normalization {
     )]
     fn compute(&self, job: OperatorJob<'_>) {
         let OperatorJob { inputs, form, output, .. } = job;
-        let (block, each) = self.lengths(form);
+        let (block, values_per_scale) = self.lengths(form);
         let values = inputs[0].values::<f32>();
         threads::for_each_chunk(output_values::<f32>(output, form), block, &|number, to| {
             let from = &values[number * block..][..block];
@@ -108,9 +109,9 @@ impl Operator for Normalization {
             let factor = (1.0 / (variance + f64::from(self.epsilon)).sqrt()) as f32;
             let mean = mean as f32;
             for (at, (to, &from)) in to.iter_mut().zip(from).enumerate() {
-                let own = (number * block + at) / each % self.scale.len();
-                let bias = self.bias.get(own).copied().unwrap_or(0.0);
-                *to = (from - mean) * factor * self.scale[own] + bias;
+                let scale_index = (number * block + at) / values_per_scale % self.scale.len();
+                let bias = self.bias.get(scale_index).copied().unwrap_or(0.0);
+                *to = (from - mean) * factor * self.scale[scale_index] + bias;
             }
         });
     }
@@ -124,7 +125,7 @@ impl Operator for Normalization {
 /// channels.
 #[derive(Clone, Debug)]
 pub(crate) struct LocalResponseNorm {
-    /// The numbers of channels before and behind the own one that count.
+    /// The number of channels that count before the channel of a value, and behind it.
     pub(crate) neighbor_channels: [usize; 2],
     /// The factor of the sum, already divided by the number of channels.
     pub(crate) alpha: f32,

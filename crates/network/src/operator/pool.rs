@@ -26,8 +26,8 @@ pub(crate) struct Pool {
     pub(crate) kind: PoolKind,
     pub(crate) rows: AxisWindow,
     pub(crate) columns: AxisWindow,
-    /// True if a window counts that begins inside the input, or in the padding before it, but
-    /// reaches beyond the padding behind it.
+    /// True if the last window may reach beyond the padding behind the input. It must begin inside
+    /// the input or in the padding before it.
     pub(crate) rounds_up: bool,
 }
 
@@ -91,20 +91,20 @@ impl Pool {
         (x..).map(move |at| rows * counted_taps(self.columns, at, width, with_padding))
     }
 
-    /// Computes the largest values of windows in two passes: first of each row of a window, then of
-    /// these. Like a walk through the complete window, this finds the first of equal values and the
-    /// last NaN.
+    /// Computes the largest values of windows in two passes: first the largest value of each row of
+    /// a window, then the largest of these. The result is the first of equal values, or the last
+    /// NaN, as if the whole window was read in order.
     fn compute_max<T: TensorNumber>(&self, job: OperatorJob<'_>) {
         let OperatorJob { inputs, form, output, positions: at } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
-        let in_rows = Self { rows: AxisWindow::SAME, ..self.clone() };
-        let of_rows = Self { columns: AxisWindow::SAME, ..self.clone() };
-        let seen = at.inputs_through(self.rows, AxisWindow::SAME, height, form.width());
+        let along_rows = Self { rows: AxisWindow::SAME, ..self.clone() };
+        let across_rows = Self { columns: AxisWindow::SAME, ..self.clone() };
+        let needed_rows = at.inputs_through(self.rows, AxisWindow::SAME, height, form.width());
         let pass = |pool: &Self, from: &[T], size, at: &Mask, to: &mut [T]| {
             for_each_plane_run(at, to, |place, run| {
                 run.fill(T::LOWEST);
-                pool.accumulate(from, size, place, run, |most, value| {
-                    *most = if value.is_greater(*most) { value } else { *most };
+                pool.accumulate(from, size, place, run, |largest, value| {
+                    *largest = if value.is_greater(*largest) { value } else { *largest };
                 });
             });
         };
@@ -112,8 +112,8 @@ impl Pool {
         let channel = |rows: &mut Vec<T>, number: usize, output: &mut [T]| {
             let plane = &planes[number * height * width..][..height * width];
             rows.resize(height * form.width(), T::LOWEST);
-            pass(&in_rows, plane, [height, width], &seen, rows);
-            pass(&of_rows, rows, [height, form.width()], at, output);
+            pass(&along_rows, plane, [height, width], &needed_rows, rows);
+            pass(&across_rows, rows, [height, form.width()], at, output);
         };
         threads::for_each_chunk_with_scratch(
             output_values(output, form),

@@ -42,11 +42,11 @@ impl ReducedAxes {
     /// Returns the axis of the output that an axis of the input becomes. For a reduced axis this is
     /// `None` unless `is_kept`.
     fn output_axis(&self, axis: usize, is_kept: bool) -> Option<usize> {
-        let before = self.axes.iter().filter(|&&own| own < axis).count();
+        let removed_before = self.axes.iter().filter(|&&reduced| reduced < axis).count();
         match (self.axes.contains(&axis), self.keeps_axes) {
             (true, _) => is_kept.then_some(axis),
             (false, true) => Some(axis),
-            (false, false) => Some(axis - before),
+            (false, false) => Some(axis - removed_before),
         }
     }
 
@@ -58,10 +58,11 @@ impl ReducedAxes {
     /// that are reduced, and the length of each run.
     fn run_offsets(&self, form: &TensorForm) -> (Vec<usize>, usize) {
         let (shape, steps) = (form.shape(), form.strides());
-        let behind = (0..shape.len()).rev().take_while(|axis| self.axes.contains(axis)).count();
-        let solid = shape.len() - behind;
+        let reduced_at_end =
+            (0..shape.len()).rev().take_while(|axis| self.axes.contains(axis)).count();
+        let run_axis = shape.len() - reduced_at_end;
         let mut offsets = vec![0];
-        for &axis in self.axes.iter().filter(|&&axis| axis < solid) {
+        for &axis in self.axes.iter().filter(|&&axis| axis < run_axis) {
             let along = |offset: usize| (0..shape[axis]).map(move |at| (offset, at));
             offsets = offsets
                 .into_iter()
@@ -69,18 +70,18 @@ impl ReducedAxes {
                 .map(|(offset, at)| offset + at * steps[axis])
                 .collect();
         }
-        (offsets, shape[solid..].iter().product())
+        (offsets, shape[run_axis..].iter().product())
     }
 
-    /// Fills every output from its values. `of` gets them as runs in the order of memory.
+    /// Fills every output. `reduce` gets the values of an output as runs in the order of memory.
     pub(super) fn fill<Y: TensorNumber>(
         &self,
         job: OperatorJob<'_>,
-        of: impl Fn(&mut dyn Iterator<Item = &[f32]>) -> Y + Sync,
+        reduce: impl Fn(&mut dyn Iterator<Item = &[f32]>) -> Y + Sync,
     ) {
         let (values, input) = (job.inputs[0].values::<f32>(), job.inputs[0].form());
-        let (offsets, solid) = self.run_offsets(input);
-        // The form has the shape of the output before reduced axes are dropped, each with length 1.
+        let (offsets, run_length) = self.run_offsets(input);
+        // This form has the shape of the output with all reduced axes, each with length 1.
         let steps = input.strides();
         let whole = (0..input.shape().len()).map(|axis| match self.axes.contains(&axis) {
             true => (1, 0),
@@ -91,7 +92,9 @@ impl ReducedAxes {
         job.fill::<Y>(|run, to| {
             for (place, to) in run.zip(to) {
                 let first = form.offset(place, &steps);
-                *to = of(&mut offsets.iter().map(|offset| &values[first + offset..][..solid]));
+                *to = reduce(
+                    &mut offsets.iter().map(|offset| &values[first + offset..][..run_length]),
+                );
             }
         });
     }

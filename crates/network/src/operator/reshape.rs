@@ -12,7 +12,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Reshape {
     /// The shape as ONNX defines it: 0 is the length of the input's axis, and -1 is the length that
-    /// is left.
+    /// follows from the others.
     pub(crate) shape: Vec<i64>,
 }
 
@@ -40,10 +40,10 @@ impl Operator for Reshape {
             return mask.clone();
         }
         // Positions have the same order in memory before and after.
-        let (own, new) = (form.width(), output.width());
-        Mask::from_fn(output.height(), new, |x, y| {
-            let at = y * new + x;
-            mask.contains(at % own, at / own)
+        let (input_width, output_width) = (form.width(), output.width());
+        Mask::from_fn(output.height(), output_width, |x, y| {
+            let at = y * output_width + x;
+            mask.contains(at % input_width, at / input_width)
         })
     }
 
@@ -58,46 +58,48 @@ impl Operator for Reshape {
 
 impl Reshape {
     fn resolve(&self, input: &TensorForm) -> Result<Vec<usize>, String> {
-        let wrong = || format!("{} cannot become {:?}", input.describe(), self.shape);
+        let misfit_message = || format!("{} cannot become {:?}", input.describe(), self.shape);
         let mut shape = Vec::new();
-        let mut open = None;
+        let mut inferred_axis = None;
         for (axis, &length) in self.shape.iter().enumerate() {
             shape.push(match length {
-                0 => *input.shape().get(axis).ok_or_else(wrong)?,
-                -1 if open.is_none() => {
-                    open = Some(axis);
+                0 => *input.shape().get(axis).ok_or_else(misfit_message)?,
+                -1 if inferred_axis.is_none() => {
+                    inferred_axis = Some(axis);
                     1
                 }
-                _ => usize::try_from(length).map_err(|_| wrong())?,
+                _ => usize::try_from(length).map_err(|_| misfit_message())?,
             });
         }
-        let product = checked_element_count(&shape).ok_or_else(wrong)?;
-        if let Some(axis) = open {
-            shape[axis] = input.element_count().checked_div(product).ok_or_else(wrong)?;
+        let product = checked_element_count(&shape).ok_or_else(misfit_message)?;
+        if let Some(axis) = inferred_axis {
+            shape[axis] = input.element_count().checked_div(product).ok_or_else(misfit_message)?;
         }
         if shape.iter().product::<usize>() == input.element_count() {
             Ok(shape)
         } else {
-            Err(wrong())
+            Err(misfit_message())
         }
     }
 }
 
-/// Returns the axes that hold all positions of an input behind the same number of values as before:
-/// first the same lengths, otherwise one axis, otherwise two axes.
+/// Returns the axes of a new shape that hold all positions of an input. The axes before them must
+/// have as many values as in the input. Axes of the same lengths are preferred, then a single axis,
+/// then two axes.
 fn position_axes_of(input: &TensorForm, shape: &[usize]) -> Option<Range<usize>> {
-    let own = &input.shape()[input.position_axes()];
-    let before: usize = input.shape()[..input.position_axes().start].iter().product();
-    let find = |count: usize, is: &dyn Fn(&[usize]) -> bool| {
+    let lengths = &input.shape()[input.position_axes()];
+    let values_before: usize = input.shape()[..input.position_axes().start].iter().product();
+    let find_axes = |count: usize, fits: &dyn Fn(&[usize]) -> bool| {
         let axes = (0..=shape.len().checked_sub(count)?).map(|start| start..start + count);
-        let stands = |axes: &Range<usize>| shape[..axes.start].iter().product::<usize>() == before;
-        axes.filter(stands).find(|axes| is(&shape[axes.clone()]))
+        let has_same_values_before =
+            |axes: &Range<usize>| shape[..axes.start].iter().product::<usize>() == values_before;
+        axes.filter(has_same_values_before).find(|axes| fits(&shape[axes.clone()]))
     };
     let holds_all = |axes: &[usize]| axes.iter().product::<usize>() == input.position_count();
     input.has_positions().then_some(())?;
-    find(own.len(), &|axes| axes == own)
-        .or_else(|| find(1, &holds_all))
-        .or_else(|| find(2, &holds_all))
+    find_axes(lengths.len(), &|axes| axes == lengths)
+        .or_else(|| find_axes(1, &holds_all))
+        .or_else(|| find_axes(2, &holds_all))
 }
 
 /// A tensor of four axes as features, for an operator that sees rows and columns.

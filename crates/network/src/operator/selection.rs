@@ -89,12 +89,12 @@ impl Operator for WhereOperator {
     fn compute(&self, job: OperatorJob<'_>) {
         let (inputs, form) = (job.inputs, job.form);
         let steps = |at: usize| form.broadcast_strides(inputs[at].form());
-        let (conditions, of_conditions) = (inputs[0].values::<u8>(), steps(0));
+        let (conditions, condition_steps) = (inputs[0].values::<u8>(), steps(0));
         let [chosen, other] = [1, 2].map(|at| (inputs[at].values::<f32>(), steps(at)));
         job.fill::<f32>(|run, to| {
             for (place, to) in run.zip(to) {
-                let is = conditions[form.offset(place, &of_conditions)] != 0;
-                let (values, steps) = if is { &chosen } else { &other };
+                let holds = conditions[form.offset(place, &condition_steps)] != 0;
+                let (values, steps) = if holds { &chosen } else { &other };
                 *to = values[form.offset(place, steps)];
             }
         });

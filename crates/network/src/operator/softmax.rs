@@ -23,25 +23,25 @@ impl Softmax {
     /// Returns the number of values that share a sum, and their stride.
     fn sum_length_and_stride(&self, form: &TensorForm) -> (usize, usize) {
         let axis = form.resolve_axis(self.axis).expect("the form has it");
-        let behind = form.shape()[axis + 1..].iter().product();
+        let stride = form.shape()[axis + 1..].iter().product();
         if self.spans_following_axes {
-            (form.shape()[axis] * behind, 1)
+            (form.shape()[axis] * stride, 1)
         } else {
-            (form.shape()[axis], behind)
+            (form.shape()[axis], stride)
         }
     }
 
     /// Computes the softmax of the values of one sum, which are `step` apart.
     fn compute_line(&self, from: &[f32], to: &mut [f32], step: usize) {
         let values = || from.iter().step_by(step);
-        let most = values().fold(f32::NEG_INFINITY, |most, &value| most.max(value));
-        let sum: f32 = values().map(|value| (value - most).exp()).sum();
+        let largest = values().fold(f32::NEG_INFINITY, |largest, &value| largest.max(value));
+        let sum: f32 = values().map(|value| (value - largest).exp()).sum();
         let logarithm = sum.ln();
         for (to, value) in to.iter_mut().step_by(step).zip(values()) {
             *to = if self.is_logarithm {
-                value - most - logarithm
+                value - largest - logarithm
             } else {
-                (value - most).exp() / sum
+                (value - largest).exp() / sum
             };
         }
     }
@@ -49,9 +49,9 @@ impl Softmax {
     /// Returns the positions of the output that depend on changed positions of the input.
     fn dependent_positions(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
         let axis = output.resolve_axis(self.axis).expect("the form has it");
-        aligned_mask(inputs[0], output, |own| {
-            let is_summed = own == axis || (self.spans_following_axes && own > axis);
-            (!is_summed).then_some(own)
+        aligned_mask(inputs[0], output, |input_axis| {
+            let is_summed = input_axis == axis || (self.spans_following_axes && input_axis > axis);
+            (!is_summed).then_some(input_axis)
         })
     }
 }
@@ -92,16 +92,16 @@ impl QuantizedSoftmax {
         let OperatorJob { inputs, form, output, .. } = job;
         let (length, step) = self.softmax.sum_length_and_stride(form);
         let planes = output_values::<T>(output, form).chunks_mut(length * step);
-        let real =
+        let dequantized =
             |&value: &T| (Into::<i32>::into(value) - self.from.zero_point) as f32 * self.from.scale;
         for (to, from) in planes.zip(inputs[0].values::<T>().chunks(length * step)) {
-            let from: Vec<f32> = from.iter().map(real).collect();
+            let from: Vec<f32> = from.iter().map(dequantized).collect();
             let mut shares = vec![0.0; from.len()];
             (0..step).for_each(|first| {
                 self.softmax.compute_line(&from[first..], &mut shares[first..], step);
             });
-            let stored = |share: f32| quantize_steps(share / self.to.scale, self.to.zero_point);
-            to.iter_mut().zip(shares).for_each(|(to, share)| *to = stored(share));
+            let quantized = |share: f32| quantize_steps(share / self.to.scale, self.to.zero_point);
+            to.iter_mut().zip(shares).for_each(|(to, share)| *to = quantized(share));
         }
     }
 }

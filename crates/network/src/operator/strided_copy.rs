@@ -16,17 +16,17 @@ fn copy_strided<T: TensorNumber>(job: OperatorJob<'_>, steps: &[usize]) {
     job.fill::<T>(|run, to| {
         let (mut start, mut to) = (run.start, to);
         while !to.is_empty() {
-            let (own, rest) = to.split_at_mut(to.len().min(line - start % line));
+            let (part, rest) = to.split_at_mut(to.len().min(line - start % line));
             let from = &values[form.offset(start, steps)..];
             match step {
-                0 => own.fill(from[0]),
-                1 => own.copy_from_slice(&from[..own.len()]),
+                0 => part.fill(from[0]),
+                1 => part.copy_from_slice(&from[..part.len()]),
                 _ => {
                     let from = from.iter().step_by(step);
-                    own.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
+                    part.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
                 }
             }
-            start += own.len();
+            start += part.len();
             to = rest;
         }
     });
@@ -101,16 +101,16 @@ pub(crate) struct Expand {
 impl Operator for Expand {
     fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
         let input = only_input(inputs)?;
-        let new = self.shape.len().checked_sub(input.shape().len());
-        let fits = |new: usize| {
-            let own = input.shape().iter().zip(&self.shape[new..]);
-            own.into_iter().all(|(&own, &wanted)| own == wanted || own == 1)
+        let new_axes = self.shape.len().checked_sub(input.shape().len());
+        let fits = |new_axes: usize| {
+            let lengths = input.shape().iter().zip(&self.shape[new_axes..]);
+            lengths.into_iter().all(|(&length, &wanted)| length == wanted || length == 1)
         };
-        let Some(new) = new.filter(|&new| fits(new)) else {
+        let Some(new_axes) = new_axes.filter(|&new_axes| fits(new_axes)) else {
             return Err(format!("{} cannot become {:?}", input.describe(), self.shape));
         };
-        let axes = input.position_axes().start + new..input.position_axes().end + new;
-        let is_kept = axes.clone().all(|axis| self.shape[axis] == input.shape()[axis - new]);
+        let axes = input.position_axes().start + new_axes..input.position_axes().end + new_axes;
+        let is_kept = axes.clone().all(|axis| self.shape[axis] == input.shape()[axis - new_axes]);
         Ok(if is_kept && input.has_positions() {
             TensorForm::with_positions(self.shape.clone(), axes)
         } else {
@@ -123,8 +123,8 @@ impl Operator for Expand {
     }
 
     fn spread(&self, inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
-        let new = output.shape().len() - inputs[0].0.shape().len();
-        aligned_mask(inputs[0], output, |axis| Some(axis + new))
+        let new_axes = output.shape().len() - inputs[0].0.shape().len();
+        aligned_mask(inputs[0], output, |axis| Some(axis + new_axes))
     }
 
     fn compute(&self, job: OperatorJob<'_>) {

@@ -60,11 +60,11 @@ impl ArrayNetwork {
 
 impl ArrayOutput {
     fn tensor(&self, executor: &Executor<'_>) -> Result<TensorProto, NetworkError> {
-        let own;
+        let computed;
         let constant = match &self.value {
             &GraphValue::Tensor(value) => {
-                own = Constant::from_tensor(executor.tensor(value));
-                &own
+                computed = Constant::from_tensor(executor.tensor(value));
+                &computed
             }
             GraphValue::Constant(constant) => constant,
         };

@@ -23,7 +23,11 @@ impl<'a> NodeAttributes<'a> {
 
     /// Returns an attribute by its name, and records it as read.
     pub(super) fn get(&self, name: &str) -> Option<&'a AttributeProto> {
-        let at = self.node.attribute.iter().position(|own| own.name.as_deref() == Some(name))?;
+        let at = self
+            .node
+            .attribute
+            .iter()
+            .position(|attribute| attribute.name.as_deref() == Some(name))?;
         self.was_read.borrow_mut()[at] = true;
         Some(&self.node.attribute[at])
     }
@@ -31,6 +35,11 @@ impl<'a> NodeAttributes<'a> {
     /// Returns the attributes that were not read.
     pub(super) fn unread(&self) -> impl Iterator<Item = &'a AttributeProto> {
         let read = self.was_read.borrow().clone();
-        self.node.attribute.iter().zip(read).filter(|(_, read)| !read).map(|(own, _)| own)
+        self.node
+            .attribute
+            .iter()
+            .zip(read)
+            .filter(|(_, read)| !read)
+            .map(|(attribute, _)| attribute)
     }
 }

@@ -62,14 +62,14 @@ pub(super) fn binary_operation(
         b = cast_exponent(&b, a.data_type)?;
     }
     let values = match (&a.values, &b.values) {
-        (ConstantValues::Integers(of_a), ConstantValues::Integers(of_b)) => {
-            let pairs = of_a.iter().zip(of_b);
+        (ConstantValues::Integers(values_of_a), ConstantValues::Integers(values_of_b)) => {
+            let pairs = values_of_a.iter().zip(values_of_b);
             let values: Option<Vec<i64>> =
                 pairs.map(|(&a, &b)| integer_operation(kind, a, b)).collect();
             ConstantValues::Integers(values.ok_or("its result is no integer of 64 bits")?)
         }
-        (ConstantValues::Floats(of_a), ConstantValues::Floats(of_b)) => {
-            let pairs = of_a.iter().zip(of_b);
+        (ConstantValues::Floats(values_of_a), ConstantValues::Floats(values_of_b)) => {
+            let pairs = values_of_a.iter().zip(values_of_b);
             if is_comparison {
                 ConstantValues::Integers(pairs.map(|(a, b)| compare(kind, a, b).into()).collect())
             } else {
@@ -89,9 +89,12 @@ pub(super) fn binary_operation(
 pub(super) fn cast_exponent(exponent: &Constant, base: i32) -> FoldResult<Constant> {
     let largest = 1 << f32::MANTISSA_DIGITS;
     if let ConstantValues::Integers(values) = &exponent.values
-        && let Some(odd) = values.iter().find(|value| !(-largest..=largest).contains(*value))
+        && let Some(too_large) = values.iter().find(|value| !(-largest..=largest).contains(*value))
     {
-        return Err(format!("its exponent is {odd}; integers are from {} to {largest}", -largest));
+        return Err(format!(
+            "its exponent is {too_large}; integers are from {} to {largest}",
+            -largest
+        ));
     }
     let is_whole = |value: &f32| value.fract() == 0.0;
     let is_integer = base == data_type::INT64 || base == data_type::INT32;
@@ -146,18 +149,22 @@ pub(super) fn select_by_condition(
     b: &Constant,
 ) -> FoldResult<Constant> {
     let shape = broadcast_shape_of(&[condition, a, b])?;
-    let is = broadcast_constant(folder, condition, &shape)?;
+    let conditions = broadcast_constant(folder, condition, &shape)?;
     let (a, b) = (broadcast_constant(folder, a, &shape)?, broadcast_constant(folder, b, &shape)?);
-    let is = is.as_integers()?;
-    fn chosen<T: Copy>(is: &[i64], a: &[T], b: &[T]) -> Vec<T> {
-        is.iter().zip(a.iter().zip(b)).map(|(&is, (&a, &b))| if is == 0 { b } else { a }).collect()
+    let conditions = conditions.as_integers()?;
+    fn chosen<T: Copy>(conditions: &[i64], a: &[T], b: &[T]) -> Vec<T> {
+        conditions
+            .iter()
+            .zip(a.iter().zip(b))
+            .map(|(&condition, (&a, &b))| if condition == 0 { b } else { a })
+            .collect()
     }
     let values = match (&a.values, &b.values) {
-        (ConstantValues::Integers(of_a), ConstantValues::Integers(of_b)) => {
-            ConstantValues::Integers(chosen(is, of_a, of_b))
+        (ConstantValues::Integers(values_of_a), ConstantValues::Integers(values_of_b)) => {
+            ConstantValues::Integers(chosen(conditions, values_of_a, values_of_b))
         }
-        (ConstantValues::Floats(of_a), ConstantValues::Floats(of_b)) => {
-            ConstantValues::Floats(chosen(is, of_a, of_b))
+        (ConstantValues::Floats(values_of_a), ConstantValues::Floats(values_of_b)) => {
+            ConstantValues::Floats(chosen(conditions, values_of_a, values_of_b))
         }
         (ConstantValues::Integers(_), ConstantValues::Floats(_))
         | (ConstantValues::Floats(_), ConstantValues::Integers(_)) => {
@@ -176,12 +183,12 @@ pub(super) fn number_range(folder: &ModelFolder, inputs: &[&Constant]) -> FoldRe
     if let (Ok(&[start]), Ok(&[limit]), Ok(&[delta])) =
         (start.as_integers(), limit.as_integers(), delta.as_integers())
     {
-        let way = i128::from(limit) - i128::from(start);
+        let distance = i128::from(limit) - i128::from(start);
         let count = match i128::from(delta) {
             0 => return Err("its step is 0".to_owned()),
-            delta => {
-                (way / delta + i128::from(way % delta != 0 && (way < 0) == (delta < 0))).max(0)
-            }
+            delta => (distance / delta
+                + i128::from(distance % delta != 0 && (distance < 0) == (delta < 0)))
+            .max(0),
         };
         let shape = vec![usize::try_from(count).unwrap_or(usize::MAX)];
         let count = folder.check_room(&shape, &ConstantValues::Integers(Vec::new()))?;
@@ -189,11 +196,12 @@ pub(super) fn number_range(folder: &ModelFolder, inputs: &[&Constant]) -> FoldRe
         let values = numbers.map(|at: i64| start.wrapping_add(at.wrapping_mul(delta))).collect();
         return Ok(Constant { shape, values: ConstantValues::Integers(values), data_type: kind });
     }
-    let one = |of: &Constant| match of.as_floats()? {
+    let single_number = |constant: &Constant| match constant.as_floats()? {
         &[value] => Ok(value),
         values => Err(format!("it takes single numbers, not {}", values.len())),
     };
-    let (start, limit, delta) = (one(start)?, one(limit)?, one(delta)?);
+    let (start, limit, delta) =
+        (single_number(start)?, single_number(limit)?, single_number(delta)?);
     let count = ((limit - start) / delta).ceil().max(0.0);
     if count.is_nan() {
         return Err(format!("no numbers go from {start} to {limit} in steps of {delta}"));

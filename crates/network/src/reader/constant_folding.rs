@@ -17,7 +17,7 @@ use crate::tensor_form::MAX_AXES;
 /// Returns the output of a node that depends only on constants, or `None` if the node is not one
 /// that can be folded.
 pub(super) fn fold_node(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
-    let one = |constant| Ok(Some(constant));
+    let folded = |constant| Ok(Some(constant));
     match node.operator_name() {
         "Constant" => {
             let ints = node
@@ -33,7 +33,7 @@ pub(super) fn fold_node(node: &NodeReader<'_>) -> Result<Option<Constant>, Strin
                 .floats("value_floats")
                 .map(|floats| Constant::floats(vec![floats.len()], floats.to_vec()));
             let value = node.tensor("value")?.or(ints).or(int).or(float).or(floats);
-            one(value.ok_or("it has none of the attributes value, value_float, value_floats, value_int and value_ints")?)
+            folded(value.ok_or("it has none of the attributes value, value_float, value_floats, value_int and value_ints")?)
         }
         "Shape" => {
             let shape: Vec<usize> = match node.input(0) {
@@ -45,22 +45,23 @@ pub(super) fn fold_node(node: &NodeReader<'_>) -> Result<Option<Constant>, Strin
                 .iter()
                 .map(|&length| i64::try_from(length).expect("an axis is shorter"))
                 .collect();
-            let place = |at: i64| {
+            let index = |at: i64| {
                 usize::try_from(index_from_start(at, lengths.len()).max(0))
                     .expect("not negative")
                     .min(lengths.len())
             };
             let (start, end) =
-                (place(node.int("start", 0)), place(node.int("end", length_to_i64(lengths.len()))));
+                (index(node.int("start", 0)), index(node.int("end", length_to_i64(lengths.len()))));
             let part = lengths.get(start..end).unwrap_or_default().to_vec();
-            one(Constant::integers(vec![part.len()], part))
+            folded(Constant::integers(vec![part.len()], part))
         }
         _ => {
             let Some(inputs) = constant_inputs(node) else { return Ok(None) };
-            let made = compute_output(node, &inputs)?;
-            made.iter()
-                .try_for_each(|made| node.folder.count_computed(&made.shape, &made.values))?;
-            Ok(made)
+            let output = compute_output(node, &inputs)?;
+            output
+                .iter()
+                .try_for_each(|output| node.folder.count_computed(&output.shape, &output.values))?;
+            Ok(output)
         }
     }
 }
@@ -80,7 +81,7 @@ fn constant_inputs<'a>(node: &NodeReader<'a>) -> Option<Vec<&'a Constant>> {
 /// folded.
 fn compute_output(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Constant>, String> {
     let first = inputs[0];
-    let made = match node.operator_name() {
+    let output = match node.operator_name() {
         "Cast" => first.cast(node.data_type("to")?)?,
         "CastLike" => first.cast(inputs.get(1).ok_or("it has no type")?.data_type)?,
         "DequantizeLinear" => quantized_operators::dequantize_constant(node, first)?,
@@ -130,16 +131,16 @@ fn compute_output(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<
         "Transpose" => transpose_constant(node, first)?,
         "Slice" => slice_constant(node, first)?,
         kind => {
-            let made = match inputs {
-                [one] => constant_arithmetic::unary_operation(kind, one)?,
+            let output = match inputs {
+                [a] => constant_arithmetic::unary_operation(kind, a)?,
                 [a, b] => constant_arithmetic::binary_operation(node.folder, kind, a, b)?,
                 _ => None,
             };
-            match made {
-                Some(made) => made,
+            match output {
+                Some(output) => output,
                 None => return Ok(None),
             }
         }
     };
-    Ok(Some(made))
+    Ok(Some(output))
 }

@@ -20,10 +20,10 @@ pub(super) fn expand(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let wanted: Option<Vec<usize>> =
         wanted.iter().map(|&length| usize::try_from(length).ok()).collect();
     let wanted = wanted.ok_or("its shape has a negative length")?;
-    let own = (node.forms)(value);
+    let form = (node.forms)(value);
     // A length of 1 broadcasts from either side.
-    let shape = broadcast_shape(own.shape(), &wanted)
-        .ok_or_else(|| format!("{} cannot become {wanted:?}", own.describe()))?;
+    let shape = broadcast_shape(form.shape(), &wanted)
+        .ok_or_else(|| format!("{} cannot become {wanted:?}", form.describe()))?;
     output_of_tensors(Expand { shape }, vec![value])
 }
 
@@ -95,13 +95,13 @@ pub(super) fn axes_of_node(
 
 /// Resolves axes among `count`, and fails if one is named twice.
 pub(super) fn resolve_axes(axes: &[i64], count: usize) -> Result<Vec<usize>, String> {
-    let own = |&axis: &i64| {
+    let resolved = |&axis: &i64| {
         usize::try_from(index_from_start(axis, count))
             .ok()
-            .filter(|&own| own < count)
+            .filter(|&resolved| resolved < count)
             .ok_or_else(|| format!("its axis {axis} is outside"))
     };
-    let axes: Vec<usize> = axes.iter().map(own).collect::<Result<_, _>>()?;
+    let axes: Vec<usize> = axes.iter().map(resolved).collect::<Result<_, _>>()?;
     let are_distinct = (1..axes.len()).all(|at| !axes[..at].contains(&axes[at]));
     if are_distinct { Ok(axes) } else { Err("it names an axis twice".to_owned()) }
 }

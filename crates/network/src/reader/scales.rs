@@ -16,8 +16,8 @@ impl NodeReader<'_> {
     /// without `count` any number but none is valid.
     fn scales(&self, at: usize, what: &str, count: Option<usize>) -> ScaleResult<Vec<f32>> {
         let scales = self.required_constant(at, what)?.as_floats()?;
-        if let Some(odd) = scales.iter().find(|scale| !scale.is_finite() || **scale <= 0.0) {
-            return Err(format!("its {what} is {odd}; it must be more than 0"));
+        if let Some(invalid) = scales.iter().find(|scale| !scale.is_finite() || **scale <= 0.0) {
+            return Err(format!("its {what} is {invalid}; it must be more than 0"));
         }
         match (scales.len(), count) {
             (1, _) => Ok(scales.to_vec()),
@@ -92,8 +92,8 @@ impl NodeReader<'_> {
         self.encoding(at, what, element)
     }
 
-    /// Returns the real number of a step of a sum, as a product of factors: one for all of `count`
-    /// channels, or one per channel.
+    /// Returns the real number that a step of a sum stands for, as a product of factors. There is
+    /// one for all of `count` channels, or one per channel.
     pub(super) fn factors(
         &self,
         [scale, alpha]: [f32; 2],
@@ -101,7 +101,7 @@ impl NodeReader<'_> {
         count: usize,
     ) -> ScaleResult<Vec<f32>> {
         let scales = self.scales(at, what, Some(count))?;
-        Ok(scales.into_iter().map(|own| alpha * (scale * own)).collect())
+        Ok(scales.into_iter().map(|tensor_scale| alpha * (scale * tensor_scale)).collect())
     }
 
     /// Returns a bias of 32-bit integers, or an empty one if the node has none.
@@ -118,10 +118,10 @@ impl NodeReader<'_> {
 
     /// Returns the scales and zero points of `QuantizeLinear`, and the type of its output.
     pub(super) fn quantization(&self) -> ScaleResult<(QuantizationScales, ElementType)> {
-        let own = match self.int("output_dtype", 0) {
+        let declared = match self.int("output_dtype", 0) {
             0 => None,
-            of if of == i64::from(data_type::UINT8) => Some(ElementType::U8),
-            of if of == i64::from(data_type::INT8) => Some(ElementType::I8),
+            number if number == i64::from(data_type::UINT8) => Some(ElementType::U8),
+            number if number == i64::from(data_type::INT8) => Some(ElementType::I8),
             other => {
                 let other = data_type::type_name(other);
                 return Err(format!(
@@ -130,7 +130,7 @@ impl NodeReader<'_> {
             }
         };
         let to = match self.constant(2, "y_zero_point")? {
-            None => own.unwrap_or(ElementType::U8),
+            None => declared.unwrap_or(ElementType::U8),
             Some(zero) => checked_byte_type(zero.element(), "y_zero_point")?,
         };
         Ok((self.axis_scales("y", to)?, to))
@@ -173,13 +173,13 @@ pub(super) fn byte_weight_rows(
     let element = checked_byte_type(weights.element(), "weights")?;
     let (lowest, highest) = element.range();
     // Unsigned values are stored less 128, so that 0 becomes the lowest signed value.
-    let kept = |value: i64| {
+    let stored_weight = |value: i64| {
         Some(value)
             .filter(|value| (lowest.into()..=highest.into()).contains(value))
             .and_then(|value| i8::try_from(value - i64::from(lowest) + i64::from(i8::MIN)).ok())
     };
     let weight = |&value: &i64| {
-        kept(value).ok_or_else(|| {
+        stored_weight(value).ok_or_else(|| {
             format!("a weight of {value} is outside of its 8 bits, {lowest} to {highest}")
         })
     };
@@ -188,7 +188,8 @@ pub(super) fn byte_weight_rows(
         return Err(format!("a constant of weights is empty: {:?}", weights.shape));
     }
     let zeros = node.zero_points(zeros, "zero point of weights", element, channels)?;
-    let zeros = zeros.into_iter().map(|zero| kept(zero.into()).expect("it has been checked"));
+    let zeros =
+        zeros.into_iter().map(|zero| stored_weight(zero.into()).expect("it has been checked"));
     Ok(ByteWeightRows { values, zero_points: zeros.collect() })
 }
 
@@ -207,12 +208,12 @@ pub(super) fn row_major_matrix(
         return Ok((Cow::Borrowed(matrix), rows, columns));
     }
     let values = matrix.as_integers()?;
-    let turned = |output| (0..rows).map(move |input| values[input * columns + output]);
-    let values = (0..columns).flat_map(turned).collect();
-    let turned = Constant {
+    let transposed = |output| (0..rows).map(move |input| values[input * columns + output]);
+    let values = (0..columns).flat_map(transposed).collect();
+    let transposed = Constant {
         shape: vec![columns, rows],
         values: ConstantValues::Integers(values),
         ..*matrix
     };
-    Ok((Cow::Owned(turned), columns, rows))
+    Ok((Cow::Owned(transposed), columns, rows))
 }

@@ -46,7 +46,9 @@ fn axis_slice(start: i64, end: i64, step: i64, length: usize) -> Result<AxisSele
         return Ok(AxisSelection::All);
     }
     let at = |number: usize| {
-        let at = length_to_i64(number).checked_mul(step).and_then(|way| first.checked_add(way));
+        let at = length_to_i64(number)
+            .checked_mul(step)
+            .and_then(|distance| first.checked_add(distance));
         at.and_then(|at| usize::try_from(at).ok())
     };
     Ok(AxisSelection::from_indices((0..count).map(at)))
@@ -74,10 +76,10 @@ pub(super) fn split(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
         return Err(format!("{length} elements cannot be split into {parts} parts as it says"));
     }
     let slices = sizes.iter().map(|&size| {
-        let own = axis_slice(start, start + size, 1, length)?;
+        let selection = axis_slice(start, start + size, 1, length)?;
         start += size;
-        let pick = AxisGather::along_axis(axis, own, form.shape().len());
-        Ok(NodeOutput::Operator(Arc::new(pick), vec![Operand::Tensor(value)]))
+        let gather = AxisGather::along_axis(axis, selection, form.shape().len());
+        Ok(NodeOutput::Operator(Arc::new(gather), vec![Operand::Tensor(value)]))
     });
     slices.collect()
 }
@@ -126,9 +128,9 @@ pub(super) fn pad(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let mode = PaddingMode::parse(&node.text("mode", "constant"))?;
     let mut picked = vec![AxisSelection::All; count];
     for (at, &axis) in axes.iter().enumerate() {
-        let around = [pads[at], pads[axes.len() + at]];
-        if around != [0, 0] {
-            picked[axis] = padded_axis(around, form.shape()[axis], mode)?;
+        let pads_of_axis = [pads[at], pads[axes.len() + at]];
+        if pads_of_axis != [0, 0] {
+            picked[axis] = padded_axis(pads_of_axis, form.shape()[axis], mode)?;
         }
     }
     let element = form.encoding().element;
@@ -168,7 +170,8 @@ impl PaddingMode {
         }
     }
 
-    /// Returns the element of an axis that stands at an index, which may be outside of the axis.
+    /// Returns the element of an axis for an index, which may be outside of the axis; `None` for
+    /// padding.
     fn element(self, at: i64, length: usize) -> Option<usize> {
         let all = length_to_i64(length);
         let inside = |at: i64| usize::try_from(at).ok();
@@ -192,8 +195,10 @@ fn padded_axis(
     length: usize,
     mode: PaddingMode,
 ) -> Result<AxisSelection, String> {
-    if let Some(odd) = [before, after].into_iter().find(|pad| !(-MAX_PAD..=MAX_PAD).contains(pad)) {
-        return Err(format!("a pad of {odd} is not supported; it must be within {MAX_PAD}"));
+    if let Some(too_large) =
+        [before, after].into_iter().find(|pad| !(-MAX_PAD..=MAX_PAD).contains(pad))
+    {
+        return Err(format!("a pad of {too_large} is not supported; it must be within {MAX_PAD}"));
     }
     let end = length_to_i64(length) + after;
     if end + before <= 0 {

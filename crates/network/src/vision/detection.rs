@@ -15,35 +15,37 @@ pub struct Detection {
 }
 
 /// Returns the intersection over union of two rectangles.
-pub(super) fn intersection_over_union(one: &Rect, other: &Rect) -> f64 {
-    let width = one.x1.min(other.x1) - one.x0.max(other.x0);
-    let height = one.y1.min(other.y1) - one.y0.max(other.y0);
+pub(super) fn intersection_over_union(a: &Rect, b: &Rect) -> f64 {
+    let width = a.x1.min(b.x1) - a.x0.max(b.x0);
+    let height = a.y1.min(b.y1) - a.y0.max(b.y0);
     if width <= 0.0 || height <= 0.0 {
         return 0.0;
     }
-    let both = width * height;
-    both / (one.area() + other.area() - both)
+    let intersection = width * height;
+    intersection / (a.area() + b.area() - intersection)
 }
 
 /// Non-maximum suppression: among detections of one class that overlap by more than `most`, keeps
 /// the one with the highest score. Returns the detections in descending order of score.
 pub(super) fn suppress_overlapping(mut found: Vec<Detection>, most: f64) -> Vec<Detection> {
-    found.sort_by(|one, other| other.score.total_cmp(&one.score));
+    found.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut kept: Vec<Detection> = Vec::new();
-    for one in found {
+    for detection in found {
         let is_same = |other: &Detection| {
-            other.class == one.class && intersection_over_union(&other.rect, &one.rect) > most
+            other.class == detection.class
+                && intersection_over_union(&other.rect, &detection.rect) > most
         };
         if !kept.iter().any(is_same) {
-            kept.push(one);
+            kept.push(detection);
         }
     }
     kept
 }
 
-/// Matches every detection of `found`, in their order, with the one of `right` that it overlaps
+/// Matches every detection of `found`, in their order, with the object of `right` that it overlaps
 /// most. The order should be that of descending scores. A pair must overlap by at least `least`,
-/// and one of `right` is matched at most once. `same` tells which pairs may match.
+/// and an object is matched at most once. `same` tells which pairs may match. Returns the index of
+/// the object for every detection; `None` without a match.
 #[must_use]
 pub fn match_detections<T>(
     found: &[Detection],
@@ -52,20 +54,22 @@ pub fn match_detections<T>(
     rect: impl Fn(&T) -> &Rect,
     same: impl Fn(&Detection, &T) -> bool,
 ) -> Vec<Option<usize>> {
-    let mut taken = vec![false; right.len()];
-    let take = |one: &Detection| {
-        let candidates =
-            right.iter().enumerate().filter(|(at, other)| !taken[*at] && same(one, other));
-        let overlaps =
-            candidates.map(|(at, other)| (at, intersection_over_union(&one.rect, rect(other))));
+    let mut is_matched = vec![false; right.len()];
+    let match_one = |detection: &Detection| {
+        let candidates = right
+            .iter()
+            .enumerate()
+            .filter(|(at, other)| !is_matched[*at] && same(detection, other));
+        let overlaps = candidates
+            .map(|(at, other)| (at, intersection_over_union(&detection.rect, rect(other))));
         let best = overlaps.filter(|(_, found)| *found >= least);
-        let best = best.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(at, _)| at);
+        let best = best.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at);
         if let Some(at) = best {
-            taken[at] = true;
+            is_matched[at] = true;
         }
         best
     };
-    found.iter().map(take).collect()
+    found.iter().map(match_one).collect()
 }
 
 #[cfg(test)]
@@ -77,7 +81,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn rectangles_overlap_by_what_they_share() {
+    fn the_overlap_is_the_shared_part_of_the_union() {
         let rect = |corners| Rect::from_corners(corners).unwrap();
         let one = rect([0., 0., 4., 4.]);
         for (other, share) in [
@@ -95,7 +99,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn of_the_same_object_the_surest_is_kept() {
+    fn of_overlapping_detections_the_one_with_the_highest_score_is_kept() {
         let found = vec![
             detection(0, 0.5, [0., 0., 10., 10.]),
             detection(0, 0.9, [1., 0., 11., 10.]),
@@ -108,7 +112,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn an_object_is_taken_once_by_the_surest_that_fits() {
+    fn an_object_is_matched_once_with_the_first_detection_that_fits() {
         let right = [detection(0, 0.9, [0., 0., 10., 10.]), detection(0, 0.9, [4., 0., 14., 10.])];
         let found = [
             detection(0, 0.8, [1., 0., 11., 10.]),

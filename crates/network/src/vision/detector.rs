@@ -43,13 +43,14 @@ impl Detector {
     ) -> Vec<Detection> {
         let least = self.score.min(MIN_SCORE);
         let mut found = self.format.decode(outputs, input, least);
-        found.retain(|one| self.classes.is_empty() || self.classes.contains(&one.class));
+        found
+            .retain(|detection| self.classes.is_empty() || self.classes.contains(&detection.class));
         suppress_overlapping(found, self.overlap)
     }
 
     /// Returns true if a detection, in pixels of the frame, counts.
-    pub(super) fn accepts(&self, one: &Detection) -> bool {
-        one.score >= self.score && one.rect.height() >= self.height
+    pub(super) fn accepts(&self, detection: &Detection) -> bool {
+        detection.score >= self.score && detection.rect.height() >= self.height
     }
 }
 
@@ -61,30 +62,30 @@ impl Detector {
 pub fn parse_detector(text: &str) -> Result<Detector, String> {
     let mut words = text.split(',');
     let name = words.next().unwrap_or_default();
-    let head =
-        DetectionFormat::ALL.into_iter().find(|head| head.name() == name).ok_or_else(|| {
+    let format =
+        DetectionFormat::ALL.into_iter().find(|format| format.name() == name).ok_or_else(|| {
             let names = DetectionFormat::ALL.map(DetectionFormat::name);
             format!("`{name}` is no format of detections; expected {}", names.join(", "))
         })?;
-    let mut detector = Detector::new(head);
+    let mut detector = Detector::new(format);
     for word in words {
-        let wrong = || {
+        let syntax_message = || {
             format!(
                 "`{word}`: expected score=S and overlap=S from 0 to 1, classes=C+C.. with numbers from 0, or height=PIXELS"
             )
         };
-        let (key, value) = word.split_once('=').ok_or_else(wrong)?;
+        let (key, value) = word.split_once('=').ok_or_else(syntax_message)?;
         let real = |most: f64| value.parse().ok().filter(|value| (0.0..=most).contains(value));
         match key {
             #[allow(clippy::cast_possible_truncation, reason = "a share")]
-            "score" => detector.score = real(1.0).ok_or_else(wrong)? as f32,
-            "overlap" => detector.overlap = real(1.0).ok_or_else(wrong)?,
-            "height" => detector.height = real(1e6).ok_or_else(wrong)?,
+            "score" => detector.score = real(1.0).ok_or_else(syntax_message)? as f32,
+            "overlap" => detector.overlap = real(1.0).ok_or_else(syntax_message)?,
+            "height" => detector.height = real(1e6).ok_or_else(syntax_message)?,
             "classes" => {
                 let classes = value.split('+').map(|class| class.parse().ok());
-                detector.classes = classes.collect::<Option<_>>().ok_or_else(wrong)?;
+                detector.classes = classes.collect::<Option<_>>().ok_or_else(syntax_message)?;
             }
-            _ => return Err(wrong()),
+            _ => return Err(syntax_message()),
         }
     }
     Ok(detector)
@@ -118,7 +119,7 @@ mod tests {
             assert_eq!(parse_detector(text).unwrap().to_string(), text);
         }
         assert_eq!(parse_detector("yunet"), Ok(Detector::new(DetectionFormat::Yunet)));
-        for (wrong, says) in [
+        for (wrong, expected) in [
             ("yolo", "yolox, yolov5"),
             ("yolox,score", "score=S"),
             ("yolox,score=2", "`score=2`"),
@@ -127,7 +128,7 @@ mod tests {
             ("yolox,width=1", "`width=1`"),
         ] {
             let problem = parse_detector(wrong).unwrap_err();
-            assert!(problem.contains(says), "{problem}");
+            assert!(problem.contains(expected), "{problem}");
         }
     }
 
@@ -138,7 +139,10 @@ mod tests {
         let found = |text: &str| {
             let detector = parse_detector(text).unwrap();
             let found = detector.read_detections(std::slice::from_ref(&output), (16, 16));
-            found.iter().map(|one| (one.class, detector.accepts(one))).collect::<Vec<_>>()
+            found
+                .iter()
+                .map(|detection| (detection.class, detector.accepts(detection)))
+                .collect::<Vec<_>>()
         };
         assert_eq!(found("yolov5"), [(0, true), (1, true)]);
         assert_eq!(found("yolov5,classes=1"), [(1, true)]);

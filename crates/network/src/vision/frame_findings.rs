@@ -33,9 +33,18 @@ pub(super) struct FindingsReader {
 impl FindingsReader {
     /// Returns a reader of the outputs of a network, without a detector. `lens` is the scaling from
     /// the frame to the input, if there is one.
-    pub(super) fn new(network: &Network, frame: (u32, u32), lens: Option<&FrameScaling>) -> Self {
+    pub(super) fn new(
+        network: &Network,
+        frame: (u32, u32),
+        scaling: Option<&FrameScaling>,
+    ) -> Self {
         let input = (network.input().width(), network.input().height());
-        Self { detector: None, input, frame, scale: lens.map_or((1.0, 1.0), FrameScaling::scale) }
+        Self {
+            detector: None,
+            input,
+            frame,
+            scale: scaling.map_or((1.0, 1.0), FrameScaling::scale),
+        }
     }
 
     /// Replaces the detector, which may be `None`.
@@ -72,9 +81,12 @@ impl FindingsReader {
         executor: &Executor<'_>,
     ) -> FrameFindings {
         let outputs = outputs(network, |value| executor.tensor(value).real_values().into_owned());
-        let placed = |one: Detection| Detection { rect: self.rect_in_frame(&one.rect), ..one };
+        let in_frame = |detection: Detection| Detection {
+            rect: self.rect_in_frame(&detection.rect),
+            ..detection
+        };
         let detections = self.detector.as_ref().map(|detector| {
-            detector.read_detections(&outputs, self.input).into_iter().map(placed).collect()
+            detector.read_detections(&outputs, self.input).into_iter().map(in_frame).collect()
         });
         FrameFindings { outputs, detections }
     }

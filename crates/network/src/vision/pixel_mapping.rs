@@ -27,9 +27,10 @@ impl PixelMapping {
 
     /// Returns the input value in a channel for a pixel given as a share of white.
     pub(super) fn input_value(&self, channel: usize, share: f64) -> f32 {
-        let of = |values: &[f32]| f64::from(values[if values.len() == 1 { 0 } else { channel }]);
+        let channel_value =
+            |values: &[f32]| f64::from(values[if values.len() == 1 { 0 } else { channel }]);
         #[allow(clippy::cast_possible_truncation, reason = "inputs are 32 bits wide")]
-        let value = ((share - of(&self.mean)) / of(&self.scale)) as f32;
+        let value = ((share - channel_value(&self.mean)) / channel_value(&self.scale)) as f32;
         value
     }
 }
