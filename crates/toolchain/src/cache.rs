@@ -121,8 +121,8 @@ impl Cache {
 
     /// Returns `artifact` in the entry of `key`, and builds the entry first if it is not there. The
     /// entry stays as long as the result lives. `build` fills an empty folder, whose content
-    /// becomes the entry. If `build` fails, only the log of the failure remains, in a cache that is
-    /// not thrown away.
+    /// becomes the entry. If `build` fails, nothing remains but the log of the failure, which a
+    /// throw-away cache does not keep either.
     ///
     /// # Errors
     /// Fails if `build` fails, if the folder cannot be written, or if another user can write to it.
@@ -144,11 +144,12 @@ impl Cache {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let dir =
             builder.tempdir_in(&root).map_err(ToolError::cache("create a folder in", &root))?;
-        let gone = || ToolError::cache("use", dir.path())(std::io::ErrorKind::NotFound.into());
-        let hold = FolderLock::shared(dir.path()).ok_or_else(gone)?;
+        let missing_error =
+            || ToolError::cache("use", dir.path())(std::io::ErrorKind::NotFound.into());
+        let lock = FolderLock::shared(dir.path()).ok_or_else(missing_error)?;
         build(dir.path()).map_err(|error| self.keep_log(key, error))?;
         let bytes = eviction::folder_bytes(dir.path());
-        let entry = publish(dir, hold, &place, artifact)?;
+        let entry = publish(dir, lock, &place, artifact)?;
         self.limit.enforce(&root, &self.state.built_bytes, bytes);
         Ok(entry)
     }
@@ -166,8 +167,9 @@ impl Cache {
     ) -> Result<PathBuf, ToolError> {
         let entry = self.get_or_build(key, artifact, build)?;
         let path = entry.path().to_owned();
-        let mut kept = self.state.kept_entries.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.entry(path.clone()).or_insert(entry);
+        let mut kept_entries =
+            self.state.kept_entries.lock().unwrap_or_else(PoisonError::into_inner);
+        kept_entries.entry(path.clone()).or_insert(entry);
         Ok(path)
     }
 
@@ -188,7 +190,7 @@ impl Cache {
 /// Moves a finished build to its place, unless another process has already built the entry.
 fn publish(
     dir: TempDir,
-    hold: FolderLock,
+    lock: FolderLock,
     place: &Path,
     artifact: &str,
 ) -> Result<CacheEntry, ToolError> {
@@ -204,7 +206,7 @@ fn publish(
         let error = match fs::rename(dir.path(), place) {
             Ok(()) => {
                 let _moved = dir.keep();
-                return Ok(CacheEntry::new(place.join(artifact), hold));
+                return Ok(CacheEntry::new(place.join(artifact), lock));
             }
             Err(error) => error,
         };

@@ -12,8 +12,9 @@ fn is_plain(letter: char) -> bool {
     letter.is_ascii_alphanumeric() || "-_./:=,%+@".contains(letter)
 }
 
-/// Returns whether a character is a control character, or one that changes the direction or the
-/// place of its neighbours: editors and terminals do not show it in its place.
+/// Returns whether a character is a control character, or a format character that changes the
+/// direction or the position of its neighbours. Editors and terminals do not show such a character
+/// in its place.
 #[must_use]
 pub fn is_hidden(letter: char) -> bool {
     letter.is_control()
@@ -56,12 +57,12 @@ pub fn tcl_word(text: &str) -> Cow<'_, str> {
 #[must_use]
 pub fn comment_text(text: &str) -> Cow<'_, str> {
     // In Tcl a comment that ends in a backslash continues in the next line.
-    let ends = text.ends_with('\\');
-    if !ends && !text.contains(is_hidden) {
+    let ends_with_backslash = text.ends_with('\\');
+    if !ends_with_backslash && !text.contains(is_hidden) {
         return text.into();
     }
     let mut line = escape_hidden(text).into_owned();
-    if ends {
+    if ends_with_backslash {
         line.push('.');
     }
     line.into()
@@ -87,9 +88,9 @@ pub fn markdown_text(text: &str) -> Cow<'_, str> {
 /// Returns the beginning of a text for a message, with its control characters escaped.
 #[must_use]
 pub fn message_excerpt(text: &str) -> String {
-    const MOST: usize = 40;
-    let more = if text.chars().nth(MOST).is_some() { "..." } else { "" };
-    text.chars().take(MOST).flat_map(char::escape_debug).chain(more.chars()).collect()
+    const MAX_LETTERS: usize = 40;
+    let ellipsis = if text.chars().nth(MAX_LETTERS).is_some() { "..." } else { "" };
+    text.chars().take(MAX_LETTERS).flat_map(char::escape_debug).chain(ellipsis.chars()).collect()
 }
 
 /// Returns the text with its hidden characters escaped, such as `\n` and `\u{1b}`.
@@ -142,9 +143,9 @@ mod tests {
     fn a_shell_reads_the_words_back() {
         let words: Vec<_> = TEXTS.iter().map(|text| shell_word(text)).collect();
         let script = format!("printf '<%s>\\n' {}", words.join(" "));
-        let told = Command::new("sh").args(["-c", &script]).output().unwrap();
+        let output = Command::new("sh").args(["-c", &script]).output().unwrap();
         let expected: String = TEXTS.iter().map(|text| format!("<{text}>\n")).collect();
-        assert_eq!(String::from_utf8(told.stdout).unwrap(), expected);
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), expected);
         assert_eq!(shell_word("a\0b c"), "'ab c'");
         assert_eq!(words[0], TEXTS[0]);
     }
@@ -166,9 +167,10 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("words.tcl");
         std::fs::write(&path, script).unwrap();
-        let told = Command::new("tclsh").args(["-encoding", "utf-8"]).arg(&path).output().unwrap();
+        let output =
+            Command::new("tclsh").args(["-encoding", "utf-8"]).arg(&path).output().unwrap();
         let expected: String = TEXTS.iter().map(|text| format!("<{text}>\n")).collect();
-        assert_eq!(String::from_utf8(told.stdout).unwrap(), expected.repeat(2));
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), expected.repeat(2));
     }
 
     #[test]

@@ -152,9 +152,9 @@ pub(crate) fn wait_until_ready(
 ) -> io::Result<()> {
     use rustix::event::{PollFd, Timespec, poll};
     let step = Timespec { tv_sec: 0, tv_nsec: i64::from(POLL_STEP.subsec_nanos()) };
-    let mut patience = GracePeriod::new(interrupt, grace);
+    let mut grace_period = GracePeriod::new(interrupt, grace);
     loop {
-        if patience.is_over() {
+        if grace_period.is_over() {
             return Err(interrupted_error());
         }
         match poll(&mut [PollFd::new(descriptor, ready)], Some(&step)) {

@@ -90,11 +90,11 @@ fn refuse_warnings(
     output: &ProgramOutput,
 ) -> Result<(), ToolError> {
     let full = output.log();
-    let lacks = |line: &str| {
+    let is_missing_parameter = |line: &str| {
         let warning = line.split_once(": warning: parameter ");
         warning.is_some_and(|(_, parameter)| parameter.contains(" not found in "))
     };
-    let status = if full.lines().any(lacks) {
+    let status = if full.lines().any(is_missing_parameter) {
         "a parameter is set that its module does not have"
     } else if strict && !full.trim().is_empty() {
         "warnings count as errors"

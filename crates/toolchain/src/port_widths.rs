@@ -7,7 +7,7 @@ use crate::error::ToolError;
 /// The name of a port and its width in bits.
 pub type PortBits = (String, u32);
 
-/// Compares the ports in the C++ header that Verilator writes for a model with the required ports.
+/// Compares the required ports with those that Verilator declares in the C++ header of a model.
 pub(crate) fn check_header(top: &str, header: &str, wanted: &[PortBits]) -> Result<(), ToolError> {
     let declared: Vec<(&str, u32)> = header.lines().filter_map(parse_declaration).collect();
     for (port, bits) in wanted {
@@ -36,7 +36,7 @@ fn parse_declaration(line: &str) -> Option<(&str, u32)> {
 /// Fails if a warning of Icarus says that a port of `top` and its signal in the bench, `file`,
 /// differ in width: `file:3: warning: Port 3 (a_i) of tiny expects 16 bits, got 11.`
 pub(crate) fn check_warnings(top: &str, file: &str, log: &str) -> Result<(), ToolError> {
-    let refusal = |line: &str| {
+    let mismatch = |line: &str| {
         let line = line.strip_prefix(file)?.strip_prefix(':')?;
         let (_, port) = line.split_once("warning: Port ")?;
         let (_, port) = port.split_once('(')?;
@@ -46,7 +46,7 @@ pub(crate) fn check_warnings(top: &str, file: &str, log: &str) -> Result<(), Too
         let wanted = wanted.trim_end_matches('.').parse().ok()?;
         Some(width_error(top, port, found.parse().ok()?, wanted))
     };
-    log.lines().find_map(refusal).map_or(Ok(()), Err)
+    log.lines().find_map(mismatch).map_or(Ok(()), Err)
 }
 
 fn width_error(top: &str, port: &str, found: u32, wanted: u32) -> ToolError {
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn headers_tell_widths() {
+    fn port_widths_are_read_from_the_header() {
         let header = "class Vt {\n    VL_IN8(&a_i,7,0);\n    VL_OUT16(&b_o,1,12);\n    \
                       VL_INW(&c_i,199,0,7);\n}\n";
         let check = |name: &str, bits| check_header("t", header, &[(name.to_owned(), bits)]);
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn warnings_tell_widths_of_the_bench_alone() {
+    fn only_warnings_about_the_bench_are_width_errors() {
         let line = "t_replay.v:3: warning: Port 3 (a_i) of t expects 16 bits, got 11.";
         let error = check_warnings("t", "t_replay.v", line).unwrap_err().to_string();
         assert!(

@@ -78,8 +78,8 @@ fn wait(
 fn was_signalled_to_stop(status: ExitStatus) -> bool {
     use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt as _;
-    let asking = [Signal::INT, Signal::TERM, Signal::HUP].map(Signal::as_raw);
-    status.signal().is_some_and(|signal| asking.contains(&signal))
+    let stop_signals = [Signal::INT, Signal::TERM, Signal::HUP].map(Signal::as_raw);
+    status.signal().is_some_and(|signal| stop_signals.contains(&signal))
 }
 
 #[cfg(not(unix))]
@@ -161,8 +161,8 @@ mod tests {
     /// it lives.
     const FAMILY: &str = "sh -c 'sleep 60; true' > alive & wait";
 
-    /// Makes a folder with that pipe, and a receiver that hears when no process holds the pipe any
-    /// more.
+    /// Makes a folder with the pipe of [`FAMILY`]. The returned receiver gets a message once no
+    /// process holds the pipe open.
     #[allow(clippy::unwrap_used, reason = "helper of tests")]
     fn pipe() -> (tempfile::TempDir, std::sync::mpsc::Receiver<()>) {
         let dir = tempfile::tempdir().unwrap();
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_child_that_is_told_to_stop_was_interrupted() {
+    fn a_child_that_ends_on_a_stop_signal_counts_as_interrupted() {
         use rustix::process::Signal;
         let signals = [("INT", Signal::INT), ("TERM", Signal::TERM), ("HUP", Signal::HUP)];
         for (signal, _) in signals.into_iter().filter(|&(_, signal)| !is_ignored(signal)) {
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_is_not_there_is_named() {
+    fn the_error_names_a_missing_program() {
         let error = run(&Invocation::new("/nonexistent/tool")).unwrap_err();
         assert!(error.to_string().starts_with("cannot run `/nonexistent/tool`"), "{error}");
     }

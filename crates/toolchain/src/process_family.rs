@@ -27,11 +27,11 @@ fn locked_registry() -> MutexGuard<'static, ProcessFamilyRegistry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends every family of this process and lets no other start, for a process that exits at once.
+/// Ends every family of this process and refuses new ones. A process that exits at once calls this.
 pub fn end_all_process_families() {
-    let mut living = locked_registry();
-    living.is_closed = true;
-    living.leaders.iter().copied().for_each(kill);
+    let mut registry = locked_registry();
+    registry.is_closed = true;
+    registry.leaders.iter().copied().for_each(kill);
 }
 
 /// A running child that is the first process of a family. Dropping this value ends the family.
@@ -44,23 +44,23 @@ impl ProcessFamily {
     /// Starts a program as the first process of a family.
     pub(crate) fn start(command: &mut Command) -> io::Result<Self> {
         set_process_group(command);
-        let mut living = locked_registry();
-        if living.is_closed {
+        let mut registry = locked_registry();
+        if registry.is_closed {
             return Err(io::Error::other("the program is about to end"));
         }
-        let head = command.spawn()?;
-        living.leaders.insert(head.id());
-        Ok(Self { leader: head })
+        let leader = command.spawn()?;
+        registry.leaders.insert(leader.id());
+        Ok(Self { leader })
     }
 
     /// Returns the status of the first process if it has ended.
     pub(crate) fn try_wait(&mut self) -> io::Result<Option<ExitStatus>> {
         // Once a process has been waited for, the system may reuse its number, so the registry
         // stays locked until the number is removed from it.
-        let mut living = locked_registry();
+        let mut registry = locked_registry();
         let ended = self.leader.try_wait()?;
         if ended.is_some() {
-            living.leaders.remove(&self.leader.id());
+            registry.leaders.remove(&self.leader.id());
         }
         Ok(ended)
     }
@@ -102,9 +102,9 @@ fn set_process_group(command: &mut Command) {
 
 /// Ends a process group by the number of its first process.
 #[cfg(unix)]
-fn kill(head: u32) {
+fn kill(leader: u32) {
     use rustix::process::{Pid, Signal, kill_process_group};
-    if let Some(group) = i32::try_from(head).ok().and_then(Pid::from_raw) {
+    if let Some(group) = i32::try_from(leader).ok().and_then(Pid::from_raw) {
         // An error can only mean that all processes have already ended.
         let _ = kill_process_group(group, Signal::KILL);
     }

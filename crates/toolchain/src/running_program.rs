@@ -122,9 +122,9 @@ impl ProgramWriter {
     /// Fails if the program does not end in time, or if the system does not report the end.
     pub fn finish(&mut self) -> Result<(bool, Option<String>), ToolError> {
         drop(self.stdin.take());
-        let success = self.running.wait(ENDING_GRACE)?.success();
-        let said = self.running.lines.iter().filter(|line| !line.trim().is_empty());
-        Ok((success, said.last()))
+        let is_success = self.running.wait(ENDING_GRACE)?.success();
+        let messages = self.running.lines.iter().filter(|line| !line.trim().is_empty());
+        Ok((is_success, messages.last()))
     }
 }
 
@@ -212,8 +212,8 @@ impl RunningProgram {
     /// Waits for the end of the program; ends it once an interrupt is older than `grace`.
     fn wait(&mut self, grace: Duration) -> Result<ExitStatus, ToolError> {
         let interrupt = self.interrupt.clone();
-        let mut after_interrupt = GracePeriod::new(&interrupt, grace);
-        let status = self.wait_until(|| after_interrupt.is_over())?;
+        let mut grace_period = GracePeriod::new(&interrupt, grace);
+        let status = self.wait_until(|| grace_period.is_over())?;
         status.ok_or_else(|| {
             self.family.end();
             ToolError::Interrupted
@@ -293,12 +293,12 @@ fn collect_lines(stderr: ChildStderr, lines: &Sender<String>) {
     let mut reader = BufReader::new(stderr);
     let (mut line, mut is_continued) = (Vec::new(), false);
     while matches!(reader.by_ref().take(LINE_BYTES).read_until(b'\n', &mut line), Ok(1..)) {
-        let ends = line.ends_with(b"\n");
+        let is_complete = line.ends_with(b"\n");
         if !is_continued {
             // A send fails when the receiver is gone; the pipe is still emptied.
             let _ = lines.send(String::from_utf8_lossy(&line).trim_end().to_owned());
         }
-        is_continued = !ends;
+        is_continued = !is_complete;
         line.clear();
     }
 }
@@ -337,38 +337,39 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_is_fed_ends_with_its_input_and_its_last_words_are_kept() {
+    fn a_fed_program_ends_with_its_input_and_its_last_line_is_kept() {
         let dir = tempfile::tempdir().unwrap();
         let copy = dir.path().join("copy");
         let script = format!("cat > '{}'; echo first >&2; echo last >&2; exit 3", copy.display());
-        let mut feeder = ProgramWriter::start(&shell(&script), &Interrupt::default()).unwrap();
-        feeder.write_all(&[7; 3_000_000]).unwrap();
-        assert_eq!(feeder.finish().unwrap(), (false, Some("last".to_owned())));
+        let mut writer = ProgramWriter::start(&shell(&script), &Interrupt::default()).unwrap();
+        writer.write_all(&[7; 3_000_000]).unwrap();
+        assert_eq!(writer.finish().unwrap(), (false, Some("last".to_owned())));
         assert_eq!(std::fs::metadata(copy).unwrap().len(), 3_000_000);
-        assert!(feeder.write_all(b"more").is_err());
-        let mut early = ProgramWriter::start(&shell("exit 0"), &Interrupt::default()).unwrap();
-        let refused = (0..100).any(|_| early.write_all(&[7; 1 << 20]).is_err());
-        assert!(refused, "nobody reads");
-        assert_eq!(early.finish().unwrap(), (true, None));
+        assert!(writer.write_all(b"more").is_err());
+        let mut ended_program =
+            ProgramWriter::start(&shell("exit 0"), &Interrupt::default()).unwrap();
+        let is_refused = (0..100).any(|_| ended_program.write_all(&[7; 1 << 20]).is_err());
+        assert!(is_refused, "nobody reads");
+        assert_eq!(ended_program.finish().unwrap(), (true, None));
     }
 
     /// A program that closes its input and keeps running is ended after the grace period.
     #[test]
     fn a_program_that_takes_no_more_input_has_a_limited_time_to_end() {
         let script = "exec <&-; echo closed >&2; sleep 60";
-        let mut feeder = ProgramWriter::start(&shell(script), &Interrupt::default()).unwrap();
-        let refused = (0..100).any(|_| {
+        let mut writer = ProgramWriter::start(&shell(script), &Interrupt::default()).unwrap();
+        let is_refused = (0..100).any(|_| {
             std::thread::sleep(Duration::from_millis(10));
-            feeder.write_all(&[7; 1 << 20]).is_err()
+            writer.write_all(&[7; 1 << 20]).is_err()
         });
-        assert!(refused, "the program has closed its input");
+        assert!(is_refused, "the program has closed its input");
         let (start, limit) = (Instant::now(), Duration::from_millis(300));
-        assert_eq!(feeder.finish_within(limit).unwrap(), Some("closed".to_owned()));
+        assert_eq!(writer.finish_within(limit).unwrap(), Some("closed".to_owned()));
         assert!(start.elapsed() < limit + Duration::from_secs(5), "{:?}", start.elapsed());
     }
 
     #[test]
-    fn a_program_that_is_not_there_is_named() {
+    fn the_error_names_a_missing_program() {
         let error =
             ProgramReader::start(&Invocation::new("/nonexistent/tool"), &Interrupt::default())
                 .unwrap_err();
@@ -380,11 +381,11 @@ mod tests {
     #[test]
     fn an_interrupt_ends_every_wait() {
         let interrupt = Interrupt::default();
-        let set = || interrupt.flag().store(true, std::sync::atomic::Ordering::Relaxed);
+        let set_interrupt = || interrupt.flag().store(true, std::sync::atomic::Ordering::Relaxed);
         let (line, bytes, end) = ["sleep 60", "sleep 60", "exec >&- 2>&-; sleep 60"]
             .map(|script| ProgramReader::start(&shell(script), &interrupt).unwrap())
             .into();
-        let mut feeder = ProgramWriter::start(&shell("sleep 60"), &interrupt).unwrap();
+        let mut writer = ProgramWriter::start(&shell("sleep 60"), &interrupt).unwrap();
         let start = Instant::now();
         std::thread::scope(|scope| {
             let waits = [
@@ -397,11 +398,11 @@ mod tests {
                     let mut end = end;
                     end.finish().unwrap_err().is_interrupted()
                 }),
-                scope.spawn(move || feeder.write_all(&[7; 3_000_000]).is_err()),
+                scope.spawn(move || writer.write_all(&[7; 3_000_000]).is_err()),
             ];
             std::thread::sleep(Duration::from_millis(300));
             assert!(waits.iter().all(|wait| !wait.is_finished()), "all of them wait");
-            set();
+            set_interrupt();
             assert!(waits.into_iter().all(|wait| wait.join().unwrap()));
         });
         assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());

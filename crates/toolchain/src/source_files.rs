@@ -22,11 +22,11 @@ pub fn check_source_name(name: &str) -> Result<(), ToolError> {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._+-/".contains(letter);
     let is_inside = |part| matches!(part, Component::Normal(_));
     let is_option = name.split('/').any(|part| part.starts_with(['-', '+']));
-    let is_right = !name.is_empty()
+    let is_valid = !name.is_empty()
         && !is_option
         && name.chars().all(is_plain)
         && Path::new(name).components().all(is_inside);
-    if is_right {
+    if is_valid {
         Ok(())
     } else {
         Err(ToolError::InvalidSourceName { name: escape_hidden(name).into_owned() })

@@ -16,9 +16,10 @@ use crate::yosys::{self, YosysJob};
 
 const SYNTHESIS_COMMAND: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
 /// The commands that make shift registers after the synthesis; `synth_xilinx` would make them in
-/// the middle. Yosys up to 0.67 loses their enable
-/// (<https://github.com/YosysHQ/yosys/issues/6058>): it records that a shift register has none
-/// although it connects the net. A chain of FDRE has an enable that is active high.
+/// the middle. The command `setparam` corrects a fault of Yosys up to 0.67
+/// (<https://github.com/YosysHQ/yosys/issues/6058>): Yosys connects the enable of a shift register,
+/// but records that the register has no enable. The enable is active high, as that of the FDRE from
+/// which the shift register is made.
 const SHIFT_REGISTERS: &str = "xilinx_srl -fixed -minlen 3\n\
     setparam -set ENPOL 1 t:$__XILINX_SHREG_\n\
     techmap -map +/xilinx/cells_map.v\n\
@@ -65,8 +66,8 @@ pub struct ToolRecord {
 }
 
 impl SynthesisResult {
-    /// Returns the types of all primitive cells, which are those that are no modules of the
-    /// netlist. The set is empty if the JSON is not a netlist.
+    /// Returns the types of all primitive cells. A cell is primitive if its type is not a module of
+    /// the netlist. The set is empty if the JSON is not a netlist.
     #[must_use]
     pub fn cell_types(&self) -> BTreeSet<String> {
         let netlist: Value = serde_json::from_slice(&self.json).unwrap_or_default();
@@ -117,11 +118,11 @@ impl SynthesisJob {
 
     fn array_job(&self, cells: Option<String>) -> YosysJob {
         let Self { unit, array, .. } = self;
-        let set = |(name, value): &(&str, u32)| format!(" -set {name} {value}");
-        let parameters: String = self.parameters.iter().map(set).collect();
+        let setting = |(name, value): &(&str, u32)| format!(" -set {name} {value}");
+        let parameters: String = self.parameters.iter().map(setting).collect();
         let parameters = match parameters.as_str() {
             "" => String::new(),
-            set => format!("chparam{set} {array}\n"),
+            setting => format!("chparam{setting} {array}\n"),
         };
         // A unit with parameters has been renamed at this point, so its attribute must be in its
         // Verilog.
@@ -172,13 +173,13 @@ mod tests {
     #[test]
     fn primitive_cells_are_no_modules() {
         let tool = ToolRecord { name: String::new(), version: String::new(), flags: String::new() };
-        let of = |json: &str| {
+        let types = |json: &str| {
             let json = json.as_bytes().to_vec();
             SynthesisResult { tool: tool.clone(), json, verilog: String::new() }.cell_types()
         };
         let netlist = r#"{"modules": {"rcm": {"cells": {"a": {"type": "rpu"}, "b": {"type": "LUT4"}}},
             "rpu": {"cells": {"c": {"type": "FDRE"}, "d": {"type": "LUT4"}}}}}"#;
-        assert_eq!(of(netlist), BTreeSet::from(["FDRE".to_owned(), "LUT4".to_owned()]));
-        assert!(of("{}").is_empty() && of("no JSON").is_empty());
+        assert_eq!(types(netlist), BTreeSet::from(["FDRE".to_owned(), "LUT4".to_owned()]));
+        assert!(types("{}").is_empty() && types("no JSON").is_empty());
     }
 }

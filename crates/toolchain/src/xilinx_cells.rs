@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cells of Xilinx devices of which Yosys knows only the ports, without those that no core can
-//! have.
+//! A reduced library of Xilinx cells for Yosys. The full library declares cells of which Yosys knows
+//! only the ports; the reduced library omits the cells that no core can have.
 //!
 //! `synth_xilinx` begins with the ports of 328 cells, from pads to processors, and carries them
 //! through all of its steps. Its rules for `UltraScale+` use four of them. Without the others, a
@@ -43,7 +43,7 @@ pub(crate) fn reduced_cell_library(
         .field("file", LIBRARY)
         .list("cells", &USED_CELLS)
         .finish();
-    let kept = cache.get_or_build(&key, REDUCED_FILE, |dir| {
+    let entry = cache.get_or_build(&key, REDUCED_FILE, |dir| {
         let library = match yosys::cell_models(toolchain, cache, LIBRARY) {
             Err(ToolError::Io { .. }) => String::new(),
             found => found?,
@@ -54,23 +54,24 @@ pub(crate) fn reduced_cell_library(
             used_part(&library).unwrap_or_default().as_bytes(),
         )
     })?;
-    let text = fs::read_to_string(kept.path()).map_err(ToolError::io("read", kept.path()))?;
+    let text = fs::read_to_string(entry.path()).map_err(ToolError::io("read", entry.path()))?;
     Ok((!text.is_empty()).then_some(text))
 }
 
-/// Returns the names of the whole file, as attributes of a module without content, and the cells
-/// that the rules use.
+/// Returns the reduced library: first every name of the file, as attributes of an empty module,
+/// because Yosys orders nets by the first occurrence of names; then the cells that the rules use.
+/// Returns `None` if the library lacks one of these cells.
 fn used_part(library: &str) -> Option<String> {
-    let made = USED_CELLS
+    let cells = USED_CELLS
         .iter()
         .map(|name| yosys::module_text(library, name))
         .collect::<Option<String>>()?;
-    Some(format!("(* {} *)\nmodule names;\nendmodule\n{made}", names(library).join(", ")))
+    Some(format!("(* {} *)\nmodule names;\nendmodule\n{cells}", names(library).join(", ")))
 }
 
 /// Returns the names in a text, each once, in the order of their first occurrence.
 fn names(library: &str) -> Vec<&str> {
-    let mut seen: HashSet<_> = KEYWORDS.into();
+    let mut known_words: HashSet<_> = KEYWORDS.into();
     let mut names = Vec::new();
     for line in library.lines() {
         let code = line.split("//").next().unwrap_or_default();
@@ -79,7 +80,7 @@ fn names(library: &str) -> Vec<&str> {
             let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "_'".contains(c)));
             let is_name =
                 |word: &&str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-            names.extend(words.filter(is_name).filter(|word| seen.insert(*word)));
+            names.extend(words.filter(is_name).filter(|word| known_words.insert(*word)));
         }
     }
     names

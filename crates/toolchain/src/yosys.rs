@@ -70,26 +70,27 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
 /// of Yosys has the path of the file.
 ///
 /// # Errors
-/// Fails if Yosys is missing, has no such file, or is the only program that can read it.
+/// Fails if Yosys is missing, if its library has no such file, or if this process cannot read the
+/// file, as for a Yosys that brings its own file system.
 pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<String, ToolError> {
     let script = format!("read_verilog -lib +/{file}\n");
     let run = run(toolchain, cache, &YosysJob { script, ..YosysJob::default() })?;
     let path = run.log.lines().find_map(|line| {
         line.strip_prefix("Parsing Verilog input from `")?.split_once('\'').map(|(path, _)| path)
     });
-    let unknown = ToolError::io("find in the library of Yosys", Path::new(file));
-    let path = Path::new(path.ok_or_else(|| unknown(ErrorKind::NotFound.into()))?);
+    let not_found = ToolError::io("find in the library of Yosys", Path::new(file));
+    let path = Path::new(path.ok_or_else(|| not_found(ErrorKind::NotFound.into()))?);
     fs::read_to_string(path).map_err(ToolError::io("read the cell models of Yosys in", path))
 }
 
 /// Returns the text of the module of that name in a file of models, if the file has one.
 #[must_use]
 pub fn module_text(library: &str, name: &str) -> Option<String> {
-    let begins = |line: &str| {
+    let is_start = |line: &str| {
         let rest = line.strip_prefix("module ").and_then(|rest| rest.strip_prefix(name));
         rest.is_some_and(|rest| rest.trim_start().starts_with(['(', '#', ';']) || rest.is_empty())
     };
-    let mut lines = library.lines().skip_while(|line| !begins(line)).peekable();
+    let mut lines = library.lines().skip_while(|line| !is_start(line)).peekable();
     lines.peek()?;
     let mut text = String::new();
     for line in lines {
@@ -102,8 +103,8 @@ pub fn module_text(library: &str, name: &str) -> Option<String> {
     Some(text)
 }
 
-/// Fails on JSON that is invalid or empty, as a Yosys that was killed, or another program in its
-/// place, may write it.
+/// Fails on JSON that is invalid or empty. A Yosys that was killed may write such a file, and so may
+/// another program that is installed under its name.
 fn check_json(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
     if !name.ends_with(".json") {
         return Ok(());
@@ -138,8 +139,8 @@ fn run_in(toolchain: &Toolchain, job: &YosysJob, dir: &Path) -> Result<(), ToolE
             });
         }
         check_json(name, &fs::read(&written).map_err(ToolError::io("read", &written))?, dir)?;
-        let kept = dir.join(name);
-        fs::rename(&written, &kept).map_err(ToolError::io("write", &kept))?;
+        let target = dir.join(name);
+        fs::rename(&written, &target).map_err(ToolError::io("write", &target))?;
     }
     Ok(())
 }

@@ -29,10 +29,11 @@ struct EvictionCandidate {
 /// Removes the least recently used entries until `goal` bytes are left, if there are more than
 /// `limit`. More bytes may be left, because entries that a process holds are not removed.
 pub(super) fn evict(root: &Path, limit: u64, goal: u64) {
-    let Ok(gate) = File::options().create(true).append(true).open(root.join(LOCK_FILE)) else {
+    let Ok(eviction_lock) = File::options().create(true).append(true).open(root.join(LOCK_FILE))
+    else {
         return;
     };
-    if gate.try_lock().is_err() {
+    if eviction_lock.try_lock().is_err() {
         return;
     }
     let mut candidates = eviction_candidates(root);
@@ -56,9 +57,9 @@ pub(super) fn remove_stale_builds(root: &Path) {
     for entry in entries(root) {
         let name = entry.file_name();
         let name = name.to_string_lossy();
-        let rest = name.starts_with(BUILDING_PREFIX) || name.starts_with(REMOVING_PREFIX);
+        let is_remains = name.starts_with(BUILDING_PREFIX) || name.starts_with(REMOVING_PREFIX);
         let age = last_use(&entry).and_then(|time| SystemTime::now().duration_since(time).ok());
-        if rest
+        if is_remains
             && age.is_some_and(|age| age > STALE_AGE)
             && FolderLock::exclusive(&entry.path()).is_some()
         {
@@ -80,20 +81,20 @@ pub(super) fn folder_bytes(folder: &Path) -> u64 {
 fn eviction_candidates(root: &Path) -> Vec<EvictionCandidate> {
     let candidate = |entry: DirEntry| {
         let (used, path) = (last_use(&entry)?, entry.path());
-        let folder = entry.file_type().ok()?.is_dir();
-        let bytes = if folder { folder_bytes(&path) } else { entry.metadata().ok()?.len() };
+        let is_folder = entry.file_type().ok()?.is_dir();
+        let bytes = if is_folder { folder_bytes(&path) } else { entry.metadata().ok()?.len() };
         Some(EvictionCandidate { path, used, bytes })
     };
     // Other files in the folder do not belong to the cache.
-    let named = |entry: &DirEntry, end: &str| {
+    let has_key_name = |entry: &DirEntry, suffix: &str| {
         entry
             .file_name()
             .to_str()
-            .and_then(|name| name.strip_suffix(end))
+            .and_then(|name| name.strip_suffix(suffix))
             .is_some_and(CacheKey::is_key_name)
     };
-    let built = entries(root).filter(|entry| named(entry, ""));
-    let logs = entries(&root.join(LOG_FOLDER)).filter(|entry| named(entry, ".log"));
+    let built = entries(root).filter(|entry| has_key_name(entry, ""));
+    let logs = entries(&root.join(LOG_FOLDER)).filter(|entry| has_key_name(entry, ".log"));
     built.chain(logs).filter_map(candidate).collect()
 }
 
@@ -102,15 +103,16 @@ fn remove(root: &Path, path: &Path) -> bool {
     if path.is_file() {
         return fs::remove_file(path).is_ok();
     }
-    let Some(hold) = FolderLock::exclusive(path) else { return false };
-    let Ok(aside) = tempfile::Builder::new().prefix(REMOVING_PREFIX).tempdir_in(root) else {
+    let Some(lock) = FolderLock::exclusive(path) else { return false };
+    let Ok(removal_folder) = tempfile::Builder::new().prefix(REMOVING_PREFIX).tempdir_in(root)
+    else {
         return false;
     };
-    let moved = fs::rename(path, aside.path()).is_ok();
+    let is_moved = fs::rename(path, removal_folder.path()).is_ok();
     // The lock is released after the move, so that a process that waits for it sees that the entry
     // is gone.
-    drop(hold);
-    moved
+    drop(lock);
+    is_moved
 }
 
 fn entries(folder: &Path) -> impl Iterator<Item = DirEntry> + use<> {

@@ -16,8 +16,8 @@ use crate::error::ToolError;
 pub(super) fn open_root(root: &Path) -> Result<PathBuf, ToolError> {
     let failed = ToolError::cache("create", root);
     // This check comes before anything is created, because the place may belong to another user.
-    let there = root.ancestors().find(|folder| folder.exists()).unwrap_or(root);
-    check(root, &there.canonicalize().map_err(failed)?, there == root)?;
+    let existing = root.ancestors().find(|folder| folder.exists()).unwrap_or(root);
+    check(root, &existing.canonicalize().map_err(failed)?, existing == root)?;
     create_private_folder(root).map_err(ToolError::cache("create", root))?;
     let place = root.canonicalize().map_err(ToolError::cache("use", root))?;
     check(root, &place, true)?;
@@ -72,7 +72,7 @@ mod unix {
         for folder in above {
             let about = symlink_metadata(folder).map_err(ToolError::cache("use", folder))?;
             let may_be_shared = !is_cache || folder != place;
-            if let Some((reason, advice)) = objection(folder, &about, may_be_shared) {
+            if let Some((reason, advice)) = refusal_reason(folder, &about, may_be_shared) {
                 return Err(ToolError::Untrusted { path: root.to_owned(), reason, advice });
             }
         }
@@ -82,32 +82,36 @@ mod unix {
     /// Returns why other users can write to a folder, and the remedy; `None` if they cannot. Above
     /// the cache, folders that everybody can write to are accepted if they are sticky, such as
     /// `/tmp`.
-    fn objection(folder: &Path, about: &Metadata, may_be_shared: bool) -> Option<(String, String)> {
+    fn refusal_reason(
+        folder: &Path,
+        metadata: &Metadata,
+        may_be_shared: bool,
+    ) -> Option<(String, String)> {
         let name = folder.display();
-        let elsewhere = "set FOVEATE_CACHE to a folder of your own, or to `off`";
-        if !is_trusted(about.uid()) {
-            let reason = format!("`{name}` belongs to another user (uid {})", about.uid());
-            return Some((reason, elsewhere.to_owned()));
+        let other_folder_advice = "set FOVEATE_CACHE to a folder of your own, or to `off`";
+        if !is_trusted(metadata.uid()) {
+            let reason = format!("`{name}` belongs to another user (uid {})", metadata.uid());
+            return Some((reason, other_folder_advice.to_owned()));
         }
-        let who = match about.mode() {
+        let who = match metadata.mode() {
             mode if may_be_shared && mode & STICKY != 0 => return None,
             mode if mode & ALL != 0 => "everybody",
             mode if mode & GROUP != 0 => "its group",
             _ => return None,
         };
         let reason = format!("{who} may write to `{name}`");
-        Some((reason, format!("run `chmod go-w '{name}'`, or {elsewhere}")))
+        Some((reason, format!("run `chmod go-w '{name}'`, or {other_folder_advice}")))
     }
 
     /// Returns whether other users are unable to change the file of an entry.
     pub(in super::super) fn is_entry(place: &Path, artifact: &str) -> bool {
         let Ok(folder) = symlink_metadata(place) else { return false };
         let is_private = folder.mode() & 0o077 == 0;
-        let is_safe = |about: &Metadata| {
-            is_trusted(about.uid()) && (is_private || about.mode() & (GROUP | ALL) == 0)
+        let is_safe = |metadata: &Metadata| {
+            is_trusted(metadata.uid()) && (is_private || metadata.mode() & (GROUP | ALL) == 0)
         };
         let file = symlink_metadata(place.join(artifact));
-        folder.is_dir() && is_safe(&folder) && file.is_ok_and(|about| is_safe(&about))
+        folder.is_dir() && is_safe(&folder) && file.is_ok_and(|metadata| is_safe(&metadata))
     }
 
     fn is_trusted(user: u32) -> bool {
@@ -125,11 +129,11 @@ mod tests {
     /// The id of another user.
     const OTHER: u32 = 54_321;
 
-    fn set(path: &Path, mode: u32) {
+    fn set_mode(path: &Path, mode: u32) {
         fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
     }
 
-    fn refused(root: &Path) -> String {
+    fn refusal_text(root: &Path) -> String {
         let error = open_root(root).unwrap_err();
         assert!(error.is_environment(), "{error:?}");
         error.to_string()
@@ -143,7 +147,7 @@ mod tests {
         for made in [&root, &dir.path().join("a")] {
             assert_eq!(fs::metadata(made).unwrap().mode() & 0o7777, 0o700);
         }
-        set(&root, 0o755);
+        set_mode(&root, 0o755);
         open_root(&root).unwrap();
     }
 
@@ -153,14 +157,14 @@ mod tests {
         let (above, root) = (dir.path().join("above"), dir.path().join("above/cache"));
         fs::create_dir_all(&root).unwrap();
         for (mode, who) in [(0o770, "its group"), (0o777, "everybody"), (0o1777, "everybody")] {
-            set(&root, mode);
-            let text = refused(&root);
+            set_mode(&root, mode);
+            let text = refusal_text(&root);
             let expected = format!("{who} may write to `{}`; run `chmod go-w", root.display());
             assert!(text.contains(&expected), "{mode:o}: {text}");
         }
-        set(&root, 0o700);
+        set_mode(&root, 0o700);
         for (mode, is_refused) in [(0o775, true), (0o777, true), (0o1777, false), (0o755, false)] {
-            set(&above, mode);
+            set_mode(&above, mode);
             assert_eq!(open_root(&root).is_err(), is_refused, "{mode:o}");
             // Nothing is created in the folder either.
             assert_eq!(open_root(&above.join("new/cache")).is_err(), is_refused, "{mode:o}");
@@ -177,7 +181,7 @@ mod tests {
         if chown(&root, Some(OTHER), None).is_err() {
             return crate::testing::report_skip("only root can give a folder away");
         }
-        let text = refused(&root);
+        let text = refusal_text(&root);
         assert!(
             text.contains(&format!("`{}` belongs to another user (uid 54321)", root.display()))
         );
@@ -185,7 +189,7 @@ mod tests {
         chown(&root, Some(0), None).unwrap();
         open_root(&root).unwrap();
         chown(&above, Some(OTHER), None).unwrap();
-        assert!(refused(&root).contains(&format!("`{}` belongs", above.display())));
+        assert!(refusal_text(&root).contains(&format!("`{}` belongs", above.display())));
         // A link of another user leads to a good folder, which is used by its own path.
         let link = dir.path().join("link");
         let good = dir.path().join("good");
@@ -208,12 +212,12 @@ mod tests {
             (0o757, 0o755, false),
             (0o755, 0o775, false),
         ] {
-            set(&place, folder);
-            set(&file, program);
+            set_mode(&place, folder);
+            set_mode(&file, program);
             assert_eq!(is_entry(&place, "program"), is_used, "{folder:o} {program:o}");
         }
-        set(&place, 0o755);
-        set(&file, 0o755);
+        set_mode(&place, 0o755);
+        set_mode(&file, 0o755);
         for path in [&file, &place] {
             if chown(path, Some(OTHER), None).is_ok() {
                 assert!(!is_entry(&place, "program"));

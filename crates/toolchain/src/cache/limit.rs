@@ -13,8 +13,9 @@ pub(super) const VARIABLE: &str = "FOVEATE_CACHE_SIZE";
 const MIB: u64 = 1 << 20;
 const MINIMUM_LIMIT: u64 = MIB;
 const DEFAULT_LIMIT: u64 = 5 << 30;
-/// The part of the limit, as a divisor, that is built before the folder is checked again, and that
-/// is then freed. A build that fills the cache thus does not check the folder every time.
+/// The divisor of the limit that gives the slack. The folder is checked again once this process has
+/// built as many bytes as the slack, and an eviction frees as many bytes below the limit, so that a
+/// full cache is not searched after every build.
 const CHECK_DIVISOR: u64 = 16;
 
 /// The largest number of bytes of a cache, or no limit.
@@ -61,13 +62,13 @@ impl CacheLimit {
     /// ignored.
     pub(super) fn enforce(self, root: &Path, built: &OnceLock<AtomicU64>, bytes: u64) {
         let Some(limit) = self.0 else { return };
-        let part = limit / CHECK_DIVISOR;
-        let first = built.get().is_none();
+        let slack = limit / CHECK_DIVISOR;
+        let is_first = built.get().is_none();
         let built = built.get_or_init(AtomicU64::default);
-        let due = built.fetch_add(bytes, Ordering::Relaxed) + bytes >= part;
-        if first || due {
+        let is_due = built.fetch_add(bytes, Ordering::Relaxed) + bytes >= slack;
+        if is_first || is_due {
             built.store(0, Ordering::Relaxed);
-            eviction::evict(root, limit, limit - part);
+            eviction::evict(root, limit, limit - slack);
         }
     }
 }

@@ -83,8 +83,8 @@ pub fn build(
     cache.keep_or_build(&key, EXECUTABLE, |dir| {
         let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
         let built = build_in(toolchain, cache, job, work.path())?;
-        let kept = dir.join(EXECUTABLE);
-        fs::rename(&built, &kept).map_err(ToolError::io("write", &kept))
+        let target = dir.join(EXECUTABLE);
+        fs::rename(&built, &target).map_err(ToolError::io("write", &target))
     })
 }
 
@@ -182,9 +182,9 @@ fn build_in(
     job: &VerilatorJob,
     dir: &Path,
 ) -> Result<PathBuf, ToolError> {
-    let verilate = toolchain.invocation(Tool::Verilator)?.args(job.flags());
-    let verilate = with_sources(verilate, dir, &job.sources, job.vlt.as_deref())?;
-    toolchain.run_checked(&verilate)?;
+    let invocation = toolchain.invocation(Tool::Verilator)?.args(job.flags());
+    let invocation = with_sources(invocation, dir, &job.sources, job.vlt.as_deref())?;
+    toolchain.run_checked(&invocation)?;
     let header = dir.join(format!("{}.h", job.prefix()));
     let header = fs::read_to_string(&header).map_err(ToolError::io("read", &header))?;
     port_widths::check_header(&job.top, &header, &job.port_bits)?;

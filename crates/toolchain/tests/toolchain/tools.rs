@@ -116,7 +116,7 @@ fn verilator_writes_waves() {
 }
 
 #[test]
-fn verilator_lint_is_strict_unless_told() {
+fn verilator_lint_is_strict_by_default() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
@@ -186,8 +186,8 @@ fn yosys_runs_a_script() {
     assert!(run.files["stat.json"].starts_with(b"{"));
     assert_eq!(yosys::run(&tools, &cache, &job).unwrap(), run);
 
-    let wanting = YosysJob { outputs: vec!["other.json".to_owned()], ..job.clone() };
-    let error = yosys::run(&tools, &cache, &wanting).unwrap_err();
+    let incomplete = YosysJob { outputs: vec!["other.json".to_owned()], ..job.clone() };
+    let error = yosys::run(&tools, &cache, &incomplete).unwrap_err();
     assert!(matches!(error, ToolError::MissingOutput { .. }), "{error}");
     let broken = YosysJob { script: "read_verilog missing.v\n".to_owned(), ..job };
     let error = yosys::run(&tools, &cache, &broken).unwrap_err().to_string();
@@ -223,8 +223,9 @@ fn nextpnr_places_routes_and_caches() {
     nextpnr::run(&tools, &cache, &NextpnrJob { seed: 2, ..job.clone() }).unwrap();
     assert_eq!(fs::read_dir(cache.root()).unwrap().count(), places + 1, "the seed is in the key");
 
-    let none = NextpnrJob { args: vec!["--up6k".to_owned()], ..job };
-    let ToolError::Failed { command, full, .. } = nextpnr::run(&tools, &cache, &none).unwrap_err()
+    let refused = NextpnrJob { args: vec!["--up6k".to_owned()], ..job };
+    let ToolError::Failed { command, full, .. } =
+        nextpnr::run(&tools, &cache, &refused).unwrap_err()
     else {
         panic!("it has failed in another way")
     };
