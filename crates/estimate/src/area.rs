@@ -102,21 +102,22 @@ impl Area {
     }
 }
 
-/// Returns the number of LUTs when small ones share a LUT6: a LUT1 with a LUT5, LUT4 or LUT3, a
-/// LUT2 with a LUT4 or LUT3, and the rest in pairs. The index of `luts` is the number of inputs.
-/// Yosys calls this number estimated LCs. It is counted here because Yosys' own figure includes
-/// submodules in some versions and not in others.
+/// Returns the number of LUTs when small ones share a LUT6 with two outputs. A LUT1 shares it with
+/// a LUT5, LUT4 or LUT3, a LUT2 with a LUT4 or LUT3, and the remaining LUT1 and LUT2 share it with
+/// each other. The index of `luts` is the number of inputs. Yosys calls this number estimated LCs.
+/// It is counted here because Yosys' own figure includes submodules in some versions and not in
+/// others.
 fn shared_luts(luts: [u64; 7]) -> u64 {
     let [_, mut ones, mut twos, threes, fours, fives, sixes] = luts;
-    let host = |hosts: u64, guests: &mut u64| {
-        let hosted = hosts.min(*guests);
-        *guests -= hosted;
-        hosts - hosted
+    let pair_up = |large: u64, small: &mut u64| {
+        let pairs = large.min(*small);
+        *small -= pairs;
+        large - pairs
     };
-    host(fives, &mut ones);
-    for hosts in [fours, threes] {
-        let free = host(hosts, &mut ones);
-        host(free, &mut twos);
+    pair_up(fives, &mut ones);
+    for large in [fours, threes] {
+        let unpaired = pair_up(large, &mut ones);
+        pair_up(unpaired, &mut twos);
     }
     sixes + fives + fours + threes + (ones + twos).div_ceil(2)
 }

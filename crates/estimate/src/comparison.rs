@@ -86,10 +86,10 @@ impl DesignComparison {
     }
 
     fn table(&self) -> ReportTable {
-        let has =
+        let is_used =
             |count: fn(&AreaReport) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
-        let dsp = has(|report| report.whole_area().dsp);
-        let bram = has(|report| report.whole_area().bram18);
+        let dsp = is_used(|report| report.whole_area().dsp);
+        let bram = is_used(|report| report.whole_area().bram18);
         let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
         header.extend(dsp.then(|| "DSP".to_owned()));
         header.extend(bram.then(|| "RAMB36".to_owned()));
@@ -105,11 +105,11 @@ impl DesignComparison {
             row.push(largest_share(&candidate.report.share));
             rows.push(row);
         }
-        let mut paper = self.paper();
-        paper.extend(extras(String::new(), String::new()));
+        let mut paper_row = self.paper_row();
+        paper_row.extend(extras(String::new(), String::new()));
         let lut = PAPER_RCM.lut * 10_000 / FpgaDevice::xcvu9p().lut;
-        paper.push(format!("LUT {}.{:02}%", lut / 100, lut % 100));
-        rows.push(paper);
+        paper_row.push(format!("LUT {}.{:02}%", lut / 100, lut % 100));
+        rows.push(paper_row);
         ReportTable {
             title: "Area, speed and logic levels".to_owned(),
             header,
@@ -134,7 +134,7 @@ impl DesignComparison {
         }
     }
 
-    fn paper(&self) -> Vec<String> {
+    fn paper_row(&self) -> Vec<String> {
         let texts = ["paper (Vivado)", ""].map(str::to_owned);
         let unit =
             [PAPER_RPU.lut - PAPER_RPU.lutram, PAPER_RPU.lutram, PAPER_RPU.lut, PAPER_RPU.ff];
@@ -158,7 +158,8 @@ const HEADER: [&str; 13] = [
     "RCM mem", "RCM FF",
 ];
 
-/// Returns the clock and the frames per second at it; both empty without a known clock.
+/// Returns the clock and the frames per second at that clock. Both texts are empty if no clock is
+/// known.
 fn clock_and_rate(speed: Option<&FrameRate>) -> [String; 2] {
     speed.map_or_else(Default::default, |speed| [speed.clock_text(), speed.rate_text()])
 }
@@ -239,17 +240,20 @@ mod tests {
     /// The rates are for 64 clocks at 100 MHz. Without a given clock the paper has no rate, because
     /// it does not state its clock.
     #[test]
-    fn a_clock_that_is_given_is_that_of_all_rates() {
+    fn a_given_clock_applies_to_all_rates() {
         let rates = |clock| comparison_at(clock).markdown().matches("| 100 | 1,562,500 |").count();
         assert_eq!([rates(Some(100.0)), rates(None)], [2, 0]);
-        let own = comparison().markdown();
-        assert!(own.contains("| 64 |  |  | 143,472 |"), "{own}");
+        let markdown = comparison().markdown();
+        assert!(markdown.contains("| 64 |  |  | 143,472 |"), "{markdown}");
     }
 
     #[test]
     fn block_ram_has_a_column_where_there_is_some() {
-        let with = comparison().markdown();
-        assert!(with.contains("| RAMB36 | device |") && with.contains("| 392 |"), "{with}");
-        assert!(!with.contains("DSP |"), "{with}");
+        let markdown = comparison().markdown();
+        assert!(
+            markdown.contains("| RAMB36 | device |") && markdown.contains("| 392 |"),
+            "{markdown}"
+        );
+        assert!(!markdown.contains("DSP |"), "{markdown}");
     }
 }

@@ -63,26 +63,31 @@ pub fn estimate(
     })?;
     // The cancel flag is checked between the steps, because reading a netlist of many regions takes
     // seconds.
-    let go_on = || match toolchain.cancel_flag().load(Ordering::Relaxed) {
+    let check_interrupt = || match toolchain.cancel_flag().load(Ordering::Relaxed) {
         true => Err(EstimateError::Tool(ToolError::Interrupted)),
         false => Ok(()),
     };
-    go_on()?;
+    check_interrupt()?;
     let netlist = AreaNetlist::parse(NETLIST, &synthesis.json)?;
-    go_on()?;
+    check_interrupt()?;
     let units = job.units(&netlist)?;
-    let without: Vec<&str> = units.iter().map(String::as_str).collect();
-    let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.synthesis.array])?;
-    go_on()?;
-    let apart = leaves.map(|json| AreaNetlist::parse(NETLIST, &json)).transpose()?;
-    let on_top = bus.as_ref().unwrap_or(&synthesis);
-    let clock =
-        ClockEstimate::of(NETLIST, &on_top.json, &job.top_synthesis().array, CellLibrary::Xilinx)?;
-    go_on()?;
-    let of_bus =
-        |(job, made): (&SynthesisJob, &SynthesisResult)| BusArea::of(job, made, apart.as_ref());
-    let bus = job.bus.as_ref().zip(bus.as_ref()).map(of_bus).transpose()?;
-    go_on()?;
+    let unit_modules: Vec<&str> = units.iter().map(String::as_str).collect();
+    let paths = longest_paths(NETLIST, &synthesis.json, &[unit_modules[0], &job.synthesis.array])?;
+    check_interrupt()?;
+    let leaf_netlist = leaves.map(|json| AreaNetlist::parse(NETLIST, &json)).transpose()?;
+    let top_result = bus.as_ref().unwrap_or(&synthesis);
+    let clock = ClockEstimate::of(
+        NETLIST,
+        &top_result.json,
+        &job.top_synthesis().array,
+        CellLibrary::Xilinx,
+    )?;
+    check_interrupt()?;
+    let bus_area = |(job, result): (&SynthesisJob, &SynthesisResult)| {
+        BusArea::of(job, result, leaf_netlist.as_ref())
+    };
+    let bus = job.bus.as_ref().zip(bus.as_ref()).map(bus_area).transpose()?;
+    check_interrupt()?;
     let [unit, array] = paths.try_into().expect("a path for each of the two modules");
     Ok(AreaReport::new(
         synthesis.tool,
@@ -93,8 +98,8 @@ pub fn estimate(
         job.regions,
         UnitCount { name: job.unit_name.clone(), count: job.units },
         MeasuredAreas {
-            unit: netlist.whole_area(without[0], &[])?,
-            glue: netlist.whole_area(&job.synthesis.array, &without)?,
+            unit: netlist.whole_area(unit_modules[0], &[])?,
+            glue: netlist.whole_area(&job.synthesis.array, &unit_modules)?,
             array: netlist.whole_area(&job.synthesis.array, &[])?,
             bus,
         },
@@ -103,8 +108,8 @@ pub fn estimate(
             clock,
             clocks_per_frame: job.clocks_per_frame,
         },
-        match (&job.leaves_of, &apart) {
-            (Some(top), Some(apart)) => leaf_areas(top, apart)?,
+        match (&job.leaves_of, &leaf_netlist) {
+            (Some(top), Some(leaf_netlist)) => leaf_areas(top, leaf_netlist)?,
             _ => Vec::new(),
         },
     ))
@@ -118,8 +123,8 @@ impl EstimateJob {
         self.bus.as_ref().unwrap_or(&self.synthesis)
     }
 
-    /// Returns the modules of the netlist that are units, the most frequent first: one for each set
-    /// of parameters.
+    /// Returns the modules of the netlist that are made from the unit, the most frequent first. The
+    /// netlist has one such module for each set of parameters.
     fn units(&self, netlist: &AreaNetlist) -> Result<Vec<String>, EstimateError> {
         let mut found = Vec::new();
         for (name, count) in netlist.instances(&self.synthesis.array, &[])? {

@@ -23,9 +23,9 @@ pub struct FoldCost {
     pub area: Area,
 }
 
-/// Returns the cheapest fold of a design that reaches a rate in frames per second at its own clock,
-/// among the folds that are tried. Returns the design itself, which has fold 1, if none reaches the
-/// rate.
+/// Returns the design with its cheapest fold that reaches `rate` in frames per second, at the clock
+/// of its own netlist. Returns the design `single` itself, which has fold 1, if no fold that was
+/// tried reaches the rate.
 ///
 /// # Errors
 /// Fails if `synthesize` fails.
@@ -35,28 +35,28 @@ pub fn cheapest_fold<E>(
     synthesize: impl Fn(&Design) -> Result<FoldCost, E>,
 ) -> Result<Design, E> {
     let device = FpgaDevice::xcvu9p();
-    let most = |mhz: f64| most_clocks_per_frame(mhz * 1e6, clocks_as_float(rate));
+    let max_clocks = |mhz: f64| most_clocks_per_frame(mhz * 1e6, clocks_as_float(rate));
     let mut tried: BTreeMap<u32, Option<f64>> = BTreeMap::new();
     let mut fast: Vec<(f64, Design)> = Vec::new();
     // The clock of a folded array differs from that of fold 1. If the fold with the fewest lanes is
     // too slow at its own clock, the next folds are selected by that clock.
-    let mut planned = synthesize(&single)?.clock_mhz;
-    while let Some(mhz) = planned {
-        let folds = single.pareto_folds(most(mhz));
+    let mut planning_clock = synthesize(&single)?.clock_mhz;
+    while let Some(mhz) = planning_clock {
+        let folds = single.pareto_folds(max_clocks(mhz));
         for &fold in &folds {
             if tried.contains_key(&fold) {
                 continue;
             }
             let Ok(folded) = single.with_fold(fold) else { continue };
             let FoldCost { clock_mhz, area } = synthesize(&folded)?;
-            let reaches = |mhz| folded.timing().clocks_per_frame() <= most(mhz);
-            let is_fast = clock_mhz.is_some_and(reaches);
-            tried.insert(fold, clock_mhz.filter(|_| !is_fast));
-            if is_fast {
+            let is_reached = |mhz| folded.timing().clocks_per_frame() <= max_clocks(mhz);
+            let is_fast_enough = clock_mhz.is_some_and(is_reached);
+            tried.insert(fold, clock_mhz.filter(|_| !is_fast_enough));
+            if is_fast_enough {
                 fast.push((device.cost(&area), folded));
             }
         }
-        planned = folds.first().and_then(|first| tried.get(first).copied().flatten());
+        planning_clock = folds.first().and_then(|first| tried.get(first).copied().flatten());
     }
     let best = fast.into_iter().min_by(|one, other| one.0.total_cmp(&other.0));
     Ok(best.map_or(single, |(_, design)| design))
@@ -104,16 +104,16 @@ mod tests {
     /// %.
     #[test]
     fn a_fold_with_fewer_lanes_and_twice_the_block_rams_is_not_chosen() {
-        let at = |_| needed_clock(17);
-        let small = |fold| if fold == 8 { 170 } else { 40 };
-        assert_eq!(chosen_fold(at, small), (16, vec![1, 17, 16, 8]));
+        let clock = |_| needed_clock(17);
+        let lane_luts = |fold| if fold == 8 { 170 } else { 40 };
+        assert_eq!(chosen_fold(clock, lane_luts), (16, vec![1, 17, 16, 8]));
         // 45 block RAMs are 1.0417 % of the device, which equals 12,315 LUTs, or 6,157.5 for each
         // of two lanes.
-        let (less, more) = (chosen_fold(at, |fold| if fold == 8 { 9_999 } else { 6_157 }), 6_158);
-        assert_eq!(less.0, 16);
-        assert_eq!(chosen_fold(at, |fold| if fold == 8 { 9_999 } else { more }).0, 17);
+        let block_ram =
+            |luts| chosen_fold(clock, move |fold| if fold == 8 { 9_999 } else { luts }).0;
+        assert_eq!([6_157, 6_158].map(block_ram), [16, 17]);
         // 49 block RAMs equal 13,409.7 LUTs, or 136.8 for each of 98 lanes with distributed memory.
-        let distributed = |luts| chosen_fold(at, move |fold| if fold == 8 { luts } else { 0 }).0;
+        let distributed = |luts| chosen_fold(clock, move |fold| if fold == 8 { luts } else { 0 }).0;
         assert_eq!([136, 137].map(distributed), [8, 16]);
     }
 
@@ -121,20 +121,20 @@ mod tests {
     /// the fewest lanes decides which folds are tried next.
     #[test]
     fn every_fold_has_a_clock_of_its_own() {
-        let small = |fold| if fold == 8 { 170 } else { 40 };
+        let lane_luts = |fold| if fold == 8 { 170 } else { 40 };
         let slow = |fold| if fold == 17 { needed_clock(17) - 0.001 } else { needed_clock(17) };
-        assert_eq!(chosen_fold(slow, small), (16, vec![1, 17, 16, 8]));
+        assert_eq!(chosen_fold(slow, lane_luts), (16, vec![1, 17, 16, 8]));
         // 53 lanes of 15 slots have one block RAM each, and 98 lanes of 8 slots have more LUTs.
         let slower = |fold| if fold > 15 { needed_clock(15) } else { needed_clock(17) };
-        assert_eq!(chosen_fold(slower, small), (15, vec![1, 17, 16, 8, 15]));
+        assert_eq!(chosen_fold(slower, lane_luts), (15, vec![1, 17, 16, 8, 15]));
         assert_eq!(
-            chosen_fold(|_| needed_clock(1) - 0.001, small),
+            chosen_fold(|_| needed_clock(1) - 0.001, lane_luts),
             (1, vec![1]),
             "fold 1 is the fastest"
         );
         let fast_alone = |fold| if fold == 1 { needed_clock(17) } else { 0.001 };
         assert_eq!(
-            chosen_fold(fast_alone, small),
+            chosen_fold(fast_alone, lane_luts),
             (1, vec![1, 17, 16, 8]),
             "what else is too slow"
         );

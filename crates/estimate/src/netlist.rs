@@ -115,20 +115,20 @@ impl AreaNetlist {
         name: &str,
         leaves: &[&str],
         times: u64,
-        above: &mut Vec<String>,
+        ancestors: &mut Vec<String>,
         counts: &mut BTreeMap<String, u64>,
     ) -> Result<(), EstimateError> {
-        if above.iter().any(|module| module == name) {
+        if ancestors.iter().any(|module| module == name) {
             return Err(EstimateError::Recursive { module: name.to_owned() });
         }
-        above.push(name.to_owned());
+        ancestors.push(name.to_owned());
         for (submodule, count) in &self.module(name)?.submodules {
             *counts.entry(submodule.clone()).or_default() += times * count;
             if !leaves.contains(&submodule.as_str()) {
-                self.count_below(submodule, leaves, times * count, above, counts)?;
+                self.count_below(submodule, leaves, times * count, ancestors, counts)?;
             }
         }
-        above.pop();
+        ancestors.pop();
         Ok(())
     }
 }
@@ -167,7 +167,7 @@ mod tests {
     const NEW: &[u8] = include_bytes!("../tests/fixtures/array_yosys_0.70.json");
 
     #[test]
-    fn old_and_new_yosys_are_understood() {
+    fn netlists_of_old_and_new_yosys_are_read() {
         for json in [OLD, NEW] {
             let netlist = AreaNetlist::parse("netlist", json).unwrap();
             let rcm = netlist.module("rcm").unwrap();
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_understood_is_an_error() {
+    fn unreadable_json_and_missing_modules_are_errors() {
         let error = AreaNetlist::parse("netlist.json", br#"{"modules": {"a": {}}}"#).unwrap_err();
         let text = error.to_string();
         assert!(text.contains("netlist.json") && text.contains("`cells`"), "{text}");
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_area_has_what_is_inside() {
+    fn the_whole_area_includes_submodules() {
         let json = include_bytes!("../tests/fixtures/leaves_yosys_0.23.json");
         let netlist = AreaNetlist::parse("netlist", json).unwrap();
         let whole = netlist.whole_area("rpu", &[]).unwrap();

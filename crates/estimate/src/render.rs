@@ -97,15 +97,15 @@ fn path_table(report: &AreaReport) -> ReportTable {
     let row = |name: &str, path: &LogicPath| {
         vec![name.to_owned(), path.levels.to_string(), path.carry4.to_string()]
     };
-    let way =
+    let description =
         |path: &LogicPath| format!("from {} by {} to {}", path.from, path_cells(path), path.to);
-    let mut note = format!("{}: {}. ", report.unit, way(rpu));
+    let mut note = format!("{}: {}. ", report.unit, description(rpu));
     if rcm != rpu {
-        note += &format!("RCM: {}. ", way(rcm));
+        note += &format!("RCM: {}. ", description(rcm));
     }
     let mut rows = vec![row(&report.unit, rpu), row("RCM", rcm)];
     if let Some(bus) = &report.bus {
-        note += &format!("{AXI_CORE_NAME}: {}. ", way(&bus.path));
+        note += &format!("{AXI_CORE_NAME}: {}. ", description(&bus.path));
         rows.push(row(AXI_CORE_NAME, &bus.path));
     }
     if let Some(clock) = &report.clock {
@@ -258,15 +258,15 @@ mod tests {
     #[test]
     fn frames_per_second_stand_beside_their_clock() {
         let text = |mhz| render_text(&example(784).with_clock(mhz), 1000);
-        let own = "60 MHz (48 to 80), by Yosys' cell models, which are of the 7 series. A frame takes \
+        let estimated = "60 MHz (48 to 80), by Yosys' cell models, which are of the 7 series. A frame takes \
                    64 clocks: 937,500 (750,000 to 1,250,000) frames/s at that clock. ";
-        assert!(text(None).contains(own), "{}", text(None));
+        assert!(text(None).contains(estimated), "{}", text(None));
         let given = "A frame takes 64 clocks: 1,562,500 frames/s at 100 MHz. ";
         assert!(text(Some(100.0)).contains(given), "{}", text(Some(100.0)));
     }
 
     #[test]
-    fn the_papers_array_is_shown_only_beside_its_like() {
+    fn the_paper_is_compared_only_with_an_array_of_its_size() {
         assert!(!render_text(&example(4), 80).contains("143,472"));
     }
 
@@ -279,14 +279,18 @@ mod tests {
     }
 
     #[test]
-    fn a_core_on_a_bus_is_shown_with_what_is_around_the_array() {
+    fn a_core_on_a_bus_has_rows_for_the_parts_around_the_array() {
         let text = render_text(&bus_example(), 200);
         let rows: Vec<&str> =
             text.lines().map(|line| line.split("  ").next().unwrap_or("")).collect();
-        let at = |name: &str| {
+        let row_index = |name: &str| {
             rows.iter().position(|row| *row == name).unwrap_or_else(|| panic!("{name}: {text}"))
         };
-        assert!(at("RCM") < at("registers") && at("registers") < at("RCM on AXI"), "{text}");
+        assert!(
+            row_index("RCM") < row_index("registers")
+                && row_index("registers") < row_index("RCM on AXI"),
+            "{text}"
+        );
         for part in [
             "Modules of the RCM on AXI, each",
             " 205 ",
@@ -303,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_are_no_rpus() {
+    fn tables_of_a_serial_array_name_lanes() {
         let mut report = serial_example(784, 21);
         report.leaves[0].module = "rcm".into();
         let text = render_text(&report, 200);

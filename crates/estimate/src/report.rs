@@ -282,7 +282,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_paper_is_set_beside() {
+    fn the_report_compares_with_the_paper() {
         let report = example(784);
         assert_eq!(report.rcm.lut_total, 784 * 160 + 3);
         assert!((report.paper.rpu.ratio.lut_total - 0.874).abs() < 1e-9);
@@ -302,7 +302,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_a_design_takes_is_all_of_it() {
+    fn the_whole_area_includes_the_bus() {
         let (array, on_bus) = (example(4), bus_example());
         assert_eq!((array.whole_area(), array.levels()), (&array.rcm, 3));
         assert_eq!((on_bus.whole_area().lut_total, on_bus.levels()), (1_404, 7));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A reduced library of Xilinx cells for Yosys. The full library declares cells of which Yosys knows
-//! only the ports; the reduced library omits the cells that no core can have.
+//! A reduced library of Xilinx cells for Yosys. The full library declares the ports of cells that
+//! Yosys does not model; the reduced library omits the cells that no core can have.
 //!
 //! `synth_xilinx` begins with the ports of 328 cells, from pads to processors, and carries them
 //! through all of its steps. Its rules for `UltraScale+` use four of them. Without the others, a

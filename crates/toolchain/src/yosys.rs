@@ -103,8 +103,8 @@ pub fn module_text(library: &str, name: &str) -> Option<String> {
     Some(text)
 }
 
-/// Fails on JSON that is invalid or empty. A Yosys that was killed may write such a file, and so may
-/// another program that is installed under its name.
+/// Fails on JSON that is invalid or empty. A Yosys that was killed may write such a file, and
+/// another program that is installed under its name may do so, too.
 fn check_json(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
     if !name.ends_with(".json") {
         return Ok(());

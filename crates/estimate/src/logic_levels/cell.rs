@@ -22,16 +22,16 @@ pub(super) struct CellTiming {
 impl CellTiming {
     /// Returns the timing of a cell of a kind. `chained` returns whether a net is the last carry of
     /// another block.
-    pub(super) fn of(kind: CellKind, cell: &PathCell, chained: impl Fn(u32) -> bool) -> Self {
+    pub(super) fn of(kind: CellKind, cell: &PathCell, is_last_carry: impl Fn(u32) -> bool) -> Self {
         let mut timing = Self::default();
         let outputs: Vec<_> =
-            pin_connections(cell).filter(|joint| is_output(kind, joint.port)).collect();
-        for input in pin_connections(cell).filter(|joint| !is_output(kind, joint.port)) {
+            pin_connections(cell).filter(|pin| is_output(kind, pin.port)).collect();
+        for input in pin_connections(cell).filter(|pin| !is_output(kind, pin.port)) {
             if is_clock(kind, input.port) {
                 continue;
             }
             for output in &outputs {
-                if let Some(weight) = arc_weight(kind, cell, &input, output, &chained) {
+                if let Some(weight) = arc_weight(kind, cell, &input, output, &is_last_carry) {
                     let time =
                         PathWeight::with_wires(cell_delays::arc_delay(kind, cell, &input, output));
                     timing.arcs.push((input.net, output.net, weight.plus(time)));
@@ -49,7 +49,7 @@ impl CellTiming {
     }
 }
 
-/// Returns the last carry of a block, from which a chain continues.
+/// Returns the net of the last carry of a block. The next block of the chain continues from it.
 pub(super) fn carry_out(cell: &PathCell) -> Option<u32> {
     matches!(CellKind::from_type(&cell.kind), Some(CellKind::Carry(_)))
         .then(|| cell.connections.get("CO")?.last().and_then(PathBit::net))
@@ -91,28 +91,28 @@ fn arc_weight(
     cell: &PathCell,
     input: &PinConnection<'_>,
     output: &PinConnection<'_>,
-    chained: impl Fn(u32) -> bool,
+    is_last_carry: impl Fn(u32) -> bool,
 ) -> Option<PathWeight> {
     match kind {
         CellKind::Lut(_) | CellKind::Inverter => Some(PathWeight::LEVEL),
         CellKind::Free => Some(PathWeight::NONE),
         CellKind::Carry(_) => {
             // Bit i of the sum does not depend on bit i of the data, but bit i of the carry does.
-            let waits = match input.port {
+            let depends = match input.port {
                 "S" => input.index <= output.index,
                 "DI" if output.port == "O" => input.index < output.index,
                 "DI" => input.index <= output.index,
                 _ => true,
             };
-            let inside = input.port == "CI" && chained(input.net);
-            waits.then_some(if inside { PathWeight::BLOCK } else { PathWeight::CHAIN })
+            let is_chained = input.port == "CI" && is_last_carry(input.net);
+            depends.then_some(if is_chained { PathWeight::BLOCK } else { PathWeight::CHAIN })
         }
         CellKind::ShiftRegister16 | CellKind::Memory(_) => {
             is_read_address(output.port, input.port).then_some(PathWeight::LEVEL)
         }
         CellKind::Dsp => {
-            let through = is_unregistered(cell, "M") && is_unregistered(cell, "P");
-            (through && is_data(cell, input.port)).then_some(PathWeight::LEVEL)
+            let is_combinational = is_unregistered(cell, "M") && is_unregistered(cell, "P");
+            (is_combinational && is_data(cell, input.port)).then_some(PathWeight::LEVEL)
         }
         CellKind::FlipFlop | CellKind::BlockRam(_) | CellKind::UltraRam => None,
     }
@@ -141,13 +141,13 @@ fn is_end(kind: CellKind, cell: &PathCell, port: &str) -> bool {
         CellKind::Memory(_) => {
             // The write address is also a read address; a shift register has no write address.
             let is_shift_address = cell.kind.starts_with("SRL") && port.starts_with('A');
-            let only_read = port.starts_with("DPRA")
+            let is_read_only = port.starts_with("DPRA")
                 || port.strip_prefix("ADDR").is_some_and(|letter| !is_written(cell, letter));
-            !(only_read || is_shift_address)
+            !(is_read_only || is_shift_address)
         }
         CellKind::Dsp => {
-            let through = is_unregistered(cell, "M") && is_unregistered(cell, "P");
-            !(through && is_data(cell, port))
+            let is_combinational = is_unregistered(cell, "M") && is_unregistered(cell, "P");
+            !(is_combinational && is_data(cell, port))
         }
         CellKind::Lut(_) | CellKind::Inverter | CellKind::Free | CellKind::Carry(_) => false,
     }

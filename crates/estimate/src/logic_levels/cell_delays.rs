@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The delays of Xilinx cells in picoseconds, from the `specify` blocks of Yosys' cell models
-//! (`xilinx/cells_sim.v`). Where a block distinguishes many bits, the slowest of a group is used
-//! for all.
+//! (`xilinx/cells_sim.v`). Where a `specify` block has a delay for each bit, the delay of the
+//! slowest bit is used for a whole group of bits.
 //!
 //! * The models are those of the 7 series. Yosys has none of UltraScale+, and uses these for it.
 //! * Setup times are left out, as those of ECP5 are 0.

@@ -52,8 +52,7 @@ pub(super) fn timing(cell: &PathCell) -> Option<CellTiming> {
 }
 
 fn combinational_timing(cell: &PathCell, table: DelayTable) -> CellTiming {
-    let net =
-        |port: &str| pin_connections(cell).find(|joint| joint.port == port).map(|joint| joint.net);
+    let net = |port: &str| pin_connections(cell).find(|pin| pin.port == port).map(|pin| pin.net);
     let arc = |&(from, to, ps): &(&str, &str, u32)| {
         Some((net(from)?, net(to)?, PathWeight::with_wires(ps)))
     };
@@ -64,13 +63,11 @@ fn combinational_timing(cell: &PathCell, table: DelayTable) -> CellTiming {
 /// outputs, each after its delay.
 fn registered_timing(cell: &PathCell, output: &str, ps: impl Fn(&str) -> u32) -> CellTiming {
     let mut timing = CellTiming::default();
-    for joint in pin_connections(cell).filter(|joint| !joint.port.contains("CLK")) {
-        if joint.port.starts_with(output) {
-            timing
-                .starts
-                .push((joint.net, PathWeight::after_clock(ps(joint.port), FLIP_FLOP_START)));
+    for pin in pin_connections(cell).filter(|pin| !pin.port.contains("CLK")) {
+        if pin.port.starts_with(output) {
+            timing.starts.push((pin.net, PathWeight::after_clock(ps(pin.port), FLIP_FLOP_START)));
         } else {
-            timing.ends.push((joint.net, joint.port.to_owned()));
+            timing.ends.push((pin.net, pin.port.to_owned()));
         }
     }
     timing
@@ -86,14 +83,13 @@ fn block_ram_start(cell: &PathCell, output: &str) -> u32 {
 /// Returns the timing of distributed RAM, which is written at the clock and read at any time.
 fn memory_timing(cell: &PathCell) -> CellTiming {
     let mut timing = CellTiming::default();
-    let outputs =
-        || pin_connections(cell).filter(|joint| joint.port == "DO").map(|joint| joint.net);
-    for joint in pin_connections(cell) {
-        match joint.port {
-            "DO" => timing.starts.push((joint.net, PathWeight::with_wires(FLIP_FLOP_START))),
-            "RAD" => timing.arcs.extend(outputs().map(|out| (joint.net, out, PathWeight::NONE))),
+    let outputs = || pin_connections(cell).filter(|pin| pin.port == "DO").map(|pin| pin.net);
+    for pin in pin_connections(cell) {
+        match pin.port {
+            "DO" => timing.starts.push((pin.net, PathWeight::with_wires(FLIP_FLOP_START))),
+            "RAD" => timing.arcs.extend(outputs().map(|out| (pin.net, out, PathWeight::NONE))),
             "WCK" => {}
-            port => timing.ends.push((joint.net, port.to_owned())),
+            port => timing.ends.push((pin.net, port.to_owned())),
         }
     }
     timing
@@ -104,9 +100,8 @@ fn memory_timing(cell: &PathCell) -> CellTiming {
 fn multiplier_timing(cell: &PathCell) -> CellTiming {
     let is_output = |port: &str| port.starts_with('P') || port.starts_with("RO");
     let is_input = |port: &str| port.starts_with('A') || port.starts_with('B');
-    let outputs =
-        || pin_connections(cell).filter(|joint| is_output(joint.port)).map(|joint| joint.net);
-    let inputs = pin_connections(cell).filter(|joint| is_input(joint.port)).map(|joint| joint.net);
+    let outputs = || pin_connections(cell).filter(|pin| is_output(pin.port)).map(|pin| pin.net);
+    let inputs = pin_connections(cell).filter(|pin| is_input(pin.port)).map(|pin| pin.net);
     let each = |from| outputs().map(move |to| (from, to, PathWeight::without_wires(MULTIPLIER)));
     CellTiming { arcs: inputs.flat_map(each).collect(), ..CellTiming::default() }
 }

@@ -148,37 +148,39 @@ impl<'a> GraphBuilder<'a> {
             }
             for (net, pin) in &timing.ends {
                 let net = graph.net(instance, nets, *net);
-                let named = output.map_or(net, |output| graph.net(instance, nets, output));
-                graph.ends.push(PathSink {
-                    net,
-                    pin: Some((*kind, pin.clone())),
-                    named_net: named,
-                });
+                let named_net = output.map_or(net, |output| graph.net(instance, nets, output));
+                graph.ends.push(PathSink { net, pin: Some((*kind, pin.clone())), named_net });
             }
         }
         for (name, cell) in &instance.module.cells {
             if self.netlist.modules.contains_key(&cell.kind) {
                 let inner = self.instance(&cell.kind, &nested_name(&instance.path, name))?;
-                let mut bound = NetNumbers::new();
-                let again =
-                    connect_ports(graph, (instance, nets), (&inner, &mut bound), &cell.connections);
-                self.fill(graph, &inner, &mut bound)?;
-                graph.arcs.extend(again);
+                let mut inner_nets = NetNumbers::new();
+                let alias_arcs = connect_ports(
+                    graph,
+                    (instance, nets),
+                    (&inner, &mut inner_nets),
+                    &cell.connections,
+                );
+                self.fill(graph, &inner, &mut inner_nets)?;
+                graph.arcs.extend(alias_arcs);
             }
         }
         Ok(())
     }
 }
 
-/// Connects the ports of an inner instance to the nets outside. Returns an arc for every output
-/// that comes from an input or leaves under a second name.
+/// Connects the ports of an inner instance to the nets outside. Each inner net becomes one of the
+/// nets to which its ports are connected. If an inner net has several ports, as an output that is
+/// wired to an input, an arc without a cell leads to each of the other nets; these arcs are
+/// returned.
 fn connect_ports<'a>(
     graph: &mut NetGraph<'a>,
     (outer, nets): (&ModuleInstance<'a>, &mut NetNumbers),
-    (inner, bound): (&ModuleInstance<'a>, &mut NetNumbers),
+    (inner, inner_nets): (&ModuleInstance<'a>, &mut NetNumbers),
     connections: &BTreeMap<String, Vec<PathBit>>,
 ) -> Vec<TimingArc<'a>> {
-    let mut again = Vec::new();
+    let mut alias_arcs = Vec::new();
     for output in [false, true] {
         let ports = inner.module.ports.iter().filter(|(_, port)| port.is_output() == output);
         for (name, port) in ports {
@@ -187,15 +189,20 @@ fn connect_ports<'a>(
             {
                 if let (Some(local), Some(outside)) = (local.net(), outside.net()) {
                     let to = graph.net(outer, nets, outside);
-                    let from = *bound.entry(local).or_insert(to);
+                    let from = *inner_nets.entry(local).or_insert(to);
                     if from != to {
-                        again.push(TimingArc { from, to, weight: PathWeight::NONE, cell: None });
+                        alias_arcs.push(TimingArc {
+                            from,
+                            to,
+                            weight: PathWeight::NONE,
+                            cell: None,
+                        });
                     }
                 }
             }
         }
     }
-    again
+    alias_arcs
 }
 
 /// Returns the primitive cells of a module.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds the longest path of a graph, net by net in the order in which signals arrive.
+//! Finds the longest path of a graph. A net is visited after all nets from which arcs lead to it,
+//! so that its latest arrival is known.
 
 use super::graph::NetGraph;
 use super::path::{LogicPath, PathWeight};
@@ -26,21 +27,21 @@ pub(super) fn longest_path(
     length: PathLength,
 ) -> Result<(LogicPath, u32), EstimateError> {
     let arrivals = arrivals(graph, length)?;
-    let arrives = |net: u32| arrivals[net as usize];
+    let arrival_at = |net: u32| arrivals[net as usize];
     let mut latest = None;
     for end in &graph.ends {
-        let longer = |arrival: &SignalArrival| {
+        let is_longer = |arrival: &SignalArrival| {
             latest.is_none_or(|(weight, _)| length(arrival.weight) > length(weight))
         };
-        if let Some(arrival) = arrives(end.net).filter(longer) {
+        if let Some(arrival) = arrival_at(end.net).filter(is_longer) {
             latest = Some((arrival.weight, end));
         }
     }
     let Some((weight, end)) = latest else { return Ok((LogicPath::default(), 0)) };
     let (mut through, mut net) = (Vec::new(), end.net);
-    while let Some(by) = arrives(net).and_then(|arrival| arrival.arc) {
-        through.extend(graph.arcs[by].cell.map(str::to_owned));
-        net = graph.arcs[by].from;
+    while let Some(arc) = arrival_at(net).and_then(|arrival| arrival.arc) {
+        through.extend(graph.arcs[arc].cell.map(str::to_owned));
+        net = graph.arcs[arc].from;
     }
     through.reverse();
     let to = graph.name(end.named_net);
@@ -75,28 +76,29 @@ fn arrivals(
         let last = order.partition_point(|arc| from(arc) <= net);
         order[first..last].iter().copied()
     };
-    let mut waiting = vec![0_u32; graph.net_count()];
-    graph.arcs.iter().for_each(|arc| waiting[arc.to as usize] += 1);
+    let mut pending_arcs = vec![0_u32; graph.net_count()];
+    graph.arcs.iter().for_each(|arc| pending_arcs[arc.to as usize] += 1);
     let nets = 0..u32::try_from(graph.net_count()).expect("the graph numbers its nets in 32 bits");
-    let mut ready: Vec<u32> = nets.clone().filter(|&net| waiting[net as usize] == 0).collect();
+    let mut ready: Vec<u32> = nets.clone().filter(|&net| pending_arcs[net as usize] == 0).collect();
     while let Some(net) = ready.pop() {
-        for by in leaving(net) {
-            let arc = &graph.arcs[by];
+        for arc_index in leaving(net) {
+            let arc = &graph.arcs[arc_index];
             if let Some(SignalArrival { weight, .. }) = arrivals[net as usize] {
-                let arrival = SignalArrival { weight: weight.plus(arc.weight), arc: Some(by) };
+                let arrival =
+                    SignalArrival { weight: weight.plus(arc.weight), arc: Some(arc_index) };
                 keep_later(&mut arrivals[arc.to as usize], arrival, length);
             }
-            waiting[arc.to as usize] -= 1;
-            if waiting[arc.to as usize] == 0 {
+            pending_arcs[arc.to as usize] -= 1;
+            if pending_arcs[arc.to as usize] == 0 {
                 ready.push(arc.to);
             }
         }
     }
-    match nets.into_iter().find(|&net| waiting[net as usize] > 0) {
+    match nets.into_iter().find(|&net| pending_arcs[net as usize] > 0) {
         None => Ok(arrivals),
-        Some(net) => {
-            Err(EstimateError::CombinationalLoop { nets: combinational_loop(graph, &waiting, net) })
-        }
+        Some(net) => Err(EstimateError::CombinationalLoop {
+            nets: combinational_loop(graph, &pending_arcs, net),
+        }),
     }
 }
 
@@ -109,17 +111,18 @@ fn keep_later(slot: &mut Option<SignalArrival>, arrival: SignalArrival, length: 
     }
 }
 
-/// Returns the nets of a loop upstream of a waiting net. Every waiting net has a waiting
-/// predecessor, so a search backwards must come around.
-fn combinational_loop(graph: &NetGraph<'_>, waiting: &[u32], mut net: u32) -> String {
-    let mut seen = Vec::new();
-    while !seen.contains(&net) {
-        seen.push(net);
-        let before = graph.arcs.iter().find(|arc| arc.to == net && waiting[arc.from as usize] > 0);
-        net = before.expect("a net that waits has one before it that does").from;
+/// Returns the nets of a loop. `net` has an arc that was never visited, which comes from another
+/// such net, and so on backwards, so that the search must meet a net for the second time.
+fn combinational_loop(graph: &NetGraph<'_>, pending_arcs: &[u32], mut net: u32) -> String {
+    let mut visited = Vec::new();
+    while !visited.contains(&net) {
+        visited.push(net);
+        let predecessor =
+            graph.arcs.iter().find(|arc| arc.to == net && pending_arcs[arc.from as usize] > 0);
+        net = predecessor.expect("a net that waits has one before it that does").from;
     }
-    let around = seen.iter().skip_while(|&&other| other != net);
-    let mut names: Vec<String> = around.map(|&net| format!("`{}`", graph.name(net))).collect();
+    let loop_nets = visited.iter().skip_while(|&&other| other != net);
+    let mut names: Vec<String> = loop_nets.map(|&net| format!("`{}`", graph.name(net))).collect();
     names.reverse();
     names.join(", ")
 }

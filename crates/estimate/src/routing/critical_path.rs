@@ -32,7 +32,8 @@ pub struct PathEnd {
     pub name: String,
 }
 
-/// The source of names: the netlist as it was placed, and the modules before it was flattened.
+/// The netlist as it was placed, and the hierarchy of modules before it was flattened. Both are
+/// needed to name cells and nets as the source does.
 pub(super) struct SourceNames<'a> {
     pub(super) top: &'a str,
     pub(super) netlist: &'a PlacementNetlist,

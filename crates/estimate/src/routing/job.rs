@@ -131,18 +131,18 @@ pub fn place_and_route(
     job: &RouteJob,
     devices: &[&'static RouteDevice],
 ) -> Result<RouteReport, EstimateError> {
-    let ready =
+    let synthesize =
         |&device: &&'static RouteDevice| SynthesizedDesign::new(toolchain, cache, job, device);
-    let ready = devices.iter().map(ready).collect::<Result<Vec<_>, _>>()?;
+    let designs = devices.iter().map(synthesize).collect::<Result<Vec<_>, _>>()?;
     let runs: Vec<_> =
-        ready.iter().flat_map(|ready| (1..=job.seeds).map(move |seed| (ready, seed))).collect();
-    let outcomes = in_parallel(&runs, |(ready, seed)| ready.place(toolchain, cache, *seed));
+        designs.iter().flat_map(|design| (1..=job.seeds).map(move |seed| (design, seed))).collect();
+    let outcomes = in_parallel(&runs, |(design, seed)| design.place(toolchain, cache, *seed));
     let mut outcomes = outcomes.into_iter();
     let synthesizer = toolchain.find(Tool::Yosys)?.banner;
-    let devices = ready.iter().map(|ready| {
+    let devices = designs.iter().map(|design| {
         let outcomes = outcomes.by_ref().take(job.seeds as usize).collect();
-        let router = toolchain.find(ready.device.tool())?.banner;
-        ready.routed(&job.top, [synthesizer.clone(), router], outcomes)
+        let router = toolchain.find(design.device.tool())?.banner;
+        design.device_result(&job.top, [synthesizer.clone(), router], outcomes)
     });
     Ok(RouteReport {
         format_version: ROUTE_FORMAT_VERSION,
@@ -188,19 +188,19 @@ impl SynthesizedDesign {
     }
 
     /// Combines the results of all seeds on one device.
-    fn routed(
+    fn device_result(
         &self,
         top: &str,
         [synthesizer, router]: [String; 2],
         outcomes: Vec<Result<Vec<u8>, ToolError>>,
     ) -> Result<DeviceResult, EstimateError> {
         let mut reports = Vec::new();
-        let mut over_all = Vec::new();
+        let mut shortages = Vec::new();
         for outcome in outcomes {
             match outcome {
                 Ok(report) => reports.push(NextpnrReport::parse(&report)?),
                 Err(ToolError::Failed { full, .. }) if !resource_shortages(&full).is_empty() => {
-                    over_all = resource_shortages(&full);
+                    shortages = resource_shortages(&full);
                 }
                 Err(error) => return Err(error.into()),
             }
@@ -215,20 +215,24 @@ impl SynthesizedDesign {
                 self.device.family.synthesis_command().to_owned(),
             ),
             route: tool("nextpnr", router, self.device.arguments().join(" ")),
-            placed: if over_all.is_empty() { Some(self.placed(top, &reports)?) } else { None },
-            over: over_all,
+            placed: if shortages.is_empty() {
+                Some(self.placement_result(top, &reports)?)
+            } else {
+                None
+            },
+            over: shortages,
         })
     }
 
-    fn placed(
+    fn placement_result(
         &self,
         top: &str,
         reports: &[NextpnrReport],
     ) -> Result<PlacementResult, EstimateError> {
         let seeds = reports.iter().map(NextpnrReport::fmax_mhz).collect::<Result<Vec<_>, _>>()?;
-        let none =
+        let no_seeds =
             || EstimateError::UnreadableReport { reason: "there is none, for no seed".to_owned() };
-        let (fmax, median) = ClockStatistics::of(seeds).ok_or_else(none)?;
+        let (fmax, median) = ClockStatistics::of(seeds).ok_or_else(no_seeds)?;
         let report = &reports[median];
         let names = SourceNames { top, netlist: &self.netlist, hierarchy: &self.hierarchy };
         let used = |place: &str| {
@@ -296,21 +300,21 @@ pub(super) fn placement_netlist(
 /// Returns the result for each item in order, a few at a time.
 fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::new());
+    let results = Mutex::new(Vec::new());
     let processors = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
         for _ in 0..processors.min(CONCURRENT_PLACEMENTS) {
             scope.spawn(|| {
-                while let at = next.fetch_add(1, Ordering::Relaxed)
-                    && let Some(item) = items.get(at)
+                while let index = next.fetch_add(1, Ordering::Relaxed)
+                    && let Some(item) = items.get(index)
                 {
                     let result = work(item);
-                    done.lock().expect("no thread panics while it pushes").push((at, result));
+                    results.lock().expect("no thread panics while it pushes").push((index, result));
                 }
             });
         }
     });
-    let mut done = done.into_inner().expect("no thread panics while it pushes");
-    done.sort_by_key(|(at, _)| *at);
-    done.into_iter().map(|(_, result)| result).collect()
+    let mut results = results.into_inner().expect("no thread panics while it pushes");
+    results.sort_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
 }

@@ -67,13 +67,13 @@ pub(super) enum NetlistBit {
 impl PlacementNetlist {
     /// Returns the module `top` of a file that Yosys wrote, and the creator of the file.
     pub(super) fn parse(json: &[u8], top: &str) -> Result<(Self, Value), EstimateError> {
-        let wrong = |source| EstimateError::UnreadableFile { file: FILE, source };
-        let mut file: NetlistFile = serde_json::from_slice(json).map_err(wrong)?;
+        let unreadable = |source| EstimateError::UnreadableFile { file: FILE, source };
+        let mut file: NetlistFile = serde_json::from_slice(json).map_err(unreadable)?;
         let module = file.modules.remove(top).ok_or_else(|| EstimateError::MissingModule {
             module: top.to_owned(),
             present: file.modules.keys().cloned().collect::<Vec<_>>().join(", "),
         })?;
-        Ok((serde_json::from_value(module).map_err(wrong)?, file.creator))
+        Ok((serde_json::from_value(module).map_err(unreadable)?, file.creator))
     }
 
     /// Returns the file that nextpnr reads, with this module alone.
@@ -97,26 +97,26 @@ impl PlacementNetlist {
 
     /// Returns the net of that name, which may have an index.
     pub(super) fn net(&self, name: &str) -> Option<u32> {
-        let whole = self.netnames.get(name).and_then(|known| known.bits.first()?.net());
+        let whole = self.netnames.get(name).and_then(|entry| entry.bits.first()?.net());
         whole.or_else(|| {
             let (vector, index) = name.strip_suffix(']')?.rsplit_once('[')?;
-            let known = self.netnames.get(vector)?;
-            known.bits.get(index.parse::<usize>().ok()?.checked_sub(known.offset)?)?.net()
+            let entry = self.netnames.get(vector)?;
+            entry.bits.get(index.parse::<usize>().ok()?.checked_sub(entry.offset)?)?.net()
         })
     }
 
     /// Returns the name of a net in the source, at the place where it is driven; see [`name_rank`].
     pub(super) fn name(&self, net: u32) -> Option<String> {
-        let names = self.netnames.iter().filter(|(_, known)| known.hide_name == 0);
+        let names = self.netnames.iter().filter(|(_, entry)| entry.hide_name == 0);
         let best = names
-            .filter_map(|(name, known)| {
-                let index = known.bits.iter().position(|bit| bit.net() == Some(net))?;
-                Some((name, index, known))
+            .filter_map(|(name, entry)| {
+                let index = entry.bits.iter().position(|bit| bit.net() == Some(net))?;
+                Some((name, index, entry))
             })
             .min_by_key(|(name, ..)| (name_rank(name), *name));
-        best.map(|(name, index, known)| match known.bits.len() {
+        best.map(|(name, index, entry)| match entry.bits.len() {
             1 => name.clone(),
-            _ => format!("{name}[{}]", index + known.offset),
+            _ => format!("{name}[{}]", index + entry.offset),
         })
     }
 }
@@ -147,18 +147,18 @@ impl NetlistCell {
     pub(super) fn new(
         kind: &str,
         parameters: &[(&str, &str)],
-        joined: &[(&str, bool, NetlistBit)],
+        pins: &[(&str, bool, NetlistBit)],
     ) -> Self {
         let direction = |output: bool| if output { "output" } else { "input" }.to_owned();
         let parameter = |&(name, value): &(&str, &str)| (name.to_owned(), value.into());
         Self {
             kind: kind.to_owned(),
             parameters: parameters.iter().map(parameter).collect(),
-            port_directions: joined
+            port_directions: pins
                 .iter()
                 .map(|&(port, output, _)| (port.to_owned(), direction(output)))
                 .collect(),
-            connections: joined
+            connections: pins
                 .iter()
                 .map(|(port, _, bit)| ((*port).to_owned(), vec![bit.clone()]))
                 .collect(),

@@ -76,8 +76,10 @@ impl NextpnrReport {
 
     /// Returns the used and the available number of a resource; 0 for a resource that the device
     /// lacks.
-    pub(super) fn utilization_of(&self, place: &str) -> (u64, u64) {
-        self.utilization.get(place).map_or((0, 0), |taken| (taken.used, taken.available))
+    pub(super) fn utilization_of(&self, resource: &str) -> (u64, u64) {
+        self.utilization
+            .get(resource)
+            .map_or((0, 0), |utilization| (utilization.used, utilization.available))
     }
 
     /// Returns the longest path between two edges of the clock.

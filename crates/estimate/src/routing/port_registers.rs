@@ -3,9 +3,9 @@
 //! outputs are read, by nearby registers and not by pins, of which there are too few.
 //!
 //! An input bit comes from a flip-flop that holds its value; an output bit goes into a flip-flop
-//! that nothing reads. So paths from and to ports are timed as in a chip where the neighbour
-//! registers them, no pin affects the placement, and no logic is added. Constants at outputs need
-//! no flip-flop.
+//! that nothing reads. Paths from and to ports thus have the timing of a chip in which the
+//! neighbouring logic registers its signals. No pin affects the placement, and no logic is added.
+//! Constants at outputs need no flip-flop.
 
 use super::device::DeviceFamily;
 use super::netlist::{NetlistBit, NetlistCell, PlacementNetlist};
@@ -53,8 +53,8 @@ pub(super) fn replace_ports(
 fn add_clock_buffer(netlist: &mut PlacementNetlist, clock_port: &str, outside: u32) {
     if let Some(bit) = netlist.ports.get_mut(clock_port).and_then(|port| port.bits.first_mut()) {
         let inside = std::mem::replace(bit, NetlistBit::Net(outside));
-        let joined = [("I", false, NetlistBit::Net(outside)), ("O", true, inside)];
-        netlist.cells.insert("$pad$".to_owned(), NetlistCell::new("IBUF", &[], &joined));
+        let pins = [("I", false, NetlistBit::Net(outside)), ("O", true, inside)];
+        netlist.cells.insert("$pad$".to_owned(), NetlistCell::new("IBUF", &[], &pins));
     }
 }
 
@@ -86,16 +86,16 @@ fn flip_flop(
                 ("LSRMUX", "LSR"),
                 ("REGSET", "RESET"),
             ];
-            let joined = [("CLK", false, clock), ("DI", false, data), ("Q", true, out)];
-            NetlistCell::new("TRELLIS_FF", &parameters, &joined)
+            let pins = [("CLK", false, clock), ("DI", false, data), ("Q", true, out)];
+            NetlistCell::new("TRELLIS_FF", &parameters, &pins)
         }
         DeviceFamily::Ice40Up | DeviceFamily::Ice40Hx => {
-            let joined = [("C", false, clock), ("D", false, data), ("Q", true, out)];
-            NetlistCell::new("SB_DFF", &[], &joined)
+            let pins = [("C", false, clock), ("D", false, data), ("Q", true, out)];
+            NetlistCell::new("SB_DFF", &[], &pins)
         }
         DeviceFamily::Gowin => {
-            let joined = [("CLK", false, clock), ("D", false, data), ("Q", true, out)];
-            NetlistCell::new("DFF", &[], &joined)
+            let pins = [("CLK", false, clock), ("D", false, data), ("Q", true, out)];
+            NetlistCell::new("DFF", &[], &pins)
         }
     }
 }

@@ -36,7 +36,7 @@ fn netlist(ports: &Value, cells: &Value) -> PlacementNetlist {
 /// No step between Yosys and nextpnr improves a design, because a user has no such step. A block
 /// RAM stays unchanged even if a register behind it could be its own.
 #[test]
-fn what_is_placed_is_what_yosys_wrote_and_registers_at_the_ports() {
+fn placement_adds_only_registers_at_the_ports() {
     let cells = json!({
         "block": {
             "type": "DP16KD", "hide_name": 0, "attributes": { "src": "a.v:1" },
@@ -69,7 +69,7 @@ fn what_is_placed_is_what_yosys_wrote_and_registers_at_the_ports() {
 }
 
 #[test]
-fn ports_are_registers_but_for_the_clock() {
+fn registers_replace_all_ports_except_the_clock() {
     let all = json!({
         "clk_i": { "direction": "input", "bits": [2] },
         "d_i": { "direction": "input", "bits": [3, 4] },
@@ -146,7 +146,7 @@ fn names_have_the_module_that_they_are_declared_in() {
 }
 
 #[test]
-fn what_a_device_lacks_is_in_the_log() {
+fn resource_shortages_are_read_from_the_log() {
     let log = "Info: Device utilisation:\n\
                Info: \t          TRELLIS_IO:     1/  365     0%\n\
                Info: \t              DP16KD:   155/  108   143%\n\
@@ -176,10 +176,10 @@ fn the_longest_path_is_between_clock_edges() {
         ((3, 208), (0, 0))
     );
     let nothing = r#"{"critical_paths": [], "fmax": {}, "utilization": {}}"#;
-    let none = NextpnrReport::parse(nothing.as_bytes()).unwrap().fmax_mhz().unwrap_err();
-    assert!(matches!(none, EstimateError::UnreadableReport { .. }), "{none}");
-    let cut = NextpnrReport::parse(b"{\"fmax\"").unwrap_err().to_string();
-    assert!(cut.starts_with("cannot read the report of nextpnr: "), "{cut}");
+    let no_clock = NextpnrReport::parse(nothing.as_bytes()).unwrap().fmax_mhz().unwrap_err();
+    assert!(matches!(no_clock, EstimateError::UnreadableReport { .. }), "{no_clock}");
+    let truncated = NextpnrReport::parse(b"{\"fmax\"").unwrap_err().to_string();
+    assert!(truncated.starts_with("cannot read the report of nextpnr: "), "{truncated}");
 }
 
 #[test]
