@@ -50,8 +50,8 @@ struct ArrayTopTemplate<'a> {
     blink: u32,
 }
 
-/// A threshold on its way to the array: its name, its range, and the output of `array_turn` that it
-/// waits for.
+/// A threshold of the array: its name, its range, and the output of `array_turn` that loads a new
+/// value into it.
 struct ThresholdPort {
     name: String,
     range: String,
@@ -85,7 +85,7 @@ fn score_ports(design: &Design) -> Vec<ScorePort> {
     array_scores(design).into_iter().map(score).collect()
 }
 
-/// Returns the output of `array_turn` that a threshold waits for.
+/// Returns the output of `array_turn` that loads a new value into a threshold.
 fn turn_output(role: PortRole) -> &'static str {
     match role {
         PortRole::Level(_) => "level",
@@ -114,7 +114,7 @@ pub(crate) fn array_top(project: &BoardProject, array: PipelinedDesign<'_>) -> S
     let minimum_at = timing.decision_latency + 1 + timing.decision_frames * timing.cycles_per_frame;
     let mut head: Vec<String> = Vec::new();
     let mut pins = Vec::new();
-    let mut low = BYTE;
+    let mut low_bit = BYTE;
     for score in &scores {
         let (name, width) = (&score.name, score.width);
         let padding = score.byte_count() * BYTE - width;
@@ -124,12 +124,12 @@ pub(crate) fn array_top(project: &BoardProject, array: PipelinedDesign<'_>) -> S
             pins.push((part, format!("captured_head[{}:{from}]", from + width - 1)));
         };
         if width > 32 {
-            pin(format!("captured_{name}_low_i"), low, 32);
-            pin(format!("captured_{name}_high_i"), low + 32, width - 32);
+            pin(format!("captured_{name}_low_i"), low_bit, 32);
+            pin(format!("captured_{name}_high_i"), low_bit + 32, width - 32);
         } else {
-            pin(format!("captured_{name}_i"), low, width);
+            pin(format!("captured_{name}_i"), low_bit, width);
         }
-        low += score.byte_count() * BYTE;
+        low_bit += score.byte_count() * BYTE;
     }
     head.reverse();
     head.push("4'd0, active[region], summary[region], trs[region], srs[region]".to_owned());
@@ -146,7 +146,7 @@ pub(crate) fn array_top(project: &BoardProject, array: PipelinedDesign<'_>) -> S
         side_bits: index_bits(array.region_size().into()),
         pixels: array.region_pixels(),
         count_bits: bits_for(array.region_pixels().into()),
-        head_bytes: low / BYTE,
+        head_bytes: low_bit / BYTE,
         level_at: timing.decision_latency - timing.tail_delay,
         temporal_at: timing.decision_latency,
         minimum_at,
@@ -166,7 +166,7 @@ fn blink_bit(fps: u32) -> u32 {
     fps.max(2).ilog2() - 1
 }
 
-/// Returns the sums behind the first `frames` frames of the pattern.
+/// Returns the running sum over regions after each of the first `frames` frames of the pattern.
 pub(crate) fn signature_sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
     let (scores, mut engine) = (score_ports(&array), Engine::new(&array));
     let mut sum = 0_u32;
@@ -176,8 +176,8 @@ pub(crate) fn signature_sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32
             unreachable!("a frame of the pattern fits its design");
         }
         for region in 0..array.regions() {
-            let said = signed_bytes(&array, &scores, &engine, (number, region));
-            sum = sum.wrapping_add(crc32fast::hash(&said));
+            let bytes = signed_bytes(&array, &scores, &engine, (number, region));
+            sum = sum.wrapping_add(crc32fast::hash(&bytes));
         }
         sum
     };
@@ -203,8 +203,9 @@ fn signed_bytes(
         let value = match score.kind {
             None => outcome.temporal_count[at].into(),
             Some(kind) => {
-                let place = design.features().iter().position(|feature| feature.kind() == kind);
-                place.map_or(0, |place| outcome.scores[place][at])
+                let feature_index =
+                    design.features().iter().position(|feature| feature.kind() == kind);
+                feature_index.map_or(0, |feature_index| outcome.scores[feature_index][at])
             }
         };
         bytes.extend(&value.to_le_bytes()[..score.byte_count() as usize]);

@@ -231,9 +231,10 @@ impl Board {
     fn read(name: &str, text: &str, folder: &Path) -> Result<Self, BoardError> {
         let invalid = |reason: String| BoardError::Invalid { name: message_excerpt(name), reason };
         text_forms::check_name(name).map_err(invalid)?;
-        let no_board = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
-        text_forms::check_texts(&text.parse().map_err(no_board)?).map_err(invalid)?;
-        let mut board: Self = toml::from_str(text).map_err(no_board)?;
+        let invalid_toml =
+            |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
+        text_forms::check_texts(&text.parse().map_err(invalid_toml)?).map_err(invalid)?;
+        let mut board: Self = toml::from_str(text).map_err(invalid_toml)?;
         name.clone_into(&mut board.name);
         text.clone_into(&mut board.text);
         folder.clone_into(&mut board.folder);
@@ -278,25 +279,25 @@ impl Board {
         Preset::find(&self.design.preset).map_err(|error| format!("design.preset: {error}"))?;
         let design = self.config().map_err(|error| format!("design.set: {error}"))?;
         design.validate().map_err(|error| format!("design.set: {error}"))?;
-        let eye = self.sensor_with_pins().map_err(|error| error.to_string())?;
-        if let Some((sensor, pins)) = &eye {
+        let sensor_and_pins = self.sensor_with_pins().map_err(|error| error.to_string())?;
+        if let Some((sensor, pins)) = &sensor_and_pins {
             self.check_sensor(sensor, pins)?;
         }
-        let lights = if eye.is_some() { 2 } else { 3 };
-        if self.leds.pins.len() < lights {
+        let needed_leds = if sensor_and_pins.is_some() { 2 } else { 3 };
+        if self.leds.pins.len() < needed_leds {
             return Err(format!(
-                "leds.pins has {} pins; {lights} are needed",
+                "leds.pins has {} pins; {needed_leds} are needed",
                 self.leds.pins.len()
             ));
         }
         let is_closed = self.device.family == DeviceFamily::Vivado;
-        if is_closed && eye.is_some() {
+        if is_closed && sensor_and_pins.is_some() {
             return Err(format!("device.family = vivado takes sensor = \"{PATTERN}\" alone"));
         }
-        let wires = if is_closed { 2 } else { 1 };
-        if self.clock.pins.len() != wires {
+        let needed_pins = if is_closed { 2 } else { 1 };
+        if self.clock.pins.len() != needed_pins {
             let pins = self.clock.pins.len();
-            return Err(format!("clock.pins has {pins} pins; {wires} are needed"));
+            return Err(format!("clock.pins has {pins} pins; {needed_pins} are needed"));
         }
         if (self.device.family == DeviceFamily::Ecp5) != self.device.speed.is_some() {
             return Err("device.speed is for ECP5, which needs it".to_owned());
@@ -307,8 +308,8 @@ impl Board {
         self.check_baud()
     }
 
-    /// Checks the part. It becomes an option of nextpnr if nextpnr has an option per part of the
-    /// family, and must be no other option.
+    /// Checks the name of the part. nextpnr selects a part of some families by an option with this
+    /// name, so that any other text could be another option of nextpnr.
     fn check_part(&self) -> Result<(), String> {
         let (known, part) = (self.device.family.part_names(), &self.device.part);
         if known.is_empty() || known.contains(&part.as_str()) {
@@ -348,11 +349,11 @@ impl Board {
             return Err(format!("serial.baud = {baud}: 1 to {} can be made", clock / 4));
         }
         let divisor = self.baud_divisor();
-        let off = (f64::from(clock) / f64::from(divisor) / f64::from(baud) - 1.0).abs();
-        if off > 0.02 {
-            let near = clock / divisor;
+        let deviation = (f64::from(clock) / f64::from(divisor) / f64::from(baud) - 1.0).abs();
+        if deviation > 0.02 {
+            let actual_rate = clock / divisor;
             return Err(format!(
-                "serial.baud = {baud}: {clock} Hz / {divisor} is {near}, more than 2 % off"
+                "serial.baud = {baud}: {clock} Hz / {divisor} is {actual_rate}, more than 2 % off"
             ));
         }
         Ok(())
@@ -372,9 +373,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_a_board_is_said() {
+    fn an_error_names_the_fault_of_a_board() {
         let good = BOARDS[0].1;
-        for (from, to, said) in [
+        for (from, to, expected) in [
             ("\"28\"]", "]", "8 data lines"),
             ("core_mhz = 24", "core_mhz = 2", "million pixels"),
             ("core_mhz = 24", "core_mhz = 10", "serial.baud"),
@@ -392,10 +393,10 @@ mod tests {
             assert!(good.contains(from), "{from}");
             let text = good.replace(from, to);
             match Board::from_toml("mine", &text) {
-                Ok(_) => assert!(said.is_empty(), "{to} is taken"),
+                Ok(_) => assert!(expected.is_empty(), "{to} is taken"),
                 Err(error) => {
                     let error = error.to_string();
-                    assert!(!said.is_empty() && error.contains(said), "{to}: {error}");
+                    assert!(!expected.is_empty() && error.contains(expected), "{to}: {error}");
                 }
             }
         }

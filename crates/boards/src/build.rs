@@ -68,8 +68,8 @@ pub struct CellUse {
 }
 
 /// Writes the files of a project into a folder, which appears when it is complete, and returns
-/// their names. The files that the script of an earlier project has made are on the list of its
-/// folder, and so are removed, too.
+/// their names. An earlier project in the folder is replaced, with the files that its script has
+/// made, because they are on the list of its folder.
 ///
 /// # Errors
 /// Fails if the folder cannot be written, or if it holds anything else.
@@ -105,34 +105,35 @@ pub fn build(
         .dir(folder)
         .timeout(SCRIPT_TIME);
     let is_new = !folder.join(BUILD_FOLDER).exists();
-    let ran = toolchain.run_checked(&run);
+    let result = toolchain.run_checked(&run);
     if is_new {
         list_made_files(project, folder)?;
     }
-    match ran {
+    match result {
         // The script has packed a bitstream, and reports that it is too slow.
         Err(ToolError::Failed { .. }) if folder.join(PACKED_FILE).is_file() => {}
         other => drop(other?),
     }
-    let left = |name: &str| {
+    let read_output = |name: &str| {
         let path = folder.join(name);
         fs::read(&path).map_err(|source| BoardError::MissingOutput { path, source })
     };
     // Each line has the clock of the core, the pixel clock, and the seed; the slowest seed is
     // first.
-    let sorted = String::from_utf8_lossy(&left("build/sorted")?).into_owned();
+    let sorted = String::from_utf8_lossy(&read_output("build/sorted")?).into_owned();
     let line = |line: &str| -> Option<(f64, f64)> {
         let mut words = line.split(' ').map(str::parse);
         Some((words.next()?.ok()?, words.next()?.ok()?))
     };
     let clocks: Vec<_> = sorted.lines().filter_map(line).collect();
-    let packed = line(String::from_utf8_lossy(&left(PACKED_FILE)?).trim_end()).unwrap_or_default();
+    let packed =
+        line(String::from_utf8_lossy(&read_output(PACKED_FILE)?).trim_end()).unwrap_or_default();
     let bitstream = project.bitstream();
-    let bytes = left(&bitstream)?.len();
+    let bytes = read_output(&bitstream)?.len();
     Ok(BuildResult {
         bitstream,
         bytes,
-        used: used_cells(&left("build/report.json")?),
+        used: used_cells(&read_output("build/report.json")?),
         core_mhz: project.board.clock.core_mhz,
         reached_mhz: clocks.iter().map(|clock| clock.0).collect(),
         pclk_mhz: project.pclk_mhz(),
@@ -144,8 +145,8 @@ pub fn build(
 /// Adds the files that the script has made to the list of the folder. The script cannot do so when
 /// it is stopped.
 fn list_made_files(project: &BoardProject, folder: &Path) -> Result<(), StagingError> {
-    let made = fs::read_dir(folder.join(BUILD_FOLDER)).into_iter().flatten().flatten();
-    let names = made.filter_map(|entry| entry.file_name().into_string().ok());
+    let entries = fs::read_dir(folder.join(BUILD_FOLDER)).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
     let names = names.map(|name| format!("{BUILD_FOLDER}/{name}")).chain([project.bitstream()]);
     ContinuedFolder::open(folder)?.list_files(names)
 }

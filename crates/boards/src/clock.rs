@@ -41,14 +41,15 @@ pub(crate) fn clock_source(board: &Board) -> Result<ClockSource, BoardError> {
 /// 133 MHz.
 fn ice40_pll(mhz: u32, core: u32, pad: bool) -> Option<ClockSource> {
     let setting = |reference: u32, output: u32| {
-        let compared = mhz / (reference + 1);
+        let reference_mhz = mhz / (reference + 1);
         let oscillator = core << output;
-        let in_range = (10..=133).contains(&compared) && (533..=1066).contains(&oscillator);
-        let exact =
-            in_range && mhz.is_multiple_of(reference + 1) && oscillator.is_multiple_of(compared);
+        let in_range = (10..=133).contains(&reference_mhz) && (533..=1066).contains(&oscillator);
+        let is_exact = in_range
+            && mhz.is_multiple_of(reference + 1)
+            && oscillator.is_multiple_of(reference_mhz);
         let feedback =
-            exact.then(|| oscillator / compared).filter(|feedback| *feedback <= 128)? - 1;
-        let filter = match compared {
+            is_exact.then(|| oscillator / reference_mhz).filter(|feedback| *feedback <= 128)? - 1;
+        let filter = match reference_mhz {
             ..17 => 1,
             17..26 => 2,
             26..44 => 3,

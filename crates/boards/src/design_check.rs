@@ -7,15 +7,15 @@ use foveate_design::{
 
 use crate::sensor::Sensor;
 
-/// The largest number of values of a region that the registers of an array can show: four at each
-/// address of their upper half.
-const MOST_VALUES: u32 = 2048;
+/// The largest number of values of a region that the registers of an array can show. The upper half
+/// of the addresses is for values, four at each address.
+const MAX_REGION_VALUES: u32 = 2048;
 
 /// Fails with the reason if a design does not fit a board, behind this sensor or a pattern.
 pub(crate) fn check_fit(design: &Design, sensor: Option<&Sensor>) -> Result<(), String> {
     match (design.interface_kind(), design.hardware(), sensor) {
-        (InterfaceKind::Axi, Hardware::Raster(own), sensor) => check_raster(design.with_hardware(own), sensor),
-        (InterfaceKind::Ports, Hardware::Pipelined(own), None) => check_array(design.with_hardware(own)),
+        (InterfaceKind::Axi, Hardware::Raster(hardware), sensor) => check_raster(design.with_hardware(hardware), sensor),
+        (InterfaceKind::Ports, Hardware::Pipelined(hardware), None) => check_array(design.with_hardware(hardware)),
         (InterfaceKind::Ports, Hardware::Pipelined(_), Some(_)) => {
             Err("an array takes a pixel of every region at a clock, and a sensor sends one; set hardware.organization='raster' \
                  and hardware.interface='axi', or take a board with a pattern, vcu118"
@@ -49,10 +49,10 @@ fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(),
         return Err(format!("hardware.pixels_per_clock = {lanes}: a sensor sends one at a time"));
     }
     let (width, height) = (raster.width(), raster.height());
-    let (most, lines) = (sensor.width - sensor.left, sensor.height - sensor.top);
-    if width > most || height > lines {
+    let (max_width, max_height) = (sensor.width - sensor.left, sensor.height - sensor.top);
+    if width > max_width || height > max_height {
         return Err(format!(
-            "frames of {width} x {height}: the sensor sends {most} x {lines} at most"
+            "frames of {width} x {height}: the sensor sends {max_width} x {max_height} at most"
         ));
     }
     Ok(())
@@ -70,24 +70,24 @@ fn check_array(array: PipelinedDesign<'_>) -> Result<(), String> {
     if array.pixel_bits() != 8 {
         return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", array.pixel_bits()));
     }
-    if array.region_pixels() > MOST_VALUES {
+    if array.region_pixels() > MAX_REGION_VALUES {
         return Err(format!(
-            "region.size = {side}: registers show {MOST_VALUES} pixels; 45 is the largest"
+            "region.size = {side}: registers show {MAX_REGION_VALUES} pixels; 45 is the largest"
         ));
     }
     for (key, length) in [("width", array.width()), ("height", array.height())] {
         if !length.is_multiple_of(side) {
-            let right = length.div_ceil(side) * side;
+            let multiple = length.div_ceil(side) * side;
             return Err(format!(
-                "frame.{key} = {length}: the pattern makes whole regions; {right} is a multiple of {side}"
+                "frame.{key} = {length}: the pattern makes whole regions; {multiple} is a multiple of {side}"
             ));
         }
     }
-    let (columns, most) = (array.columns(), array.region_pixels());
-    if columns > most {
+    let (columns, max_columns) = (array.columns(), array.region_pixels());
+    if columns > max_columns {
         return Err(format!(
-            "{columns} regions side by side: their sum is made in {most} clocks; frame.width = {} is the most with regions of {side} x {side}",
-            most * side
+            "{columns} regions side by side: their sum is made in {max_columns} clocks; frame.width = {} is the most with regions of {side} x {side}",
+            max_columns * side
         ));
     }
     Ok(())

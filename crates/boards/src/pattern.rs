@@ -12,7 +12,7 @@ pub(crate) const COMPARED_FRAMES: u32 = 16;
 /// The number of bytes of a word of a packet.
 const WORD_BYTES: usize = 8;
 
-/// The types of packets that are added: ROW, REGION, END.
+/// The types of the packets whose CRCs are added: ROW, REGION, END.
 const ADDED_PACKETS: [u8; 3] = [2, 4, 5];
 
 /// Returns a pixel of 8 bits of a frame of the pattern.
@@ -46,7 +46,7 @@ pub(crate) fn packet_layout(design: &Design) -> PacketLayout {
         .unwrap_or_else(|error| unreachable!("the sizes of a frame fit: {error}"))
 }
 
-/// Returns the sums behind the first `frames` frames of the pattern.
+/// Returns the running sum over packets after each of the first `frames` frames of the pattern.
 pub(crate) fn packet_sums(design: &Design, frames: u32) -> Vec<u32> {
     let (layout, mut engine) = (packet_layout(design), Engine::new(design));
     let mut sum = 0_u32;
@@ -64,7 +64,7 @@ pub(crate) fn packet_sums(design: &Design, frames: u32) -> Vec<u32> {
     (0..frames).map(&mut add).collect()
 }
 
-/// Returns the sum of the CRCs of all packets that are added.
+/// Returns the sum of the CRCs of all packets whose type is in [`ADDED_PACKETS`].
 fn crc_sum(mut bytes: &[u8]) -> u32 {
     let mut sum = 0_u32;
     while let [_, kind, low, high, ..] = bytes {

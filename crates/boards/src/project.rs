@@ -28,11 +28,11 @@ impl BoardProject {
     /// Fails if the design is neither on AXI nor an array behind a pattern, or if it does not fit
     /// the sensor or the clock.
     pub fn new(board: Board, design: Design) -> Result<Self, BoardError> {
-        let eye = board.sensor_with_pins()?;
+        let sensor_and_pins = board.sensor_with_pins()?;
         let clock = clock::clock_source(&board)?;
-        match check_fit(&design, eye.as_ref().map(|(sensor, _)| sensor)) {
+        match check_fit(&design, sensor_and_pins.as_ref().map(|(sensor, _)| sensor)) {
             Err(reason) => Err(BoardError::Design { name: board.name, reason }),
-            Ok(()) => Ok(Self { board, design, sensor: eye, clock }),
+            Ok(()) => Ok(Self { board, design, sensor: sensor_and_pins, clock }),
         }
     }
 
@@ -131,9 +131,9 @@ impl BoardProject {
                 ("sensor_reset_n_o", pins.reset_n.as_ref()),
                 ("sensor_power_down_o", pins.power_down.as_ref()),
             ];
-            let there =
+            let connected =
                 ports.into_iter().filter_map(|(name, pin)| Some(PortPin::new(name, pin?, None)));
-            wires.extend(there);
+            wires.extend(connected);
             wires.extend(PortPin::indexed("sensor_data_i", &pins.data, None));
         }
         wires

@@ -125,7 +125,7 @@ pub(crate) fn script_files(project: &BoardProject, sources: &[String]) -> Vec<So
         return vivado_scripts(project, sources);
     };
     let bitstream = shell_word(&bitstream);
-    let (writes, packs) = packing_arguments(board, &bitstream);
+    let (write_arguments, pack_arguments) = packing_arguments(board, &bitstream);
     let synthesis = SynthesisTemplate {
         banner: project.banner(),
         before_reading: tools.before_reading,
@@ -143,8 +143,8 @@ pub(crate) fn script_files(project: &BoardProject, sources: &[String]) -> Vec<So
         nextpnr: tools.nextpnr,
         pack: tools.pack,
         arguments: nextpnr_arguments(board),
-        write_arguments: writes,
-        pack_arguments: packs,
+        write_arguments,
+        pack_arguments,
         core_mhz: board.clock.core_mhz,
         pclk_mhz: project.pclk_mhz(),
     };

@@ -160,9 +160,10 @@ impl Sensor {
 
     fn from_toml(name: &str, text: &str) -> Result<Self, BoardError> {
         let invalid = |reason: String| BoardError::Invalid { name: name.to_owned(), reason };
-        let no_sensor = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
-        text_forms::check_texts(&text.parse().map_err(no_sensor)?).map_err(invalid)?;
-        let mut sensor: Self = toml::from_str(text).map_err(no_sensor)?;
+        let invalid_toml =
+            |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
+        text_forms::check_texts(&text.parse().map_err(invalid_toml)?).map_err(invalid)?;
+        let mut sensor: Self = toml::from_str(text).map_err(invalid_toml)?;
         text.clone_into(&mut sensor.text);
         sensor.check().map_err(invalid)?;
         Ok(sensor)
@@ -240,7 +241,7 @@ mod tests {
         let error = find("ov7671.toml").unwrap_err().to_string();
         assert!(error.contains("./ov7671.toml"), "{error}");
         let good = SENSORS[2].1;
-        for (from, to, said) in [
+        for (from, to, expected) in [
             ("device = 0x21", "device = 0x84", "7 bits"),
             ("address_bytes = 1", "address_bytes = 3", "1 or 2"),
             ("[0x12, 0x80]", "[0x112, 0x80]", "the last is 0xFF"),
@@ -252,7 +253,7 @@ mod tests {
         ] {
             assert!(good.contains(from), "{from}");
             let error = Sensor::from_toml("mine", &good.replace(from, to)).unwrap_err().to_string();
-            assert!(error.contains(said), "{to}: {error}");
+            assert!(error.contains(expected), "{to}: {error}");
         }
     }
 }

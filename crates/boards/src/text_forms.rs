@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The check of the characters in the texts of a file. The texts appear in scripts and pages. So
-//! each text must be a plain word, except the few that need more; the text of a new key must be a
-//! plain word, too.
+//! The check of the characters in the texts of a file. The texts appear in scripts and pages, so
+//! each text must be a plain word. The keys that need other characters are listed with the form of
+//! their text. A key that is not listed, as one that is added later, takes only a plain word.
 
 use foveate_toolchain::escaping::{is_hidden, message_excerpt};
 use toml::{Table, Value};
@@ -53,8 +53,8 @@ pub(crate) fn check_texts(file: &Table) -> Result<(), String> {
 /// # Errors
 /// Returns the fault in the name, and the form that would be right.
 pub(crate) fn check_name(name: &str) -> Result<(), String> {
-    TextForm::Word.check_text(name).map_err(|right| {
-        format!("its name is that of its bitstream, in scripts: {right}; rename the file")
+    TextForm::Word.check_text(name).map_err(|expected| {
+        format!("its name is that of its bitstream, in scripts: {expected}; rename the file")
     })
 }
 
@@ -65,7 +65,7 @@ fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
             let form =
                 FORMS.iter().find(|(known, _)| *known == key).map_or(TextForm::Word, |form| form.1);
             form.check_text(text)
-                .map_err(|right| format!("{path} = \"{}\": {right}", message_excerpt(text)))
+                .map_err(|expected| format!("{path} = \"{}\": {expected}", message_excerpt(text)))
         }
         Value::Array(values) => values
             .iter()
@@ -84,16 +84,16 @@ impl TextForm {
     /// # Errors
     /// Returns the form that would be right.
     fn check_text(self, text: &str) -> Result<(), String> {
-        let most = match self {
+        let max_length = match self {
             Self::Word | Self::Part => WORD_LENGTH,
             Self::Line | Self::Page | Self::Command | Self::Sensor => LINE_LENGTH,
             Self::Change => CHANGE_LENGTH,
         };
         let length = text.chars().count();
-        if length > most {
-            return Err(format!("it has {length} characters; {most} is the most"));
+        if length > max_length {
+            return Err(format!("it has {length} characters; {max_length} is the most"));
         }
-        let (is_right, right) = match self {
+        let (is_valid, expected) = match self {
             Self::Word => {
                 (is_word(text, ""), "letters, digits, `.`, `_` and `-`, the first no `-`")
             }
@@ -115,7 +115,7 @@ impl TextForm {
             ),
             Self::Change => (is_line(text), "KEY=VALUE in a line without control characters"),
         };
-        if is_right { Ok(()) } else { Err(format!("expected {right}")) }
+        if is_valid { Ok(()) } else { Err(format!("expected {expected}")) }
     }
 }
 
@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_form_takes_what_it_is_for() {
+    fn each_form_accepts_and_refuses_texts() {
         for (form, good, bad) in [
             (
                 TextForm::Word,
@@ -211,11 +211,11 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_text_is_named_and_shown() {
+    fn an_error_names_the_key_and_shows_the_text() {
         let check = |text: &str| check_texts(&text.parse().unwrap()).unwrap_err();
-        let said = check("[pins]\ndata = [\"1\", \"a\\nb\"]");
-        assert!(said.starts_with("pins.data[1] = \"a\\nb\": expected letters, digits"), "{said}");
-        let said = check(&format!("title = '{}'", "x".repeat(201)));
-        assert!(said.ends_with("...\": it has 201 characters; 200 is the most"), "{said}");
+        let error = check("[pins]\ndata = [\"1\", \"a\\nb\"]");
+        assert!(error.starts_with("pins.data[1] = \"a\\nb\": expected letters, digits"), "{error}");
+        let error = check(&format!("title = '{}'", "x".repeat(201)));
+        assert!(error.ends_with("...\": it has 201 characters; 200 is the most"), "{error}");
     }
 }

@@ -125,35 +125,35 @@ struct ClockTemplate {
 /// Returns the Verilog of a project, each module after those that it instantiates.
 pub(crate) fn modules(project: &BoardProject) -> Vec<SourceFile> {
     let design = &project.design;
-    let (core, leaves, own) = match (design.hardware(), &project.sensor) {
+    let (core, leaves, own_modules) = match (design.hardware(), &project.sensor) {
         (Hardware::Pipelined(hardware), _) => {
             let array = design.with_hardware(hardware);
-            let own = [
+            let own_modules = [
                 ("expected_sums", expected_sums(project)),
                 ("board", array::array_top(project, array)),
             ];
-            (array_core(array), [ARRAY_LEAVES, &[]], own)
+            (array_core(array), [ARRAY_LEAVES, &[]], own_modules)
         }
         (Hardware::Raster(_) | Hardware::Serial(_), Some((sensor, pins))) => {
-            let own = [
+            let own_modules = [
                 ("sensor_steps", setup_steps(project, sensor)),
                 ("board", sensor_top(project, sensor, pins)),
             ];
-            (axi_modules(design).unwrap_or_default(), [SENSOR_LEAVES, OUTPUT_LEAVES], own)
+            (axi_modules(design).unwrap_or_default(), [SENSOR_LEAVES, OUTPUT_LEAVES], own_modules)
         }
         (Hardware::Raster(hardware), None) => {
             let top = pattern_top(project, design.with_hardware(hardware));
-            let own = [("expected_sums", expected_sums(project)), ("board", top)];
-            (axi_modules(design).unwrap_or_default(), [PATTERN_LEAVES, OUTPUT_LEAVES], own)
+            let own_modules = [("expected_sums", expected_sums(project)), ("board", top)];
+            (axi_modules(design).unwrap_or_default(), [PATTERN_LEAVES, OUTPUT_LEAVES], own_modules)
         }
         // [`BoardProject::new`] has refused such a design.
         (Hardware::Serial(_), None) => return Vec::new(),
     };
-    let stands = |leaf: &&Leaf| leaves.iter().any(|names| names.contains(&leaf.name));
-    let leaves = BOARD_LEAVES.iter().filter(stands).map(leaf_file);
+    let is_used = |leaf: &&Leaf| leaves.iter().any(|names| names.contains(&leaf.name));
+    let leaves = BOARD_LEAVES.iter().filter(is_used).map(leaf_file);
     let clock = source_file(&rtl_path("board_clock"), clock_module(project, false));
-    let own = own.map(|(name, text)| source_file(&rtl_path(name), text));
-    core.into_iter().chain(leaves).chain([clock]).chain(own).collect()
+    let own_modules = own_modules.map(|(name, text)| source_file(&rtl_path(name), text));
+    core.into_iter().chain(leaves).chain([clock]).chain(own_modules).collect()
 }
 
 fn rtl_path(name: &str) -> String {
@@ -166,8 +166,12 @@ fn leaf_file(leaf: &Leaf) -> SourceFile {
 
 /// Returns an array with its registers, and the leaf of other cores that it needs.
 fn array_core(array: PipelinedDesign<'_>) -> Vec<SourceFile> {
-    let part = LEAVES.iter().filter(|leaf| leaf.name == ARRAY_CORE_LEAF).map(leaf_file);
-    verilog(&array, CoreTop::Rcm).into_iter().chain(part).chain([array_registers(array)]).collect()
+    let crc_leaf = LEAVES.iter().filter(|leaf| leaf.name == ARRAY_CORE_LEAF).map(leaf_file);
+    verilog(&array, CoreTop::Rcm)
+        .into_iter()
+        .chain(crc_leaf)
+        .chain([array_registers(array)])
+        .collect()
 }
 
 fn sensor_top(project: &BoardProject, sensor: &Sensor, pins: &SensorPins) -> String {
@@ -255,8 +259,8 @@ fn pattern_top(project: &BoardProject, design: RasterDesign<'_>) -> String {
 fn expected_sums(project: &BoardProject) -> String {
     let design = &project.design;
     let sums = match design.hardware() {
-        Hardware::Pipelined(own) => {
-            array::signature_sums(design.with_hardware(own), COMPARED_FRAMES)
+        Hardware::Pipelined(hardware) => {
+            array::signature_sums(design.with_hardware(hardware), COMPARED_FRAMES)
         }
         Hardware::Serial(_) | Hardware::Raster(_) => packet_sums(design, COMPARED_FRAMES),
     };
@@ -269,13 +273,15 @@ fn expected_sums(project: &BoardProject) -> String {
 /// Returns the module that makes the core's clock. In a simulation the clock of the board replaces
 /// it.
 pub(crate) fn clock_module(project: &BoardProject, simulated: bool) -> String {
-    let (pair, one) = (project.has_pair(), project.clock_port());
-    let (how, body) = match project.clock {
+    let (pair, port) = (project.has_pair(), project.clock_port());
+    let (description, body) = match project.clock {
         _ if simulated => {
-            (", in a simulation: the clock that comes is taken for it", direct_clock(one))
+            (", in a simulation: the clock that comes is taken for it", direct_clock(port))
         }
-        ClockSource::Direct if pair => (", by the buffers of a Xilinx device", pair_of_wires()),
-        ClockSource::Direct => ("", direct_clock(one)),
+        ClockSource::Direct if pair => {
+            (", by the buffers of a Xilinx device", differential_clock())
+        }
+        ClockSource::Direct => ("", direct_clock(port)),
         ClockSource::Ice40 { pad, reference, feedback, output, filter } => {
             // A PLL at its own pin takes the pin's clock exclusively, and outputs it as well.
             let (cell, ports, raw) = if pad {
@@ -311,7 +317,7 @@ pub(crate) fn clock_module(project: &BoardProject, simulated: bool) -> String {
         pair,
         mhz: project.board.clock.mhz,
         core_mhz: project.board.clock.core_mhz,
-        description: how,
+        description,
         body,
     })
 }
@@ -323,7 +329,7 @@ fn direct_clock(clock: &str) -> String {
     )
 }
 
-fn pair_of_wires() -> String {
+fn differential_clock() -> String {
     "    wire joined;\n    IBUFDS u_pair (.I(clk_p_i), .IB(clk_n_i), .O(joined));\n    \
      BUFG u_buffer (.I(joined), .O(clk_o));\n    assign raw_o = joined;\n    assign locked_o = 1'b1;"
         .to_owned()

@@ -20,8 +20,8 @@ use foveate_toolchain::{Source, Tool};
 const BENCH: &str = include_str!("array.cpp");
 const WRAPPER: &str = include_str!("array_bench.v");
 const VCU118: &str = include_str!("../../boards/vcu118.toml");
-const RIGHT: &str = "4";
-const WRONG: &str = "2";
+const PASS_LEDS: &str = "4";
+const FAIL_LEDS: &str = "2";
 /// The address at which the values of a capture begin.
 const VALUES_ADDRESS: u16 = 0x800;
 
@@ -93,8 +93,8 @@ struct ArrayBench {
 type SwitchedFault = (&'static str, &'static str, &'static str, &'static str);
 
 impl ArrayBench {
-    /// Compiles a project with faults that are present, each at its place, but act only when they
-    /// are switched on. So one program has all of them.
+    /// Compiles a project with all of these faults. A fault acts only if it is switched on, so that
+    /// one program serves all faults, and is compiled once.
     fn new(project: &BoardProject, faults: &[SwitchedFault]) -> Self {
         let constants = "#define DIVISOR 4\n#define LIMIT 20000000\n";
         let mut sources = verilog(project, None);
@@ -140,15 +140,15 @@ impl ArrayBench {
             .args(self.fault.map(|fault| format!("+fault{fault}")))
             .output()
             .unwrap();
-        let said = String::from_utf8(run.stdout).unwrap();
-        assert!(run.status.success(), "an answer did not come as it should; lights {said}");
+        let output = String::from_utf8(run.stdout).unwrap();
+        assert!(run.status.success(), "an answer did not come as it should; lights {output}");
         let sums = fs::read(dir.path().join("sums")).unwrap();
         let (sums, rest) = sums.as_chunks();
         assert!(rest.is_empty());
         let answers = answers(&dir.path().join("heard"));
         assert_eq!(answers.len(), host.len());
-        let [lights, clocks, from] = said.split_whitespace().collect::<Vec<_>>()[..] else {
-            panic!("{said}")
+        let [lights, clocks, from] = output.split_whitespace().collect::<Vec<_>>()[..] else {
+            panic!("{output}")
         };
         ArrayRun {
             lights: lights.to_owned(),
@@ -184,7 +184,7 @@ impl ArrayBench {
 }
 
 /// The results of a run: the lights, the clocks until a light was on, the frame at which the last
-/// write took effect, the answers, and the sum behind each frame.
+/// write took effect, the answers, and the running sum after each frame.
 struct ArrayRun {
     lights: String,
     clocks: u64,
@@ -327,34 +327,34 @@ fn model_with_change(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Reg
     let places = places(cameras[0]);
     let mut references: Vec<Option<Vec<u16>>> = vec![None; places.len()];
     let mut all = |t: u32| {
-        let own = usize::from(t >= at);
-        let camera = cameras[own];
-        let given = frame(camera, t);
+        let active_camera = usize::from(t >= at);
+        let camera = cameras[active_camera];
+        let input = frame(camera, t);
         let [old, new] = &mut functional;
-        let outcomes = [old.step(&given).unwrap(), new.step(&given).unwrap()];
+        let outcomes = [old.step(&input).unwrap(), new.step(&input).unwrap()];
         let one = |(place, reference): (&(u32, u32), &mut Option<Vec<u16>>)| {
-            let mut says = RegionResult::from_outcome(outcomes[own], camera, t, *place);
-            let seen = region(&outcomes[own].denoised, camera, *place);
+            let mut result = RegionResult::from_outcome(outcomes[active_camera], camera, t, *place);
+            let denoised = region(&outcomes[active_camera].denoised, camera, *place);
             let level = camera.temporal().level;
             let differs = |(a, b): (&u16, &u16)| u32::from(a.abs_diff(*b)) > level;
             let count = match reference {
-                None => seen.len(),
+                None => denoised.len(),
                 Some(reference) => {
-                    seen.iter().zip(&*reference).filter(|pair| differs(*pair)).count()
+                    denoised.iter().zip(&*reference).filter(|pair| differs(*pair)).count()
                 }
             };
-            says.scores[0] = count as u64;
+            result.scores[0] = count as u64;
             let trs = count as u64 >= u64::from(camera.temporal().min_count);
-            let srs = says.decision & 1 == 1;
+            let srs = result.decision & 1 == 1;
             let active = srs && trs;
-            says.decision = u32::from(srs) | u32::from(trs) << 1 | u32::from(active) << 3;
-            says.values.clear();
+            result.decision = u32::from(srs) | u32::from(trs) << 1 | u32::from(active) << 3;
+            result.values.clear();
             if active {
-                says.values = region(outcomes[own].payload(camera), camera, *place);
+                result.values = region(outcomes[active_camera].payload(camera), camera, *place);
             }
             match camera.temporal().reference {
-                ReferencePolicy::Previous => *reference = Some(seen),
-                ReferencePolicy::LastSent if active => *reference = Some(seen),
+                ReferencePolicy::Previous => *reference = Some(denoised),
+                ReferencePolicy::LastSent if active => *reference = Some(denoised),
                 ReferencePolicy::LastSent
                     if !srs && camera.irrelevant() == IrrelevantRendering::Zero =>
                 {
@@ -362,19 +362,19 @@ fn model_with_change(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Reg
                 }
                 ReferencePolicy::LastSent => {}
             }
-            says
+            result
         };
         places.iter().zip(&mut references).map(one).collect()
     };
     (0..frames).map(&mut all).collect()
 }
 
-/// Returns the sum behind each frame.
+/// Returns the running sum after each frame.
 fn frame_sums(camera: &Camera, frames: &[Vec<RegionResult>]) -> Vec<u32> {
     let mut sum = 0_u32;
     let each = frames.iter().map(|regions| {
-        for (region, says) in (0..).zip(regions) {
-            sum = sum.wrapping_add(says.crc(region, camera));
+        for (region, result) in (0..).zip(regions) {
+            sum = sum.wrapping_add(result.crc(region, camera));
         }
         sum
     });
@@ -397,7 +397,7 @@ fn captures(
 }
 
 #[test]
-fn an_array_on_a_board_says_what_the_model_says() {
+fn results_of_an_array_on_a_board_are_those_of_the_model() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
@@ -414,16 +414,16 @@ fn an_array_on_a_board_says_what_the_model_says() {
             wanted.push(((right, 0), 5));
         }
         let (run, captured) = captures(&bench, camera, &wanted);
-        assert_eq!(run.lights, RIGHT, "{keys:?}");
+        assert_eq!(run.lights, PASS_LEDS, "{keys:?}");
         let frames = u32::try_from(run.sums.len()).unwrap() + 1;
-        let said = model_results(camera, frames);
-        let expected = frame_sums(camera, &said);
+        let model = model_results(camera, frames);
+        let expected = frame_sums(camera, &model);
         let first = run.sums.iter().zip(&expected).position(|(sum, expected)| sum != expected);
         assert_eq!(first, None, "the frame whose sum is wrong; {keys:?}");
         for (((column, row), frame), captured) in wanted.iter().zip(&captured) {
             assert_eq!(captured.frame % 128, *frame);
             let region = (row * camera.columns() + column) as usize;
-            assert_eq!(*captured, said[captured.frame as usize][region], "{keys:?}");
+            assert_eq!(*captured, model[captured.frame as usize][region], "{keys:?}");
         }
         assert!(captured.iter().any(|captured| !captured.values.is_empty()), "{keys:?}");
         assert!(captured.iter().any(|captured| captured.decision & 8 == 0), "{keys:?}");
@@ -433,8 +433,8 @@ fn an_array_on_a_board_says_what_the_model_says() {
     }
 }
 
-/// Makes a host write a threshold. Returns the fault, if the frames around the write are not each
-/// computed with all thresholds of one set.
+/// Makes a host write a threshold. Every frame must be computed either with all old thresholds or
+/// with all new ones. Returns a description of the first frame that is not.
 fn write_fault(
     bench: &ArrayBench,
     keys: &[&str],
@@ -446,17 +446,17 @@ fn write_fault(
     let mut host = vec![bench.read("frames"), bench.write(name, value), bench.read(name)];
     host.extend((0..4).map(|_| bench.read("frames")));
     let run = bench.play(&host);
-    assert_eq!(run.lights, RIGHT);
+    assert_eq!(run.lights, PASS_LEDS);
     assert_eq!(run.answers[2], value);
     let frames = u32::try_from(run.sums.len()).unwrap();
-    let differ = |at: u32| {
+    let first_difference = |at: u32| {
         let expected = frame_sums(cameras[0], &model_with_change(cameras, at, frames));
         run.sums.iter().zip(&expected).position(|(sum, expected)| sum != expected)
     };
     assert!(run.from > run.answers[0], "{name}: frame {}", run.from);
-    assert!(differ(frames).is_some(), "{name} changes nothing");
-    let wrong = differ(run.from);
-    wrong.map(|frame| format!("{name}: frame {frame} is wrong; taken over at {}", run.from))
+    assert!(first_difference(frames).is_some(), "{name} changes nothing");
+    let wrong_frame = first_difference(run.from);
+    wrong_frame.map(|frame| format!("{name}: frame {frame} is wrong; taken over at {}", run.from))
 }
 
 const LEVEL: (&str, u32, &str) =
@@ -505,7 +505,7 @@ const CAPTURE_FAULTS: &[SwitchedFault] = &[
     ("array_snapshot", "waits_q && @;", "next_q[6:0] == frame_i", "next_q[5:0] == frame_i[5:0]"),
     ("array_registers", "place_o = @;", "asked[8:0]", "~asked[8:0]"),
 ];
-/// Faults by which a threshold changes a clock too early or too late.
+/// Faults that make a threshold change at a wrong clock.
 const TURN_FAULTS: &[SwitchedFault] = &[
     ("board", "if (@ || rst) edge_level_q", "level_turn", "minimum_turn"),
     (
@@ -530,7 +530,7 @@ fn small_bench() -> &'static ArrayBench {
 }
 
 #[test]
-fn an_array_that_is_wrong_is_seen() {
+fn a_fault_in_an_array_is_found() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
@@ -538,22 +538,24 @@ fn an_array_that_is_wrong_is_seen() {
     let camera = project.design.camera();
     let bench = small_bench();
     for (number, fault) in SIGNATURE_FAULTS.iter().enumerate() {
-        assert_eq!(bench.with_fault(number).play(&[]).lights, WRONG, "{fault:?}");
+        assert_eq!(bench.with_fault(number).play(&[]).lights, FAIL_LEDS, "{fault:?}");
     }
     for (number, fault) in (SIGNATURE_FAULTS.len()..).zip(CAPTURE_FAULTS) {
         let wanted = [((1, 0), 67), ((0, 0), 1)];
         let (run, captured) = captures(&bench.with_fault(number), camera, &wanted);
-        assert_eq!(run.lights, RIGHT);
-        let said = model_results(camera, u32::try_from(run.sums.len()).unwrap() + 1);
-        let right = |(says, ((column, _), frame)): (&RegionResult, ((u32, u32), u32))| {
-            says.frame % 128 == frame && *says == said[says.frame as usize][column as usize]
-        };
-        assert!(!captured.iter().zip(wanted).all(right), "{fault:?}");
+        assert_eq!(run.lights, PASS_LEDS);
+        let model = model_results(camera, u32::try_from(run.sums.len()).unwrap() + 1);
+        let is_right =
+            |(captured_result, ((column, _), frame)): (&RegionResult, ((u32, u32), u32))| {
+                captured_result.frame % 128 == frame
+                    && *captured_result == model[captured_result.frame as usize][column as usize]
+            };
+        assert!(!captured.iter().zip(wanted).all(is_right), "{fault:?}");
     }
-    let turned = SIGNATURE_FAULTS.len() + CAPTURE_FAULTS.len();
-    for (number, threshold) in (turned..).zip([LEVEL, LEVEL, MINIMUM]) {
-        let seen = write_fault(&bench.with_fault(number), SMALL, threshold);
-        assert!(seen.is_some(), "{:?}", TURN_FAULTS[number - turned]);
+    let first_turn_fault = SIGNATURE_FAULTS.len() + CAPTURE_FAULTS.len();
+    for (number, threshold) in (first_turn_fault..).zip([LEVEL, LEVEL, MINIMUM]) {
+        let fault_found = write_fault(&bench.with_fault(number), SMALL, threshold);
+        assert!(fault_found.is_some(), "{:?}", TURN_FAULTS[number - first_turn_fault]);
     }
 }
 
@@ -561,16 +563,16 @@ fn an_array_that_is_wrong_is_seen() {
 /// compiler takes minutes for its 784 RPUs.
 #[test]
 #[ignore = "takes minutes and gigabytes"]
-fn the_array_of_the_paper_says_what_the_model_says() {
+fn results_of_the_array_of_the_paper_are_those_of_the_model() {
     let project = fast_array(&[]);
     let (camera, bench) = (project.design.camera(), ArrayBench::new(&project, &[]));
     let wanted = [((0, 0), 1), ((27, 27), 60), ((13, 5), 9)];
     let (run, captured) = captures(&bench, camera, &wanted);
-    assert_eq!(run.lights, RIGHT);
-    let said = model_results(camera, u32::try_from(run.sums.len()).unwrap() + 1);
-    assert_eq!(run.sums[..], frame_sums(camera, &said)[..run.sums.len()]);
+    assert_eq!(run.lights, PASS_LEDS);
+    let model = model_results(camera, u32::try_from(run.sums.len()).unwrap() + 1);
+    assert_eq!(run.sums[..], frame_sums(camera, &model)[..run.sums.len()]);
     for (((column, row), _), captured) in wanted.iter().zip(&captured) {
-        assert_eq!(*captured, said[captured.frame as usize][(row * 28 + column) as usize]);
+        assert_eq!(*captured, model[captured.frame as usize][(row * 28 + column) as usize]);
     }
     println!("{} clocks until the light, {} frames in all", run.clocks, run.sums.len());
 }

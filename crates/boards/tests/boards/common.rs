@@ -51,13 +51,13 @@ pub(crate) fn array_on(board: Board, keys: &[&str]) -> Result<BoardProject, Boar
 /// Returns true if there is an interpreter of Tcl. Panics if there is none although all tools are
 /// required.
 pub(crate) fn has_tclsh() -> bool {
-    let is_there = Command::new("tclsh").stdin(Stdio::null()).output().is_ok();
+    let is_installed = Command::new("tclsh").stdin(Stdio::null()).output().is_ok();
     let is_strict = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
     assert!(
-        is_there || !is_strict,
+        is_installed || !is_strict,
         "FOVEATE_REQUIRE_TOOLS is 1, and tclsh is missing (Debian: tcl)"
     );
-    is_there
+    is_installed
 }
 
 /// A planted fault: the module, a text in it, and the text that replaces it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Data files with hostile texts, one for each text that a file may hold. The places are found by
-//! what the reader accepts, not from a list.
+//! Data files with hostile texts, one for each place at which a file may hold a text. The places
+//! are found by trials of the reader and not from a list, so that a new key is tested, too.
 
 use std::collections::BTreeSet;
 
@@ -107,15 +107,15 @@ impl TextPlaces<'_> {
     /// Returns every key that the base has or that the reader accepts, without the keys above it.
     pub(crate) fn keys(&self) -> BTreeSet<String> {
         let mut keys = BTreeSet::new();
-        let mut open = vec![(Vec::new(), Value::Table(self.base.clone()))];
-        while let Some((above, value)) = open.pop() {
+        let mut pending = vec![(Vec::new(), Value::Table(self.base.clone()))];
+        while let Some((path, value)) = pending.pop() {
             let Value::Table(table) = value else { continue };
-            keys.extend(self.accepted_keys(&above));
+            keys.extend(self.accepted_keys(&path));
             for (key, value) in table {
-                let mut place = above.clone();
+                let mut place = path.clone();
                 place.push(PathStep::Key(key.clone()));
                 keys.insert(key);
-                open.push((place, value));
+                pending.push((place, value));
             }
         }
         keys
@@ -165,9 +165,9 @@ impl TextPlaces<'_> {
     fn accepted_keys(&self, table: &[PathStep]) -> Vec<String> {
         let mut place = table.to_vec();
         place.push(PathStep::Key("zzz".to_owned()));
-        let said =
+        let message =
             (self.complaint)(&self.with_value(&place, Value::Integer(1))).unwrap_or_default();
-        let Some((_, expected)) = said.rsplit_once("expected") else { return Vec::new() };
+        let Some((_, expected)) = message.rsplit_once("expected") else { return Vec::new() };
         expected.split('`').skip(1).step_by(2).map(str::to_owned).collect()
     }
 
@@ -181,8 +181,8 @@ impl TextPlaces<'_> {
         }
         let text = || Value::String("a1".to_owned());
         let is_no_type = |value: Value| {
-            let said = (self.complaint)(&self.with_value(key, value)).unwrap_or_default();
-            said.contains("invalid type") || said.contains("unknown variant")
+            let message = (self.complaint)(&self.with_value(key, value)).unwrap_or_default();
+            message.contains("invalid type") || message.contains("unknown variant")
         };
         if !is_no_type(text()) {
             places.insert(key.to_vec());

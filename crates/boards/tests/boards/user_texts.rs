@@ -62,9 +62,9 @@ fn code(verilog: &str) -> String {
 fn tool_comments(verilog: &str) -> Vec<&str> {
     let words = ["synopsys", "synthesis", "verilator", "pragma"];
     let comments = verilog.lines().filter_map(|line| Some((line, line.split_once("//")?.1)));
-    let orders =
+    let directives =
         comments.filter(|(_, text)| words.iter().any(|word| text.trim().starts_with(word)));
-    orders.map(|(line, _)| line).collect()
+    directives.map(|(line, _)| line).collect()
 }
 
 /// Returns a script without the lines that are comments.
@@ -103,8 +103,8 @@ impl WrittenProjects {
         let mut benign = None;
         for folder in self.folders.iter().step_by(every) {
             let output = with(folder).current_dir(folder).output().unwrap();
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{}: {said}", folder.display());
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{}: {errors}", folder.display());
             let log = match called {
                 "" => String::from_utf8_lossy(&output.stdout).into_owned(),
                 name => fs::read_to_string(folder.join(name)).unwrap(),
@@ -116,7 +116,7 @@ impl WrittenProjects {
     }
 
     /// Checks that Yosys reads each top as the module that it is.
-    fn read_by_yosys(&self) {
+    fn assert_yosys_reads_tops(&self) {
         if !require_tools(&[Tool::Yosys]) {
             return;
         }
@@ -149,30 +149,30 @@ fn assert_differs_in_comments_only(
     let files = files(project);
     assert!(files.keys().eq(benign.keys()));
     for (path, contents) in &files {
-        let like = &benign[path];
+        let benign_contents = &benign[path];
         let ending = Path::new(path).extension().unwrap_or_default().to_str().unwrap();
         let lines = |text: &str| text.lines().count();
         match ending {
             _ if path == "board.toml" || path == "sensor.toml" => {
-                assert!(contents == like || contents == data, "{path}");
+                assert!(contents == benign_contents || contents == data, "{path}");
             }
             "v" => {
-                assert_eq!(code(contents), code(like), "{path}");
-                assert_eq!(tool_comments(contents), tool_comments(like), "{path}");
+                assert_eq!(code(contents), code(benign_contents), "{path}");
+                assert_eq!(tool_comments(contents), tool_comments(benign_contents), "{path}");
             }
             "md" => {
-                assert_eq!(lines(contents), lines(like), "{path}");
+                assert_eq!(lines(contents), lines(benign_contents), "{path}");
                 for (at, letter) in
                     contents.char_indices().filter(|(_, letter)| "<[`|*".contains(*letter))
                 {
-                    let benign = like.matches(letter).count();
+                    let benign = benign_contents.matches(letter).count();
                     let bare = contents
                         .match_indices(letter)
                         .filter(|(at, _)| !contents[..*at].ends_with('\\'));
                     assert_eq!(bare.count(), benign, "{path}: {letter} at {at}\n{contents}");
                 }
             }
-            _ => assert_eq!(commands(contents), commands(like), "{path}"),
+            _ => assert_eq!(commands(contents), commands(benign_contents), "{path}"),
         }
         for (number, line) in contents.lines().enumerate().filter(|_| !path.ends_with(".toml")) {
             let is_wild = |c: char| c.is_control() || ('\u{2028}'..='\u{202e}').contains(&c);
@@ -204,25 +204,28 @@ fn try_all(
     let benign = make(&schema.base).unwrap();
     written.write(&benign);
     let benign = files(&benign);
-    let mut taken = Vec::new();
+    let mut accepted = Vec::new();
     for (place, text) in tried {
         let table = schema.with_value(&place, Value::String(text.clone()));
-        let shown: String = text.chars().take(40).collect();
+        let excerpt: String = text.chars().take(40).collect();
         match make(&table) {
             _ if is_plain(&text) => {}
             Err(error) => {
-                let said = error.to_string();
-                assert!(said.contains(key_name(&place)), "{place:?} = {shown:?}: {said:.300}");
-                assert!(said.len() < 1000, "{place:?} = {shown:?}: {} bytes", said.len());
+                let message = error.to_string();
+                assert!(
+                    message.contains(key_name(&place)),
+                    "{place:?} = {excerpt:?}: {message:.300}"
+                );
+                assert!(message.len() < 1000, "{place:?} = {excerpt:?}: {} bytes", message.len());
             }
             Ok(project) => {
                 assert_differs_in_comments_only(&project, &benign, &table.to_string());
                 written.write(&project);
-                taken.push((place, text));
+                accepted.push((place, text));
             }
         }
     }
-    taken
+    accepted
 }
 
 /// Writes programs in place of Yosys, nextpnr and packers that record their arguments.
@@ -268,7 +271,7 @@ fn assert_tcl_runs_no_text(written: &WrittenProjects) {
 /// of its own.
 #[test]
 fn no_text_of_a_board_is_run() {
-    let mut taken = None;
+    let mut accepted = None;
     for (name, base) in boards() {
         let make = |table: &Table| project(name, table);
         let complaint = |table: &Table| make(table).err().map(|error| error.to_string());
@@ -279,8 +282,8 @@ fn no_text_of_a_board_is_run() {
         }
         assert_keys_are_on_the_page(&schema);
         let mut written = WrittenProjects::new();
-        let tried = taken.unwrap_or_else(|| texts_at_places(&schema));
-        taken = Some(try_all(&schema, tried, &make, &mut written));
+        let tried = accepted.unwrap_or_else(|| texts_at_places(&schema));
+        accepted = Some(try_all(&schema, tried, &make, &mut written));
         assert!(written.folders.len() > 10, "titles are free");
         written.read_by_yosys();
         if name == "vcu118" && !has_tclsh() {
@@ -311,10 +314,11 @@ fn assert_keys_are_on_the_page(schema: &TextPlaces<'_>) {
 fn an_option_is_no_part() {
     for (name, mut board) in boards() {
         board["device"]["part"] = "run".into();
-        let said = Board::from_toml(name, &board.to_string()).err().map(|error| error.to_string());
+        let message =
+            Board::from_toml(name, &board.to_string()).err().map(|error| error.to_string());
         let is_word = ["tang-nano-20k", "vcu118"].contains(&name);
-        assert_eq!(said.is_none(), is_word, "{said:?}");
-        assert!(said.is_none_or(|said| said.contains("device.part = \"run\"")), "{name}");
+        assert_eq!(message.is_none(), is_word, "{message:?}");
+        assert!(message.is_none_or(|message| message.contains("device.part = \"run\"")), "{name}");
     }
 }
 
@@ -355,9 +359,13 @@ fn names_of_files_are_plain() {
         } else {
             "name"
         };
-        let said = Board::from_toml(&text, &board.to_string()).err().map(|error| error.to_string());
-        assert_eq!(said.is_none(), name.is_empty(), "{text:?}: {said:?}");
-        assert!(said.is_none_or(|said| said.contains(name) && said.len() < 1000), "{text:?}");
+        let message =
+            Board::from_toml(&text, &board.to_string()).err().map(|error| error.to_string());
+        assert_eq!(message.is_none(), name.is_empty(), "{text:?}: {message:?}");
+        assert!(
+            message.is_none_or(|message| message.contains(name) && message.len() < 1000),
+            "{text:?}"
+        );
         if text.is_empty() || text.contains(['/', '\0']) || text.len() > 200 {
             continue;
         }
