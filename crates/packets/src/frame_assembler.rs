@@ -2,9 +2,9 @@
 //! Assembles frames from packets. A frame ends with its END, or with the first packet of a later
 //! frame.
 //!
-//! A packet of a frame that has ended is ignored. Two FRAMEs in a row that name ended frames with
-//! consecutive numbers show that the sender has restarted its count. Without this rule, one wrong
-//! number would make all later frames late.
+//! A packet of a frame that has ended is late, and is ignored. If two late FRAMEs in a row have
+//! consecutive numbers, the sender has restarted its count, and the second one begins a frame.
+//! Without this rule, a single FRAME with a wrong, high number would make all later frames late.
 
 use crate::{FrameInfo, Packet, PacketError, PacketLayout, ReceivedFrame, StreamLoss};
 
@@ -15,7 +15,7 @@ pub struct FrameAssembler {
     open: Option<ReceivedFrame>,
     /// The number of the frame that began last.
     last: Option<u32>,
-    /// The number of the last FRAME, if that came too late.
+    /// The number of the last FRAME, if that FRAME was late.
     late: Option<u32>,
     losses: Vec<StreamLoss>,
 }
@@ -57,14 +57,14 @@ impl FrameAssembler {
         // The comparison is modulo 2^32, because frame numbers wrap around.
         let is_late =
             self.last.is_some_and(|last| number.wrapping_sub(last).wrapping_sub(1) >= 1 << 31);
-        let recounts = info.is_some()
+        let is_recount = info.is_some()
             && is_late
             && !is_open
             && self.late.is_some_and(|late| number == late.wrapping_add(1));
         if info.is_some() {
-            self.late = Some(number).filter(|_| is_late && !is_open && !is_first && !recounts);
+            self.late = Some(number).filter(|_| is_late && !is_open && !is_first && !is_recount);
         }
-        let restarts = is_first || recounts;
+        let is_restart = is_first || is_recount;
         // A frame begins with its FRAME; packets that came before it do not belong to it.
         let is_begun = self.open.as_ref().is_some_and(|open| open.info.is_some());
         if is_open && !is_begun && info.is_some() && !is_first {
@@ -72,15 +72,15 @@ impl FrameAssembler {
             self.open = Some(ReceivedFrame::new(number, info, &self.layout));
             return Ok([None, None]);
         }
-        if !restarts && ((is_late && !is_open) || (is_open && info.is_some())) {
+        if !is_restart && ((is_late && !is_open) || (is_open && info.is_some())) {
             self.losses.push(StreamLoss::Misplaced { frame: number, count: 1 });
             return Ok([None, None]);
         }
-        if recounts {
+        if is_recount {
             self.last = None;
         }
         let mut ended = None;
-        if !is_open || restarts {
+        if !is_open || is_restart {
             ended = self.end_frame();
             self.begin(number, info);
         }
@@ -138,28 +138,32 @@ impl FrameAssembler {
     /// # Errors
     /// Fails if the version, the fingerprint or another field differs.
     pub fn check(&self, frame: u32, info: &FrameInfo) -> Result<(), PacketError> {
-        let own = self.layout.info();
-        if info.version != own.version {
+        let expected = self.layout.info();
+        if info.version != expected.version {
             return Err(PacketError::UnsupportedVersion { frame, version: info.version });
         }
         let stream = info.fingerprint;
-        if stream != own.fingerprint {
-            let (given, width, height) = (own.fingerprint, info.width, info.height);
+        if stream != expected.fingerprint {
+            let (given, width, height) = (expected.fingerprint, info.width, info.height);
             return Err(PacketError::DesignMismatch { frame, stream, given, width, height });
         }
         let pairs = [
-            ("frame size", (info.width, info.height) == (own.width, own.height)),
+            ("frame size", (info.width, info.height) == (expected.width, expected.height)),
             (
                 "grid of regions",
-                (info.columns, info.rows, info.side) == (own.columns, own.rows, own.side),
+                (info.columns, info.rows, info.side)
+                    == (expected.columns, expected.rows, expected.side),
             ),
-            ("bits of a pixel", info.pixel_bits == own.pixel_bits),
-            ("summaries", (info.blocks, info.irrelevant) == (own.blocks, own.irrelevant)),
-            ("payload", info.raw == own.raw),
-            ("scores, which the frames before have or have not", info.has_scores == own.has_scores),
+            ("bits of a pixel", info.pixel_bits == expected.pixel_bits),
+            ("summaries", (info.blocks, info.irrelevant) == (expected.blocks, expected.irrelevant)),
+            ("payload", info.raw == expected.raw),
+            (
+                "scores, which the frames before have or have not",
+                info.has_scores == expected.has_scores,
+            ),
             (
                 "unit of time, which the frames before have",
-                info.ticks_per_second == own.ticks_per_second,
+                info.ticks_per_second == expected.ticks_per_second,
             ),
         ];
         match pairs.into_iter().find(|(_, same)| !same) {

@@ -41,13 +41,13 @@ impl FrameClock {
         let ticks = info.time;
         let last = self.last.unwrap_or(TimeReference { start: (ticks, 0), ticks, time_us: 0 });
         let step = ticks.checked_sub(last.ticks);
-        let is_right = step.is_some_and(|step| step / per_second < LONGEST_GAP_SECONDS);
-        let start = if is_right { last.start } else { (ticks, last.time_us) };
-        let since =
+        let is_possible = step.is_some_and(|step| step / per_second < LONGEST_GAP_SECONDS);
+        let start = if is_possible { last.start } else { (ticks, last.time_us) };
+        let elapsed =
             u128::from(ticks.saturating_sub(start.0)) * MICROSECONDS / u128::from(per_second);
-        let since = u64::try_from(since).unwrap_or(u64::MAX);
-        let time_us = start.1.saturating_add(since);
+        let elapsed = u64::try_from(elapsed).unwrap_or(u64::MAX);
+        let time_us = start.1.saturating_add(elapsed);
         self.last = Some(TimeReference { start, ticks, time_us });
-        FrameTime { time_us, is_impossible: !is_right && !info.first }
+        FrameTime { time_us, is_impossible: !is_possible && !info.first }
     }
 }

@@ -145,15 +145,15 @@ impl PacketHead {
         }
         let Some(layout) = layout else { return false };
         let (columns, rows) = (layout.info().columns, layout.info().rows);
-        let of_row = |bytes| {
+        let is_row_head = |bytes| {
             self.flags == 0
                 && self.row < rows
                 && self.column == columns
                 && self.words * WORD_BYTES == bytes
         };
         match self.kind {
-            ROW_TYPE => of_row(layout.row_bytes()),
-            SCORES_TYPE => layout.info().has_scores && of_row(layout.scores_bytes()),
+            ROW_TYPE => is_row_head(layout.row_bytes()),
+            SCORES_TYPE => layout.info().has_scores && is_row_head(layout.scores_bytes()),
             REGION_TYPE => {
                 let flags = RegionFlags::of(self.flags);
                 self.row < rows
@@ -195,28 +195,28 @@ impl Packet {
         if crc32fast::hash(checked) != bits32(tail, 32) {
             return None;
         }
-        let carried = before.get(WORD_BYTES..)?;
+        let payload = before.get(WORD_BYTES..)?;
         let packet = match (head.kind, layout) {
-            (FRAME_TYPE, _) => Self::Frame(frame(head, carried)?),
-            (ROW_TYPE, Some(layout)) => Self::Row(row(head, carried, layout)?),
-            (SCORES_TYPE, Some(layout)) => Self::Scores(scores(head, carried, layout)?),
-            (REGION_TYPE, Some(layout)) => Self::Region(region(head, carried, layout)?),
-            (END_TYPE, _) => Self::End(end(head, carried)?),
-            (REGISTER_TYPE, _) => Self::Register(register(head, carried)?),
+            (FRAME_TYPE, _) => Self::Frame(frame(head, payload)?),
+            (ROW_TYPE, Some(layout)) => Self::Row(row(head, payload, layout)?),
+            (SCORES_TYPE, Some(layout)) => Self::Scores(scores(head, payload, layout)?),
+            (REGION_TYPE, Some(layout)) => Self::Region(region(head, payload, layout)?),
+            (END_TYPE, _) => Self::End(end(head, payload)?),
+            (REGISTER_TYPE, _) => Self::Register(register(head, payload)?),
             _ => return None,
         };
-        debug_assert_eq!(bytes.len(), carried.len() + HEAD_AND_TAIL_WORDS * WORD_BYTES);
+        debug_assert_eq!(bytes.len(), payload.len() + HEAD_AND_TAIL_WORDS * WORD_BYTES);
         Some((bits32(tail, 0), packet))
     }
 }
 
 /// Parses the payload of a FRAME. A FRAME of another version is accepted, too, so that the reader
 /// can report the version.
-fn frame(head: PacketHead, carried: &[u8]) -> Option<FrameInfo> {
-    if !carried.starts_with(&MAGIC) {
+fn frame(head: PacketHead, payload: &[u8]) -> Option<FrameInfo> {
+    if !payload.starts_with(&MAGIC) {
         return None;
     }
-    let mut words = carried.chunks_exact(WORD_BYTES).skip(1).filter_map(word);
+    let mut words = payload.chunks_exact(WORD_BYTES).skip(1).filter_map(word);
     let (fingerprint, time, size, rest) =
         (words.next()?, words.next()?, words.next()?, words.next()?);
     let info = FrameInfo {
@@ -239,11 +239,11 @@ fn frame(head: PacketHead, carried: &[u8]) -> Option<FrameInfo> {
     (info.ticks_per_second > 0 && rest >> 30 & 3 == 0).then_some(info)
 }
 
-fn row(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<RowPacket> {
+fn row(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<RowPacket> {
     let bits = layout.decision_bits();
     let code = |region: usize| {
         let at = region * bits;
-        Some(carried.get(at / 8)? >> (at % 8) & if bits == 2 { 3 } else { 15 })
+        Some(payload.get(at / 8)? >> (at % 8) & if bits == 2 { 3 } else { 15 })
     };
     let decisions = (0..index(layout.columns())).map(|region| {
         let code = code(region)?;
@@ -258,13 +258,13 @@ fn row(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<RowPac
     Some(RowPacket { row: head.row.into(), decisions: decisions.collect::<Option<_>>()? })
 }
 
-fn scores(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<ScoresPacket> {
+fn scores(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<ScoresPacket> {
     let columns = index(layout.columns());
     let (mut temporal_count, mut scores) = (
         Vec::with_capacity(columns),
         vec![Vec::with_capacity(columns); layout.score_fields().count() - 1],
     );
-    for record in carried.chunks_exact(layout.record_bytes()) {
+    for record in payload.chunks_exact(layout.record_bytes()) {
         let mut at = 0usize;
         for (number, (max, bytes)) in layout.score_fields().enumerate() {
             at = at.next_multiple_of(bytes);
@@ -281,20 +281,20 @@ fn scores(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<Sco
     Some(ScoresPacket { row: head.row.into(), temporal_count, scores })
 }
 
-fn region(head: PacketHead, carried: &[u8], layout: &PacketLayout) -> Option<RegionPacket> {
+fn region(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<RegionPacket> {
     let flags = RegionFlags::of(head.flags);
     let count = layout.value_count(flags.summary);
     let values: Vec<u16> = match layout.value_bytes() {
-        1 => carried.iter().take(count).map(|&value| value.into()).collect(),
-        _ => carried.as_chunks().0.iter().take(count).map(|&two| u16::from_le_bytes(two)).collect(),
+        1 => payload.iter().take(count).map(|&value| value.into()).collect(),
+        _ => payload.as_chunks().0.iter().take(count).map(|&two| u16::from_le_bytes(two)).collect(),
     };
     let fits = values.iter().all(|&value| value <= layout.pixel_max());
     let (row, column) = (head.row.into(), head.column.into());
     fits.then_some(RegionPacket { row, column, flags, values })
 }
 
-fn end(head: PacketHead, carried: &[u8]) -> Option<EndPacket> {
-    let counts = word(carried)?;
+fn end(head: PacketHead, payload: &[u8]) -> Option<EndPacket> {
+    let counts = word(payload)?;
     let end = EndPacket {
         regions_sent: bits32(counts, 0),
         regions_dropped: bits32(counts, 32),
@@ -304,7 +304,7 @@ fn end(head: PacketHead, carried: &[u8]) -> Option<EndPacket> {
     (dropped == (head.flags == 1)).then_some(end)
 }
 
-fn register(head: PacketHead, carried: &[u8]) -> Option<RegisterPacket> {
-    let value = bits32(word(carried)?, 0);
+fn register(head: PacketHead, payload: &[u8]) -> Option<RegisterPacket> {
+    let value = bits32(word(payload)?, 0);
     Some(RegisterPacket { address: head.row, is_write: head.flags == 1, value })
 }

@@ -70,7 +70,10 @@ impl PacketLayout {
             rows: checked_u16("number of rows", camera.rows().into())?,
             side: checked_u8("side of a region", camera.region_size())?,
             pixel_bits: checked_u8("bits of a pixel", camera.pixel_bits())?,
-            blocks: checked_u8("number of blocks", camera.periphery().map_or(0, |own| own.blocks))?,
+            blocks: checked_u8(
+                "number of blocks",
+                camera.periphery().map_or(0, |periphery| periphery.blocks),
+            )?,
             irrelevant: match camera.irrelevant() {
                 IrrelevantRendering::Zero => 0,
                 IrrelevantRendering::Hold => 1,
@@ -173,13 +176,13 @@ impl PacketLayout {
     /// first.
     pub(crate) fn score_fields(&self) -> impl Iterator<Item = (u64, usize)> + '_ {
         let pixels = u64::try_from(self.value_count(false)).unwrap_or(u64::MAX);
-        let lane = |max: u64| match max {
+        let field_bytes = |max: u64| match max {
             0..=0xFFFF => 2,
             0x1_0000..=0xFFFF_FFFF => 4,
             _ => 8,
         };
-        let all = std::iter::once(pixels).chain(self.score_max.iter().copied());
-        all.map(move |max| (max, lane(max)))
+        let maxima = std::iter::once(pixels).chain(self.score_max.iter().copied());
+        maxima.map(move |max| (max, field_bytes(max)))
     }
 
     /// Returns the number of bytes of the scores of a region. Each score is aligned to its own
@@ -197,7 +200,8 @@ fn packet_bytes(amount: usize, in_word: usize) -> usize {
     (amount.div_ceil(in_word) + HEAD_AND_TAIL_WORDS) * WORD_BYTES
 }
 
-/// Returns the fingerprint of a design as a number, whose hexadecimal digits it is.
+/// Returns the fingerprint of a design, which is text, as the number that has these hexadecimal
+/// digits.
 fn fingerprint_number(design: &Design) -> u64 {
     let digits = design.fingerprint();
     u64::from_str_radix(&digits, 16).unwrap_or_else(|_| unreachable!("16 digits, not {digits}"))

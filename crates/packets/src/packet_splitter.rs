@@ -6,7 +6,8 @@ use crate::packet::PacketHead;
 use crate::packet_layout::{MARK, WORD_BYTES};
 use crate::{Packet, PacketLayout};
 
-/// The number of skipped bytes that are reported at the latest, so that endless noise is noticed.
+/// The number of skipped bytes from which they are reported, although more may follow, so that
+/// endless noise is noticed.
 const REPORTED_BYTES: u64 = 1 << 20;
 
 /// The next item of a stream.
@@ -38,7 +39,7 @@ pub struct PacketSplitter {
     consumed: usize,
     /// The offset of `bytes` in the stream.
     offset: u64,
-    /// The number of bytes before `at` that were skipped and are not reported yet.
+    /// The number of consumed bytes that were skipped and are not reported yet.
     skipped: u64,
     is_complete: bool,
 }
@@ -66,33 +67,33 @@ impl PacketSplitter {
     /// Returns the next item. Without a layout, which the first FRAME determines, only a FRAME or a
     /// REGISTER is found.
     pub fn next(&mut self, layout: Option<&PacketLayout>) -> StreamItem {
-        while let Some(ahead) = self.bytes.get(self.consumed..) {
+        while let Some(remaining) = self.bytes.get(self.consumed..) {
             if self.skipped >= REPORTED_BYTES {
                 return self.take_skipped();
             }
-            let before = ahead.iter().position(|&byte| byte == MARK).unwrap_or(ahead.len());
+            let before = remaining.iter().position(|&byte| byte == MARK).unwrap_or(remaining.len());
             if before > 0 {
                 self.skip(before);
                 continue;
             }
-            let whole = match PacketHead::of(ahead, layout) {
-                None if ahead.len() < WORD_BYTES && !self.is_complete => {
+            let parsed = match PacketHead::of(remaining, layout) {
+                None if remaining.len() < WORD_BYTES && !self.is_complete => {
                     return StreamItem::Pending;
                 }
                 None => None,
-                Some(head) => match ahead.get(..head.words * WORD_BYTES) {
+                Some(head) => match remaining.get(..head.words * WORD_BYTES) {
                     None if !self.is_complete => return StreamItem::Pending,
                     None => None,
                     Some(bytes) => Packet::of(bytes, head, layout).zip(Some(bytes.len())),
                 },
             };
-            match whole {
+            match parsed {
                 Some(_) if self.skipped > 0 => return self.take_skipped(),
                 Some(((frame, packet), bytes)) => {
                     self.consumed += bytes;
                     return StreamItem::Packet { frame, packet };
                 }
-                None if ahead.is_empty() => break,
+                None if remaining.is_empty() => break,
                 None => self.skip(1),
             }
         }

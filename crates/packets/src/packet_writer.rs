@@ -76,12 +76,12 @@ pub fn append_scores<S: IntoIterator<Item = u64>>(
     let head = PacketFields::of_row(SCORES_TYPE, layout, row)?;
     let info = layout.info();
     let columns = if info.has_scores { info.columns.into() } else { 0 };
-    let (mut regions, mut records, mut found) = (regions, Vec::new(), 0);
+    let (mut regions, mut records, mut count) = (regions, Vec::new(), 0);
     for region in regions.by_ref().take(columns) {
         append_record(&mut records, layout, region)?;
-        found += 1;
+        count += 1;
     }
-    check_count("SCORES", "records", found + regions.count(), columns)?;
+    check_count("SCORES", "records", count + regions.count(), columns)?;
     append_packet(out, head, layout.scores_bytes() / WORD_BYTES, number, |out| out.extend(records));
     Ok(())
 }
@@ -92,15 +92,15 @@ fn append_record(
     layout: &PacketLayout,
     region: impl IntoIterator<Item = u64>,
 ) -> Result<(), PacketError> {
-    let (start, right) = (records.len(), layout.score_fields().count());
-    let (mut region, mut found) = (region.into_iter(), 0);
-    for ((most, bytes), value) in layout.score_fields().zip(region.by_ref().take(right)) {
-        let value = checked_field("score", value, 0..=most)?;
+    let (start, expected) = (records.len(), layout.score_fields().count());
+    let (mut region, mut count) = (region.into_iter(), 0);
+    for ((max, bytes), value) in layout.score_fields().zip(region.by_ref().take(expected)) {
+        let value = checked_field("score", value, 0..=max)?;
         records.resize(start + (records.len() - start).next_multiple_of(bytes), 0);
         records.extend(value.to_le_bytes().iter().take(bytes));
-        found += 1;
+        count += 1;
     }
-    check_count("SCORES", "numbers of a region", found + region.count(), right)?;
+    check_count("SCORES", "numbers of a region", count + region.count(), expected)?;
     records.resize(start + layout.record_bytes(), 0);
     Ok(())
 }
@@ -177,9 +177,9 @@ impl PacketFields {
     }
 }
 
-/// Returns the number of a row or column if it is less than `all`.
-fn checked_index(name: &'static str, number: u32, all: u32) -> Result<u16, PacketError> {
-    checked_u16(name, checked_field(name, number.into(), 0..=u64::from(all).saturating_sub(1))?)
+/// Returns the number of a row or column if it is less than `count`.
+fn checked_index(name: &'static str, number: u32, count: u32) -> Result<u16, PacketError> {
+    checked_u16(name, checked_field(name, number.into(), 0..=u64::from(count).saturating_sub(1))?)
 }
 
 /// Fails if the number of values differs from the number in such a packet.
@@ -187,20 +187,25 @@ fn check_count(
     packet: &'static str,
     what: &'static str,
     found: usize,
-    right: usize,
+    expected: usize,
 ) -> Result<(), PacketError> {
-    let fits = found == right;
-    fits.then_some(()).ok_or(PacketError::ValueCountMismatch { packet, what, found, right })
+    let fits = found == expected;
+    fits.then_some(()).ok_or(PacketError::ValueCountMismatch {
+        packet,
+        what,
+        found,
+        right: expected,
+    })
 }
 
-/// Appends a packet of `words` words: the head, the payload that `carry` appends, padding to whole
-/// words, and the tail.
+/// Appends a packet of `words` words: the head, the payload that `append_payload` appends, padding
+/// to whole words, and the tail.
 fn append_packet(
     out: &mut Vec<u8>,
     head: PacketFields,
     words: usize,
     number: u32,
-    carry: impl FnOnce(&mut Vec<u8>),
+    append_payload: impl FnOnce(&mut Vec<u8>),
 ) {
     // No packet of a layout is longer.
     let length = u16::try_from(words).unwrap_or_else(|_| unreachable!("{words} words fit"));
@@ -211,7 +216,7 @@ fn append_packet(
         | u64::from(head.column) << 48;
     let start = out.len();
     out.extend(first.to_le_bytes());
-    carry(out);
+    append_payload(out);
     debug_assert!(
         out.len() - start <= (words + 1 - HEAD_AND_TAIL_WORDS) * WORD_BYTES,
         "it carries too much"

@@ -38,7 +38,7 @@ pub struct ReceivedFrame {
     misplaced: u32,
 }
 
-/// Which packets of a row of regions were received.
+/// The packets that were received of a row of regions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct ReceivedRowParts {
     decisions: bool,
@@ -87,7 +87,7 @@ impl ReceivedFrame {
     pub(crate) fn take_row(&mut self, row: RowPacket) {
         let (at, columns) = (index(row.row), row.decisions.len());
         match self.rows.get_mut(at) {
-            Some(known) if !known.decisions => known.decisions = true,
+            Some(parts) if !parts.decisions => parts.decisions = true,
             _ => return self.count_misplaced(),
         }
         replace_from(&mut self.decisions, at * columns, row.decisions);
@@ -96,12 +96,12 @@ impl ReceivedFrame {
     pub(crate) fn take_scores(&mut self, scores: ScoresPacket) {
         let (at, columns) = (index(scores.row), scores.temporal_count.len());
         match self.rows.get_mut(at) {
-            Some(known) if !known.scores => known.scores = true,
+            Some(parts) if !parts.scores => parts.scores = true,
             _ => return self.count_misplaced(),
         }
         replace_from(&mut self.temporal_count, at * columns, scores.temporal_count);
-        for (own, scores) in self.scores.iter_mut().zip(scores.scores) {
-            replace_from(own, at * columns, scores);
+        for (values, scores) in self.scores.iter_mut().zip(scores.scores) {
+            replace_from(values, at * columns, scores);
         }
     }
 
@@ -138,11 +138,11 @@ impl ReceivedFrame {
         }
         let columns = index(layout.columns());
         let end = self.end.unwrap_or_default();
-        for (row, known) in (0..).zip(&self.rows) {
-            if !known.decisions {
+        for (row, parts) in (0..).zip(&self.rows) {
+            if !parts.decisions {
                 losses.push(StreamLoss::Row { frame, row, dropped: end.rows_dropped > 0 });
             }
-            if !known.scores && layout.info().has_scores {
+            if !parts.scores && layout.info().has_scores {
                 losses.push(StreamLoss::Scores { frame, row });
             }
         }
@@ -150,24 +150,29 @@ impl ReceivedFrame {
             (0..self.contents.len()).map(|region| self.is_decided(region)).collect();
         let regions = self.decisions.iter_mut().zip(&mut self.contents).zip(decided);
         for (region, ((decision, content), is_decided)) in regions.enumerate() {
-            let came = content.as_ref().map(|content| matches!(content, RegionContent::Means(_)));
+            // Of both values, `None` is no packet, true is a packet of means, false one of pixels.
+            let received_means =
+                content.as_ref().map(|content| matches!(content, RegionContent::Means(_)));
             if !is_decided {
                 // The decision is derived from the received packet; a summary tells nothing about
                 // TRS.
-                let active = came == Some(false);
-                *decision =
-                    RegionDecision { srs: active, trs: active, summary: came == Some(true) };
+                let active = received_means == Some(false);
+                *decision = RegionDecision {
+                    srs: active,
+                    trs: active,
+                    summary: received_means == Some(true),
+                };
                 continue;
             }
-            let asked = if decision.summary {
+            let expected_means = if decision.summary {
                 Some(true)
             } else {
                 (decision.srs && decision.trs).then_some(false)
             };
-            if came != asked && content.take().is_some() {
+            if received_means != expected_means && content.take().is_some() {
                 self.misplaced = self.misplaced.saturating_add(1);
             }
-            if asked.is_some() && content.is_none() {
+            if expected_means.is_some() && content.is_none() {
                 let (row, column) = (region / columns, region % columns);
                 let narrow = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
                 let (row, column) = (narrow(row), narrow(column));

@@ -31,11 +31,11 @@ impl RegisterCommand {
     /// Returns whether `answer` answers this command.
     #[must_use]
     pub fn is_answered_by(self, answer: RegisterPacket) -> bool {
-        let Self(asked) = self;
+        let Self(command) = self;
         answer
             == RegisterPacket {
-                value: if asked.is_write { asked.value } else { answer.value },
-                ..asked
+                value: if command.is_write { command.value } else { answer.value },
+                ..command
             }
     }
 }

@@ -130,7 +130,7 @@ impl StreamLoss {
 
 impl fmt::Display for StreamLoss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let by = |dropped: bool| if dropped { "dropped by the camera" } else { "missing" };
+        let cause = |dropped: bool| if dropped { "dropped by the camera" } else { "missing" };
         match *self {
             Self::Bytes { offset, bytes } => {
                 write!(f, "{bytes} bytes from byte {offset} on are no packet")
@@ -149,7 +149,7 @@ impl fmt::Display for StreamLoss {
                 write!(f, "frame {frame}: its FRAME packet is missing, so it is left out")
             }
             Self::Row { frame, row, dropped } => {
-                write!(f, "frame {frame}, row {row}: decisions are {}", by(dropped))
+                write!(f, "frame {frame}, row {row}: decisions are {}", cause(dropped))
             }
             Self::Scores { frame, row } => {
                 write!(f, "frame {frame}, row {row}: scores are missing")
@@ -158,7 +158,7 @@ impl fmt::Display for StreamLoss {
                 write!(
                     f,
                     "frame {frame}, row {row}, column {column}: the region is {}",
-                    by(dropped)
+                    cause(dropped)
                 )
             }
             Self::End { frame } => write!(f, "frame {frame}: its END packet is missing"),

@@ -70,7 +70,7 @@ fn receive(layout: &PacketLayout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<Stre
 }
 
 #[test]
-fn fuzz_a_stream_goes_on_behind_packets_with_any_numbers() {
+fn fuzz_a_stream_continues_after_packets_with_any_numbers() {
     for seed in 0..case_count() {
         let mut rng = Rng::with_seed(seed);
         let TestStream { layout, bytes, frames } = random_stream(&mut rng, 6);
@@ -81,17 +81,18 @@ fn fuzz_a_stream_goes_on_behind_packets_with_any_numbers() {
             let packet = rng.choice(&all).unwrap().clone();
             forge(&mut rng, &mut forged[packet]);
         }
-        let again: Vec<u8> = (0..rng.usize(0..4)).flat_map(|_| forged.clone()).collect();
-        forged.extend(again);
-        let is_first = forged.clone();
+        let copies: Vec<u8> = (0..rng.usize(0..4)).flat_map(|_| forged.clone()).collect();
+        forged.extend(copies);
+        let forged_part = forged.clone();
         forged.extend(&bytes[frames[3].start..]);
         let (received, losses) = receive(&layout, &forged);
         // At most two frames are lost before the new numbering is recognized, and the last frame is
         // received.
         assert!(received.last() == whole.last(), "seed {seed}: {losses:?}");
         let regions = u64::from(layout.columns() * layout.rows());
-        let most = (is_first.len() as u64 / 24 + 4) * (4 + 2 * u64::from(layout.rows()) + regions);
-        assert!(losses.len() as u64 <= most, "seed {seed}: {} losses", losses.len());
+        let max_losses =
+            (forged_part.len() as u64 / 24 + 4) * (4 + 2 * u64::from(layout.rows()) + regions);
+        assert!(losses.len() as u64 <= max_losses, "seed {seed}: {} losses", losses.len());
     }
 }
 
@@ -131,7 +132,7 @@ fn a_packet_of_a_later_frame_does_not_become_a_part_of_it() {
 }
 
 #[test]
-fn a_packet_again_and_again_is_one_loss() {
+fn a_packet_that_is_repeated_is_one_loss() {
     let mut rng = Rng::with_seed(4);
     let TestStream { layout, bytes, frames } = random_stream(&mut rng, 2);
     let at = frames[0].start + layout.frame_bytes()
@@ -145,7 +146,7 @@ fn a_packet_again_and_again_is_one_loss() {
 }
 
 #[test]
-fn noise_without_end_is_reported_on_the_way() {
+fn endless_noise_is_reported_in_parts() {
     for byte in [0, 0xFA] {
         let (mut splitter, mut reported) = (PacketSplitter::default(), 0);
         for _ in 0..64 {

@@ -30,9 +30,9 @@ fn fuzz_right_times_are_exact_and_any_times_never_go_back() {
         let (mut time, mut last) = (start, 0);
         for _ in 0..50 {
             let exact = u128::from(time - start) * 1_000_000 / u128::from(per_second);
-            let taken = take(&mut right, &info, time);
+            let result = take(&mut right, &info, time);
             assert_eq!(
-                (u128::from(taken.time_us), taken.is_impossible),
+                (u128::from(result.time_us), result.is_impossible),
                 (exact, false),
                 "seed {seed}"
             );
@@ -44,17 +44,17 @@ fn fuzz_right_times_are_exact_and_any_times_never_go_back() {
                 2 => u64::MAX - rng.u64(0..10),
                 _ => time,
             };
-            let taken = take(&mut any, &info, wild);
-            let step = taken.time_us.checked_sub(last);
-            let step = step.unwrap_or_else(|| panic!("seed {seed}: {last} to {}", taken.time_us));
+            let result = take(&mut any, &info, wild);
+            let step = result.time_us.checked_sub(last);
+            let step = step.unwrap_or_else(|| panic!("seed {seed}: {last} to {}", result.time_us));
             assert!(step <= LONGEST_GAP_SECONDS * 1_000_000, "seed {seed}: a gap of {step} us");
-            last = taken.time_us;
+            last = result.time_us;
         }
     }
 }
 
 #[test]
-fn a_time_that_cannot_be_right_is_that_of_the_frame_before() {
+fn an_impossible_time_is_replaced_by_that_of_the_previous_frame() {
     let info = info(1000);
     let day = LONGEST_GAP_SECONDS * 1000;
     for wrong in [0, 4999, 5002 + day, 1 << 63, u64::MAX] {
@@ -83,13 +83,13 @@ fn a_time_that_cannot_be_right_is_that_of_the_frame_before() {
 }
 
 #[test]
-fn a_camera_that_begins_anew_may_count_anew() {
+fn a_restarted_camera_may_restart_its_time() {
     let info = info(1_000_000);
     let mut clock = FrameClock::default();
     for (time, first, expected) in
         [(1 << 40, true, 0), ((1 << 40) + 7, false, 7), (3, true, 7), (9, false, 13)]
     {
-        let taken = clock.next_time(&FrameInfo { time, first, ..info.clone() });
-        assert_eq!(taken, FrameTime { time_us: expected, is_impossible: false });
+        let result = clock.next_time(&FrameInfo { time, first, ..info.clone() });
+        assert_eq!(result, FrameTime { time_us: expected, is_impossible: false });
     }
 }

@@ -54,7 +54,7 @@ fn fuzz_whole_frames_are_received_unchanged() {
         places.sort_unstable();
         // The places are so far apart that no damage overlaps another.
         places.dedup_by(|next, last| *next - *last < 200);
-        let touched: Vec<_> =
+        let damaged_ranges: Vec<_> =
             places.iter().rev().map(|&at| damage(&mut rng, &mut damaged, at)).collect();
         let (received, losses) = read_stream(&mut rng, &layout, &damaged);
         if damaged == bytes {
@@ -62,14 +62,14 @@ fn fuzz_whole_frames_are_received_unchanged() {
         }
         assert!(!losses.is_empty(), "seed {seed}: damage passes unnoticed");
         for (number, range) in (0u32..).zip(&frames) {
-            let is_whole = touched.iter().all(|t| {
-                t.end.max(t.start + 1) <= range.start
-                    || t.start >= range.end
-                    || *t == (range.start..range.start)
+            let is_whole = damaged_ranges.iter().all(|damaged| {
+                damaged.end.max(damaged.start + 1) <= range.start
+                    || damaged.start >= range.end
+                    || *damaged == (range.start..range.start)
             });
-            let same = |frame: &&ReceivedFrame| frame.number == number;
-            let expected = whole.iter().find(same).unwrap();
-            match received.iter().find(same) {
+            let has_number = |frame: &&ReceivedFrame| frame.number == number;
+            let expected = whole.iter().find(has_number).unwrap();
+            match received.iter().find(has_number) {
                 Some(frame) if is_whole => assert_eq!(frame, expected, "seed {seed}"),
                 None if is_whole => {
                     panic!("seed {seed}: frame {number} is whole, and lost: {losses:?}")
@@ -122,8 +122,8 @@ fn a_packet_that_comes_too_late_is_ignored() {
     let (first, second) = (frames[0].end, frames[1].end);
     let late = &bytes[first - 24..first];
     let received = read_stream(&mut rng, &layout, &bytes).0;
-    let (again, losses) =
+    let (received_late, losses) =
         read_stream(&mut rng, &layout, &[&bytes[..second], late, &bytes[second..]].concat());
     assert_eq!(losses, [StreamLoss::Misplaced { frame: 0, count: 1 }]);
-    assert!(again == received, "the late packet changed a frame");
+    assert!(received_late == received, "the late packet changed a frame");
 }

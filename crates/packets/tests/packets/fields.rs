@@ -116,9 +116,9 @@ fn a_number_that_does_not_fit_is_refused() {
     assert_eq!(score([0, 5]), "the score of a packet cannot be 5: it is 0 to 4");
     for rows_dropped in [65_536, u32::MAX] {
         let end = EndPacket { rows_dropped, ..EndPacket::default() };
-        let said =
+        let expected =
             format!("the dropped rows of a packet cannot be {rows_dropped}: it is 0 to 65535");
-        assert_eq!(refusal(|out| packet_writer::append_end(out, 0, end)), said);
+        assert_eq!(refusal(|out| packet_writer::append_end(out, 0, end)), expected);
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) fn packet(words: &[u64], number: u32) -> Vec<u8> {
 }
 
 #[test]
-fn a_frame_is_what_the_page_says() {
+fn the_packets_of_a_frame_equal_those_written_by_hand() {
     // The frame has 6 x 3 pixels of 10 bits in 3 x 2 regions of 2 x 2, with one mean per region.
     // The features are edge and variance.
     let design = design(
@@ -109,7 +109,7 @@ fn a_frame_is_what_the_page_says() {
 }
 
 #[test]
-fn eight_by_eight_regions_of_bytes_cost_what_the_page_says() {
+fn packets_have_the_lengths_of_the_page() {
     let design = design("frame={width=1920,height=1080}\nspatial=[{feature='edge'}]\n");
     let layout = PacketLayout::new(&design, true, 1).unwrap();
     assert_eq!(layout.region_bytes(false), 80);

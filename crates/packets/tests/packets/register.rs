@@ -55,7 +55,7 @@ fn with_answers(
 }
 
 #[test]
-fn commands_are_what_the_page_says() {
+fn commands_have_the_bytes_of_the_page() {
     let read = RegisterCommand::read(0x1000);
     assert_eq!(read.bytes(), packet(&[0x0000_1000_0003_06FA, 0], 0));
     let write = RegisterCommand::write(0x104, 0xDEAD_BEEF);
@@ -115,20 +115,22 @@ fn fuzz_answers_beside_damage_come_back() {
         let stream = random_stream(&mut rng, 3);
         let (mut bytes, answers) = with_answers(&mut rng, &stream);
         let at = rng.usize(0..bytes.len());
-        let touched = damage(&mut rng, &mut bytes, at);
+        let damaged_range = damage(&mut rng, &mut bytes, at);
         let whole = |(range, _): &&(Range<usize>, RegisterPacket)| {
-            touched.end.max(touched.start + 1) <= range.start || touched.start >= range.end
+            damaged_range.end.max(damaged_range.start + 1) <= range.start
+                || damaged_range.start >= range.end
         };
         let expected: Vec<RegisterPacket> =
-            answers.iter().filter(whole).map(|(_, own)| *own).collect();
+            answers.iter().filter(whole).map(|(_, answer)| *answer).collect();
         let mut found = registers(&bytes, Some(&stream.layout)).0;
         // Noise that is inserted before an answer leaves it whole, so `found` may have more answers
         // than `expected`.
-        let same = |register: &RegisterPacket| answers.iter().any(|(_, own)| own == register);
-        assert!(found.iter().all(same), "seed {seed}: one from nowhere");
+        let is_answer =
+            |register: &RegisterPacket| answers.iter().any(|(_, answer)| answer == register);
+        assert!(found.iter().all(is_answer), "seed {seed}: one from nowhere");
         lost += answers.len() - found.len();
         let mut rest = expected.iter().peekable();
-        found.retain(|register| rest.next_if(|own| *own == register).is_some());
+        found.retain(|register| rest.next_if(|answer| *answer == register).is_some());
         assert_eq!(found, expected, "seed {seed}");
     }
     assert!(lost > 0, "no answer was damaged");
