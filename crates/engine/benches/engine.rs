@@ -76,7 +76,7 @@ fn run_single(bencher: Bencher, case: BenchmarkCase, options: EngineOptions, sti
 }
 
 fn case(name: &str) -> BenchmarkCase {
-    CASES.iter().find(|(own, _)| *own == name).expect("a case").1
+    CASES.iter().find(|(case_name, _)| *case_name == name).expect("a case").1
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
@@ -136,13 +136,13 @@ fn run_batch(bencher: Bencher, case: BenchmarkCase, (threads, batch, keep): (usi
 }
 
 #[divan::bench(args = BATCH_OPTIONS)]
-fn batches_1080p(bencher: Bencher, way: (usize, usize, bool)) {
-    run_batch(bencher, HD, way);
+fn batches_1080p(bencher: Bencher, options: (usize, usize, bool)) {
+    run_batch(bencher, HD, options);
 }
 
 #[divan::bench(args = BATCH_OPTIONS)]
-fn batches_224(bencher: Bencher, way: (usize, usize, bool)) {
-    run_batch(bencher, SMALL, way);
+fn batches_224(bencher: Bencher, options: (usize, usize, bool)) {
+    run_batch(bencher, SMALL, options);
 }
 
 #[divan::bench(args = InstructionSet::available().into_iter().map(InstructionSet::name))]

@@ -52,28 +52,28 @@ fn main() -> Result<(), BoxError> {
     }
     let features = value("--features").unwrap_or("edge");
     config.spatial = features.split(',').map(feature).collect::<Result<_, _>>()?;
-    let wanted = value("--level").unwrap_or_else(|| InstructionSet::detect().name());
+    let level_name = value("--level").unwrap_or_else(|| InstructionSet::detect().name());
     let options = EngineOptions {
         threads: value("--threads").unwrap_or("1").parse()?,
         skips_identical_regions: !arguments.iter().any(|argument| argument == "--no-skip"),
         level: *InstructionSet::available()
             .iter()
-            .find(|level| level.name() == wanted)
+            .find(|level| level.name() == level_name)
             .ok_or("this processor has no such instructions")?,
     };
     let seconds: f64 = value("--seconds").unwrap_or("1").parse()?;
     let mut engine = Engine::with_options(&config.validate()?, options)?;
-    let way = FrameDelivery {
+    let delivery = FrameDelivery {
         batch: value("--batch").unwrap_or("1").parse::<usize>()?.max(1),
         screens: arguments.iter().any(|argument| argument == "--screens"),
     };
-    let measured = measure(&clip, &mut engine, &way, Duration::from_secs_f64(seconds))?;
+    let measured = measure(&clip, &mut engine, &delivery, Duration::from_secs_f64(seconds))?;
     let (width, height) = (clip.width, clip.height);
     print(&serde_json::json!({
         "clip": path, "width": width, "height": height, "side": config.region.size,
         "neighborhood": config.region.neighborhood.name(), "features": features,
         "reference": config.temporal.reference.name(), "threads": options.threads,
-        "batch": way.batch, "screens": way.screens, "level": options.level.name(), "skip": options.skips_identical_regions,
+        "batch": delivery.batch, "screens": delivery.screens, "level": options.level.name(), "skip": options.skips_identical_regions,
         "mpixel_s": measured.mpixel_s, "mpixel_s_mean": measured.mpixel_s_mean,
         "skipped": measured.skipped, "active": measured.active,
     }));
@@ -120,38 +120,39 @@ struct FrameDelivery {
 fn measure(
     clip: &ByteClip,
     engine: &mut Engine,
-    way: &FrameDelivery,
+    delivery: &FrameDelivery,
     time: Duration,
 ) -> Result<ThroughputResult, BoxError> {
     let width = usize::try_from(clip.width)?;
     let size = width * usize::try_from(clip.height)?;
-    let (mut times, mut skipped, mut active, mut seen) = (Vec::new(), 0, 0, 0);
+    let (mut times, mut skipped, mut active, mut frame_count) = (Vec::new(), 0, 0, 0);
     let start = Instant::now();
     let frames: Vec<&[u8]> = clip.pixels.chunks_exact(size).collect();
     let mut screens = BatchScreens::new();
-    let batches: Vec<&[&[u8]]> = frames.chunks(way.batch).collect();
+    let batches: Vec<&[&[u8]]> = frames.chunks(delivery.batch).collect();
     for (number, batch) in batches.iter().enumerate().cycle() {
         if number == 0 {
             engine.reset();
         }
-        let screens = way.screens.then_some(&mut screens);
-        let began = Instant::now();
+        let screens = delivery.screens.then_some(&mut screens);
+        let step_start = Instant::now();
         let outcomes = step_frames(engine, batch, width, screens)?;
-        times.push(began.elapsed().as_secs_f64() / count_as_f64(batch.len()));
+        times.push(step_start.elapsed().as_secs_f64() / count_as_f64(batch.len()));
         skipped += outcomes.iter().map(|outcome| outcome.skipped).sum::<usize>();
         active += outcomes.iter().flat_map(|outcome| &outcome.active).filter(|on| **on).count();
-        seen += batch.len();
+        frame_count += batch.len();
         if start.elapsed() > time && times.len() >= 5 {
             break;
         }
     }
-    let regions = count_as_f64(seen * engine.outcome().srs.len());
+    let regions = count_as_f64(frame_count * engine.outcome().srs.len());
     // The fastest time of each batch leaves out the time that other programs take, and keeps the
     // differences between frames.
-    let at = |number: usize| times.iter().skip(number).step_by(batches.len()).copied();
+    let times_of = |number: usize| times.iter().skip(number).step_by(batches.len()).copied();
     let measured = batches.iter().take(times.len()).enumerate();
-    let frame_times = measured
-        .map(|(number, batch)| count_as_f64(batch.len()) * at(number).fold(f64::MAX, f64::min));
+    let frame_times = measured.map(|(number, batch)| {
+        count_as_f64(batch.len()) * times_of(number).fold(f64::MAX, f64::min)
+    });
     let measured = batches.iter().take(times.len()).map(|batch| batch.len()).sum();
     let mean_of_all = frame_times.sum::<f64>() / count_as_f64(measured);
     times.sort_by(f64::total_cmp);
@@ -190,9 +191,9 @@ fn count_as_f64(count: usize) -> f64 {
 fn copy_bandwidth() -> serde_json::Value {
     let measure = |bytes: usize, rounds: usize| {
         [1, 2].map(|threads| {
-            let begin = Barrier::new(threads);
+            let barrier = Barrier::new(threads);
             std::thread::scope(|scope| {
-                let copy = || copy_rate(bytes, rounds, &begin);
+                let copy = || copy_rate(bytes, rounds, &barrier);
                 let copies: Vec<_> = (0..threads).map(|_| scope.spawn(copy)).collect();
                 copies.into_iter().filter_map(|copy| copy.join().ok()).sum::<f64>()
             })
@@ -206,15 +207,15 @@ fn copy_bandwidth() -> serde_json::Value {
 }
 
 /// Returns the gigabytes per second of one thread, over the faster half of the rounds.
-fn copy_rate(bytes: usize, rounds: usize, begin: &Barrier) -> f64 {
+fn copy_rate(bytes: usize, rounds: usize, barrier: &Barrier) -> f64 {
     let (from, mut to) = (vec![1u8; bytes], vec![0u8; bytes]);
-    begin.wait();
+    barrier.wait();
     let mut times: Vec<f64> = (0..rounds)
         .map(|_| {
-            let began = Instant::now();
+            let round_start = Instant::now();
             to.copy_from_slice(std::hint::black_box(&from));
             std::hint::black_box(&mut to);
-            began.elapsed().as_secs_f64()
+            round_start.elapsed().as_secs_f64()
         })
         .collect();
     times.sort_by(f64::total_cmp);

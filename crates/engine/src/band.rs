@@ -111,18 +111,18 @@ impl<T: PixelLane> BandPass<'_, T> {
         let WorkingMemory { columns, means, raw, .. } = scratch;
         let covered = plan.blocks_under(periphery.side, run);
         for (row, means) in means.chunks_exact_mut(plan.means_in_row()).enumerate() {
-            let own = &mut columns.sum.blocks_mut()[run.clone()];
+            let block_sums = &mut columns.sum.blocks_mut()[run.clone()];
             let rows = row * periphery.side..(row + 1) * periphery.side;
             if plan.keeps_raw {
-                own.fill([T::ColumnSum::default(); BLOCK_LANES]);
+                block_sums.fill([T::ColumnSum::default(); BLOCK_LANES]);
                 for y in rows {
                     let pixels = self.raw.row(self.number * plan.side + y);
                     raw.values_mut()[..plan.width].copy_from_slice(pixels);
                     raw.repeat_border(plan.width, plan.padded_width());
-                    sums::add_to_columns(raw.blocks(run), own);
+                    sums::add_to_columns(raw.blocks(run), block_sums);
                 }
             } else {
-                sums::add_rows(&self.denoised[run.start * BLOCK_LANES..], stride, rows, own);
+                sums::add_rows(&self.denoised[run.start * BLOCK_LANES..], stride, rows, block_sums);
             }
             let columns = &columns.sum[covered.start * periphery.side..];
             periphery.compute_means(columns, &mut means[covered.clone()]);
@@ -174,28 +174,28 @@ impl<T: PixelLane> BandPass<'_, T> {
     #[inline(always)]
     fn compare_row(
         &mut self,
-        now: &[Block<T>],
+        current: &[Block<T>],
         row: usize,
         columns: &mut ColumnSums<T>,
         run: &Range<usize>,
     ) {
         let (plan, stride) = (self.plan, self.plan.stride());
         let changed = &mut columns.changed.blocks_mut()[run.clone()];
-        let store = row_blocks_mut(self.denoised, stride, row, run);
+        let stored = row_blocks_mut(self.denoised, stride, row, run);
         match plan.reference {
             ReferencePolicy::Previous => {
-                temporal::count_and_replace(now, store, plan.level, changed);
+                temporal::count_and_replace(current, stored, plan.level, changed);
             }
             ReferencePolicy::LastSent => {
                 let reference = row_blocks(self.reference, stride, row, run);
-                temporal::count_and_store(now, reference, plan.level, changed, store);
+                temporal::count_and_store(current, reference, plan.level, changed, stored);
             }
         }
         if plan.passes.needs_sums {
-            sums::add_to_columns(now, &mut columns.sum.blocks_mut()[run.clone()]);
+            sums::add_to_columns(current, &mut columns.sum.blocks_mut()[run.clone()]);
         }
         if plan.passes.needs_squares {
-            sums::add_squares(now, &mut columns.square.blocks_mut()[run.clone()]);
+            sums::add_squares(current, &mut columns.square.blocks_mut()[run.clone()]);
         }
     }
 
@@ -247,17 +247,17 @@ impl<T: PixelLane> BandPass<'_, T> {
     fn second_pass(&self, columns: &mut ColumnSums<T>, run: &Range<usize>, fraction_bits: u32) {
         let stride = self.plan.stride();
         let above = &mut columns.above.blocks_mut()[run.clone()];
-        let over = &mut columns.count_above.blocks_mut()[run.clone()];
+        let count_above = &mut columns.count_above.blocks_mut()[run.clone()];
         let mean = &columns.mean.blocks()[run.clone()];
         above.fill([T::ColumnSum::default(); BLOCK_LANES]);
         if fraction_bits > 0 {
-            over.fill([T::default(); BLOCK_LANES]);
+            count_above.fill([T::default(); BLOCK_LANES]);
         }
         for row in 0..self.plan.side {
-            let now = row_blocks(self.denoised, stride, row, run);
-            mad::add_above(now, mean, above);
+            let current = row_blocks(self.denoised, stride, row, run);
+            mad::add_above(current, mean, above);
             if fraction_bits > 0 {
-                mad::count_above(now, mean, over);
+                mad::count_above(current, mean, count_above);
             }
         }
     }

@@ -12,8 +12,9 @@ use crate::workers::Workers;
 use crate::{BatchScreens, EngineError, FrameOutcome, screens};
 use foveate_lanes::PixelLane;
 
-/// The number of bytes of frames that go through the engine together. It is small enough that
-/// pixels which were compared are still in the last-level cache when they are computed.
+/// The number of bytes of the frames of a group, which goes through the engine together. A group is
+/// small enough that its pixels are still in the last-level cache when they are scored, after all
+/// of them were compared.
 const GROUP_BYTES: usize = 16 << 20;
 
 impl Engine {

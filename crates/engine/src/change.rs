@@ -22,17 +22,17 @@ pub(crate) fn compare_and_update_copy<T: PixelLane>(
     changed: &mut [bool],
 ) {
     changed.fill(false);
-    let mut every = false;
+    let mut all_changed = false;
     for (y, last) in copy.chunks_exact_mut(plan.width).enumerate() {
-        let now = raw.row(number * plan.side + y);
-        if !every {
-            if now == last {
+        let current = raw.row(number * plan.side + y);
+        if !all_changed {
+            if current == last {
                 continue;
             }
-            compare_row(now, last, plan.side, changed);
-            every = changed.iter().all(|&changed| changed);
+            compare_row(current, last, plan.side, changed);
+            all_changed = changed.iter().all(|&changed| changed);
         }
-        last.copy_from_slice(now);
+        last.copy_from_slice(current);
     }
 }
 
@@ -41,17 +41,17 @@ pub(crate) fn compare_and_update_copy<T: PixelLane>(
 #[inline(always)]
 pub(crate) fn compare_frames<T: PixelLane>(
     plan: &CameraPlan<T>,
-    [last, now]: [BorrowedFrame<'_, T>; 2],
+    [last, current]: [BorrowedFrame<'_, T>; 2],
     number: usize,
     changed: &mut [bool],
 ) {
     changed.fill(false);
     let top = number * plan.side;
     for y in top..(top + plan.side).min(plan.height) {
-        if now.row(y) == last.row(y) {
+        if current.row(y) == last.row(y) {
             continue;
         }
-        compare_row(now.row(y), last.row(y), plan.side, changed);
+        compare_row(current.row(y), last.row(y), plan.side, changed);
         if changed.iter().all(|&changed| changed) {
             return;
         }
@@ -72,30 +72,35 @@ pub(crate) fn copy_band<T: PixelLane>(
 }
 
 #[inline(always)]
-fn compare_row<T: PixelLane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+fn compare_row<T: PixelLane>(current: &[T], last: &[T], side: usize, changed: &mut [bool]) {
     match side {
-        8 => compare_constant::<8, T>(now, last, changed),
-        16 => compare_constant::<16, T>(now, last, changed),
-        32 => compare_constant::<32, T>(now, last, changed),
-        64 => compare_constant::<64, T>(now, last, changed),
-        _ => compare_any(now, last, side, changed),
+        8 => compare_constant::<8, T>(current, last, changed),
+        16 => compare_constant::<16, T>(current, last, changed),
+        32 => compare_constant::<32, T>(current, last, changed),
+        64 => compare_constant::<64, T>(current, last, changed),
+        _ => compare_any(current, last, side, changed),
     }
 }
 
 #[inline(always)]
-fn compare_constant<const SIDE: usize, T: PixelLane>(now: &[T], last: &[T], changed: &mut [bool]) {
-    let ((now, now_rest), (last, last_rest)) = (now.as_chunks::<SIDE>(), last.as_chunks::<SIDE>());
-    let (whole, ragged) = changed.split_at_mut(now.len());
-    for ((now, last), changed) in now.iter().zip(last).zip(whole) {
-        *changed |= now != last;
+fn compare_constant<const SIDE: usize, T: PixelLane>(
+    current: &[T],
+    last: &[T],
+    changed: &mut [bool],
+) {
+    let ((current, current_rest), (last, last_rest)) =
+        (current.as_chunks::<SIDE>(), last.as_chunks::<SIDE>());
+    let (whole, ragged) = changed.split_at_mut(current.len());
+    for ((current, last), changed) in current.iter().zip(last).zip(whole) {
+        *changed |= current != last;
     }
-    compare_any(now_rest, last_rest, SIDE, ragged);
+    compare_any(current_rest, last_rest, SIDE, ragged);
 }
 
 #[inline(always)]
-fn compare_any<T: PixelLane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]) {
-    for ((now, last), changed) in now.chunks(side).zip(last.chunks(side)).zip(changed) {
-        *changed |= now != last;
+fn compare_any<T: PixelLane>(current: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+    for ((current, last), changed) in current.chunks(side).zip(last.chunks(side)).zip(changed) {
+        *changed |= current != last;
     }
 }
 
@@ -156,23 +161,23 @@ mod tests {
 
     #[test]
     fn runs_cover_affected_regions_and_merge() {
-        let found = |width: u32, side: u32, neighborhood, columns: &[usize]| {
+        let runs_of = |width: u32, side: u32, neighborhood, columns: &[usize]| {
             let mut config = CameraConfig::default();
             (config.frame.width, config.frame.height) = (Some(width), Some(side));
             (config.region.size, config.region.neighborhood) = (side, neighborhood);
             let plan = CameraPlan::<u8>::new(&config.validate().unwrap());
             let affected: Vec<bool> = (0..plan.columns).map(|x| columns.contains(&x)).collect();
-            let mut found = Vec::new();
-            collect_runs(&plan, &affected, &mut found);
-            found
+            let mut runs = Vec::new();
+            collect_runs(&plan, &affected, &mut runs);
+            runs
         };
         use Neighborhood::{Isolated, Shared};
-        assert_eq!(found(640, 8, Isolated, &[0, 7, 8, 24]), [0..2, 3..4]);
-        assert_eq!(found(1280, 8, Shared, &[0, 7, 8, 24, 56]), [0..4, 7..8]);
+        assert_eq!(runs_of(640, 8, Isolated, &[0, 7, 8, 24]), [0..2, 3..4]);
+        assert_eq!(runs_of(1280, 8, Shared, &[0, 7, 8, 24, 56]), [0..4, 7..8]);
         // Region 10, which is 6 pixels wide, lies in two blocks.
-        assert_eq!(found(600, 6, Isolated, &[10]), vec![0..2]);
+        assert_eq!(runs_of(600, 6, Isolated, &[10]), vec![0..2]);
         // Nearly all blocks become all blocks, and no affected region gives no run.
-        assert_eq!(found(256, 8, Shared, &[0, 24]), vec![0..4]);
-        assert_eq!(found(640, 8, Shared, &[]), []);
+        assert_eq!(runs_of(256, 8, Shared, &[0, 24]), vec![0..4]);
+        assert_eq!(runs_of(640, 8, Shared, &[]), []);
     }
 }

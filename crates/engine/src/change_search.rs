@@ -60,13 +60,13 @@ impl<T: PixelLane> ChangeSearch<'_, T> {
                 }
             }
         }
-        let kept = match self.step {
+        let updates_copy = match self.step {
             SearchStep::Rest | SearchStep::CompareSample(_) => false,
             SearchStep::CopySample | SearchStep::CompareWithinBatch => true,
             // A comparison with the copy brings it up to date.
             SearchStep::CompareAll => frames.len() > 1,
         };
-        if let (true, Some(&last)) = (kept, frames.last()) {
+        if let (true, Some(&last)) = (updates_copy, frames.last()) {
             change::copy_band(plan, last, band, copy);
         }
     }
@@ -93,10 +93,11 @@ impl<'a> KnownChanges<'a> {
         frame: usize,
         band: usize,
     ) -> Option<[&'a [bool]; 3]> {
-        let of = |band: usize| {
+        let flags_of = |band: usize| {
             &self.changed[(band * self.frames + frame) * plan.columns..][..plan.columns]
         };
         let below = (band + 1).min(plan.rows - 1);
-        (frame >= self.first_known).then(|| [of(band.saturating_sub(1)), of(band), of(below)])
+        (frame >= self.first_known)
+            .then(|| [flags_of(band.saturating_sub(1)), flags_of(band), flags_of(below)])
     }
 }

@@ -52,7 +52,8 @@ impl<T: PixelLane> CameraPlan<T> {
         }
     }
 
-    /// Computes the temporal counts, from the last actions where no pixel has changed.
+    /// Computes the temporal counts. The count of a region that is not affected follows from its
+    /// last count and action, because its pixels are those of the last frame.
     #[inline(always)]
     fn update_temporal_counts(
         &self,
@@ -98,8 +99,8 @@ impl<T: PixelLane> CameraPlan<T> {
     }
 
     /// Returns the temporal count of a region whose denoised pixels are those of the previous
-    /// frame. It follows from that frame's action: the reference is now equal to the pixels,
-    /// unchanged, or not valid.
+    /// frame. The action of that frame determines the count, because after it the reference equals
+    /// these pixels, is unchanged, or is not valid.
     #[inline(always)]
     fn count_of_identical(&self, (action, count): (RegionAction, u32), n: u32) -> u32 {
         match (self.reference, action) {

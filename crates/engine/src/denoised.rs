@@ -45,12 +45,12 @@ impl<T: PixelLane> Denoiser<'_, T> {
     /// Makes rows available: at most a batch and one row on each side of it.
     #[inline(always)]
     pub(crate) fn ensure_rows(&mut self, rows: Range<usize>) {
-        let held = |y: usize| {
-            let held = &self.slot(y).row_and_run;
-            held.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run)
+        let is_available = |y: usize| {
+            let row_and_run = &self.slot(y).row_and_run;
+            row_and_run.as_ref().is_some_and(|(row, run)| *row == y && *run == self.run)
         };
         let mut missing = rows;
-        while missing.start < missing.end && held(missing.start) {
+        while missing.start < missing.end && is_available(missing.start) {
             missing.start += 1;
         }
         let plan = self.plan;
@@ -77,8 +77,12 @@ impl<T: PixelLane> Denoiser<'_, T> {
     #[inline(always)]
     pub(crate) fn windows(&self, y: usize) -> WindowRows<'_, T> {
         let [above, here, below] = self.window_rows(y);
-        let near = |y: usize| self.slot(y).pixels.blocks_with_neighbors(&self.run);
-        WindowRows { above: near(above), here: near(here), below: near(below) }
+        let extended_row = |y: usize| self.slot(y).pixels.blocks_with_neighbors(&self.run);
+        WindowRows {
+            above: extended_row(above),
+            here: extended_row(here),
+            below: extended_row(below),
+        }
     }
 
     /// Returns the numbers of the three rows that a window in row `y` covers.

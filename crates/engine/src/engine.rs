@@ -74,11 +74,11 @@ impl Engine {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         };
-        let refused = |error: rayon::ThreadPoolBuildError| EngineError::Threads {
+        let thread_error = |error: rayon::ThreadPoolBuildError| EngineError::Threads {
             threads,
             reason: error.to_string(),
         };
-        let workers = Workers::new(options.level, threads).map_err(refused)?;
+        let workers = Workers::new(options.level, threads).map_err(thread_error)?;
         Ok(Self::build(camera, options, workers))
     }
 
@@ -169,8 +169,11 @@ impl Engine {
         if given == expected {
             return Ok(());
         }
-        let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
-        Err(EngineError::FrameSizeOrDepth { given: kind(given), expected: kind(expected) })
+        let description = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
+        Err(EngineError::FrameSizeOrDepth {
+            given: description(given),
+            expected: description(expected),
+        })
     }
 
     /// Takes the next frame of a camera with up to 8 bits per pixel without copying it. Its rows

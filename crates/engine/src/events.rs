@@ -86,8 +86,8 @@ impl EventField {
         }
     }
 
-    fn value_of(self, moment: &EventFrame<'_>, region: usize) -> EventValue {
-        let EventFrame { camera, number, time_us, outcome } = *moment;
+    fn value_of(self, frame: &EventFrame<'_>, region: usize) -> EventValue {
+        let EventFrame { camera, number, time_us, outcome } = *frame;
         let (columns, side) = (camera.columns() as usize, camera.region_size() as usize);
         let (column, row) = (region % columns, region / columns);
         match self {
@@ -121,7 +121,7 @@ fn columns(camera: &Camera) -> Vec<(EventColumn, EventField)> {
     let scores = camera.features().iter().enumerate();
     let scores =
         scores.map(|(at, feature)| (format!("score_{}", feature.kind()), EventField::Score(at)));
-    let named = |(name, field): (&str, EventField)| (name.to_owned(), field);
+    let named_field = |(name, field): (&str, EventField)| (name.to_owned(), field);
     let before = [
         ("frame", EventField::Frame),
         ("t_us", EventField::Time),
@@ -133,7 +133,7 @@ fn columns(camera: &Camera) -> Vec<(EventColumn, EventField)> {
         ("trs", EventField::Trs),
     ];
     let after = [("t_count", EventField::TemporalCount), ("action", EventField::Action)];
-    let all = before.map(named).into_iter().chain(scores).chain(after.map(named));
+    let all = before.map(named_field).into_iter().chain(scores).chain(after.map(named_field));
     all.map(|(name, field)| (EventColumn { name, value_type: field.kind() }, field)).collect()
 }
 
@@ -171,10 +171,10 @@ impl EventTable {
     #[must_use]
     pub fn without_scores(self) -> Self {
         let pairs = self.columns.into_iter().zip(self.fields);
-        let known = pairs.filter(|(_, field)| {
+        let remaining = pairs.filter(|(_, field)| {
             !matches!(field, EventField::Score(_) | EventField::TemporalCount)
         });
-        let (columns, fields) = known.unzip();
+        let (columns, fields) = remaining.unzip();
         Self { columns, fields, ..self }
     }
 
@@ -192,8 +192,8 @@ impl EventTable {
     }
 
     /// Appends the rows of a frame of this camera as lines of CSV.
-    pub fn csv(&self, moment: &EventFrame<'_>, text: &mut Vec<u8>) {
-        self.rows(moment, |values| {
+    pub fn csv(&self, frame: &EventFrame<'_>, text: &mut Vec<u8>) {
+        self.rows(frame, |values| {
             for (index, value) in values.enumerate() {
                 let comma = if index == 0 { "" } else { "," };
                 // A write into memory cannot fail.
@@ -207,16 +207,16 @@ impl EventTable {
     /// value per column.
     pub fn rows(
         &self,
-        moment: &EventFrame<'_>,
+        frame: &EventFrame<'_>,
         mut row: impl FnMut(&mut dyn Iterator<Item = EventValue>),
     ) {
-        for (region, &action) in moment.outcome.actions.iter().enumerate() {
+        for (region, &action) in frame.outcome.actions.iter().enumerate() {
             let is_event = match action {
                 RegionAction::Forward | RegionAction::Summarize => true,
                 RegionAction::Hold | RegionAction::Blank => false,
             };
             if is_event || !self.only_active {
-                row(&mut self.fields.iter().map(|field| field.value_of(moment, region)));
+                row(&mut self.fields.iter().map(|field| field.value_of(frame, region)));
             }
         }
     }

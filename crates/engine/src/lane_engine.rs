@@ -39,7 +39,8 @@ pub(crate) struct LaneEngine<T: PixelLane> {
     settled: Vec<bool>,
     /// The last frame without padding. It is kept up to date while the policy asks for it.
     last_frame: Vec<T>,
-    /// One flag per region and frame, in the order band, frame, column: its pixels have changed.
+    /// One flag per region and frame, in the order band, frame, column; true if pixels of the region
+    /// have changed.
     changed_regions: Vec<bool>,
     policy: SearchPolicy,
     skip: bool,
@@ -96,8 +97,8 @@ impl<T: PixelLane> LaneEngine<T> {
         self.summary_shown.fill(false);
         self.settled.fill(false);
         self.screen.fill(T::default());
-        if let Some(memory) = &mut self.state_copy {
-            *memory = StateCopy::default();
+        if let Some(copy) = &mut self.state_copy {
+            *copy = StateCopy::default();
         }
         self.policy = SearchPolicy::new(self.skip);
     }
@@ -113,8 +114,8 @@ impl<T: PixelLane> LaneEngine<T> {
     }
 
     /// Turns the copy of the state before every step on or off.
-    pub(crate) fn set_state_copying(&mut self, on: bool) {
-        match (on, &self.state_copy) {
+    pub(crate) fn set_state_copying(&mut self, is_on: bool) {
+        match (is_on, &self.state_copy) {
             (true, None) => self.state_copy = Some(StateCopy::default()),
             (true, Some(_)) => {}
             (false, _) => self.state_copy = None,
@@ -135,12 +136,11 @@ impl<T: PixelLane> LaneEngine<T> {
             summary_shown: shown,
             means,
             screen,
-            state_copy: memory,
+            state_copy: copy,
             ..
         } = self;
-        if let Some(memory) = memory {
-            memory
-                .copy_from(plan, &EngineState { denoised, reference, valid, shown, means, screen });
+        if let Some(copy) = copy {
+            copy.copy_from(plan, &EngineState { denoised, reference, valid, shown, means, screen });
         }
     }
 
@@ -150,21 +150,22 @@ impl<T: PixelLane> LaneEngine<T> {
         frames: &[BorrowedFrame<'_, T>],
         workers: &Workers,
         outcome: &mut FrameOutcome,
-        keep: KeptBuffers<'_, T>,
+        kept_buffers: KeptBuffers<'_, T>,
     ) {
         self.copy_state();
         self.set_strip_count(frames.len(), workers);
         let first = self.find_changes(frames, workers);
-        self.compute(frames, workers, first, outcome, keep);
+        self.compute(frames, workers, first, outcome, kept_buffers);
     }
 
-    /// Sets the number of strips to what the frames are worth.
+    /// Sets the number of strips. Small frames are divided into fewer strips, because the threads
+    /// would gain nothing.
     fn set_strip_count(&mut self, frames: usize, workers: &Workers) {
         let plan = &self.plan;
         let pixels = plan.stride() * plan.rows * plan.side * frames;
         // A strip denoises one row of each neighbor again, which does not pay for a few rows.
-        let most = (plan.rows * plan.side / SMALLEST_HEIGHT).clamp(1, plan.rows);
-        let strips = workers.strips(most, pixels);
+        let max_strips = (plan.rows * plan.side / SMALLEST_HEIGHT).clamp(1, plan.rows);
+        let strips = workers.strips(max_strips, pixels);
         self.scratch.resize_with(strips, || (WorkingMemory::new(plan), Vec::new()));
     }
 
@@ -201,7 +202,7 @@ impl<T: PixelLane> LaneEngine<T> {
     ) {
         let plan = &self.plan;
         let (mut copy, mut changed) = (&mut self.last_frame[..], &mut self.changed_regions[..]);
-        let looks = divide_bands(plan.rows, self.scratch.len()).map(|bands| ChangeSearch {
+        let searches = divide_bands(plan.rows, self.scratch.len()).map(|bands| ChangeSearch {
             plan,
             frames,
             step,
@@ -209,11 +210,11 @@ impl<T: PixelLane> LaneEngine<T> {
             changed_regions: split_off(&mut changed, bands.len() * plan.columns * frames.len()),
             bands,
         });
-        workers.run(looks);
+        workers.run(searches);
     }
 
-    /// Returns how many blocks of the sample one frame could save, and the number of blocks of the
-    /// sample.
+    /// Returns the number of blocks of the sample that need no computation in one frame, and the
+    /// number of blocks of the sample.
     fn count_saved_in_sample(&self, frame: usize, frames: usize) -> (usize, usize) {
         let plan = &self.plan;
         let (mut saved, mut blocks, mut runs) = (0, 0, Vec::new());
@@ -234,7 +235,7 @@ impl<T: PixelLane> LaneEngine<T> {
         workers: &Workers,
         first: usize,
         outcome: &mut FrameOutcome,
-        keep: KeptBuffers<'_, T>,
+        kept_buffers: KeptBuffers<'_, T>,
     ) {
         let plan = &self.plan;
         let changes = KnownChanges {
@@ -247,7 +248,7 @@ impl<T: PixelLane> LaneEngine<T> {
         let (mut shown, mut means) = (&mut self.summary_shown[..], &mut self.means[..]);
         let (mut settled, mut screen) = (&mut self.settled[..], &mut self.screen[..]);
         let mut results = outcome.results();
-        let KeptBuffers { outcomes, screens } = keep;
+        let KeptBuffers { outcomes, screens } = kept_buffers;
         let screens = screens.iter_mut();
         let screens = screens.map(|screen| (&mut screen.pixels[..], &mut screen.black_regions[..]));
         let screens = screens.chain(iter::repeat_with(|| (&mut [][..], &mut [][..])));
@@ -293,9 +294,9 @@ impl<T: PixelLane> LaneEngine<T> {
         outcomes: &mut [FrameOutcome],
     ) {
         let frame = |number: usize| {
-            let mut all = SkippedWork::default();
-            self.scratch.iter().for_each(|(_, skipped)| all += skipped[number]);
-            all
+            let mut total = SkippedWork::default();
+            self.scratch.iter().for_each(|(_, skipped)| total += skipped[number]);
+            total
         };
         for (number, outcome) in outcomes.iter_mut().enumerate() {
             outcome.skipped = frame(number).regions;

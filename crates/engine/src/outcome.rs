@@ -50,7 +50,7 @@ impl FrameOutcome {
             active: &mut self.active,
             actions: &mut self.actions,
             temporal_count: &mut self.temporal_count,
-            scores: std::array::from_fn(|_| scores.next().map_or(&mut [][..], |own| own)),
+            scores: std::array::from_fn(|_| scores.next().map_or(&mut [][..], |values| values)),
         }
     }
 }
@@ -91,8 +91,8 @@ impl RegionResults<'_> {
         self.active.copy_from_slice(other.active);
         self.actions.copy_from_slice(other.actions);
         self.temporal_count.copy_from_slice(other.temporal_count);
-        for (own, other) in self.scores.iter_mut().zip(&other.scores) {
-            own.copy_from_slice(other);
+        for (values, other) in self.scores.iter_mut().zip(&other.scores) {
+            values.copy_from_slice(other);
         }
     }
 

@@ -27,8 +27,8 @@ pub(crate) struct PeripheryPlan<T> {
 pub(crate) struct CurrentMeans<'a, T> {
     /// The means, row by row of blocks.
     pub(crate) means: &'a [T],
-    /// One value per column of blocks, an output: not 0 if a mean differs too much from the one
-    /// that was sent last.
+    /// An output with one value per column of blocks. The value is not 0 if a mean of the column
+    /// differs by more than the level from the mean that was sent last.
     pub(crate) exceeds_level: &'a mut [T],
     /// The regions whose pixels may have changed. The means of the other regions are not valid.
     pub(crate) affected: &'a [bool],
@@ -86,21 +86,22 @@ impl<T: PixelLane> PeripheryPlan<T> {
     }
 
     /// Decides which irrelevant regions of a band send their means. A region that is not affected
-    /// has the same means as before, so the screen still shows it within the level.
+    /// sends nothing, because its means are those of the last frame, from which the screen differs
+    /// by no more than the level.
     #[inline(always)]
     pub(crate) fn send_summaries(
         &self,
-        now: CurrentMeans<'_, T>,
+        current: CurrentMeans<'_, T>,
         summaries: &mut SentSummaries<'_, T>,
         results: &mut RegionResults<'_>,
     ) {
-        let CurrentMeans { means, exceeds_level: differs, affected } = now;
+        let CurrentMeans { means, exceeds_level: differs, affected } = current;
         differs.fill(T::default());
         let rows = means.chunks_exact(differs.len());
-        for (now, sent) in rows.zip(summaries.means.chunks_exact(differs.len())) {
-            for ((now, sent), differs) in now.iter().zip(sent).zip(differs.iter_mut()) {
+        for (current, sent) in rows.zip(summaries.means.chunks_exact(differs.len())) {
+            for ((current, sent), differs) in current.iter().zip(sent).zip(differs.iter_mut()) {
                 *differs =
-                    (*differs).max(now.absolute_difference(*sent).saturating_minus(self.level));
+                    (*differs).max(current.absolute_difference(*sent).saturating_minus(self.level));
             }
         }
         let regions = differs.chunks_exact(self.blocks).zip(affected).zip(&mut *summaries.is_shown);
@@ -110,10 +111,10 @@ impl<T: PixelLane> PeripheryPlan<T> {
             if results.srs[column] || !affected || is_near {
                 continue;
             }
-            let own = column * self.blocks..(column + 1) * self.blocks;
+            let region_blocks = column * self.blocks..(column + 1) * self.blocks;
             let sent = summaries.means.chunks_exact_mut(results.srs.len() * self.blocks);
-            for (now, sent) in means.chunks_exact(results.srs.len() * self.blocks).zip(sent) {
-                sent[own.clone()].copy_from_slice(&now[own.clone()]);
+            for (current, sent) in means.chunks_exact(results.srs.len() * self.blocks).zip(sent) {
+                sent[region_blocks.clone()].copy_from_slice(&current[region_blocks.clone()]);
             }
             *shown = true;
             results.actions[column] = RegionAction::Summarize;
@@ -155,11 +156,11 @@ impl<T: PixelLane> PeripheryPlan<T> {
 #[inline(always)]
 fn show_constant<const SIDE: usize, T: Copy>(means: &[T], row: &mut [T]) {
     let (blocks, rest) = row.as_chunks_mut::<SIDE>();
-    let (whole, cut) = means.split_at(blocks.len().min(means.len()));
+    let (whole, partial_blocks) = means.split_at(blocks.len().min(means.len()));
     for (block, &mean) in blocks.iter_mut().zip(whole) {
         *block = [mean; SIDE];
     }
-    if let Some(&mean) = cut.first() {
+    if let Some(&mean) = partial_blocks.first() {
         rest.fill(mean);
     }
 }

@@ -41,7 +41,7 @@ pub(crate) struct CameraPlan<T: PixelLane> {
     pub(crate) reference: ReferencePolicy,
     pub(crate) irrelevant: IrrelevantRendering,
     pub(crate) payload: Payload,
-    /// The payload is raw pixels although denoised pixels are scored.
+    /// True if the payload is raw pixels although denoised pixels are scored.
     pub(crate) keeps_raw: bool,
     pub(crate) periphery: Option<PeripheryPlan<T>>,
 }
@@ -53,11 +53,11 @@ pub(crate) struct FeaturePasses<T: PixelLane> {
     pub(crate) edge: Option<T::Signed>,
     /// The level of `corner`.
     pub(crate) corner: Option<T>,
-    /// A feature uses windows.
+    /// True if a feature uses windows.
     pub(crate) has_windows: bool,
-    /// A feature needs the sum of the pixels.
+    /// True if a feature needs the sum of the pixels.
     pub(crate) needs_sums: bool,
-    /// A feature needs the sum of the squares of the pixels.
+    /// True if a feature needs the sum of the squares of the pixels.
     pub(crate) needs_squares: bool,
     /// The fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,
@@ -116,12 +116,12 @@ impl<T: PixelLane> CameraPlan<T> {
 
     /// Returns the number of means in the summaries of a band.
     pub(crate) fn band_means(&self) -> usize {
-        self.periphery.map_or(0, |own| self.means_in_row() * own.blocks)
+        self.periphery.map_or(0, |periphery| self.means_in_row() * periphery.blocks)
     }
 
     /// Returns the number of means in a row of blocks of the frame.
     pub(crate) fn means_in_row(&self) -> usize {
-        self.periphery.map_or(0, |own| self.columns * own.blocks)
+        self.periphery.map_or(0, |periphery| self.columns * periphery.blocks)
     }
 
     /// Returns the number of values from one padded row to the next.
@@ -144,8 +144,8 @@ impl<T: PixelLane> CameraPlan<T> {
 
     /// Appends the pixels of a region of a padded plane in row-major order.
     pub(crate) fn pixels_of(&self, plane: &[T], region: u32, pixels: &mut Vec<u16>) {
-        let own = &plane[self.first_pixel(region)..];
-        for row in own.chunks(self.stride()).take(self.side) {
+        let region_plane = &plane[self.first_pixel(region)..];
+        for row in region_plane.chunks(self.stride()).take(self.side) {
             pixels.extend(row[..self.side].iter().map(|&pixel| word(pixel)));
         }
     }
@@ -153,10 +153,10 @@ impl<T: PixelLane> CameraPlan<T> {
     /// Appends the means of a region, row by row of blocks, from the means of the frame. Appends
     /// nothing if regions of this camera send no summaries.
     pub(crate) fn means_of(&self, all: &[T], region: u32, means: &mut Vec<u16>) {
-        let Some(own) = self.periphery else { return };
-        let rows = all[self.first_mean(region, own.blocks)..].chunks(self.means_in_row());
-        for row in rows.take(own.blocks) {
-            means.extend(row[..own.blocks].iter().map(|&mean| word(mean)));
+        let Some(periphery) = self.periphery else { return };
+        let rows = all[self.first_mean(region, periphery.blocks)..].chunks(self.means_in_row());
+        for row in rows.take(periphery.blocks) {
+            means.extend(row[..periphery.blocks].iter().map(|&mean| word(mean)));
         }
     }
 
@@ -165,9 +165,9 @@ impl<T: PixelLane> CameraPlan<T> {
         self.columns * self.side
     }
 
-    /// Returns the number of rows of a run of blocks that go through each step together. Short runs
-    /// take several rows, because a step waits for data that the step before it has only just
-    /// written.
+    /// Returns the number of rows of a batch, which go through each step of the pass together. A
+    /// batch of a short run has several rows. With a single short row, each step would have to wait
+    /// for data that the step before it has only just written.
     pub(crate) fn batch_rows(&self, run: usize) -> usize {
         (BATCH_BLOCKS / run).clamp(1, self.side)
     }
@@ -207,13 +207,13 @@ impl<T: PixelLane> CameraPlan<T> {
     }
 }
 
-fn periphery_plan<T: PixelLane>(own: &Periphery) -> PeripheryPlan<T> {
+fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
     PeripheryPlan {
-        blocks: index(own.blocks),
-        side: index(own.block_side),
-        level: saturated_threshold(own.level),
-        pixels: own.block_pixels(),
-        shift: own.block_pixels().is_power_of_two().then(|| own.block_pixels().ilog2()),
+        blocks: index(periphery.blocks),
+        side: index(periphery.block_side),
+        level: saturated_threshold(periphery.level),
+        pixels: periphery.block_pixels(),
+        shift: periphery.block_pixels().is_power_of_two().then(|| periphery.block_pixels().ilog2()),
     }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The policy that decides when to search for regions that are bit-identical to the last frame.
 //!
-//! A search costs a comparison of every frame, and a copy of the last frame of a batch. So all of a
-//! batch is searched only while that saves work. Otherwise the engine looks at a sample of bands
-//! from time to time, less often the longer nothing is found. The results never depend on the
-//! policy.
+//! A search costs a comparison of every frame, and a copy of the last frame of a batch. A whole
+//! batch is therefore searched only while that saves work. Otherwise the engine compares a sample
+//! of the bands from time to time; the rests between two samples grow while nothing is found. The
+//! results never depend on the policy.
 
 /// The search in one batch of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,16 +87,16 @@ impl SearchPolicy {
         }
     }
 
-    /// Records how many blocks of the sample could be saved. Returns true if these frames are to be
-    /// kept.
+    /// Records how many blocks of the sample need no computation. Returns true if the sample is
+    /// promising, so that these frames are searched and a copy is kept.
     pub(crate) fn record_sample(&mut self, saved: usize, blocks: usize) -> bool {
-        let promising = exceeds_share(saved, blocks, PROMISING_SHARE);
-        if promising {
+        let is_promising = exceeds_share(saved, blocks, PROMISING_SHARE);
+        if is_promising {
             self.phase = SearchPhase::Copied;
         } else {
             self.start_rest();
         }
-        promising
+        is_promising
     }
 
     /// Records how many blocks a comparison has saved.
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn rests_grow_while_nothing_is_found_and_end_when_it_pays() {
         let mut policy = SearchPolicy::new(true);
-        let mut film = |sample: usize, saved: usize, frames: usize| -> String {
+        let mut run_frames = |sample: usize, saved: usize, frames: usize| -> String {
             let step = |_| match policy.next_step(1) {
                 SearchStep::Rest => '.',
                 SearchStep::CopySample => 's',
@@ -142,15 +142,15 @@ mod tests {
             };
             (0..frames).map(step).collect()
         };
-        assert_eq!(film(0, 0, 18), "sj....sj........sj");
-        assert_eq!(film(0, 0, 16), "................");
-        assert_eq!(film(70, 70, 5), "sKccc");
-        assert_eq!(film(70, 10, 9), "c....sKc.");
+        assert_eq!(run_frames(0, 0, 18), "sj....sj........sj");
+        assert_eq!(run_frames(0, 0, 16), "................");
+        assert_eq!(run_frames(70, 70, 5), "sKccc");
+        assert_eq!(run_frames(70, 10, 9), "c....sKc.");
         assert_eq!(SearchPolicy::new(false).next_step(1), SearchStep::Rest);
     }
 
     #[test]
-    fn batches_are_judged_by_themselves_and_shorten_rests() {
+    fn a_batch_has_its_own_sample_and_counts_as_rest() {
         let mut policy = SearchPolicy::new(true);
         assert_eq!(policy.next_step(8), SearchStep::CompareSample(1));
         assert!(!policy.record_sample(0, 100));

@@ -49,8 +49,8 @@ impl Receiver {
     /// Makes the screen black.
     pub fn reset(&mut self) {
         match &mut self.state {
-            ReceiverLanes::Bytes(received) => received.reset(),
-            ReceiverLanes::Words(received) => received.reset(),
+            ReceiverLanes::Bytes(state) => state.reset(),
+            ReceiverLanes::Words(state) => state.reset(),
         }
     }
 
@@ -58,8 +58,8 @@ impl Receiver {
     /// and values that are too large lose their high bits.
     pub fn take_pixels(&mut self, region: u32, pixels: &[u16]) {
         match &mut self.state {
-            ReceiverLanes::Bytes(received) => received.take_pixels(region, pixels),
-            ReceiverLanes::Words(received) => received.take_pixels(region, pixels),
+            ReceiverLanes::Bytes(state) => state.take_pixels(region, pixels),
+            ReceiverLanes::Words(state) => state.take_pixels(region, pixels),
         }
     }
 
@@ -67,16 +67,16 @@ impl Receiver {
     /// pixels.
     pub fn take_means(&mut self, region: u32, means: &[u16]) {
         match &mut self.state {
-            ReceiverLanes::Bytes(received) => received.take_means(region, means),
-            ReceiverLanes::Words(received) => received.take_means(region, means),
+            ReceiverLanes::Bytes(state) => state.take_means(region, means),
+            ReceiverLanes::Words(state) => state.take_means(region, means),
         }
     }
 
     /// Applies the action of every region, numbered row by row.
     pub fn show(&mut self, actions: &[RegionAction]) {
         match &mut self.state {
-            ReceiverLanes::Bytes(received) => received.show(actions),
-            ReceiverLanes::Words(received) => received.show(actions),
+            ReceiverLanes::Bytes(state) => state.show(actions),
+            ReceiverLanes::Words(state) => state.show(actions),
         }
     }
 
@@ -84,8 +84,8 @@ impl Receiver {
     #[must_use]
     pub fn rendered(&self) -> FramePixels<'_> {
         match &self.state {
-            ReceiverLanes::Bytes(received) => FramePixels::Bytes(&received.screen),
-            ReceiverLanes::Words(received) => FramePixels::Words(&received.screen),
+            ReceiverLanes::Bytes(state) => FramePixels::Bytes(&state.screen),
+            ReceiverLanes::Words(state) => FramePixels::Words(&state.screen),
         }
     }
 }
@@ -121,9 +121,10 @@ impl<T: PixelLane> ReceiverState<T> {
 
     fn take_means(&mut self, region: u32, means: &[u16]) {
         let plan = &self.plan;
-        let Some(own) = &plan.periphery else { return };
-        let to = self.means.get_mut(plan.first_mean(region, own.blocks)..).unwrap_or_default();
-        write_rows(to, plan.means_in_row(), means, own.blocks);
+        let Some(periphery) = &plan.periphery else { return };
+        let to =
+            self.means.get_mut(plan.first_mean(region, periphery.blocks)..).unwrap_or_default();
+        write_rows(to, plan.means_in_row(), means, periphery.blocks);
     }
 
     fn show(&mut self, actions: &[RegionAction]) {
@@ -143,21 +144,21 @@ impl<T: PixelLane> ReceiverState<T> {
             .zip(self.black_regions.chunks_exact_mut(plan.columns))
             .zip(self.reference_valid.chunks_exact_mut(plan.columns));
         for (band, ((((actions, screen), denoised), black), valid)) in bands.enumerate() {
-            let (own, rest) = means.split_at(plan.band_means());
+            let (band_means, rest) = means.split_at(plan.band_means());
             means = rest;
             let reference: &mut [T] = &mut [];
-            let mut canvas = BandRenderer {
+            let mut renderer = BandRenderer {
                 screen,
                 denoised,
                 reference,
                 reference_valid: valid,
                 black_regions: black,
-                means: own,
+                means: band_means,
             };
             if plan.periphery.is_some() {
-                canvas.apply_actions::<true>(plan, raw, band, actions);
+                renderer.apply_actions::<true>(plan, raw, band, actions);
             } else {
-                canvas.apply_actions::<false>(plan, raw, band, actions);
+                renderer.apply_actions::<false>(plan, raw, band, actions);
             }
         }
     }

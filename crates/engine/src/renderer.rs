@@ -78,11 +78,12 @@ impl<T: PixelLane> BandRenderer<'_, T> {
     }
 }
 
-/// The number of pixels that one long copy moves in the time that one row of a region takes.
+/// The number of pixels that one long copy moves in the time in which a short copy moves one row of
+/// a region. A short copy costs mainly its start.
 const LONG_COPY_PIXELS: usize = 64;
 
-/// Copies band `number` of the screen to a kept screen. Each comes with its black regions, which
-/// are not written again.
+/// Copies band `number` of the screen to a kept screen. `black` and `kept_black` tell which regions
+/// of the two screens are black; a region that is black on both is not written.
 #[inline(always)]
 pub(crate) fn keep_screen_band<T: PixelLane>(
     plan: &CameraPlan<T>,
@@ -91,6 +92,7 @@ pub(crate) fn keep_screen_band<T: PixelLane>(
     (kept, kept_black): (&mut [T], &mut [bool]),
 ) {
     let height = plan.side.min(plan.height - number * plan.side);
+    // One long copy of the whole band is faster than short copies of many regions.
     let written = black.iter().zip(&*kept_black).filter(|(black, kept)| !(**black & **kept));
     if written.count() * LONG_COPY_PIXELS > plan.width {
         kept[..height * plan.width].copy_from_slice(&screen[..height * plan.width]);

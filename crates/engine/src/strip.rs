@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A strip: consecutive bands, the share of one worker in a batch of frames.
 //!
-//! The state that is kept between frames belongs to single regions, and windows see only raw pixels
-//! of the same frame in other regions. So a strip goes through all frames of a batch without
-//! waiting for the others.
+//! A strip goes through all frames of a batch without waiting for other strips. This is possible
+//! because the state between frames belongs to single regions, and because windows read nothing of
+//! other regions but raw pixels of the same frame.
 
 use std::ops::{AddAssign, Range};
 
@@ -117,14 +117,14 @@ impl<T: PixelLane> BandStrip<'_, T> {
         let regions = row * plan.columns..(row + 1) * plan.columns;
         let lines = row * plan.side * plan.width;
         self.select_runs(frame, number);
-        let still = self.scratch.runs.is_empty();
-        if still && self.is_settled[row] {
+        let is_still = self.scratch.runs.is_empty();
+        if is_still && self.is_settled[row] {
             return;
         }
         // From the second still frame on, counts and actions repeat.
-        self.is_settled[row] = still && plan.reference.is_stable_on_equal_frames();
+        self.is_settled[row] = is_still && plan.reference.is_stable_on_equal_frames();
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
-        if !still {
+        if !is_still {
             let mut band = BandPass {
                 plan,
                 raw,
@@ -141,16 +141,17 @@ impl<T: PixelLane> BandStrip<'_, T> {
         let means = &mut self.means[means];
         if PERIPHERY && let Some(periphery) = &plan.periphery {
             let shown = &mut self.summary_shown[regions.clone()];
-            let WorkingMemory { means: now, exceeds_level: differs, affected, .. } =
+            let WorkingMemory { means: current_means, exceeds_level: differs, affected, .. } =
                 &mut *self.scratch;
-            let now = CurrentMeans { means: now, exceeds_level: differs, affected };
+            let current_means =
+                CurrentMeans { means: current_means, exceeds_level: differs, affected };
             periphery.send_summaries(
-                now,
+                current_means,
                 &mut SentSummaries { is_shown: shown, means },
                 &mut results,
             );
         }
-        let mut canvas = BandRenderer {
+        let mut renderer = BandRenderer {
             screen: &mut self.screen[lines..],
             denoised: &self.denoised[rows],
             reference: &mut self.reference[reference],
@@ -158,7 +159,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
             black_regions: &mut self.black_regions[regions],
             means,
         };
-        canvas.apply_actions::<PERIPHERY>(plan, raw, number, results.actions);
+        renderer.apply_actions::<PERIPHERY>(plan, raw, number, results.actions);
     }
 
     /// Chooses the runs of band `number` that have to be computed.

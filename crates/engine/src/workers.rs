@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn every_task_runs_once_whoever_works() {
+    fn every_task_runs_once() {
         for threads in 1..=3 {
             let workers = Workers::new(InstructionSet::PORTABLE, threads).unwrap();
             for tasks in [0, 1, 2, 50] {

@@ -109,8 +109,7 @@ pub(crate) struct WorkingMemory<T: PixelLane> {
     pub(crate) raw: BlockRow<T>,
     /// The means of the band's blocks, row by row of blocks.
     pub(crate) means: Vec<T>,
-    /// One value per column of blocks: not 0 if a mean differs too much from the one that was sent
-    /// last.
+    /// One value per column of blocks; see [`CurrentMeans`](crate::periphery::CurrentMeans).
     pub(crate) exceeds_level: Vec<T>,
     /// The runs of blocks of the band that have to be computed.
     pub(crate) runs: Vec<Range<usize>>,

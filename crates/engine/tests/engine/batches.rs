@@ -9,7 +9,7 @@ use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
 use proptest::prelude::*;
 
-use crate::clip_script::{FrameChange, film, scripts};
+use crate::clip_script::{FrameChange, clip, scripts};
 use crate::hard_cases::camera;
 use crate::properties::assert_same;
 use crate::random_cameras::cameras;
@@ -81,7 +81,7 @@ fn step(
 /// repeated until the calls end. Returns how many regions one thread skipped.
 fn check(
     camera: &Camera,
-    film: &[Frame],
+    clip: &[Frame],
     calls: &[EngineCall],
     options: EngineOptions,
     gap: usize,
@@ -90,38 +90,39 @@ fn check(
     let engine =
         |threads| Engine::with_options(camera, EngineOptions { threads, ..options }).unwrap();
     let mut engines = [1, 2, 3].map(engine);
-    let (mut film, mut skipped, mut kept) = (film.iter().cycle(), 0, KeptScreens::default());
+    let (mut clip, mut skipped, mut kept) = (clip.iter().cycle(), 0, KeptScreens::default());
     for call in calls {
         let context = format!("{call:?} of {calls:?}, {options:?}, {:?}", camera.config());
         if call.reset {
             model.reset();
             engines.iter_mut().for_each(Engine::reset);
         }
-        let frames: Vec<Frame> = film.by_ref().take(call.frames).cloned().collect();
-        let clear: Vec<_> = frames.iter().map(|frame| model.step(frame).unwrap().clone()).collect();
-        let found = engines.each_mut().map(|engine| match (call.single, &frames[..]) {
+        let frames: Vec<Frame> = clip.by_ref().take(call.frames).cloned().collect();
+        let expected: Vec<_> =
+            frames.iter().map(|frame| model.step(frame).unwrap().clone()).collect();
+        let results = engines.each_mut().map(|engine| match (call.single, &frames[..]) {
             (true, [frame]) => (vec![engine.step(frame).unwrap().clone()], Vec::new()),
             _ => step(engine, &frames, gap, call.screens.then_some(&mut kept)),
         });
         // The number of skipped regions does not depend on the number of threads either.
-        assert_eq!(found[0], found[1], "two threads, {context}");
-        assert_eq!(found[0], found[2], "three threads, {context}");
-        let [(outcomes, screens), ..] = &found;
+        assert_eq!(results[0], results[1], "two threads, {context}");
+        assert_eq!(results[0], results[2], "three threads, {context}");
+        let [(outcomes, screens), ..] = &results;
         assert_eq!(outcomes.len(), frames.len(), "{context}");
-        let asked = call.screens && !call.single;
-        assert_eq!(screens.len(), if asked { frames.len() } else { 0 }, "{context}");
-        for (number, (fast, clear)) in outcomes.iter().zip(&clear).enumerate() {
-            assert_same(fast, clear, &format!("frame {number} in {context}"));
-            skipped += fast.skipped;
+        let expects_screens = call.screens && !call.single;
+        assert_eq!(screens.len(), if expects_screens { frames.len() } else { 0 }, "{context}");
+        for (number, (actual, expected)) in outcomes.iter().zip(&expected).enumerate() {
+            assert_same(actual, expected, &format!("frame {number} in {context}"));
+            skipped += actual.skipped;
         }
-        for (number, (screen, clear)) in screens.iter().zip(&clear).enumerate() {
-            assert_eq!(screen, clear.rendered.pixels(), "screen {number} in {context}");
+        for (number, (screen, expected)) in screens.iter().zip(&expected).enumerate() {
+            assert_eq!(screen, expected.rendered.pixels(), "screen {number} in {context}");
         }
         for engine in &engines {
-            if let (Some(last), Some(clear)) = (outcomes.last(), clear.last()) {
+            if let (Some(last), Some(expected)) = (outcomes.last(), expected.last()) {
                 assert_eq!(engine.outcome(), last, "last outcome, {context}");
                 let rendered = engine.rendered().to_words();
-                assert_eq!(rendered, clear.rendered.pixels(), "last screen, {context}");
+                assert_eq!(rendered, expected.rendered.pixels(), "last screen, {context}");
             }
         }
     }
@@ -145,13 +146,13 @@ proptest! {
         gap in 0usize..4,
     ) {
         let options = EngineOptions { threads: 1, skips_identical_regions, level };
-        check(&camera, &film(&camera, seed, &script), &calls, options, gap);
+        check(&camera, &clip(&camera, seed, &script), &calls, options, gap);
     }
 }
 
 /// Frames that a batch divides among threads, still and moving, in batches of every length.
 #[test]
-fn strips_go_through_a_batch_without_a_seam() {
+fn strips_of_a_batch_equal_the_model() {
     use FrameChange::{Noise, Patch, Spot, Still};
     let script =
         [Still, Still, Patch(0.4, 0.2), Still, Still, Noise, Still, Spot(0.5, 0.5), Still, Still];
@@ -172,27 +173,27 @@ fn strips_go_through_a_batch_without_a_seam() {
                 config.temporal.reference = reference;
             });
             let calls = [batch(2), batch(5), batch(1), batch(9), batch(4)];
-            let film = film(&camera, 9, &script);
-            assert!(check(&camera, &film, &calls, EngineOptions::default(), 0) > 0);
+            let clip = clip(&camera, 9, &script);
+            assert!(check(&camera, &clip, &calls, EngineOptions::default(), 0) > 0);
         }
     }
 }
 
 /// A still clip is found within a batch, without a batch before it.
 #[test]
-fn a_single_batch_is_skipped_where_it_stands_still() {
+fn still_frames_of_a_single_batch_are_skipped() {
     let camera = camera(250, 70, 8, |_| {});
-    let frames = film(&camera, 5, &[FrameChange::Still; 7]);
+    let frames = clip(&camera, 5, &[FrameChange::Still; 7]);
     let skipped = check(&camera, &frames, &[batch(8)], EngineOptions::default(), 0);
     assert_eq!(skipped, 7 * usize::try_from(camera.regions()).unwrap());
 }
 
 /// The batches have more frames than go through the engine together.
 #[test]
-fn long_batches_are_one_film() {
+fn long_batches_equal_the_model() {
     let camera = camera(1500, 1100, 64, |_| {});
     let script =
         [FrameChange::Still, FrameChange::Patch(0.3, 0.4), FrameChange::Still, FrameChange::Fade];
     let calls = [batch(7), batch(6)];
-    check(&camera, &film(&camera, 11, &script), &calls, EngineOptions::default(), 0);
+    check(&camera, &clip(&camera, 11, &script), &calls, EngineOptions::default(), 0);
 }

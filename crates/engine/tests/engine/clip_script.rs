@@ -44,7 +44,7 @@ pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<FrameChange>)> {
 }
 
 /// Returns the frames of a script. The first frame is noise.
-pub(crate) fn film(camera: &Camera, seed: u64, script: &[FrameChange]) -> Vec<Frame> {
+pub(crate) fn clip(camera: &Camera, seed: u64, script: &[FrameChange]) -> Vec<Frame> {
     let mut random = RandomNumbers(seed | 1);
     let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
     let max = u16::try_from(camera.pixel_max()).unwrap();

@@ -8,7 +8,7 @@ use foveate_camera::{
 use foveate_engine::EngineOptions;
 use foveate_frame::Frame;
 
-use crate::clip_script::{FrameChange, film};
+use crate::clip_script::{FrameChange, clip};
 use crate::properties::{check, check_all};
 
 pub(crate) fn camera(
@@ -51,7 +51,7 @@ fn the_largest_sums_stay_inside_their_lanes() {
 /// A still scene is skipped with every kind of reference and screen, and the results are right when
 /// it moves again.
 #[test]
-fn stillness_is_skipped_and_exact() {
+fn still_scenes_are_skipped_with_exact_results() {
     use FrameChange::{Noise, Patch, Spot, Still};
     let script = [
         Still,
@@ -85,14 +85,14 @@ fn stillness_is_skipped_and_exact() {
                         config.render.irrelevant = irrelevant;
                         config.spatial[0].level = Some(400);
                     });
-                    let frames = film(&camera, 77, &script);
-                    let way = |(threads, skip)| EngineOptions {
+                    let frames = clip(&camera, 77, &script);
+                    let options = |(threads, skip)| EngineOptions {
                         threads,
                         skips_identical_regions: skip,
                         ..EngineOptions::default()
                     };
-                    let ways = [(1, true), (1, false), (2, true), (2, false)].map(way);
-                    let [alone, alone_all, two, two_all] = check_all(&camera, &frames, ways);
+                    let option_sets = [(1, true), (1, false), (2, true), (2, false)].map(options);
+                    let [alone, alone_all, two, two_all] = check_all(&camera, &frames, option_sets);
                     assert!(alone > 1000 && two > 1000, "skipped: {alone}, {two}");
                     assert_eq!([alone_all, two_all], [0, 0]);
                 }
@@ -104,7 +104,7 @@ fn stillness_is_skipped_and_exact() {
 /// A spot changes the windows of its neighbors up to two pixels away. Each spot is near a region's
 /// border, in a scene that is skipped everywhere else.
 #[test]
-fn the_halo_of_a_skipped_region_is_watched() {
+fn a_change_in_the_halo_of_a_skipped_region_is_found() {
     let camera = camera(200, 24, 8, |config| {
         every_feature(config);
         config.region.neighborhood = Neighborhood::Shared;
@@ -115,7 +115,7 @@ fn the_halo_of_a_skipped_region_is_watched() {
         for y in 5u32..11 {
             let place = (f64::from(x) + 0.5, f64::from(y) + 0.5);
             let spots = [FrameChange::Still, FrameChange::Spot(place.0 / 200.0, place.1 / 24.0)];
-            let frames = film(&camera, u64::from(100 * x + y), &spots);
+            let frames = clip(&camera, u64::from(100 * x + y), &spots);
             assert!(check(&camera, &frames, EngineOptions::default()) > 50);
         }
     }
@@ -131,7 +131,7 @@ fn several_runs_of_one_band_do_not_mix() {
                 every_feature(config);
                 config.region.neighborhood = neighborhood;
             });
-            let mut frames = film(&camera, 21, &[FrameChange::Still]);
+            let mut frames = clip(&camera, 21, &[FrameChange::Still]);
             for round in 0..3 {
                 let last = frames.last().unwrap().clone();
                 let spots = [40 + round, 450 + round, 905 + round];
@@ -149,7 +149,7 @@ fn several_runs_of_one_band_do_not_mix() {
 /// A region is sent, wiped, and then stands still. Its reference becomes invalid in a frame in
 /// which its pixels do not change.
 #[test]
-fn what_is_still_after_a_wipe_loses_its_reference() {
+fn a_still_region_loses_its_reference_after_a_wipe() {
     let script = [
         FrameChange::Still,
         FrameChange::Still,
@@ -164,7 +164,7 @@ fn what_is_still_after_a_wipe_loses_its_reference() {
             config.temporal.reference = ReferencePolicy::LastSent;
             config.render.irrelevant = irrelevant;
         });
-        assert!(check(&camera, &film(&camera, 9, &script), EngineOptions::default()) > 1000);
+        assert!(check(&camera, &clip(&camera, 9, &script), EngineOptions::default()) > 1000);
     }
 }
 
@@ -179,14 +179,14 @@ fn regions_that_share_a_block_with_a_change_stay_exact() {
             FrameChange::Still,
             FrameChange::Spot(0.9, 0.1),
         ];
-        check(&camera, &film(&camera, 5, &script), EngineOptions::default());
+        check(&camera, &clip(&camera, 5, &script), EngineOptions::default());
     }
 }
 
 /// The frames are large enough to be divided among threads. Strips see their neighbors' pixels, and
 /// the results are those of one thread.
 #[test]
-fn strips_of_several_threads_meet_without_a_seam() {
+fn strips_of_several_threads_equal_the_model() {
     use FrameChange::{Noise, Patch, Spot, Still};
     let script = [Still, Still, Patch(0.4, 0.2), Still, Noise, Still, Spot(0.5, 0.5)];
     // The cases contain every pair of side, neighborhood and reference.
@@ -202,8 +202,9 @@ fn strips_of_several_threads_meet_without_a_seam() {
                 config.region.neighborhood = neighborhood;
                 config.temporal.reference = reference;
             });
-            let ways = [2, 3].map(|threads| EngineOptions { threads, ..EngineOptions::default() });
-            check_all(&camera, &film(&camera, 3, &script), ways);
+            let option_sets =
+                [2, 3].map(|threads| EngineOptions { threads, ..EngineOptions::default() });
+            check_all(&camera, &clip(&camera, 3, &script), option_sets);
         }
     }
 }

@@ -7,7 +7,7 @@ use foveate_frame::{Frame, FramePixels};
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RegionMemory};
 use proptest::prelude::*;
 
-use crate::clip_script::{film, scripts};
+use crate::clip_script::{clip, scripts};
 use crate::random_cameras::cameras;
 
 /// Returns the outcome of a model that is resumed from the state of an engine before its last
@@ -36,14 +36,14 @@ proptest! {
         let mut engine = Engine::new(&camera);
         prop_assert_eq!(engine.region_state_before(0), None);
         engine.set_state_copying(true);
-        for frame in &film(&camera, seed, &script) {
+        for frame in &clip(&camera, seed, &script) {
             engine.step(frame).unwrap();
             prop_assert_eq!(&resumed(&engine, frame), model.step(frame).unwrap());
         }
         engine.reset();
         prop_assert_eq!(engine.region_state_before(0), None);
         engine.set_state_copying(false);
-        engine.step(&film(&camera, seed, &script)[0]).unwrap();
+        engine.step(&clip(&camera, seed, &script)[0]).unwrap();
         prop_assert_eq!(engine.region_state_before(0), None);
     }
 }

@@ -9,20 +9,20 @@ use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
 use proptest::prelude::*;
 
-use crate::clip_script::{film, scripts};
+use crate::clip_script::{clip, scripts};
 use crate::random_cameras::cameras;
 
 pub(crate) fn assert_same(
-    fast: &FrameOutcome,
-    clear: &foveate_model::FunctionalOutcome,
+    actual: &FrameOutcome,
+    expected: &foveate_model::FunctionalOutcome,
     context: &str,
 ) {
-    assert_eq!(fast.scores, clear.scores, "scores, {context}");
-    assert_eq!(fast.temporal_count, clear.temporal_count, "temporal count, {context}");
-    assert_eq!(fast.srs, clear.srs, "srs, {context}");
-    assert_eq!(fast.trs, clear.trs, "trs, {context}");
-    assert_eq!(fast.active, clear.active, "active, {context}");
-    assert_eq!(fast.actions, clear.actions, "actions, {context}");
+    assert_eq!(actual.scores, expected.scores, "scores, {context}");
+    assert_eq!(actual.temporal_count, expected.temporal_count, "temporal count, {context}");
+    assert_eq!(actual.srs, expected.srs, "srs, {context}");
+    assert_eq!(actual.trs, expected.trs, "trs, {context}");
+    assert_eq!(actual.active, expected.active, "active, {context}");
+    assert_eq!(actual.actions, expected.actions, "actions, {context}");
 }
 
 /// Runs a clip through the model and the engine. Returns how many regions were skipped.
@@ -35,28 +35,32 @@ pub(crate) fn check(camera: &Camera, frames: &[Frame], options: EngineOptions) -
 pub(crate) fn check_all<const N: usize>(
     camera: &Camera,
     frames: &[Frame],
-    ways: [EngineOptions; N],
+    option_sets: [EngineOptions; N],
 ) -> [usize; N] {
     let mut model = FunctionalCamera::new(camera);
-    let mut engines = ways.map(|options| Engine::with_options(camera, options).unwrap());
+    let mut engines = option_sets.map(|options| Engine::with_options(camera, options).unwrap());
     let mut skipped = [0; N];
     for (number, frame) in frames.iter().enumerate() {
-        let clear = model.step(frame).unwrap();
-        for ((engine, options), skipped) in engines.iter_mut().zip(ways).zip(&mut skipped) {
+        let expected = model.step(frame).unwrap();
+        for ((engine, options), skipped) in engines.iter_mut().zip(option_sets).zip(&mut skipped) {
             let context = format!("frame {number}, {options:?}, {:?}", camera.config());
-            let fast = engine.step(frame).unwrap();
-            assert_same(fast, clear, &context);
-            *skipped += fast.skipped;
-            assert_eq!(engine.rendered().to_words(), clear.rendered.pixels(), "screen, {context}");
+            let actual = engine.step(frame).unwrap();
+            assert_same(actual, expected, &context);
+            *skipped += actual.skipped;
+            assert_eq!(
+                engine.rendered().to_words(),
+                expected.rendered.pixels(),
+                "screen, {context}"
+            );
         }
     }
     // After a reset, both give the same results again.
     model.reset();
     if let Some(frame) = frames.last() {
-        let clear = model.step(frame).unwrap();
+        let expected = model.step(frame).unwrap();
         for engine in &mut engines {
             engine.reset();
-            assert_same(engine.step(frame).unwrap(), clear, "after a reset");
+            assert_same(engine.step(frame).unwrap(), expected, "after a reset");
         }
     }
     skipped
@@ -80,7 +84,7 @@ proptest! {
         (seed, script) in scripts(),
         options in options(),
     ) {
-        check(&camera, &film(&camera, seed, &script), options);
+        check(&camera, &clip(&camera, seed, &script), options);
     }
 
     /// A frame with a stride gives the same results as a copy without one.
@@ -92,7 +96,7 @@ proptest! {
     ) {
         let (mut plain, mut strided) = (Engine::new(&camera), Engine::new(&camera));
         let width = usize::try_from(camera.width()).unwrap();
-        for frame in film(&camera, seed, &script) {
+        for frame in clip(&camera, seed, &script) {
             let rows = frame.pixels().chunks(width);
             let words: Vec<u16> =
                 rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect();
