@@ -39,8 +39,8 @@ pub(crate) struct LaneEngine<T: PixelLane> {
     settled: Vec<bool>,
     /// The last frame without padding. It is kept up to date while the policy asks for it.
     last_frame: Vec<T>,
-    /// One flag per region and frame, in the order band, frame, column; true if pixels of the region
-    /// have changed.
+    /// One flag per region and frame, in the order band, frame, column; true if pixels of the
+    /// region have changed.
     changed_regions: Vec<bool>,
     policy: SearchPolicy,
     skip: bool,

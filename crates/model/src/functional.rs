@@ -158,13 +158,13 @@ impl FunctionalCamera {
     pub fn resume(
         camera: &Camera,
         screen: &Frame,
-        remembered: impl Fn(u32) -> RegionMemory,
+        memory_of: impl Fn(u32) -> RegionMemory,
     ) -> Result<Self, ModelError> {
         check_frame_kind(camera, screen)?;
         let mut resumed = Self::new(camera);
         resumed.screen.show_frame(screen);
         for region in 0..camera.regions() {
-            let RegionMemory { reference, summary } = remembered(region);
+            let RegionMemory { reference, summary } = memory_of(region);
             if let Some(pixels) = reference {
                 resumed.references.set(camera, region, &pixels);
             }
@@ -195,11 +195,11 @@ impl FunctionalCamera {
     fn decide(&mut self, region: u32) {
         let Self { camera, references, outcome, .. } = self;
         let at = index(region);
-        let seen = FrameRegion::new(camera, &outcome.denoised, region);
-        let seen = seen.with_reference(references.frame(region));
+        let scored_region = FrameRegion::new(camera, &outcome.denoised, region);
+        let scored_region = scored_region.with_reference(references.frame(region));
         for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
             // A feature without a level ignores this argument.
-            scores[at] = score(feature, feature.level().unwrap_or(0), &seen);
+            scores[at] = score(feature, feature.level().unwrap_or(0), &scored_region);
         }
         let votes = camera
             .features()
@@ -207,7 +207,7 @@ impl FunctionalCamera {
             .zip(&outcome.scores)
             .map(|(feature, scores)| scores[at] >= feature.min_score());
         let srs = combine_votes(camera.combine(), votes);
-        let count = changed_pixels(&seen, camera.temporal().level);
+        let count = changed_pixels(&scored_region, camera.temporal().level);
         let trs = count >= camera.temporal().min_count;
         outcome.srs[at] = srs;
         outcome.trs[at] = trs;

@@ -25,7 +25,7 @@ impl RegionExplanation {
     #[must_use]
     pub fn from_outcome(
         design: &Design,
-        moment: FrameIdentification<'_>,
+        frame: FrameIdentification<'_>,
         region: u32,
         before: RegionMemory,
         outcome: &FunctionalOutcome,
@@ -35,9 +35,9 @@ impl RegionExplanation {
         Self {
             format_version: FORMAT_VERSION,
             design_fingerprint: design.fingerprint(),
-            frame: moment.number,
-            name: moment.name.to_owned(),
-            t_us: moment.t_us,
+            frame: frame.number,
+            name: frame.name.to_owned(),
+            t_us: frame.t_us,
             region: RegionPosition::of(camera, region),
             pixel_bits: camera.pixel_bits(),
             raw: rows(camera, &pixels(camera, &outcome.padded, region)),
@@ -124,13 +124,17 @@ impl TemporalExplanation {
         region: u32,
     ) -> Self {
         let temporal = camera.temporal();
-        let now = pixels(camera, &outcome.denoised, region);
+        let current = pixels(camera, &outcome.denoised, region);
         let hits = match &reference {
-            Some(then) => {
-                let pairs = now.iter().zip(then);
-                pairs.map(|(now, then)| u32::from(now.abs_diff(*then)) > temporal.level).collect()
+            Some(referenced) => {
+                let pairs = current.iter().zip(referenced);
+                pairs
+                    .map(|(current, referenced)| {
+                        u32::from(current.abs_diff(*referenced)) > temporal.level
+                    })
+                    .collect()
             }
-            None => vec![true; now.len()],
+            None => vec![true; current.len()],
         };
         Self {
             against: temporal.reference.name(),

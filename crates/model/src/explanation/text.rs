@@ -218,8 +218,8 @@ fn quotient_text(value: u64, unit: u64) -> String {
 fn shortened_name(name: &str) -> String {
     const MOST: usize = 40;
     let letters = name.chars().count();
-    if letters <= MOST {
+    if letters <= MAX_LETTERS {
         return name.to_owned();
     }
-    format!("...{}", name.chars().skip(letters - MOST + 3).collect::<String>())
+    format!("...{}", name.chars().skip(letters - MAX_LETTERS + 3).collect::<String>())
 }

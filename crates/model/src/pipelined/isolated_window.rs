@@ -57,8 +57,8 @@ impl IsolatedWindow {
         let taken = self.position;
         self.current[taken] = pixel;
         let behind = self.side + 1;
-        let own = || Some(self.center(&self.current, taken.checked_sub(behind)?));
-        let center = if self.owed > 0 { self.flush_center() } else { own() };
+        let taken_center = || Some(self.center(&self.current, taken.checked_sub(behind)?));
+        let center = if self.owed > 0 { self.flush_center() } else { taken_center() };
         self.position = taken + 1;
         if self.position == self.current.len() {
             std::mem::swap(&mut self.current, &mut self.previous);

@@ -107,7 +107,9 @@ impl CycleModel for PipelinedRcm {
             PortRole::Active => self.append_lanes(values, |shown| shown.active.into()),
             PortRole::Summary => self.append_lanes(values, |shown| shown.summary.into()),
             PortRole::Score(kind) => {
-                if let Some(place) = self.feature_kinds.iter().position(|&own| own == kind) {
+                if let Some(place) =
+                    self.feature_kinds.iter().position(|&feature_kind| feature_kind == kind)
+                {
                     self.append_lanes(values, |shown| shown.scores[place]);
                 }
             }

@@ -174,10 +174,12 @@ impl RasterOutput {
             PortRole::Trs => self.trs.into(),
             PortRole::Active => self.active.into(),
             PortRole::Summary => self.summary.into(),
-            PortRole::Score(kind) => match kinds.iter().position(|&own| own == kind) {
-                Some(place) => self.scores[place],
-                None => return,
-            },
+            PortRole::Score(kind) => {
+                match kinds.iter().position(|&feature_kind| feature_kind == kind) {
+                    Some(place) => self.scores[place],
+                    None => return,
+                }
+            }
             PortRole::TemporalCount => self.temporal_count.into(),
             PortRole::ForwardValid => self.forward_valid.into(),
             PortRole::ForwardRegion => self.forward_region.into(),

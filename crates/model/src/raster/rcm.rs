@@ -92,7 +92,7 @@ impl RasterRcm {
         self.advance(input);
         self.step_readout(input.forward_ready);
         let decided = self.decisions.step(self.now);
-        self.decided = decided.map(|judged| self.regions.decide(judged));
+        self.decided = decided.map(|scored| self.regions.decide(scored));
         self.step_store();
         self.update_output();
         &self.output
@@ -105,8 +105,9 @@ impl RasterRcm {
     }
 
     /// Returns the reference of a region for the next frame: scored pixels in row-major order, or
-    /// `None` if there is no valid reference. With `last-sent` it is known when nothing is
-    /// [pending](Self::is_pending). With an external frame store it is what the core has stored.
+    /// `None` if there is no valid reference. With `last-sent` the reference is known when nothing
+    /// is [pending](Self::is_pending). With an external frame store the reference is the pixels
+    /// that the core has stored, even if the memory returns others.
     ///
     /// # Panics
     /// Panics if the design has no such region.
@@ -134,8 +135,9 @@ impl RasterRcm {
             || !self.readout.is_empty()
     }
 
-    /// Returns true if a region is lost in the middle at the next edge, unless that edge has a
-    /// reset. A test driver uses it to choose whether the sink is ready at that edge.
+    /// Returns true if a region that has sent some of its words is lost at the next edge, unless
+    /// that edge has a reset. A test driver uses it to choose whether the sink is ready at that
+    /// edge.
     #[must_use]
     pub fn will_abort(&self) -> bool {
         self.readout.has_partial_region_below(self.staleness.first_fresh_row_at(self.now + 1))
@@ -159,8 +161,8 @@ impl RasterRcm {
         self.advances.reset();
         self.staleness.reset();
         self.regions.reset();
-        if let Some(outside) = &mut self.external_store {
-            outside.reset();
+        if let Some(external_store) = &mut self.external_store {
+            external_store.reset();
         }
         self.decisions.reset();
         self.readout = Readout::new(&self.timing);
@@ -189,22 +191,23 @@ impl RasterRcm {
         if place.row.is_multiple_of(self.side) && place.column == 0 {
             self.staleness.begin_row(self.now);
         }
-        let complete = self.completed_region(place);
-        match (&mut self.external_store, complete) {
-            (Some(outside), _) => {
-                outside.push_word(self.now, place, complete, self.incoming_frame.padded());
+        let completed = self.completed_region(place);
+        match (&mut self.external_store, completed) {
+            (Some(external_store), _) => {
+                external_store.push_word(self.now, place, completed, self.incoming_frame.padded());
             }
-            (None, Some(complete)) => self.score_region(complete, applied),
+            (None, Some(completed)) => self.score_region(completed, applied),
             (None, None) => {}
         }
     }
 
     /// Returns the region whose last word is at this position, or `None`.
     fn completed_region(&self, place: WordPosition) -> Option<CompletedRegion> {
-        let wide = self.timing.region_row_words;
-        let is_last = place.row % self.side == self.side - 1 && place.column % wide == wide - 1;
+        let region_words = self.timing.region_row_words;
+        let is_last = place.row % self.side == self.side - 1
+            && place.column % region_words == region_words - 1;
         is_last.then(|| CompletedRegion {
-            region: place.row / self.side * self.columns + place.column / wide,
+            region: place.row / self.side * self.columns + place.column / region_words,
             row: self.staleness.current_row(),
             completion_edge: self.now,
         })
@@ -212,30 +215,32 @@ impl RasterRcm {
 
     /// Applies an edge of the stream of references.
     fn take_reference(&mut self, input: &CoreInput<'_>) {
-        let Some(outside) = &mut self.external_store else { return };
+        let Some(external_store) = &mut self.external_store else { return };
         let pixels = input.reference_pixels;
         assert_eq!(pixels.len(), index(self.timing.word_pixels), "a word has K pixels");
-        if let Some(complete) = outside.take_reference(self.now, input.reference_valid, pixels) {
-            self.score_region(complete, input.thresholds);
+        if let Some(completed) =
+            external_store.take_reference(self.now, input.reference_valid, pixels)
+        {
+            self.score_region(completed, input.thresholds);
         }
     }
 
     /// Scores a region, all of whose references are known.
-    fn score_region(&mut self, complete: CompletedRegion, applied: &ThresholdInputs) {
+    fn score_region(&mut self, completed: CompletedRegion, applied: &ThresholdInputs) {
         let thresholds = self.constants.as_ref().unwrap_or(applied);
         let taken = self.external_store.as_ref().map(ExternalStorePorts::references);
         let padded = self.incoming_frame.padded();
-        let judged = self.regions.score_region(complete, padded, taken, thresholds);
-        self.decisions.push(complete.completion_edge, judged);
+        let scored = self.regions.score_region(completed, padded, taken, thresholds);
+        self.decisions.push(completed.completion_edge, scored);
     }
 
     /// Applies an edge of the stream of words to store.
     fn step_store(&mut self) {
-        if let Some(outside) = &mut self.external_store {
-            let word = outside.take_store_word(self.now);
+        if let Some(external_store) = &mut self.external_store {
+            let word = external_store.take_store_word(self.now);
             self.output.set_store_ports(word.as_ref());
-            self.output.reference_ready = outside.is_reference_due_after(self.now);
-            self.output.underrun = outside.has_underrun();
+            self.output.reference_ready = external_store.is_reference_due_after(self.now);
+            self.output.underrun = external_store.has_underrun();
         }
     }
 

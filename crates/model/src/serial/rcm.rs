@@ -32,8 +32,8 @@ pub struct SerialRcm {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum SerialStage {
     /// The array takes pixels. The last one is still being written for `writing` clocks. `before`
-    /// is the number of edges since T0 of the frame before, whose last step may be seen after the
-    /// array is ready again.
+    /// is the number of edges since T0 of the previous frame, because the outputs of its last step
+    /// may come after the array is ready again.
     Taking { writing: u64, before: Option<u64> },
     /// T0 was `clock` edges ago.
     Working { clock: u64 },
@@ -140,8 +140,8 @@ impl SerialRcm {
     #[must_use]
     pub fn quiet_clocks(&self) -> u64 {
         let SerialStage::Working { clock } = self.stage else { return 0 };
-        let seen = self.schedule.clocks_until_output(clock).unwrap_or(u64::MAX);
-        seen.min(self.clocks_until_ready()).saturating_sub(1)
+        let clocks_to_output = self.schedule.clocks_until_output(clock).unwrap_or(u64::MAX);
+        clocks_to_output.min(self.clocks_until_ready()).saturating_sub(1)
     }
 
     /// Returns the reference of a region for the next frame: scored pixels in row-major order, or
@@ -175,8 +175,9 @@ impl SerialRcm {
     fn take_pixels(&mut self, input: &CoreInput<'_>) {
         let clocks = self.intake.take(input.pixels);
         if self.intake.is_full() {
-            // Thresholds stay constant from here on, and no score is output before it is due. So
-            // the frame can be scored now.
+            // The model scores the whole frame at this edge, before the array does. This is not
+            // visible, because thresholds stay constant from here on, and because scores come to
+            // the ports only in the clocks of the schedule.
             self.decide_frame(input.thresholds);
         }
         let before = match self.stage {

@@ -138,15 +138,16 @@ impl SerialRegions {
         let action = summary.decide(irrelevant, verdict.srs, verdict.trs, &means, level);
         let payload = self.scorer.payload().collect();
         self.decided[region] = DecidedSerialRegion { verdict, action, payload, means };
-        let own = region * self.pixels..(region + 1) * self.pixels;
-        for (scored, pixel) in self.scored[own.clone()].iter_mut().zip(self.scorer.pixels()) {
+        let pixel_range = region * self.pixels..(region + 1) * self.pixels;
+        for (scored, pixel) in self.scored[pixel_range.clone()].iter_mut().zip(self.scorer.pixels())
+        {
             *scored = pixel;
         }
         match (self.camera.temporal().reference, action) {
             (ReferencePolicy::Previous, _) => self.has_reference[region] = true,
             (ReferencePolicy::LastSent, RegionAction::Forward) => {
                 self.has_reference[region] = true;
-                self.sent[own.clone()].copy_from_slice(&self.scored[own]);
+                self.sent[pixel_range.clone()].copy_from_slice(&self.scored[pixel_range]);
             }
             (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             // The screen no longer shows the pixels that were sent.

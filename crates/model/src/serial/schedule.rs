@@ -90,20 +90,20 @@ impl SerialSchedule {
         Some((slot, self.step_output(phase.what, step)?))
     }
 
-    /// Returns the clocks from `clock` clocks after T0 to the first one that may have an output, or
-    /// `None` after the last.
+    /// Returns the number of clocks from `clock` clocks after T0 to the next clock that may have an
+    /// output, or `None` if no such clock follows in the frame.
     pub(super) fn clocks_until_output(&self, clock: u64) -> Option<u64> {
         let lead = self.lead.saturating_sub(clock);
         let step = (clock + lead - self.lead) % self.slot_steps;
         if clock + lead - self.lead >= self.steps {
             return None;
         }
-        let to = |phase: &VisiblePhase| {
+        let steps_to = |phase: &VisiblePhase| {
             let is_over = step >= phase.start + phase.steps;
             (!is_over).then(|| phase.start.saturating_sub(step))
         };
         // A slot always has one: its last phase, in which pixels or means leave.
-        self.visible.iter().find_map(to).map(|steps| lead + steps)
+        self.visible.iter().find_map(steps_to).map(|steps| lead + steps)
     }
 
     fn step_output(&self, what: PhaseOutput, step: u64) -> Option<StepOutput> {
@@ -183,9 +183,9 @@ fn visible_phases(design: SerialDesign<'_>, phases: &[(SerialPhase, u64)]) -> Ve
 }
 
 /// Returns the order of a phase in which `things` values of every region leave.
-fn unload_order(design: SerialDesign<'_>, steps: u64, things: u32) -> UnloadOrder {
+fn unload_order(design: SerialDesign<'_>, steps: u64, values: u32) -> UnloadOrder {
     match design.feed() {
-        PixelFeed::Parallel => UnloadOrder::AllLanes { steps: steps / u64::from(things) },
+        PixelFeed::Parallel => UnloadOrder::AllLanes { steps: steps / u64::from(values) },
         PixelFeed::Raster => UnloadOrder::LaneByLane,
     }
 }

@@ -17,26 +17,26 @@ use crate::oracle::{OracleOutcome, oracle_history, region_values};
 use crate::parameters::{DesignParameters, arbitrary_parameters};
 use crate::schedule::{tail_delay, tail_steps};
 
-/// Returns the thresholds of one clock. Each is that of the design or any value that its port can
-/// carry.
+/// Returns the thresholds of one clock. Each threshold has either the value of the design or a
+/// random value that fits its port.
 fn jittered_thresholds(design: &Design, random: &mut SeededRandom) -> ThresholdInputs {
     let mut thresholds = ThresholdInputs::from_camera(design);
     let mut pick = |own: u64, bits: u32| {
-        if random.below(3) == 0 { random.below(1 << bits) as u64 } else { own }
+        if random.below(3) == 0 { random.below(1 << bits) as u64 } else { designed }
     };
     for (index, feature) in design.features().iter().enumerate() {
         if feature.level().is_some() {
-            let own = thresholds.level[index].into();
-            thresholds.level[index] = pick(own, feature.level_bits()) as u32;
+            let designed = thresholds.level[index].into();
+            thresholds.level[index] = pick(designed, feature.level_bits()) as u32;
         }
         thresholds.min_score[index] = pick(thresholds.min_score[index], feature.score_bits());
     }
-    let own = thresholds.temporal_level.into();
-    thresholds.temporal_level = pick(own, design.pixel_bits()) as u32;
-    let own = thresholds.temporal_min_count.into();
-    thresholds.temporal_min_count = pick(own, design.count_bits()) as u32;
-    let own = thresholds.summary_level.into();
-    thresholds.summary_level = pick(own, design.pixel_bits()) as u32;
+    let designed = thresholds.temporal_level.into();
+    thresholds.temporal_level = pick(designed, design.pixel_bits()) as u32;
+    let designed = thresholds.temporal_min_count.into();
+    thresholds.temporal_min_count = pick(designed, design.count_bits()) as u32;
+    let designed = thresholds.summary_level.into();
+    thresholds.summary_level = pick(designed, design.pixel_bits()) as u32;
     thresholds
 }
 
@@ -85,8 +85,8 @@ impl ThresholdHistory<'_> {
             frame.checked_sub(1)
         };
         let Some(reference) = reference else { return self.design.region_pixels() };
-        let (now, then) = (&self.denoised[frame], &self.denoised[reference]);
-        let differences = temporal_differences(&self.design, now, then, 0);
+        let (current, referenced) = (&self.denoised[frame], &self.denoised[reference]);
+        let differences = temporal_differences(&self.design, current, referenced, 0);
         let level = |step: &usize| self.applied[*step].temporal_level;
         let pairs = differences.iter().zip(&self.steps[frame]);
         pairs.map(|(&difference, step)| u32::from(difference > level(step))).sum()
@@ -100,13 +100,13 @@ impl ThresholdHistory<'_> {
     }
 }
 
-fn check(recipe: &DesignParameters, film: &[Frame], seed: u64) -> Result<(), TestCaseError> {
+fn check(recipe: &DesignParameters, clip: &[Frame], seed: u64) -> Result<(), TestCaseError> {
     let design = recipe.design();
     let mut random = SeededRandom(seed);
     // Pixels come with random gaps, and every edge has its own inputs.
     let mut stream = Vec::new();
     let mut inputs = Vec::new();
-    for frame in film {
+    for frame in clip {
         let mut pixels = Vec::new();
         region_stream(&design, frame, 0, &mut pixels);
         let mut edges = Vec::new();
@@ -125,8 +125,8 @@ fn check(recipe: &DesignParameters, film: &[Frame], seed: u64) -> Result<(), Tes
     ]);
     let frames = ThresholdHistory {
         recipe,
-        denoised: film.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),
-        history: oracle_history(recipe, film),
+        denoised: clip.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),
+        history: oracle_history(recipe, clip),
         steps: tail_steps(recipe, &stream),
         applied: inputs.iter().map(|_| jittered_thresholds(&design, &mut random)).collect(),
         design: design.clone(),
@@ -135,19 +135,19 @@ fn check(recipe: &DesignParameters, film: &[Frame], seed: u64) -> Result<(), Tes
     let mut rpu = PipelinedRpu::new(design.as_pipelined().unwrap());
     let border = region_border(&design, 0);
     let mut decisions = Vec::new();
-    let mut left = Vec::new();
+    let mut sent_values = Vec::new();
     for (pixel, thresholds) in inputs.iter().zip(&frames.applied) {
         let (valid, pixel) = (pixel.is_some(), pixel.unwrap_or_default());
         let output = rpu.step(&RpuInput { reset: false, valid, pixel, border }, thresholds);
         decisions.extend(output.decision_valid.then_some(output));
-        left.extend(output.forward_valid.then(|| i64::from(output.forward_pixel)));
+        sent_values.extend(output.forward_valid.then(|| i64::from(output.forward_pixel)));
     }
 
     let wait = usize::from(recipe.has_feature("mad"));
     let mut registered = Vec::new();
     let mut leaving = Vec::new();
     let mut shown: Option<Vec<i64>> = None;
-    let decided = film.len() - wait.min(film.len());
+    let decided = clip.len() - wait.min(clip.len());
     prop_assert_eq!(decisions.len(), decided);
     for (frame, decision) in decisions.iter().enumerate() {
         let done = *frames.steps[frame + wait].last().unwrap();
@@ -170,19 +170,20 @@ fn check(recipe: &DesignParameters, film: &[Frame], seed: u64) -> Result<(), Tes
         prop_assert_eq!(decision.summary, is_due(decision.srs, done));
         if is_due(srs, done + 1) {
             shown = Some(means.clone());
-            if frame + wait + 1 < film.len() {
+            if frame + wait + 1 < clip.len() {
                 leaving.extend(means);
             }
         } else if srs && trs {
             shown = None;
         }
-        if srs && trs && frame + wait + 1 < film.len() {
-            let seen = &frames.history[frame];
-            let payload = if recipe.raw_payload { &seen.padded } else { &seen.denoised };
+        if srs && trs && frame + wait + 1 < clip.len() {
+            let frame_outcome = &frames.history[frame];
+            let payload =
+                if recipe.raw_payload { &frame_outcome.padded } else { &frame_outcome.denoised };
             leaving.extend(region_values(recipe, payload, 0));
         }
     }
-    prop_assert_eq!(left, leaving);
+    prop_assert_eq!(sent_values, leaving);
     Ok(())
 }
 
@@ -205,10 +206,10 @@ proptest! {
     }
 
     #[test]
-    fn inputs_that_a_design_has_not_do_nothing(recipe in arbitrary_parameters(), script in arbitrary_scripts(4), seed in any::<u64>()) {
+    fn inputs_that_a_design_lacks_have_no_effect(recipe in arbitrary_parameters(), script in arbitrary_scripts(4), seed in any::<u64>()) {
         let design = DesignParameters { constant: true, ..recipe.clone() }.design();
         let mut random = SeededRandom(seed);
-        let (mut plain, mut shaken) = (PipelinedRpu::new(design.as_pipelined().unwrap()), PipelinedRpu::new(design.as_pipelined().unwrap()));
+        let (mut plain, mut with_ignored_inputs) = (PipelinedRpu::new(design.as_pipelined().unwrap()), PipelinedRpu::new(design.as_pipelined().unwrap()));
         for frame in make_clip(&recipe, &script) {
             let mut pixels = Vec::new();
             region_stream(&design, &frame, 0, &mut pixels);
@@ -217,7 +218,7 @@ proptest! {
                 let jittered = jittered_thresholds(&design, &mut random);
                 let border = if design.needs_border() { 0 } else { random.below(16) as u8 };
                 let expected = plain.step(&input, &ThresholdInputs::from_camera(&design));
-                prop_assert_eq!(shaken.step(&RpuInput { border, ..input }, &jittered), expected);
+                prop_assert_eq!(with_ignored_inputs.step(&RpuInput { border, ..input }, &jittered), expected);
             }
         }
     }

@@ -32,11 +32,11 @@ pub(crate) fn arbitrary_scripts(most: usize) -> impl Strategy<Value = ClipScript
 pub(crate) fn make_clip(recipe: &DesignParameters, script: &ClipScript) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let max = recipe.pixel_max();
-    let mut film: Vec<Frame> = Vec::new();
+    let mut clip: Vec<Frame> = Vec::new();
     for &(content, seed) in script {
         let mut random = SeededRandom(seed);
         let base = random.below(max + 1);
-        let last = film.last().cloned();
+        let last = clip.last().cloned();
         let frame = Frame::from_fn(width, height, recipe.bits, |x, y| {
             let before = last.as_ref().map_or(base, |frame| i64::from(frame.get(x, y)));
             let value = match content {
@@ -51,9 +51,9 @@ pub(crate) fn make_clip(recipe: &DesignParameters, script: &ClipScript) -> Vec<F
             };
             value.clamp(0, max) as u16
         });
-        film.push(frame.unwrap());
+        clip.push(frame.unwrap());
     }
-    film
+    clip
 }
 
 /// A small random generator (splitmix64), whose values depend on the seed alone.

@@ -18,11 +18,11 @@ fn frame_values(frame: &Frame) -> OracleFrame {
 pub(crate) fn assert_outcome_is(
     recipe: &DesignParameters,
     outcome: &FunctionalOutcome,
-    seen: &OracleOutcome,
+    expected: &OracleOutcome,
 ) {
-    assert_eq!(frame_values(&outcome.padded), seen.padded);
-    assert_eq!(frame_values(&outcome.denoised), seen.denoised);
-    for (index, region) in seen.regions.iter().enumerate() {
+    assert_eq!(frame_values(&outcome.padded), expected.padded);
+    assert_eq!(frame_values(&outcome.denoised), expected.denoised);
+    for (index, region) in expected.regions.iter().enumerate() {
         for (feature, scores) in outcome.scores.iter().enumerate() {
             let name = recipe.features[feature].name;
             assert_eq!(scores[index], region.scores[feature] as u64, "{name} of region {index}");
@@ -35,19 +35,19 @@ pub(crate) fn assert_outcome_is(
         let means: Vec<i64> = outcome.means[index].iter().map(|&mean| mean.into()).collect();
         assert_eq!(means, region.means, "means of region {index}");
     }
-    assert_eq!(frame_values(&outcome.rendered), seen.rendered);
+    assert_eq!(frame_values(&outcome.rendered), expected.rendered);
 }
 
 pub(crate) fn check(recipe: &DesignParameters, frames: &[Frame]) {
     let history = oracle_history(recipe, frames);
     let mut camera = FunctionalCamera::new(&recipe.design());
-    for (frame, seen) in frames.iter().zip(&history) {
-        assert_outcome_is(recipe, camera.step(frame).unwrap(), seen);
+    for (frame, expected) in frames.iter().zip(&history) {
+        assert_outcome_is(recipe, camera.step(frame).unwrap(), expected);
     }
     // After a reset the camera decides as at the start.
     camera.reset();
-    if let (Some(frame), Some(seen)) = (frames.first(), history.first()) {
-        assert_outcome_is(recipe, camera.step(frame).unwrap(), seen);
+    if let (Some(frame), Some(expected)) = (frames.first(), history.first()) {
+        assert_outcome_is(recipe, camera.step(frame).unwrap(), expected);
     }
 }
 

@@ -27,7 +27,7 @@ fn score(toml: &str, frame: &Frame) -> u64 {
 }
 
 #[test]
-fn ramps_on_below_and_above_the_level() {
+fn hits_of_ramps_and_peaks_on_below_and_above_the_level() {
     // The slope is 3. |Gx| is 8 * 3 inside of an isolated region and 4 * 3 in its border columns.
     let ramp = Frame::from_fn(8, 8, 8, |x, _| 3 * x as u16).unwrap();
     let edges =
@@ -88,7 +88,7 @@ fn shared_regions_of_any_size_equal_the_whole_frame() {
 }
 
 #[test]
-fn per_pixel_helpers_say_where_each_hit_ends() {
+fn per_pixel_helpers_give_the_level_at_which_each_hit_ends() {
     let design = design("[frame]\nwidth = 8\nheight = 8\n[denoise]\nfilter = \"none\"");
     let peak = Frame::from_fn(8, 8, 8, |x, y| 50 + 9 * u16::from((x, y) == (4, 4))).unwrap();
     let flat = Frame::filled(8, 8, 8, 52).unwrap();
@@ -139,18 +139,18 @@ fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
 pub(crate) fn hard_frames(recipe: &DesignParameters) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let (max, side) = (recipe.pixel_max() as u16, recipe.side as u32);
-    let paint =
+    let frame_from =
         |f: &dyn Fn(u32, u32) -> u16| Frame::from_fn(width, height, recipe.bits, f).unwrap();
     let at_corner =
         |x: u32, y: u32| [0, side - 1].contains(&(x % side)) && [0, side - 1].contains(&(y % side));
     vec![
-        paint(&|_, _| 0),
-        paint(&|_, _| max),
-        paint(&|x, y| if (x + y) % 2 == 0 { max } else { 0 }),
-        paint(&|x, y| if (x + y) % 2 == 1 { max } else { 0 }),
-        paint(&|x, y| if at_corner(x, y) { max } else { 0 }),
-        paint(&|x, y| if at_corner(x, y) { 0 } else { max }),
-        paint(&|x, y| ((x + 2 * y) % (u32::from(max) + 1)) as u16),
+        frame_from(&|_, _| 0),
+        frame_from(&|_, _| max),
+        frame_from(&|x, y| if (x + y) % 2 == 0 { max } else { 0 }),
+        frame_from(&|x, y| if (x + y) % 2 == 1 { max } else { 0 }),
+        frame_from(&|x, y| if at_corner(x, y) { max } else { 0 }),
+        frame_from(&|x, y| if at_corner(x, y) { 0 } else { max }),
+        frame_from(&|x, y| ((x + 2 * y) % (u32::from(max) + 1)) as u16),
     ]
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The contract in its simplest form: whole frames, nothing incremental, every value looked up in
-//! the complete history. The oracle shares only the type of frames with the library.
+//! The contract in its simplest form. The oracle computes whole frames without any state, and looks
+//! up every earlier value in the complete history. It shares only the type of frames with the
+//! library.
 
 use foveate_frame::Frame;
 
@@ -8,8 +9,7 @@ use crate::parameters::{DesignParameters, FeatureParameters};
 
 pub(crate) type OracleFrame = Vec<Vec<i64>>;
 
-/// The results of the oracle for one frame. Regions are numbered row by row. Maps hold n values per
-/// region.
+/// The results of the oracle for one frame. Regions are numbered row by row.
 pub(crate) struct OracleOutcome {
     pub(crate) padded: OracleFrame,
     pub(crate) denoised: OracleFrame,
@@ -36,22 +36,22 @@ pub(crate) struct OracleRegion {
 }
 
 /// Returns the results for every frame of a clip.
-pub(crate) fn oracle_history(recipe: &DesignParameters, film: &[Frame]) -> Vec<OracleOutcome> {
-    oracle_history_with_thresholds(&vec![recipe.clone(); film.len()], film)
+pub(crate) fn oracle_history(recipe: &DesignParameters, clip: &[Frame]) -> Vec<OracleOutcome> {
+    oracle_history_with_thresholds(&vec![recipe.clone(); clip.len()], clip)
 }
 
 /// Returns the results for every frame of a clip, with the thresholds of each frame.
 pub(crate) fn oracle_history_with_thresholds(
     recipes: &[DesignParameters],
-    film: &[Frame],
+    clip: &[Frame],
 ) -> Vec<OracleOutcome> {
     let mut history: Vec<OracleOutcome> = Vec::new();
-    for (recipe, frame) in recipes.iter().zip(film) {
-        let seen = oracle_outcome(recipe, &history, frame);
-        history.push(seen);
-        let now = history.len() - 1;
+    for (recipe, frame) in recipes.iter().zip(clip) {
+        let outcome = oracle_outcome(recipe, &history, frame);
+        history.push(outcome);
+        let last = history.len() - 1;
         let rendered = render(recipe, &history);
-        history[now].rendered = rendered;
+        history[last].rendered = rendered;
     }
     history
 }
@@ -61,11 +61,11 @@ fn oracle_outcome(
     history: &[OracleOutcome],
     frame: &Frame,
 ) -> OracleOutcome {
-    let mut seen = outcome_without_regions(recipe, frame);
+    let mut outcome = outcome_without_regions(recipe, frame);
     for region in 0..recipe.columns() * recipe.rows() {
-        seen.regions.push(oracle_region(recipe, (history, history), &seen, region));
+        outcome.regions.push(oracle_region(recipe, (history, history), &outcome, region));
     }
-    seen
+    outcome
 }
 
 /// Makes the results of a frame, without its regions.
@@ -203,16 +203,16 @@ fn means(recipe: &DesignParameters, pixels: &[i64]) -> Vec<i64> {
     let side = recipe.side / periphery.blocks;
     let mean = |block: i64| {
         let (left, top) = (block % periphery.blocks * side, block / periphery.blocks * side);
-        let inside = |place: i64| {
+        let is_inside = |place: i64| {
             let (x, y) = (place % recipe.side, place / recipe.side);
             (left..left + side).contains(&x) && (top..top + side).contains(&y)
         };
-        let own: Vec<i64> = (0..recipe.region_pixels())
-            .filter(|&i| inside(i))
+        let block_pixels: Vec<i64> = (0..recipe.region_pixels())
+            .filter(|&i| is_inside(i))
             .map(|i| pixels[i as usize])
             .collect();
-        let twice = 2 * own.iter().sum::<i64>() + own.len() as i64;
-        twice.div_euclid(2 * own.len() as i64)
+        let twice = 2 * block_pixels.iter().sum::<i64>() + block_pixels.len() as i64;
+        twice.div_euclid(2 * block_pixels.len() as i64)
     };
     (0..periphery.blocks * periphery.blocks).map(mean).collect()
 }
@@ -220,14 +220,14 @@ fn means(recipe: &DesignParameters, pixels: &[i64]) -> Vec<i64> {
 /// Returns the means that the screen shows of a region before a frame, or `None` if it shows no
 /// summary.
 fn shown_means(history: &[OracleOutcome], region: i64) -> Option<&[i64]> {
-    let regions = history.iter().rev().map(|seen| &seen.regions[region as usize]);
+    let regions = history.iter().rev().map(|outcome| &outcome.regions[region as usize]);
     let last = regions.into_iter().find(|region| matches!(region.action, "forward" | "summarize"));
     last.filter(|region| region.action == "summarize" && !region.lost)
         .map(|region| &region.means[..])
 }
 
-fn are_near(last: &[i64], now: &[i64], level: i64) -> bool {
-    last.iter().zip(now).all(|(last, now)| (last - now).abs() <= level)
+fn are_near(last: &[i64], current: &[i64], level: i64) -> bool {
+    last.iter().zip(current).all(|(last, current)| (last - current).abs() <= level)
 }
 
 fn terms(
@@ -287,8 +287,8 @@ fn reference(recipe: &DesignParameters, history: &[OracleOutcome], region: i64) 
     if !recipe.last_sent {
         return history.len().checked_sub(1);
     }
-    for (frame, seen) in history.iter().enumerate().rev() {
-        let region = &seen.regions[region as usize];
+    for (frame, outcome) in history.iter().enumerate().rev() {
+        let region = &outcome.regions[region as usize];
         if region.active {
             return (!region.lost).then_some(frame);
         }
@@ -303,18 +303,18 @@ fn reference(recipe: &DesignParameters, history: &[OracleOutcome], region: i64) 
 fn render(recipe: &DesignParameters, history: &[OracleOutcome]) -> OracleFrame {
     let pixel = |x: i64, y: i64| {
         let region = (y / recipe.side * recipe.columns() + x / recipe.side) as usize;
-        for seen in history.iter().rev() {
-            let image = if recipe.raw_payload { &seen.padded } else { &seen.denoised };
-            if seen.regions[region].active {
+        for outcome in history.iter().rev() {
+            let image = if recipe.raw_payload { &outcome.padded } else { &outcome.denoised };
+            if outcome.regions[region].active {
                 return image[y as usize][x as usize];
             }
             if let Some(periphery) = recipe.periphery {
-                if seen.regions[region].action == "summarize" {
+                if outcome.regions[region].action == "summarize" {
                     let side = recipe.side / periphery.blocks;
                     let (x, y) = (x % recipe.side / side, y % recipe.side / side);
-                    return seen.regions[region].means[(y * periphery.blocks + x) as usize];
+                    return outcome.regions[region].means[(y * periphery.blocks + x) as usize];
                 }
-            } else if recipe.blank_irrelevant && !seen.regions[region].srs {
+            } else if recipe.blank_irrelevant && !outcome.regions[region].srs {
                 return 0;
             }
         }

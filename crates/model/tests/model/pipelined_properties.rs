@@ -60,13 +60,13 @@ fn stream_edges(recipe: &DesignParameters, gaps: GapPattern, frames: usize) -> V
 fn run(
     recipe: &DesignParameters,
     rcm: &mut PipelinedRcm,
-    film: &[Frame],
+    clip: &[Frame],
     edges: &[Vec<usize>],
     clocks: usize,
 ) -> Vec<Vec<RpuOutput>> {
     let design = recipe.design();
     let thresholds = ThresholdInputs::from_camera(&design);
-    let streams: Vec<Vec<Vec<u16>>> = film
+    let streams: Vec<Vec<Vec<u16>>> = clip
         .iter()
         .map(|frame| {
             let stream = |region| {
@@ -114,20 +114,20 @@ fn observed_output(recipe: &DesignParameters, output: &RpuOutput) -> ExpectedOut
 }
 
 /// Checks a clip whose frames follow each other without a gap.
-pub(crate) fn check_dense(recipe: &DesignParameters, rcm: &mut PipelinedRcm, film: &[Frame]) {
-    check(recipe, rcm, film, GapPattern { inside: 0, between: 0, seed: 0 });
+pub(crate) fn check_dense(recipe: &DesignParameters, rcm: &mut PipelinedRcm, clip: &[Frame]) {
+    check(recipe, rcm, clip, GapPattern { inside: 0, between: 0, seed: 0 });
 }
 
-fn check(recipe: &DesignParameters, rcm: &mut PipelinedRcm, film: &[Frame], gaps: GapPattern) {
+fn check(recipe: &DesignParameters, rcm: &mut PipelinedRcm, clip: &[Frame], gaps: GapPattern) {
     let design = recipe.design();
-    let edges = stream_edges(recipe, gaps, film.len());
+    let edges = stream_edges(recipe, gaps, clip.len());
     let steps = tail_steps(recipe, &edges);
     let last = edges.iter().flatten().max().unwrap();
     let clocks = last
         + PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency as usize
         + 5;
-    let shown = run(recipe, rcm, film, &edges, clocks);
-    let history = oracle_history(recipe, film);
+    let shown = run(recipe, rcm, clip, &edges, clocks);
+    let history = oracle_history(recipe, clip);
     for region in 0..design.regions() as usize {
         let expected = expected_outputs(recipe, &history, &steps, region, clocks);
         for (edge, (shown, expected)) in shown.iter().zip(&expected).enumerate() {
@@ -135,13 +135,13 @@ fn check(recipe: &DesignParameters, rcm: &mut PipelinedRcm, film: &[Frame], gaps
             assert_eq!(&observed, expected, "region {region} after edge {edge}");
         }
     }
-    check_against_camera(recipe, film, &shown);
-    check_latency(recipe, gaps, film, &shown);
+    check_against_camera(recipe, clip, &shown);
+    check_latency(recipe, gaps, clip, &shown);
 }
 
 /// Checks that the decisions are those of the functional model in order, and that the pixels that
 /// leave are, too.
-fn check_against_camera(recipe: &DesignParameters, film: &[Frame], shown: &[Vec<RpuOutput>]) {
+fn check_against_camera(recipe: &DesignParameters, clip: &[Frame], shown: &[Vec<RpuOutput>]) {
     let design = recipe.design();
     let timing = PipelinedTiming::from_design(design.as_pipelined().unwrap());
     for region in 0..design.regions() {
@@ -150,9 +150,9 @@ fn check_against_camera(recipe: &DesignParameters, film: &[Frame], shown: &[Vec<
         let mut decisions = ports().filter(|output| output.decision_valid);
         let mut leaving = Vec::new();
         let mut camera = FunctionalCamera::new(&design);
-        let decided = film.len().saturating_sub(timing.decision_frames as usize);
-        let left = film.len().saturating_sub(timing.forward_frames as usize);
-        for (index, frame) in film.iter().take(decided).enumerate() {
+        let decided = clip.len().saturating_sub(timing.decision_frames as usize);
+        let left = clip.len().saturating_sub(timing.forward_frames as usize);
+        for (index, frame) in clip.iter().take(decided).enumerate() {
             let outcome = camera.step(frame).unwrap();
             let decision = decisions.next().unwrap();
             let ours = (outcome.srs[at], outcome.trs[at], outcome.temporal_count[at]);
@@ -182,7 +182,7 @@ fn check_against_camera(recipe: &DesignParameters, film: &[Frame], shown: &[Vec<
 fn check_latency(
     recipe: &DesignParameters,
     gaps: GapPattern,
-    film: &[Frame],
+    clip: &[Frame],
     shown: &[Vec<RpuOutput>],
 ) {
     if gaps.inside != 0 || gaps.between != 0 {
@@ -191,17 +191,18 @@ fn check_latency(
     let timing = PipelinedTiming::from_design(recipe.design().as_pipelined().unwrap());
     let valid: Vec<usize> =
         (0..shown.len()).filter(|&edge| shown[edge][0].decision_valid).collect();
-    let due = |frame: usize| {
+    let decision_edge = |frame: usize| {
         (frame + 1) * timing.cycles_per_frame as usize - 1 + timing.decision_latency as usize
     };
-    let expected: Vec<usize> = (timing.decision_frames as usize..film.len()).map(due).collect();
+    let expected: Vec<usize> =
+        (timing.decision_frames as usize..clip.len()).map(decision_edge).collect();
     assert_eq!(valid, expected);
     // The last pixel of an active region leaves at the clock of `DepartureTiming`.
     let design = recipe.design();
     let departure = design.timing().departure();
     let mut camera = FunctionalCamera::new(&design);
-    let last = film.len().saturating_sub(departure.forward_frames as usize);
-    for (index, frame) in film.iter().enumerate().take(last) {
+    let last = clip.len().saturating_sub(departure.forward_frames as usize);
+    for (index, frame) in clip.iter().enumerate().take(last) {
         let later = index + departure.forward_frames as usize;
         let taken = (later + 1) * departure.take_clocks as usize - 1;
         let outputs = &shown[taken + departure.forward_clocks as usize];
@@ -235,10 +236,10 @@ proptest! {
     ) {
         let design = recipe.design();
         let mut rcm = PipelinedRcm::new(design.as_pipelined().unwrap());
-        let film_before = make_clip(&recipe, &before);
+        let clip_before = make_clip(&recipe, &before);
         let edges = stream_edges(&recipe, gaps, before.len());
         let end = edges.iter().flatten().max().unwrap() + 20;
-        run(&recipe, &mut rcm, &film_before, &edges, cut as usize % end);
+        run(&recipe, &mut rcm, &clip_before, &edges, cut as usize % end);
         let pixels = vec![1; design.regions() as usize];
         for edge in 0..held {
             // A pixel at an edge with reset is not taken.

@@ -41,7 +41,7 @@ fn every_region_of_the_first_frame_is_new() {
 }
 
 #[test]
-fn previous_never_sees_a_slow_fade_and_last_sent_does() {
+fn only_last_sent_notices_a_slow_fade() {
     let fade = |reference: &str| {
         let toml =
             format!("[temporal]\nreference = \"{reference}\"\n[render]\nirrelevant = \"hold\"\n");
@@ -49,8 +49,8 @@ fn previous_never_sees_a_slow_fade_and_last_sent_does() {
         let mut worst = 0;
         for step in 0..80 {
             let outcome = camera.step(&textured_frame(0, step, || 0)).unwrap();
-            let (seen, shown) = (outcome.denoised.get(16, 8), outcome.rendered.get(16, 8));
-            worst = worst.max(seen.abs_diff(shown));
+            let (scored, shown) = (outcome.denoised.get(16, 8), outcome.rendered.get(16, 8));
+            worst = worst.max(scored.abs_diff(shown));
         }
         worst
     };
@@ -149,7 +149,7 @@ fn a_static_region_that_was_blanked_once() {
     let bright =
         Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| 90 + 160 * u16::from(x % 8 == 4 && y % 8 == 4));
     let (bright, flat) = (bright.unwrap(), Frame::filled(WIDTH, HEIGHT, 8, 90).unwrap());
-    let films = |reference: &str, irrelevant: &str| {
+    let results_of = |reference: &str, irrelevant: &str| {
         let mut camera = FunctionalCamera::new(&design(&format!(
             "[denoise]\nfilter = \"none\"\n[temporal]\nreference = \"{reference}\"\n\
              [render]\nirrelevant = \"{irrelevant}\"\n"
@@ -161,18 +161,18 @@ fn a_static_region_that_was_blanked_once() {
     };
     let first = (true, true, 90);
     assert_eq!(
-        films("previous", "zero"),
+        results_of("previous", "zero"),
         [first, (false, false, 0), (true, false, 0), (true, false, 0)],
         "stays black"
     );
     assert_eq!(
-        films("last-sent", "zero"),
+        results_of("last-sent", "zero"),
         [first, (false, false, 0), (true, true, 90), (true, false, 90)],
         "is sent again"
     );
     for reference in ["previous", "last-sent"] {
         assert_eq!(
-            films(reference, "hold"),
+            results_of(reference, "hold"),
             [first, (false, false, 90), (true, false, 90), (true, false, 90)]
         );
     }

@@ -16,16 +16,16 @@ use crate::screen::ReceiverScreen;
 fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     let at = shown.region as usize;
     let summary = outcome.actions[at] == RegionAction::Summarize;
-    let due = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
-    let said = (shown.srs, shown.trs, shown.active, shown.summary);
-    assert_eq!(said, due, "decision of region {at}");
+    let expected_bits = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
+    let shown_bits = (shown.srs, shown.trs, shown.active, shown.summary);
+    assert_eq!(shown_bits, expected_bits, "decision of region {at}");
     assert_eq!(shown.temporal_count, outcome.temporal_count[at], "region {at}");
     let scores = outcome.scores.iter().map(|scores| scores[at]);
     assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
 }
 
-/// Checks that the last decision comes at the clock of `DepartureTiming`. If all regions are active, the
-/// last word leaves at its clock; otherwise it leaves no later.
+/// Checks that the last decision comes at the clock of `DepartureTiming`. If all regions are active,
+/// the last word leaves at its clock, too; otherwise it leaves no later.
 fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &RasterTrace) {
     let departure = design.timing().departure();
     let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
@@ -61,14 +61,14 @@ fn show_active_region(
 
 /// Plays one frame after the other. Each frame leaves completely before the next, so that the
 /// screen can be compared.
-fn check(recipe: &RasterParameters, film: &[Frame]) {
+fn check(recipe: &RasterParameters, clip: &[Frame]) {
     let design = recipe.design();
     let thresholds = foveate_model::ThresholdInputs::from_camera(&design);
     let (mut camera, mut driver) =
         (FunctionalCamera::new(&design), RasterDriver::new(recipe, RasterTraffic::DENSE));
     let mut screen = ReceiverScreen::black(&design);
     let rest = 2 * recipe.words() + 100;
-    for frame in film {
+    for frame in clip {
         let outcome = camera.step(frame).unwrap();
         let trace =
             driver.run(&[RasterStimulus { frame: frame.clone(), thresholds }], rest, i64::MAX);
@@ -156,8 +156,8 @@ pub(super) fn recipe(number: usize) -> RasterParameters {
 fn every_kind_of_core_shows_what_the_camera_shows() {
     for number in 0..56 {
         let recipe = recipe(number);
-        let film = hard_frames(&recipe.base);
-        check(&recipe, &film);
+        let clip = hard_frames(&recipe.base);
+        check(&recipe, &clip);
     }
 }
 
@@ -171,7 +171,7 @@ fn a_core_with_any_store_shows_what_the_camera_shows() {
             [FrameStoreKind::External, FrameStoreKind::SinglePort, FrameStoreKind::External]
                 [number % 3];
         recipe.forward = number % 5 > 1 || recipe.base.periphery.is_some();
-        let film = hard_frames(&recipe.base);
-        check(&recipe, &film);
+        let clip = hard_frames(&recipe.base);
+        check(&recipe, &clip);
     }
 }

@@ -17,16 +17,16 @@ use crate::hard_cases::hard_frames;
 /// The pace of a sensor: clocks from word to word, and clocks between frames.
 type SensorPace = (u64, u64);
 
-/// The stream of a sensor: the words with the edges at which they have been read, and the begin and
-/// the pace of each frame.
+/// The stream of a sensor: each word with the edge at which the sensor has read it, and for each
+/// frame its first edge and its pace.
 struct SensorStream {
     words: VecDeque<(u64, Vec<u16>)>,
     begins: Vec<(u64, SensorPace)>,
 }
 
-fn sensor_stream(recipe: &RasterParameters, film: &[Frame], paces: &[SensorPace]) -> SensorStream {
+fn sensor_stream(recipe: &RasterParameters, clip: &[Frame], paces: &[SensorPace]) -> SensorStream {
     let (mut sensor, mut now) = (SensorStream { words: VecDeque::new(), begins: Vec::new() }, 0);
-    for (frame, &pace) in film.iter().zip(paces.iter().cycle()) {
+    for (frame, &pace) in clip.iter().zip(paces.iter().cycle()) {
         sensor.begins.push((now, pace));
         for word in frame_words(recipe, frame, &mut SeededRandom(7)) {
             now += pace.0;
@@ -47,10 +47,11 @@ fn core_outputs(
         (RasterRcm::new(design.as_raster().unwrap()), ThresholdInputs::from_camera(&design));
     let nothing = vec![0; recipe.word_pixels as usize];
     let mut shown = vec![rcm.output().clone()];
-    let mut left = RasterTiming::from_design(design.as_raster().unwrap()).edges_to_ready() + 5;
-    while left > 0 {
-        let now = shown.len() as u64;
-        let word = words.front().filter(|(read, _)| *read <= now).map(|(_, word)| word.clone());
+    let mut edges_left =
+        RasterTiming::from_design(design.as_raster().unwrap()).edges_to_ready() + 5;
+    while edges_left > 0 {
+        let edge = shown.len() as u64;
+        let word = words.front().filter(|(read, _)| *read <= edge).map(|(_, word)| word.clone());
         let input = CoreInput {
             reset: false,
             valid: word.is_some(),
@@ -66,7 +67,7 @@ fn core_outputs(
             words.pop_front();
         }
         shown.push(rcm.step(&input).clone());
-        left -= u64::from(words.is_empty() && !rcm.is_pending());
+        edges_left -= u64::from(words.is_empty() && !rcm.is_pending());
     }
     shown
 }
@@ -82,7 +83,7 @@ struct ObservedFrame {
 fn observed_frames(recipe: &RasterParameters, shown: &[RasterOutput]) -> Vec<ObservedFrame> {
     let (columns, regions) = (recipe.base.columns(), recipe.base.columns() * recipe.base.rows());
     let mut frames: Vec<ObservedFrame> = Vec::new();
-    let mut waiting = VecDeque::new();
+    let mut pending = VecDeque::new();
     for (edge, output) in shown.iter().enumerate() {
         if output.decision_valid {
             if output.region == 0 {
@@ -99,15 +100,15 @@ fn observed_frames(recipe: &RasterParameters, shown: &[RasterOutput]) -> Vec<Obs
             rows.resize(row + 1, RowDeparture { last_decision: 0, last_word: None });
             rows[row].last_decision = edge as u128;
             let leaves = output.active && recipe.forward || output.summary;
-            waiting.extend(leaves.then_some((frame, row)));
+            pending.extend(leaves.then_some((frame, row)));
         }
         if output.forward_valid && output.forward_last {
-            let (frame, row) = waiting.pop_front().unwrap();
+            let (frame, row) = pending.pop_front().unwrap();
             frames[frame].rows[row].last_word = Some(edge as u128);
         }
     }
-    assert!(waiting.is_empty() && !shown.last().unwrap().lost);
-    assert!(frames.iter().all(|seen| seen.actions.len() as i64 == regions));
+    assert!(pending.is_empty() && !shown.last().unwrap().lost);
+    assert!(frames.iter().all(|frame| frame.actions.len() as i64 == regions));
     frames
 }
 
@@ -123,21 +124,25 @@ struct RowCounts {
     mixed: usize,
 }
 
-fn check(recipe: &RasterParameters, film: &[Frame], paces: &[SensorPace], rows: &mut RowCounts) {
-    let sensor = sensor_stream(recipe, film, paces);
-    let seen = observed_frames(recipe, &core_outputs(recipe, sensor.words));
-    assert_eq!(seen.len(), film.len());
+fn check(recipe: &RasterParameters, clip: &[Frame], paces: &[SensorPace], rows: &mut RowCounts) {
+    let sensor = sensor_stream(recipe, clip, paces);
+    let observed = observed_frames(recipe, &core_outputs(recipe, sensor.words));
+    assert_eq!(observed.len(), clip.len());
     let mut stream =
         RasterStreamTiming::new(RasterTiming::from_design(recipe.design().as_raster().unwrap()), 1);
-    for (seen, (begin, (word, _))) in seen.iter().zip(sensor.begins) {
+    for (observed, (begin, (word, _))) in observed.iter().zip(sensor.begins) {
         let of_row = word * recipe.taken_row_words() as u64;
         let read = |row: u32| {
             let begin = begin + u64::from(row) * of_row;
             (begin.into(), (begin + of_row).into())
         };
-        assert_eq!(stream.advance_frame(read, &seen.actions), seen.rows, "{paces:?}, {recipe:?}");
-        rows.compared += seen.rows.len();
-        for actions in seen.actions.chunks(recipe.base.columns() as usize) {
+        assert_eq!(
+            stream.advance_frame(read, &observed.actions),
+            observed.rows,
+            "{paces:?}, {recipe:?}"
+        );
+        rows.compared += observed.rows.len();
+        for actions in observed.actions.chunks(recipe.base.columns() as usize) {
             let has = |action| actions.contains(&action);
             let (forwards, summarizes) = (has(RegionAction::Forward), has(RegionAction::Summarize));
             rows.partly_sent += usize::from(forwards && has(RegionAction::Hold));
@@ -193,12 +198,12 @@ fn every_row_of_regions_leaves_when_the_design_says() {
             } else if recipe.base.periphery.is_none() {
                 continue;
             }
-            let film = match leaving {
+            let clip = match leaving {
                 SentRegions::All => hard_frames(&recipe.base),
                 SentRegions::Random | SentRegions::Mixed => blinking_frames(&recipe),
             };
             for paces in [&[(1, 0)][..], &[(3, 0)], &[(1, 400), (7, 11), (2, 0)]] {
-                check(&recipe, &film, paces, &mut rows);
+                check(&recipe, &clip, paces, &mut rows);
             }
         }
     }

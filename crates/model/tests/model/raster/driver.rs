@@ -72,7 +72,7 @@ impl RasterTrace {
 pub(crate) struct RasterDriver {
     recipe: RasterParameters,
     pub(crate) rcm: RasterRcm,
-    manner: RasterTraffic,
+    traffic: RasterTraffic,
     memory: ExternalMemory,
     random: SeededRandom,
     trace: RasterTrace,
@@ -85,15 +85,15 @@ pub(crate) struct RasterDriver {
 }
 
 impl RasterDriver {
-    pub(crate) fn new(recipe: &RasterParameters, manner: RasterTraffic) -> Self {
+    pub(crate) fn new(recipe: &RasterParameters, traffic: RasterTraffic) -> Self {
         let design = recipe.design();
         let rcm = RasterRcm::new(design.as_raster().unwrap());
         let mut driver = Self {
             recipe: recipe.clone(),
             rcm,
-            manner,
-            memory: ExternalMemory::new(recipe, manner.faults, manner.seed),
-            random: SeededRandom(manner.seed),
+            traffic,
+            memory: ExternalMemory::new(recipe, traffic.faults, traffic.seed),
+            random: SeededRandom(traffic.seed),
             trace: RasterTrace::default(),
             clocks_left: i64::MAX,
             sink_phase: (0, true),
@@ -139,7 +139,7 @@ impl RasterDriver {
     pub(crate) fn run(&mut self, jobs: &[RasterStimulus], rest: i64, clocks: i64) -> RasterTrace {
         self.clocks_left = clocks;
         for (number, job) in (1..).zip(jobs) {
-            let pause = self.random.below(self.manner.max_pause + 1);
+            let pause = self.random.below(self.traffic.max_pause + 1);
             for _ in 0..pause {
                 self.idle(&job.thresholds);
             }
@@ -166,7 +166,7 @@ impl RasterDriver {
 
     fn feed(&mut self, job: &RasterStimulus) {
         for word in frame_words(&self.recipe, &job.frame, &mut self.random) {
-            while !self.rcm.output().ready || self.random.below(100) < self.manner.gaps {
+            while !self.rcm.output().ready || self.random.below(100) < self.traffic.gaps {
                 if self.clocks_left == 0 {
                     return;
                 }
@@ -178,7 +178,7 @@ impl RasterDriver {
 
     fn idle(&mut self, thresholds: &ThresholdInputs) {
         let junk = self.ignored_word();
-        let pushes = !self.rcm.output().ready && self.random.below(100) < self.manner.pushing;
+        let pushes = !self.rcm.output().ready && self.random.below(100) < self.traffic.pushing;
         self.step(pushes, &junk, thresholds);
     }
 
@@ -210,7 +210,7 @@ impl RasterDriver {
     }
 
     fn is_sink_ready(&mut self) -> bool {
-        match self.manner.sink {
+        match self.traffic.sink {
             SinkPattern::Percent(percent) => self.random.below(100) < percent,
             SinkPattern::Alternating(longest) => {
                 if self.sink_phase.0 == 0 {

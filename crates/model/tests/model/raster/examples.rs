@@ -20,7 +20,7 @@ pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design 
 
 /// Returns the outputs after every edge up to `last` while one frame of ones is applied as fast as
 /// it is taken. `sink` returns true for edges at which the sink is ready.
-pub(super) fn play(
+pub(super) fn simulate(
     design: &Design,
     last: usize,
     sink: impl Fn(usize) -> bool,
@@ -76,11 +76,11 @@ fn losses(outputs: &[RasterOutput]) -> Vec<usize> {
 #[test]
 fn a_frame_with_one_window() {
     let design = design("edge", (16, 8), &[]);
-    let outputs = play(&design, 240, |_| true);
+    let outputs = simulate(&design, 240, |_| true);
     // T0 is 128 and Z is 17.
     assert_eq!(edges(&outputs, |output| !output.ready), edge_list(128..=151));
-    let due = [(76, 0), (80, 1), (84, 2), (88, 3), (140, 4), (144, 5), (148, 6), (152, 7)];
-    assert_eq!(decisions(&outputs), due);
+    let expected = [(76, 0), (80, 1), (84, 2), (88, 3), (140, 4), (144, 5), (148, 6), (152, 7)];
+    assert_eq!(decisions(&outputs), expected);
     // Region 0 enters the queue at edge 77, is held at 79 and fetched from 80 on. From then on the
     // words follow each other without a gap.
     assert_eq!(edges(&outputs, |output| output.forward_valid), edge_list(81..=208));
@@ -104,7 +104,7 @@ fn a_frame_with_one_window() {
 fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let more = ["region.size=8", "denoise.filter=median3x3", "hardware.pixels_per_clock=2"];
     let previous = design("variance", (29, 7), &more);
-    let outputs = play(&previous, 300, |_| true);
+    let outputs = simulate(&previous, 300, |_| true);
     // `ready_o` is 0 after the last word of each of the first six rows. T0 is 111 and Z is 1 + 16 +
     // 17.
     let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=157)].concat();
@@ -117,7 +117,7 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
 
     let more = [&more[..], &["temporal.reference=last-sent"]].concat();
     let last_sent = design("variance", (29, 7), &more);
-    let outputs = play(&last_sent, 300, |_| true);
+    let outputs = simulate(&last_sent, 300, |_| true);
     // The last word is on the ports after edge 278 and is taken at 279.
     let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
@@ -133,11 +133,11 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
 /// frame follows.
 #[test]
 fn a_sink_that_stalls_loses_two_rows_of_regions() {
-    let outputs = play(&design("edge", (16, 16), &[]), 540, |edge| edge >= 400);
+    let outputs = simulate(&design("edge", (16, 16), &[]), 540, |edge| edge >= 400);
     // One region is held when its row becomes stale. The others are lost instead of being held, two
     // edges apart.
-    let due = [149, 150, 152, 154, 213, 214, 216, 218];
-    assert_eq!(losses(&outputs), due);
+    let expected = [149, 150, 152, 154, 213, 214, 216, 218];
+    assert_eq!(losses(&outputs), expected);
     assert_eq!(edges(&outputs, |output| output.lost), edge_list(149..=540));
     assert_eq!(outputs[540].lost_count, 8);
     // Two words of region 0 had been fetched. Region 8 is held from edge 220 on.
@@ -157,9 +157,9 @@ fn a_sink_that_stalls_loses_two_rows_of_regions() {
     for edge in 401..=528 {
         assert_eq!(ends(edge), ((edge - 401) % 16 == 0, (edge - 401) % 16 == 15, false), "{edge}");
     }
-    let lost = due.map(|edge| (outputs[edge].lost_valid, outputs[edge].lost_region));
+    let lost = expected.map(|edge| (outputs[edge].lost_valid, outputs[edge].lost_region));
     assert_eq!(lost, [0, 1, 2, 3, 4, 5, 6, 7].map(|region| (true, region)));
-    assert_eq!(edges(&outputs, |output| output.lost_valid), due);
+    assert_eq!(edges(&outputs, |output| output.lost_valid), expected);
 }
 
 /// In the first run the sink takes a word at edge 149, at which region 0 is lost, and then stops,
@@ -172,7 +172,7 @@ fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last(
         let ends = (output.forward_first, output.forward_last, output.forward_abort);
         (output.forward_region, output.forward_position, ends)
     };
-    let outputs = play(&design, 540, |edge| edge == 149 || edge >= 400);
+    let outputs = simulate(&design, 540, |edge| edge == 149 || edge >= 400);
     assert_eq!(
         [148, 149].map(|edge| beat(&outputs[edge])),
         [(0, 0, (true, false, false)), (0, 1, (false, true, true))]
@@ -186,7 +186,7 @@ fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last(
 
     // After edge 96 the last word of region 0 is on the ports, and the first word of region 1 has
     // been fetched.
-    let outputs = play(&design, 540, |edge| edge <= 96 || edge >= 400);
+    let outputs = simulate(&design, 540, |edge| edge <= 96 || edge >= 400);
     assert_eq!(beat(&outputs[96]), (0, 15, (false, true, false)));
     assert_eq!(beat(&outputs[400]), (1, 0, (true, true, true)));
     assert_eq!(beat(&outputs[401]), (8, 0, (true, false, false)));
@@ -198,9 +198,9 @@ fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last(
 #[test]
 fn the_second_pass_decides_one_region_after_the_other() {
     let design = design("mad", (16, 8), &[]);
-    let outputs = play(&design, 300, |_| true);
-    let due = [(81, 0), (97, 1), (113, 2), (129, 3), (145, 4), (161, 5), (177, 6), (193, 7)];
-    assert_eq!(decisions(&outputs), due);
+    let outputs = simulate(&design, 300, |_| true);
+    let expected = [(81, 0), (97, 1), (113, 2), (129, 3), (145, 4), (161, 5), (177, 6), (193, 7)];
+    assert_eq!(decisions(&outputs), expected);
     assert_eq!(edges(&outputs, |output| !output.ready), edge_list(128..=133));
     assert_eq!(edges(&outputs, |output| output.forward_valid), edge_list(86..=213));
     let departure = design.timing().departure();
@@ -222,10 +222,10 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
         ("mad", &[BOTH], 89, 5 * 16 - 20 - 17),
     ] {
         let design = design(feature, (16, 64), more);
-        let outputs = play(&design, 1300, |_| true);
+        let outputs = simulate(&design, 1300, |_| true);
         assert_eq!(edges(&outputs, |output| output.forward_valid)[0], first, "{feature}");
         for (clocks, lost) in [(stall, false), (stall + 1, true)] {
-            let outputs = play(&design, 1300, |edge| edge <= first || edge > first + clocks);
+            let outputs = simulate(&design, 1300, |edge| edge <= first || edge > first + clocks);
             assert_eq!(outputs[1300].lost, lost, "{feature}, {clocks} clocks");
         }
     }
@@ -266,9 +266,9 @@ fn frames_have_numbers() {
     // Every region of every frame is in one of the two lists, in order.
     let (mut whole, mut lost) = (whole.iter().peekable(), lost.iter().peekable());
     for region in 0..4 * 590 {
-        let due = (region / 4 % 256, region % 4);
-        let found = whole.next_if_eq(&&due).or_else(|| lost.next_if_eq(&&due));
-        assert_eq!(found, Some(&due), "frame {}", region / 4);
+        let expected = (region / 4 % 256, region % 4);
+        let found = whole.next_if_eq(&&expected).or_else(|| lost.next_if_eq(&&expected));
+        assert_eq!(found, Some(&expected), "frame {}", region / 4);
     }
 }
 

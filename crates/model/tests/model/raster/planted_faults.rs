@@ -78,16 +78,16 @@ fn check_with_change(
 fn check_clip_with_change(
     built: &RasterParameters,
     script: &ClipScript,
-    manner: RasterTraffic,
+    traffic: RasterTraffic,
     change: impl Fn(&mut RasterParameters),
 ) -> RasterCheckResult {
-    let film = RasterClip::new(built, script);
-    let trace = RasterDriver::new(built, manner).run(&film.stimuli(), 300, i64::MAX);
+    let clip = RasterClip::new(built, script);
+    let trace = RasterDriver::new(built, traffic).run(&clip.stimuli(), 300, i64::MAX);
     let mut expected = built.clone();
     change(&mut expected);
-    let mut recipes = film.recipes.clone();
+    let mut recipes = clip.recipes.clone();
     recipes.iter_mut().for_each(change);
-    RasterOracle::check(&expected, &recipes, &film.frames, &trace)
+    RasterOracle::check(&expected, &recipes, &clip.frames, &trace)
 }
 
 type PlantedFault = (&'static str, fn(&mut RasterParameters));
@@ -245,8 +245,8 @@ fn faults_of_summaries_are_noticed() {
 #[test]
 fn a_slow_sink_loses_summaries() {
     let built = with_summaries(2);
-    let film = RasterClip::new(&built, &flat_script());
-    let trace = RasterDriver::new(&built, SUMMARY_LOSING_SINK).run(&film.stimuli(), 300, i64::MAX);
+    let clip = RasterClip::new(&built, &flat_script());
+    let trace = RasterDriver::new(&built, SUMMARY_LOSING_SINK).run(&clip.stimuli(), 300, i64::MAX);
     let (mut frame, mut sent) = (0, BTreeSet::new());
     let (mut lost, mut aborted) = (0, 0);
     for shown in &trace.shown {
@@ -265,10 +265,10 @@ fn a_slow_sink_loses_summaries() {
 #[test]
 fn a_slow_sink_loses_regions_and_holds_small_frames_back() {
     let built = recipe(feature("variance", 0, 900_000));
-    let film = RasterClip::new(&built, &script());
+    let clip = RasterClip::new(&built, &script());
     let lost = |sink| {
-        let manner = RasterTraffic { sink, ..SLOW_SINK };
-        let trace = RasterDriver::new(&built, manner).run(&film.stimuli(), 300, i64::MAX);
+        let traffic = RasterTraffic { sink, ..SLOW_SINK };
+        let trace = RasterDriver::new(&built, traffic).run(&clip.stimuli(), 300, i64::MAX);
         trace.shown.last().unwrap().lost_count
     };
     assert_eq!(lost(SinkPattern::Percent(100)), 0);
@@ -278,9 +278,9 @@ fn a_slow_sink_loses_regions_and_holds_small_frames_back() {
     let mut small = built.clone();
     small.base.height = 7;
     let clocks = |recipe: &RasterParameters, sink| {
-        let film = RasterClip::new(recipe, &script());
-        let manner = RasterTraffic { sink, ..RasterTraffic::DENSE };
-        let trace = RasterDriver::new(recipe, manner).run(&film.stimuli(), 0, i64::MAX);
+        let clip = RasterClip::new(recipe, &script());
+        let traffic = RasterTraffic { sink, ..RasterTraffic::DENSE };
+        let trace = RasterDriver::new(recipe, traffic).run(&clip.stimuli(), 0, i64::MAX);
         (trace.shown.last().unwrap().lost, trace.end())
     };
     let (lost, slow) = clocks(&small, SinkPattern::Percent(20));

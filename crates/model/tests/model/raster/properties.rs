@@ -105,10 +105,10 @@ fn check_sequence(
     script: &ClipScript,
     clocks: i64,
 ) -> RasterCheckResult {
-    let film = RasterClip::new(recipe, script);
+    let clip = RasterClip::new(recipe, script);
     let rest = 40 + recipe.words() / 2;
-    let trace = driver.run(&film.stimuli(), rest, clocks);
-    RasterOracle::check(recipe, &film.recipes, &film.frames, &trace)
+    let trace = driver.run(&clip.stimuli(), rest, clocks);
+    RasterOracle::check(recipe, &clip.recipes, &clip.frames, &trace)
 }
 
 proptest! {
@@ -118,9 +118,9 @@ proptest! {
     fn every_port_after_every_edge(
         recipe in arbitrary_raster_parameters(),
         script in arbitrary_scripts(4),
-        manner in arbitrary_traffic(),
+        traffic in arbitrary_traffic(),
     ) {
-        let mut driver = RasterDriver::new(&recipe, manner);
+        let mut driver = RasterDriver::new(&recipe, traffic);
         // A sink that is never ready stops every frame that waits for it, so the number of clocks
         // is limited.
         let clocks = 60 * recipe.advances();
@@ -131,10 +131,10 @@ proptest! {
     fn a_reset_at_any_edge_forgets_everything(
         recipe in arbitrary_raster_parameters(),
         (before, after) in (arbitrary_scripts(3), arbitrary_scripts(2)),
-        manner in arbitrary_traffic(),
+        traffic in arbitrary_traffic(),
         (cut, held) in (any::<u64>(), 1i64..=2),
     ) {
-        let mut driver = RasterDriver::new(&recipe, manner);
+        let mut driver = RasterDriver::new(&recipe, traffic);
         let clocks = SeededRandom(cut).below(recipe.advances() * before.len() as i64 + 100);
         prop_assert_eq!(check_sequence(&mut driver, &recipe, &before, clocks), Ok(()));
         driver.reset(held);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The expected outputs after every edge, computed from the inputs: the edges of all advances of a
-//! frame at once by the formulas of `docs/raster.md`, then decisions and the readout edge by edge.
+//! The expected outputs after every edge, computed from the inputs. The formulas of
+//! `docs/raster.md` give the edges of all advances of a frame at once; decisions and the readout
+//! are then computed edge by edge.
 
 use std::collections::BTreeMap;
 
@@ -38,7 +39,7 @@ impl<'a> RasterOracle<'a> {
     pub(crate) fn check(
         recipe: &'a RasterParameters,
         recipes: &[RasterParameters],
-        film: &[Frame],
+        clip: &[Frame],
         trace: &'a RasterTrace,
     ) -> RasterCheckResult {
         let mut oracle = Self {
@@ -55,7 +56,7 @@ impl<'a> RasterOracle<'a> {
         oracle.set_ready(0..=0);
         oracle.compare(0)?;
         let mut ready = 0;
-        for (number, frame) in film.iter().enumerate() {
+        for (number, frame) in clip.iter().enumerate() {
             if ready > trace.end() {
                 break;
             }
@@ -76,12 +77,12 @@ impl<'a> RasterOracle<'a> {
     ) -> Result<i64, String> {
         let recipe = self.recipe;
         let edges = self.advance_edges(ready);
-        let seen = outcome_without_regions(&recipe.base, frame);
+        let outcome = outcome_without_regions(&recipe.base, frame);
         let tail = |word: i64| edges.get((word + recipe.flush_advances()) as usize).copied();
         if recipe.has_external_store() {
-            self.streams.add_frame(recipe, self.trace, &seen.denoised, tail);
+            self.streams.add_frame(recipe, self.trace, &outcome.denoised, tail);
         }
-        self.history.push(seen);
+        self.history.push(outcome);
         for row in 0..recipe.base.rows() {
             let stored = tail(row * recipe.base.side * recipe.row_words())
                 .map(|edge| edge + recipe.store_latency());
@@ -172,18 +173,18 @@ impl<'a> RasterOracle<'a> {
         }
         let Some(&(frame, region)) = self.decisions.get(&edge) else { return Ok(()) };
         let (before, from) = self.history.split_at(frame);
-        let trusts = !self.recipe.has_external_store() || self.recipe.misread.trusts_memory;
-        let kept = if trusts { before } else { self.streams.history(frame) };
-        let seen = oracle_region(&recipes[frame].base, (before, kept), &from[0], region);
-        let words = match seen.action {
+        let trusts_memory = !self.recipe.has_external_store() || self.recipe.misread.trusts_memory;
+        let kept = if trusts_memory { before } else { self.streams.history(frame) };
+        let outcome = oracle_region(&recipes[frame].base, (before, kept), &from[0], region);
+        let words = match outcome.action {
             "forward" if self.recipe.forward => self.recipe.region_words(),
-            "summarize" => seen.means.len() as i64,
+            "summarize" => outcome.means.len() as i64,
             _ => 0,
         };
         if words > 0 {
             self.readouts.enqueue(frame, region, words, edge);
         }
-        self.history[frame].regions.push(seen);
+        self.history[frame].regions.push(outcome);
         if self.history[frame].regions.len() as i64 != region + 1 {
             return Err(format!("region {region} is decided out of order"));
         }
@@ -218,13 +219,17 @@ impl<'a> RasterOracle<'a> {
     }
 
     fn compare_loss(&self, edge: i64, got: &RasterOutput) -> RasterCheckResult {
-        let due = self.readouts.lost_at(edge);
-        let due: Vec<_> =
-            due.iter().map(|lost| (lost.region, self.frame_number_on_port(lost.frame))).collect();
+        let expected = self.readouts.lost_at(edge);
+        let due: Vec<_> = expected
+            .iter()
+            .map(|lost| (lost.region, self.frame_number_on_port(lost.frame)))
+            .collect();
         let shown = (i64::from(got.lost_region), i64::from(got.lost_frame));
         let shown = if got.lost_valid { vec![shown] } else { Vec::new() };
-        let agrees = shown == due;
-        agrees.then_some(()).ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
+        let agrees = shown == expected;
+        agrees
+            .then_some(())
+            .ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {expected:?}"))
     }
 
     /// Returns the number of a frame as the ports show it.
@@ -240,21 +245,22 @@ impl<'a> RasterOracle<'a> {
                 _ => Err(format!("a decision of region {} after edge {edge}", got.region)),
             };
         };
-        let seen = &self.history[frame].regions[region as usize];
-        let scores = seen.scores.iter().map(|&score| score as u64);
+        let expected = &self.history[frame].regions[region as usize];
+        let scores = expected.scores.iter().map(|&score| score as u64);
         let agrees = got.decision_valid
             && i64::from(got.region) == region
-            && bits == [seen.srs, seen.trs, seen.active, seen.action == "summarize"]
-            && i64::from(got.temporal_count) == seen.temporal_count
-            && scores.eq(got.scores.into_iter().take(seen.scores.len()));
+            && bits
+                == [expected.srs, expected.trs, expected.active, expected.action == "summarize"]
+            && i64::from(got.temporal_count) == expected.temporal_count
+            && scores.eq(got.scores.into_iter().take(expected.scores.len()));
         agrees.then_some(()).ok_or_else(|| {
             format!("after edge {edge}: {got:?}, due is region {region} of frame {frame}")
         })
     }
 
     fn compare_word(&self, edge: i64, got: &RasterOutput) -> RasterCheckResult {
-        let due = self.readouts.shown[edge as usize];
-        let Some((reading, word)) = due else {
+        let expected_word = self.readouts.shown[edge as usize];
+        let Some((reading, word)) = expected_word else {
             return if got.forward_valid {
                 Err(format!("a word leaves after edge {edge}"))
             } else {
@@ -262,16 +268,16 @@ impl<'a> RasterOracle<'a> {
             };
         };
         let reading = &self.readouts.regions[reading];
-        let seen = &self.history[reading.frame].regions[reading.region as usize];
-        let is_mean = seen.action == "summarize";
+        let expected = &self.history[reading.frame].regions[reading.region as usize];
+        let is_mean = expected.action == "summarize";
         let (position, pixels) = if is_mean {
             let position = self.recipe.first_position_of_block(word);
-            (position, vec![seen.means[word as usize]; self.recipe.word_pixels as usize])
+            (position, vec![expected.means[word as usize]; self.recipe.word_pixels as usize])
         } else {
             let position = word * self.recipe.word_pixels;
             (
                 position,
-                seen.payload[position as usize..][..self.recipe.word_pixels as usize].to_vec(),
+                expected.payload[position as usize..][..self.recipe.word_pixels as usize].to_vec(),
             )
         };
         let ends = !self.recipe.misread.drops_aborts;

@@ -152,17 +152,17 @@ fn edge_list(ranges: &[RangeInclusive<usize>]) -> Vec<usize> {
 /// begins at edge 153, so b is 152.
 #[test]
 fn words_are_stored_and_references_taken_in_plain_pipelining() {
-    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
-    play.run(320, &[], |_| 1, no_fault);
-    assert_eq!(play.store_edges(), edge_list(&[21..=148, 173..=300]));
-    assert_eq!(play.reference_edges(), edge_list(&[171..=298]));
+    let mut bench = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    bench.run(320, &[], |_| 1, no_fault);
+    assert_eq!(bench.store_edges(), edge_list(&[21..=148, 173..=300]));
+    assert_eq!(bench.reference_edges(), edge_list(&[171..=298]));
     let rows = |first: usize| (0..8).map(move |row| first + 15 + 16 * row);
-    let last = play.edges(|output| output.store_valid && output.store_last);
+    let last = bench.edges(|output| output.store_valid && output.store_last);
     assert_eq!(last, rows(21).chain(rows(173)).collect::<Vec<_>>());
-    assert!(play.edges(|output| output.underrun).is_empty());
-    assert_eq!(play.counts(8), [0; 8]);
+    assert!(bench.edges(|output| output.underrun).is_empty());
+    assert_eq!(bench.counts(8), [0; 8]);
     // The 128 words of the first frame were taken, and those of the second frame wait.
-    assert_eq!(play.queue.len(), 128);
+    assert_eq!(bench.queue.len(), 128);
 }
 
 /// The frame is that of the test before, without a word at two edges of the second frame. Word 10
@@ -170,11 +170,11 @@ fn words_are_stored_and_references_taken_in_plain_pipelining() {
 /// later. Word 39 comes at edge 194 instead of 193, and with it word 22 of the tail. That word and
 /// all later ones are another clock later.
 #[test]
-fn a_gap_delays_what_the_tail_does() {
-    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
-    play.run(320, &[163, 193], |_| 1, no_fault);
-    assert_eq!(play.reference_edges(), edge_list(&[172..=193, 195..=300]));
-    assert_eq!(play.store_edges(), edge_list(&[21..=148, 174..=195, 197..=302]));
+fn a_gap_delays_references_and_stores_of_the_tail() {
+    let mut bench = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    bench.run(320, &[163, 193], |_| 1, no_fault);
+    assert_eq!(bench.reference_edges(), edge_list(&[172..=193, 195..=300]));
+    assert_eq!(bench.store_edges(), edge_list(&[21..=148, 174..=195, 197..=302]));
 }
 
 /// The frame has 29x7 pixels in words of two, regions of 8x8, one median, and deep pipelining. Word
@@ -188,39 +188,39 @@ fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
         "hardware.pixels_per_clock=2",
         "hardware.pipelining=deep",
     ];
-    let mut play = StoreBench::new(&external_store_design("variance", (29, 7), &more));
-    play.run(340, &[], |x| if x < 15 { 7 } else { 9 }, no_fault);
-    let decided = play.edges(|output| output.decision_valid);
+    let mut bench = StoreBench::new(&external_store_design("variance", (29, 7), &more));
+    bench.run(340, &[], |x| if x < 15 { 7 } else { 9 }, no_fault);
+    let decided = bench.edges(|output| output.decision_valid);
     assert_eq!(decided[..4], [155, 159, 163, 167]);
     // A row has 16 words. The core makes one of them, and one whole row.
-    assert_eq!(play.store_edges(), edge_list(&[31..=158, 198..=325]));
-    assert_eq!(play.reference_edges(), edge_list(&[195..=322]));
-    let last = play.edges(|output| output.store_valid && output.store_last);
+    assert_eq!(bench.store_edges(), edge_list(&[31..=158, 198..=325]));
+    assert_eq!(bench.reference_edges(), edge_list(&[195..=322]));
+    let last = bench.edges(|output| output.store_valid && output.store_last);
     assert_eq!(last[..8], [46, 62, 78, 94, 110, 126, 142, 158]);
-    assert!(play.outputs[31..=158].iter().all(|output| output.store_pixels == [7, 7]));
+    assert!(bench.outputs[31..=158].iter().all(|output| output.store_pixels == [7, 7]));
 }
 
 /// There is no window. Word i comes to the tail at edge b + i + 1 and is stored after b + i + 3,
 /// with the smallest possible S. Its reference is taken at the edge after that of the tail. D is 6,
 /// and the second frame begins at edge 135.
 #[test]
-fn the_least_latency_asks_at_once() {
-    let mut play = StoreBench::new(&external_store_design("mad", (16, 8), &[]));
+fn the_least_latency_takes_references_at_the_next_edge() {
+    let mut bench = StoreBench::new(&external_store_design("mad", (16, 8), &[]));
     // The third frame begins at edge 269, before the last decision of the second frame at 327.
-    play.run(330, &[], |_| 1, no_fault);
-    assert_eq!(play.reference_edges(), edge_list(&[135..=262, 269..=330]));
-    assert_eq!(play.store_edges(), edge_list(&[3..=130, 137..=264, 271..=330]));
-    assert_eq!(play.counts(8), [0; 8]);
+    bench.run(330, &[], |_| 1, no_fault);
+    assert_eq!(bench.reference_edges(), edge_list(&[135..=262, 269..=330]));
+    assert_eq!(bench.store_edges(), edge_list(&[3..=130, 137..=264, 271..=330]));
+    assert_eq!(bench.counts(8), [0; 8]);
 }
 
 /// Word 5 of the second frame is in region 1. Its reference is taken at edge 177.
 #[test]
-fn what_comes_from_outside_is_what_counts() {
+fn decisions_use_the_references_of_the_external_store() {
     let design = external_store_design("edge", (16, 8), &[]);
     let counts = |fault: &dyn Fn(usize) -> MemoryFault| {
-        let mut play = StoreBench::new(&design);
-        play.run(320, &[], |_| 1, fault);
-        (play.counts(8), play.edges(|output| output.underrun))
+        let mut bench = StoreBench::new(&design);
+        bench.run(320, &[], |_| 1, fault);
+        (bench.counts(8), bench.edges(|output| output.underrun))
     };
     let wrong =
         counts(&|edge| if edge == 177 { MemoryFault::Wrong(200) } else { MemoryFault::None });
@@ -239,53 +239,53 @@ fn what_comes_from_outside_is_what_counts() {
 /// every row. (The value 0 instead of 1 is no change.)
 #[test]
 fn a_reference_that_is_late_shifts_all_that_follow() {
-    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    let mut bench = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
     let picture = |x| if x == 3 { 200 } else { 1 };
-    play.run(
+    bench.run(
         320,
         &[],
         picture,
         |edge| if edge == 172 { MemoryFault::Late } else { MemoryFault::None },
     );
-    assert_eq!(play.counts(8), [4, 4, 0, 0, 4, 4, 0, 0]);
+    assert_eq!(bench.counts(8), [4, 4, 0, 0, 4, 4, 0, 0]);
     // `underrun_o` is 1 from the edge on that took the missing reference.
-    assert_eq!(play.edges(|output| output.underrun), edge_list(&[172..=320]));
-    assert_eq!(play.queue.len(), 129, "one is left");
+    assert_eq!(bench.edges(|output| output.underrun), edge_list(&[172..=320]));
+    assert_eq!(bench.queue.len(), 129, "one is left");
     // At an edge that takes no reference there is no underrun. The last reference is taken at edge
     // 299.
     for (late, first) in [(171, None), (299, Some(299)), (300, None)] {
-        let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
-        play.run(320, &[], picture, |edge| {
+        let mut bench = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+        bench.run(320, &[], picture, |edge| {
             if edge == late { MemoryFault::Late } else { MemoryFault::None }
         });
-        assert_eq!(play.edges(|output| output.underrun).first().copied(), first, "{late}");
+        assert_eq!(bench.edges(|output| output.underrun).first().copied(), first, "{late}");
     }
 }
 
 #[test]
 fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
-    let mut play = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
-    play.run(
+    let mut bench = StoreBench::new(&external_store_design("edge", (16, 8), &[]));
+    bench.run(
         200,
         &[],
         |_| 1,
         |edge| if edge == 180 { MemoryFault::Late } else { MemoryFault::None },
     );
-    let shown = &play.outputs[200];
+    let shown = &bench.outputs[200];
     assert!(shown.reference_ready && shown.store_valid && shown.underrun);
-    play.reset();
+    bench.reset();
     let fresh = RasterRcm::new(external_store_design("edge", (16, 8), &[]).as_raster().unwrap())
         .output()
         .clone();
-    assert_eq!(play.outputs[0], fresh);
+    assert_eq!(bench.outputs[0], fresh);
     assert!(!fresh.reference_ready && !fresh.store_valid && !fresh.underrun);
     // The frame after the reset is a first frame.
-    play.run(320, &[], |_| 1, no_fault);
-    assert_eq!(play.store_edges(), edge_list(&[21..=148, 173..=300]));
-    assert_eq!(play.reference_edges(), edge_list(&[171..=298]));
-    let decided = play.edges(|output| output.decision_valid);
-    assert!(decided[..8].iter().all(|&edge| play.outputs[edge].temporal_count == 16));
-    assert_eq!(play.counts(8), [0; 8]);
+    bench.run(320, &[], |_| 1, no_fault);
+    assert_eq!(bench.store_edges(), edge_list(&[21..=148, 173..=300]));
+    assert_eq!(bench.reference_edges(), edge_list(&[171..=298]));
+    let decided = bench.edges(|output| output.decision_valid);
+    assert!(decided[..8].iter().all(|&edge| bench.outputs[edge].temporal_count == 16));
+    assert_eq!(bench.counts(8), [0; 8]);
 }
 
 /// Without external streams, the kind of store inside of the core makes no difference at the ports.
@@ -293,10 +293,10 @@ fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
 fn a_store_inside_has_no_streams() {
     let outputs = |store: &str| {
         let key = format!("hardware.store={store}");
-        let mut play = StoreBench::new(&design("edge", (16, 8), &[&key]));
-        play.run(320, &[], |x| (x * 17) as u16, no_fault);
-        assert!(play.store_edges().is_empty() && play.reference_edges().is_empty());
-        play.outputs
+        let mut bench = StoreBench::new(&design("edge", (16, 8), &[&key]));
+        bench.run(320, &[], |x| (x * 17) as u16, no_fault);
+        assert!(bench.store_edges().is_empty() && bench.reference_edges().is_empty());
+        bench.outputs
     };
     let block = outputs("block");
     assert_eq!((outputs("ultra") == block, outputs("single-port") == block), (true, true));
@@ -308,29 +308,32 @@ fn a_store_inside_has_no_streams() {
 #[test]
 fn without_forwarding_only_decisions_leave() {
     for feature in ["edge", "mad"] {
-        let play = |more: &[&str]| {
-            let mut play = StoreBench::new(&design(feature, (16, 8), more));
-            play.run(320, &[], |_| 1, no_fault);
-            play
+        let bench = |more: &[&str]| {
+            let mut bench = StoreBench::new(&design(feature, (16, 8), more));
+            bench.run(320, &[], |_| 1, no_fault);
+            bench
         };
-        let (alone, whole) = (play(&["hardware.forward=false"]), play(&[]));
-        assert!(whole.edges(|output| output.forward_valid).len() == 128);
-        assert!(alone.edges(|output| output.forward_valid || output.lost).is_empty());
-        for (alone, whole) in alone.outputs.iter().zip(&whole.outputs) {
-            let of = |output: &RasterOutput| {
+        let (without_forwarding, with_forwarding) =
+            (bench(&["hardware.forward=false"]), bench(&[]));
+        assert!(with_forwarding.edges(|output| output.forward_valid).len() == 128);
+        assert!(without_forwarding.edges(|output| output.forward_valid || output.lost).is_empty());
+        for (without_forwarding, with_forwarding) in
+            without_forwarding.outputs.iter().zip(&with_forwarding.outputs)
+        {
+            let compared_ports = |output: &RasterOutput| {
                 let RasterOutput { ready, decision_valid, region, srs, trs, active, .. } = *output;
                 let counts = (output.scores, output.temporal_count);
                 (ready, decision_valid, region, srs, trs, active, counts)
             };
-            assert_eq!(of(alone), of(whole));
+            assert_eq!(compared_ports(without_forwarding), compared_ports(with_forwarding));
         }
-        assert_eq!(alone.edges(|output| output.active).len(), 8);
+        assert_eq!(without_forwarding.edges(|output| output.active).len(), 8);
     }
-    let mut play = StoreBench::new(&design("edge", (16, 8), &["hardware.forward=false"]));
-    play.run(152, &[], |_| 1, no_fault);
+    let mut bench = StoreBench::new(&design("edge", (16, 8), &["hardware.forward=false"]));
+    bench.run(152, &[], |_| 1, no_fault);
     // The last decision of the frame is on the ports, and its region is active.
-    assert!(play.outputs[152].active && !play.rcm.is_pending());
-    let mut play = StoreBench::new(&design("edge", (16, 8), &[]));
-    play.run(152, &[], |_| 1, no_fault);
-    assert!(play.rcm.is_pending());
+    assert!(bench.outputs[152].active && !bench.rcm.is_pending());
+    let mut bench = StoreBench::new(&design("edge", (16, 8), &[]));
+    bench.run(152, &[], |_| 1, no_fault);
+    assert!(bench.rcm.is_pending());
 }

@@ -56,13 +56,17 @@ impl ExternalStoreStreams {
                 given[y][x] = pixel.into();
             }
         }
-        let seen = |denoised| OracleOutcome {
+        let outcome_with = |denoised| OracleOutcome {
             padded: Vec::new(),
             denoised,
             regions: Vec::new(),
             rendered: Vec::new(),
         };
-        self.reference_histories.push(if is_first { Vec::new() } else { vec![seen(given)] });
+        self.reference_histories.push(if is_first {
+            Vec::new()
+        } else {
+            vec![outcome_with(given)]
+        });
     }
 
     /// Returns the history that a frame is compared with.

@@ -2,7 +2,7 @@
 //! Tests of means that leave, with every clock computed by hand from `docs/raster.md`. The edge
 //! that takes the first word has number 1.
 
-use super::examples::{decisions, design, edge_list, edges, play};
+use super::examples::{decisions, design, edge_list, edges, simulate};
 
 /// A feature for which no region of a flat frame is relevant.
 const IRRELEVANT: &str = "spatial=[{feature=\"edge\",min_score=1}]";
@@ -12,7 +12,7 @@ const IRRELEVANT: &str = "spatial=[{feature=\"edge\",min_score=1}]";
 #[test]
 fn means_leave_as_pixels_do() {
     let more = [IRRELEVANT, "render.irrelevant=mean", "periphery.blocks=2"];
-    let outputs = play(&design("edge", (16, 8), &more), 240, |_| true);
+    let outputs = simulate(&design("edge", (16, 8), &more), 240, |_| true);
     let due = [(76, 0), (80, 1), (84, 2), (88, 3), (140, 4), (144, 5), (148, 6), (152, 7)];
     assert_eq!(decisions(&outputs), due);
     assert!(due.iter().all(|&(edge, _)| outputs[edge].summary && !outputs[edge].active));
@@ -37,7 +37,7 @@ fn means_leave_as_pixels_do() {
 fn regions_of_one_mean_leave_at_every_other_clock() {
     let more =
         [IRRELEVANT, "render.irrelevant=mean", "periphery.blocks=1", "hardware.pixels_per_clock=4"];
-    let outputs = play(&design("edge", (64, 8), &more), 240, |_| true);
+    let outputs = simulate(&design("edge", (64, 8), &more), 240, |_| true);
     assert_eq!(decisions(&outputs)[..3], [(73, 0), (74, 1), (75, 2)]);
     let row = |first: usize| (0..16).map(move |at| first + 2 * at);
     let leaving: Vec<usize> = row(78).chain(row(142)).collect();

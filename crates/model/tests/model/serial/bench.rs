@@ -42,7 +42,7 @@ pub(crate) struct SerialBench {
     pub(crate) recipe: SerialParameters,
     pub(crate) rcm: SerialRcm,
     timeline: ExpectedTimeline,
-    manner: SerialTraffic,
+    traffic: SerialTraffic,
     random: SeededRandom,
     /// The number of the last edge.
     pub(crate) edge: i64,
@@ -56,12 +56,12 @@ pub(crate) struct SerialBench {
 }
 
 impl SerialBench {
-    pub(crate) fn new(recipe: &SerialParameters, rcm: SerialRcm, manner: SerialTraffic) -> Self {
+    pub(crate) fn new(recipe: &SerialParameters, rcm: SerialRcm, traffic: SerialTraffic) -> Self {
         Self {
             rcm,
             timeline: ExpectedTimeline::default(),
-            manner,
-            random: SeededRandom(manner.seed),
+            traffic,
+            random: SeededRandom(traffic.seed),
             edge: 0,
             last_edge: i64::MAX,
             noise: ThresholdInputs::from_camera(&recipe.design()),
@@ -82,7 +82,7 @@ impl SerialBench {
     /// Feeds the frames, each until all of its outputs have come.
     pub(crate) fn run(&mut self, jobs: &[SerialStimulus]) -> SerialCheckResult {
         for job in jobs {
-            let pause = self.random.below(self.manner.max_pause + 1);
+            let pause = self.random.below(self.traffic.max_pause + 1);
             self.change_ignored_thresholds();
             self.idle(pause, &self.noise.clone())?;
             self.feed(job)?;
@@ -94,7 +94,7 @@ impl SerialBench {
     fn feed(&mut self, job: &SerialStimulus) -> SerialCheckResult {
         for (pixel, pixels) in job.pixels.iter().enumerate() {
             self.wait(&job.thresholds)?;
-            while self.random.below(100) < self.manner.gaps {
+            while self.random.below(100) < self.traffic.gaps {
                 self.idle(1, &job.thresholds)?;
             }
             if self.is_over() {
@@ -111,14 +111,14 @@ impl SerialBench {
     /// Waits until the array is ready again.
     fn wait(&mut self, thresholds: &ThresholdInputs) -> SerialCheckResult {
         while !self.timeline.is_ready(self.edge) && !self.is_over() {
-            if self.manner.skips && self.random.below(3) > 0 {
+            if self.traffic.skips && self.random.below(3) > 0 {
                 let left = self.timeline.ready_from - self.edge;
                 let longest = if self.random.below(2) == 0 { 9 } else { left + 2 };
                 let clocks = 1 + self.random.below(longest);
                 self.skip(clocks)?;
                 continue;
             }
-            let pushed = self.random.below(100) < self.manner.pushing;
+            let pushed = self.random.below(100) < self.traffic.pushing;
             let junk = self.ignored_pixels();
             self.step(false, pushed, &junk, thresholds)?;
         }
@@ -165,10 +165,10 @@ impl SerialBench {
         if output.ready != self.timeline.is_ready(edge) {
             return Err(format!("ready_o is {} after edge {edge}", output.ready));
         }
-        let (shown, due) =
+        let (shown, expected) =
             (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge - self.late));
-        if shown != due {
-            return Err(format!("after edge {edge}: {shown:?}, due is {due:?}"));
+        if shown != expected {
+            return Err(format!("after edge {edge}: {shown:?}, due is {expected:?}"));
         }
         Ok(())
     }

@@ -17,7 +17,7 @@ use crate::screen::ReceiverScreen;
 
 /// Feeds a frame as fast as it is taken. Returns the number of clocks until the array is ready
 /// again.
-fn play(
+fn simulate(
     recipe: &SerialParameters,
     rcm: &mut SerialRcm,
     frame: &Frame,
@@ -46,18 +46,18 @@ fn play(
         let at = output.region as usize;
         if output.score_valid {
             scores += 1;
-            let due = match output.score_index.checked_sub(1) {
+            let expected = match output.score_index.checked_sub(1) {
                 None => outcome.temporal_count[at].into(),
                 Some(feature) => outcome.scores[feature as usize][at],
             };
-            assert_eq!(output.score, due, "score {} of region {at}", output.score_index);
+            assert_eq!(output.score, expected, "score {} of region {at}", output.score_index);
         }
         if output.decision_valid {
             decisions += 1;
             let summary = outcome.actions[at] == RegionAction::Summarize;
-            let due = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
-            let said = (output.srs, output.trs, output.active, output.summary);
-            assert_eq!(said, due, "decision of region {at}");
+            let expected = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
+            let shown_bits = (output.srs, output.trs, output.active, output.summary);
+            assert_eq!(shown_bits, expected, "decision of region {at}");
             screen.apply_decision(output.region, (output.srs, output.trs, output.summary));
         }
         for (port, (&valid, &pixel)) in
@@ -97,25 +97,25 @@ fn check_prediction(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome,
     }
 }
 
-fn check(recipe: &SerialParameters, film: &[Frame]) {
+fn check(recipe: &SerialParameters, clip: &[Frame]) {
     let design = recipe.design();
     let mut camera = FunctionalCamera::new(&design);
     let mut rcm = SerialRcm::new(design.as_serial().unwrap());
     let side = design.region_size();
     let width = design.columns() * side;
     let mut screen = ReceiverScreen::black(&design);
-    for frame in film {
+    for frame in clip {
         let outcome = camera.step(frame).unwrap();
         check_prediction(&rcm, frame, outcome, &screen.design);
-        let clocks = play(recipe, &mut rcm, frame, &mut screen, outcome);
+        let clocks = simulate(recipe, &mut rcm, frame, &mut screen, outcome);
         let taking: i64 =
             (0..recipe.frame_pixels()).map(|pixel| recipe.clocks_of_pixel(pixel)).sum();
         assert_eq!(clocks, taking + recipe.steps_per_frame() + 1, "{recipe:?}");
         assert_eq!(clocks as u64, screen.design.timing().clocks_per_frame(), "{recipe:?}");
-        let seen = Frame::from_fn(frame.width(), frame.height(), frame.bits(), |x, y| {
+        let rendered = Frame::from_fn(frame.width(), frame.height(), frame.bits(), |x, y| {
             screen.pixels[(y * width + x) as usize]
         });
-        assert_eq!(seen.unwrap(), outcome.rendered, "{recipe:?}");
+        assert_eq!(rendered.unwrap(), outcome.rendered, "{recipe:?}");
         let references = |region| rcm.reference(region).map(<[u16]>::to_vec);
         for region in 0..recipe.regions() as u32 {
             assert_eq!(references(region), camera.reference(region), "of region {region}");
@@ -139,7 +139,7 @@ fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
 }
 
 #[test]
-fn films_over_the_matrix() {
+fn clips_over_the_matrix() {
     let mut number = 0usize;
     for side in [4i64, 5, 8, 16] {
         for bits in [1, 8, 12, 16] {
@@ -167,11 +167,11 @@ fn films_over_the_matrix() {
                     deep: number % 4 < 2,
                 };
                 let frames = hard_frames(&base);
-                let film: Vec<Frame> =
+                let clip: Vec<Frame> =
                     (0..4).map(|at| frames[(number + at * at) % frames.len()].clone()).collect();
                 let mut recipe = SerialParameters { base, raster: on(3), fold: 1 };
                 recipe.fold = 1 + number as i64 % recipe.regions();
-                check(&recipe, &film);
+                check(&recipe, &clip);
             }
         }
     }
@@ -199,8 +199,8 @@ fn every_fold_of_a_grid_of_seven() {
                 constant: false,
                 deep: false,
             };
-            let film = hard_frames(&base);
-            check(&SerialParameters { base, raster, fold }, &film);
+            let clip = hard_frames(&base);
+            check(&SerialParameters { base, raster, fold }, &clip);
         }
     }
 }
@@ -226,7 +226,7 @@ fn the_largest_region() {
             constant: false,
             deep: false,
         };
-        let film = hard_frames(&base);
-        check(&SerialParameters { base, raster, fold: 2 }, &film[2..5]);
+        let clip = hard_frames(&base);
+        check(&SerialParameters { base, raster, fold: 2 }, &clip[2..5]);
     }
 }

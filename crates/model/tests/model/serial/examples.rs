@@ -13,7 +13,7 @@ fn design(toml: &str) -> Design {
 
 /// Applies a frame of ones as fast as it is taken. Returns the outputs after every edge from 1 to
 /// the one after which the array is ready again, and the edges that took a pixel.
-fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
+fn simulate(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
     let mut rcm = SerialRcm::new(design.as_serial().unwrap());
     let ones = vec![1; rcm.output().forward_valid.len()];
     let thresholds = ThresholdInputs::from_camera(design);
@@ -31,14 +31,14 @@ fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
 
 /// Returns the edge, the number and the region of each score.
 fn scores(outputs: &[SerialOutput]) -> Vec<(usize, u32, u32)> {
-    let said = outputs.iter().enumerate().filter(|(_, output)| output.score_valid);
-    said.map(|(edge, output)| (edge, output.score_index, output.region)).collect()
+    let valid = outputs.iter().enumerate().filter(|(_, output)| output.score_valid);
+    valid.map(|(edge, output)| (edge, output.score_index, output.region)).collect()
 }
 
 /// Returns the edge and the region of each decision.
 fn decisions(outputs: &[SerialOutput]) -> Vec<(usize, u32)> {
-    let said = outputs.iter().enumerate().filter(|(_, output)| output.decision_valid);
-    said.map(|(edge, output)| (edge, output.region)).collect()
+    let valid = outputs.iter().enumerate().filter(|(_, output)| output.decision_valid);
+    valid.map(|(edge, output)| (edge, output.region)).collect()
 }
 
 fn forwarding_edges(outputs: &[SerialOutput]) -> Vec<usize> {
@@ -57,11 +57,11 @@ fn busy_edges(outputs: &[SerialOutput], edges: RangeInclusive<usize>) -> Vec<usi
 fn the_papers_frame() {
     let always = "[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0\n";
     let design = design(&format!("{always}[hardware]\norganization = \"serial\"\n"));
-    let (outputs, taken) = play(&design, 64);
+    let (outputs, taken) = simulate(&design, 64);
     assert_eq!(taken, (1..=64).collect::<Vec<_>>());
     let rotation = |first: usize, number| (0..784).map(move |at| (first + at, number, at as u32));
-    let due: Vec<_> = rotation(65 + 5312, 0).chain(rotation(65 + 6992, 1)).collect();
-    assert_eq!(scores(&outputs), due);
+    let expected: Vec<_> = rotation(65 + 5312, 0).chain(rotation(65 + 6992, 1)).collect();
+    assert_eq!(scores(&outputs), expected);
     assert_eq!(
         decisions(&outputs),
         (0..784).map(|at| (65 + 6992 + at, at as u32)).collect::<Vec<_>>()
@@ -83,7 +83,7 @@ fn two_slots_one_of_them_empty() {
          [[spatial]]\nfeature = \"edge\"\nlevel = 1\nmin_score = 0\n\
          [hardware]\norganization = \"serial\"\nfold = 2\n",
     );
-    let (outputs, taken) = play(&design, 32);
+    let (outputs, taken) = simulate(&design, 32);
     assert_eq!(taken, (1..=32).collect::<Vec<_>>());
     assert_eq!(
         scores(&outputs),
@@ -110,7 +110,7 @@ fn means_leave_where_pixels_have_left() {
          [render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 2\n\
          [[spatial]]\nfeature = \"edge\"\nlevel = 1\nmin_score = 1\n\
          [hardware]\norganization = \"serial\"\nfold = 2\n";
-    let (outputs, _) = play(&design(toml), 32);
+    let (outputs, _) = simulate(&design(toml), 32);
     assert_eq!(
         scores(&outputs),
         [(81, 0, 0), (82, 0, 2), (339, 1, 0), (340, 1, 2), (421, 0, 1), (679, 1, 1)]
@@ -125,7 +125,7 @@ fn means_leave_where_pixels_have_left() {
     assert_eq!((&slot_1.forward_valid[..], slot_1.forward_slot), (&[true, false][..], 1));
     assert_eq!(outputs.len() - 1, 32 + 2 * 340 + 1);
 
-    let (outputs, _) = play(&design(&format!("{toml}feed = \"raster\"\n")), 48);
+    let (outputs, _) = simulate(&design(&format!("{toml}feed = \"raster\"\n")), 48);
     let leaving = [406, 407, 409, 410, 412, 413, 415, 416, 774, 777, 780, 783];
     assert_eq!(forwarding_edges(&outputs), leaving);
     let place = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
@@ -144,7 +144,7 @@ fn a_raster_frame_with_halos() {
          [[spatial]]\nfeature = \"edge\"\nmin_score = 0\n\
          [hardware]\norganization = \"serial\"\nfeed = \"raster\"\n",
     );
-    let (outputs, taken) = play(&design, 32);
+    let (outputs, taken) = simulate(&design, 32);
     assert_eq!(taken[..9], [1, 5, 7, 9, 13, 17, 19, 21, 25]);
     assert_eq!((taken[16], taken[24], taken[31]), (37, 49, 69));
     assert_eq!(busy_edges(&outputs, 0..=12), [1, 2, 3, 5, 7, 9, 10, 11]);
@@ -169,7 +169,7 @@ fn block_memory_is_a_clock_late() {
          [temporal]\nmin_count = 0\nreference = \"last-sent\"\n\
          [[spatial]]\nfeature = \"mad\"\nmin_score = 0\n[hardware]\norganization = \"serial\"\n",
     );
-    let (outputs, _) = play(&design, 256);
+    let (outputs, _) = simulate(&design, 256);
     // The phases take 256 * 165 steps to denoise, 1, 2 * 256 + 16 + 3 for the deviation, 1, 3 * 256
     // to copy, and 256.
     assert_eq!(scores(&outputs), [(258 + 42_240, 0, 0), (258 + 42_240 + 1 + 531, 1, 0)]);
@@ -208,9 +208,9 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
         }
     }
     let first = 16 + 1 + 3 + steps - 16;
-    let due: Vec<_> = (0..16).map(|position| (first + position, position, 100)).collect();
-    assert_eq!(leaves[..16], due);
-    assert_eq!(due[15].0, ready + 2);
+    let expected: Vec<_> = (0..16).map(|position| (first + position, position, 100)).collect();
+    assert_eq!(leaves[..16], expected);
+    assert_eq!(expected[15].0, ready + 2);
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn one_lane_is_a_row_of_its_slots() {
         "[frame]\nwidth = 40\nheight = 16\n[region]\nneighborhood = \"shared\"\n\
          [hardware]\norganization = \"serial\"\nfold = 3\n",
     );
-    let (outputs, taken) = play(&design.as_serial().unwrap().single_lane_design(), 3 * 144);
+    let (outputs, taken) = simulate(&design.as_serial().unwrap().single_lane_design(), 3 * 144);
     assert_eq!((outputs[0].forward_valid.len(), taken.len()), (1, 432));
     let regions: Vec<u32> = decisions(&outputs).into_iter().map(|(_, region)| region).collect();
     assert_eq!(regions, [0, 1, 2]);
@@ -298,7 +298,7 @@ fn decisions_and_pixels_leave_when_the_design_says() {
         let design = design(&toml);
         let timing = design.timing();
         let departure = timing.departure();
-        let (outputs, taken) = play(&design, timing.pixels_per_frame() as usize);
+        let (outputs, taken) = simulate(&design, timing.pixels_per_frame() as usize);
         let since = |edge: usize| (edge - taken.last().unwrap()) as u64;
         for slot in 0..design.slots() {
             let wait = u64::from(slot) * departure.slot_clocks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The expected outputs after every edge: a list of edges with outputs, written frame by frame,
-//! with no other state.
+//! The expected outputs after every edge, as a list of the edges that have outputs. The list is
+//! extended frame by frame, and is the only state.
 
 use std::collections::BTreeMap;
 
@@ -38,9 +38,9 @@ impl RegionResults {
 }
 
 /// Returns the results of the oracle for every region.
-pub(crate) fn region_results(seen: &OracleOutcome) -> Vec<RegionResults> {
+pub(crate) fn region_results(outcome: &OracleOutcome) -> Vec<RegionResults> {
     let pixels = |values: &[i64]| values.iter().map(|&value| value as u16).collect();
-    let facts = |region: &crate::oracle::OracleRegion| RegionResults {
+    let results_of = |region: &crate::oracle::OracleRegion| RegionResults {
         scores: std::iter::once(&region.temporal_count)
             .chain(&region.scores)
             .map(|&score| score as u64)
@@ -51,7 +51,7 @@ pub(crate) fn region_results(seen: &OracleOutcome) -> Vec<RegionResults> {
         payload: pixels(&region.payload),
         means: pixels(&region.means),
     };
-    seen.regions.iter().map(facts).collect()
+    outcome.regions.iter().map(results_of).collect()
 }
 
 /// The values at the ports that have a meaning, except `ready_o`.
@@ -90,7 +90,7 @@ impl MeaningfulOutputs {
 /// left out.
 pub(crate) fn step_outputs(
     recipe: &SerialParameters,
-    facts: &[RegionResults],
+    results: &[RegionResults],
 ) -> Vec<(i64, MeaningfulOutputs)> {
     let mut shown = Vec::new();
     let mut start = 0;
@@ -100,11 +100,11 @@ pub(crate) fn step_outputs(
             match phase {
                 ExpectedPhase::WithoutOutput(_) => {}
                 ExpectedPhase::Rotation => {
-                    shown.extend(rotation_outputs(recipe, facts, slot, rotation, start));
+                    shown.extend(rotation_outputs(recipe, results, slot, rotation, start));
                     rotation += 1;
                 }
                 ExpectedPhase::Unload | ExpectedPhase::UnloadMeans => {
-                    shown.extend(unload_outputs(recipe, facts, slot, phase, start));
+                    shown.extend(unload_outputs(recipe, results, slot, phase, start));
                 }
             }
             start += recipe.steps(phase);
@@ -121,16 +121,16 @@ fn served_regions(recipe: &SerialParameters, slot: i64) -> Vec<(i64, i64)> {
 
 fn rotation_outputs(
     recipe: &SerialParameters,
-    facts: &[RegionResults],
+    results: &[RegionResults],
     slot: i64,
     number: usize,
     start: i64,
 ) -> Vec<(i64, MeaningfulOutputs)> {
     let last = number == recipe.base.features.len();
     let score = |(lane, region): (i64, i64)| {
-        let facts = &facts[region as usize];
-        let decision = [facts.srs, facts.trs, facts.is_active(), facts.summary];
-        let score = Some((number as u32, region as u32, facts.scores[number]));
+        let results = &results[region as usize];
+        let decision = [results.srs, results.trs, results.is_active(), results.summary];
+        let score = Some((number as u32, region as u32, results.scores[number]));
         (
             start + recipe.settling_steps() + lane,
             MeaningfulOutputs {
@@ -145,7 +145,7 @@ fn rotation_outputs(
 
 fn unload_outputs(
     recipe: &SerialParameters,
-    facts: &[RegionResults],
+    results: &[RegionResults],
     slot: i64,
     phase: ExpectedPhase,
     start: i64,
@@ -154,13 +154,13 @@ fn unload_outputs(
     let mut shown = Vec::new();
     for number in 0..recipe.steps(phase) / round {
         let position = forward_position(recipe, phase, number) as u32;
-        let mut together = Vec::new();
+        let mut lane_pixels = Vec::new();
         for (lane, region) in served_regions(recipe, slot) {
-            let facts = &facts[region as usize];
+            let results = &results[region as usize];
             let leaving = if phase == ExpectedPhase::Unload {
-                facts.sent_pixels()
+                results.sent_pixels()
             } else {
-                facts.sent_means()
+                results.sent_means()
             };
             let Some(&pixel) = leaving.get(number as usize) else { continue };
             if recipe.raster {
@@ -171,11 +171,11 @@ fn unload_outputs(
                     MeaningfulOutputs { pixels, place, ..MeaningfulOutputs::default() },
                 ));
             } else {
-                together.push((lane as usize, pixel));
+                lane_pixels.push((lane as usize, pixel));
             }
         }
-        if !together.is_empty() {
-            let (pixels, place) = (together, Some((position, slot as u32, 0)));
+        if !lane_pixels.is_empty() {
+            let (pixels, place) = (lane_pixels, Some((position, slot as u32, 0)));
             let step = start + (number + 1) * round - 1;
             shown.push((step, MeaningfulOutputs { pixels, place, ..MeaningfulOutputs::default() }));
         }
@@ -228,16 +228,17 @@ impl ExpectedTimeline {
         recipe: &SerialParameters,
         edge: i64,
         pixel: i64,
-        facts: Option<&[RegionResults]>,
+        results: Option<&[RegionResults]>,
     ) {
         let taken = edge + recipe.clocks_of_pixel(pixel) - 1;
         self.ready_from = taken;
-        if let Some(facts) = facts {
+        if let Some(results) = results {
             self.ready_from = taken + 1 + recipe.steps_per_frame();
             let first = taken + 1 + recipe.read_latency();
-            let due =
-                step_outputs(recipe, facts).into_iter().map(|(step, shown)| (first + step, shown));
-            self.shown.extend(due);
+            let outputs = step_outputs(recipe, results)
+                .into_iter()
+                .map(|(step, shown)| (first + step, shown));
+            self.shown.extend(outputs);
         }
     }
 }

@@ -64,16 +64,16 @@ fn applied_thresholds(recipe: &DesignParameters) -> ThresholdInputs {
 
 /// Returns a clip with the thresholds of each frame and the results of the oracle.
 pub(crate) fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<SerialStimulus> {
-    let film = make_clip(&recipe.base, script);
+    let clip = make_clip(&recipe.base, script);
     let recipes: Vec<DesignParameters> =
         script.iter().map(|&(_, seed)| with_other_thresholds(&recipe.base, seed)).collect();
-    let history = oracle_history_with_thresholds(&recipes, &film);
-    let job = |((frame, seen), changed): ((&_, &_), &DesignParameters)| SerialStimulus {
+    let history = oracle_history_with_thresholds(&recipes, &clip);
+    let job = |((frame, outcome), changed): ((&_, &_), &DesignParameters)| SerialStimulus {
         pixels: port_pixels(recipe, frame),
         thresholds: applied_thresholds(changed),
-        facts: region_results(seen),
+        facts: region_results(outcome),
     };
-    film.iter().zip(&history).zip(&recipes).map(job).collect()
+    clip.iter().zip(&history).zip(&recipes).map(job).collect()
 }
 
 /// Runs some edges, resets the array, and runs a new clip from its start.
@@ -101,10 +101,10 @@ proptest! {
     fn every_port_after_every_edge(
         recipe in arbitrary_serial_parameters(),
         script in arbitrary_scripts(4),
-        manner in arbitrary_traffic(),
+        traffic in arbitrary_traffic(),
     ) {
         let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
-        let check = SerialBench::new(&recipe, rcm, manner).run(&stimuli(&recipe, &script));
+        let check = SerialBench::new(&recipe, rcm, traffic).run(&stimuli(&recipe, &script));
         prop_assert_eq!(check, Ok(()));
     }
 
@@ -112,10 +112,10 @@ proptest! {
     fn a_reset_at_any_edge_forgets_everything(
         recipe in arbitrary_serial_parameters(),
         (before, after) in (arbitrary_scripts(3), arbitrary_scripts(2)),
-        manner in arbitrary_traffic(),
+        traffic in arbitrary_traffic(),
         (cut, held) in (any::<u64>(), any::<bool>()),
     ) {
-        let mut bench = SerialBench::new(&recipe, SerialRcm::new(recipe.design().as_serial().unwrap()), manner);
+        let mut bench = SerialBench::new(&recipe, SerialRcm::new(recipe.design().as_serial().unwrap()), traffic);
         let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
         // A third of the resets come while pixels are taken, although that is the smaller part of a
         // frame.

@@ -79,9 +79,9 @@ fn pipelined_facts(
 }
 
 /// Returns the number of pixels and the number of means that leave of a region.
-fn sent_lengths(recipe: &SerialParameters, facts: &RegionResults) -> (usize, usize) {
-    let pixels = if facts.is_active() { recipe.base.region_pixels() } else { 0 };
-    let means = if facts.summary { recipe.mean_count() } else { 0 };
+fn sent_lengths(recipe: &SerialParameters, results: &RegionResults) -> (usize, usize) {
+    let pixels = if results.is_active() { recipe.base.region_pixels() } else { 0 };
+    let means = if results.summary { recipe.mean_count() } else { 0 };
     (pixels as usize, means as usize)
 }
 

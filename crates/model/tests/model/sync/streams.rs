@@ -100,12 +100,17 @@ struct PlayedStream {
 
 /// Offers the beats to the array, with gaps, until all outputs have come. To an array without
 /// `ready_o`, beats come in any case. While the array is not ready, `fill` is on the pixel port.
-fn play(design: &Design, marks: &[bool], random: &mut SeededRandom, fill: &[u16]) -> PlayedStream {
-    let (mut machine, thresholds) = (AnyArray::new(design), ThresholdInputs::from_camera(design));
+fn simulate(
+    design: &Design,
+    marks: &[bool],
+    random: &mut SeededRandom,
+    fill: &[u16],
+) -> PlayedStream {
+    let (mut array, thresholds) = (AnyArray::new(design), ThresholdInputs::from_camera(design));
     let mut played = PlayedStream { edges: vec![], errors: vec![], decided: vec![], left: 0 };
     let with_gaps = random.below(2) == 0;
     let max = i64::from(design.pixel_max()) + 1;
-    let mut ready = machine.step((true, true, true), fill, &thresholds).ready;
+    let mut ready = array.step((true, true, true), fill, &thresholds).ready;
     assert!(ready);
     let (mut next, mut silence, mut clock) = (0, 0, 0);
     // Pixels change little, so that some regions are held.
@@ -113,9 +118,9 @@ fn play(design: &Design, marks: &[bool], random: &mut SeededRandom, fill: &[u16]
     while silence < design.timing().clocks_per_frame() + 200 {
         let valid = next < marks.len() && !(with_gaps && random.below(4) == 0);
         let sof = if valid { marks[next] } else { random.below(2) == 0 };
-        let pixels = if ready || !machine.has_ready() {
-            let places = picture.len();
-            let beat = &mut picture[next % places];
+        let pixels = if ready || !array.has_ready() {
+            let places = beats.len();
+            let beat = &mut beats[next % places];
             for pixel in beat.iter_mut() {
                 if random.below(6) == 0 {
                     *pixel = random.below(max) as u16;
@@ -129,23 +134,23 @@ fn play(design: &Design, marks: &[bool], random: &mut SeededRandom, fill: &[u16]
             played.edges.push(StreamEdge { clock, valid, sof, pixels: pixels.clone() });
             next += usize::from(valid);
         }
-        let seen = machine.step((false, valid, sof), &pixels, &thresholds);
-        played.errors.extend(seen.sync_error.then_some(clock));
-        silence = if next < marks.len() || !seen.decided.is_empty() || seen.sent_pixels > 0 {
+        let outputs = array.step((false, valid, sof), &pixels, &thresholds);
+        played.errors.extend(outputs.sync_error.then_some(clock));
+        silence = if next < marks.len() || !outputs.decided.is_empty() || outputs.sent_pixels > 0 {
             0
         } else {
             silence + 1
         };
-        played.decided.extend(seen.decided);
-        played.left += seen.sent_pixels;
-        ready = seen.ready;
+        played.decided.extend(outputs.decided);
+        played.left += outputs.sent_pixels;
+        ready = outputs.ready;
         clock += 1;
     }
     played
 }
 
 #[test]
-fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
+fn decisions_of_a_damaged_stream_are_those_of_the_frames_that_the_page_defines() {
     let (mut errors, mut completed, mut held) = (0, 0, 0);
     for more in DESIGNS {
         let design = design(more);
@@ -154,7 +159,7 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
             let random = &mut SeededRandom(seed * 7 + 1);
             let marks = damaged_stream(random, beats, 9);
             let fill = vec![random.below(i64::from(design.pixel_max()) + 1) as u16; width];
-            let played = play(&design, &marks, random, &fill);
+            let played = simulate(&design, &marks, random, &fill);
             let has_ready = AnyArray::new(&design).has_ready();
             let found: CutStream = cut_stream(&played.edges, beats, has_ready.then_some(&fill[..]));
             assert_eq!(played.errors, found.errors, "{more:?} {seed}");
@@ -191,21 +196,21 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
 #[test]
 fn without_sync_a_lost_beat_leaves_the_array_out_of_step() {
     for more in DESIGNS {
-        let with = design(more);
-        let mut config = with.config();
+        let with_sync = design(more);
+        let mut config = with_sync.config();
         config.hardware.sync = None;
-        let without = config.validate().unwrap();
-        let (beats, width) = beat_shape(&with);
+        let without_sync = config.validate().unwrap();
+        let (beats, width) = beat_shape(&with_sync);
         let mut marks: Vec<bool> = (0..4 * beats).map(|at| at % beats == 0).collect();
         marks.remove(beats / 2);
         let fill = vec![0; width];
-        let late = with.timing().departure().decision_frames as usize;
+        let late = with_sync.timing().departure().decision_frames as usize;
         let frames = |design: &Design| {
-            let played = play(design, &marks, &mut SeededRandom(3), &fill);
+            let played = simulate(design, &marks, &mut SeededRandom(3), &fill);
             (played.decided.len() / design.regions() as usize + late, played.errors.len())
         };
         // The first frame is completed, the second is dropped, and the others are whole.
-        assert_eq!(frames(&with), (3, 1), "{more:?}");
-        assert_eq!(frames(&without), (3, 0), "{more:?}");
+        assert_eq!(frames(&with_sync), (3, 1), "{more:?}");
+        assert_eq!(frames(&without_sync), (3, 0), "{more:?}");
     }
 }

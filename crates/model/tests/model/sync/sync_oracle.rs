@@ -74,7 +74,7 @@ fn a_stream_is_cut_as_the_page_says() {
         };
         text.chars().enumerate().map(edge).collect()
     };
-    let told = |text: &str, fill: Option<&[u16]>| {
+    let example = |text: &str, fill: Option<&[u16]>| {
         let CutStream { frames, errors, completed } = cut_stream(&stream(text), 3, fill);
         let letter = |beat: &Vec<u16>| char::from(beat[0] as u8);
         let frames: Vec<String> =
@@ -97,6 +97,6 @@ fn a_stream_is_cut_as_the_page_says() {
         ("Ab", fill, "", vec![], 0),
         ("AB", None, "", vec![1], 0),
     ] {
-        assert_eq!(told(text, fill), (frames.to_owned(), errors, completed), "{text}");
+        assert_eq!(example(text, fill), (frames.to_owned(), errors, completed), "{text}");
     }
 }
