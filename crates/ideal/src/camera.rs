@@ -103,8 +103,8 @@ impl IdealCamera {
         if given == expected {
             return Ok(());
         }
-        let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
-        Err(IdealError::FrameFormat { given: kind(given), expected: kind(expected) })
+        let description = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
+        Err(IdealError::FrameFormat { given: description(given), expected: description(expected) })
     }
 
     fn score(&mut self) {
@@ -126,7 +126,8 @@ impl IdealCamera {
         let means = periphery.as_ref().map_or(Vec::new(), |periphery| {
             periphery.means(payload_plane(camera, raw, denoised), grid, region)
         });
-        let is_due = || periphery.as_ref().is_some_and(|own| own.is_due(region, &means));
+        let is_due =
+            || periphery.as_ref().is_some_and(|periphery| periphery.is_due(region, &means));
         let action = rules.action(srs, trs, is_due);
         outcome.actions[region] = action;
         if let Some(periphery) = periphery {

@@ -2,11 +2,11 @@
 //! The camera of `docs/contract.md` in real numbers: the yardstick that other cameras are compared
 //! with.
 //!
-//! [`IdealCamera`] takes its task from a camera (regions, filter, features, thresholds, reference,
-//! rendering) and leaves out the limits of hardware. Its windows always see their real neighbors,
-//! its mean is the real mean, and its thresholds are the decimal numbers of the configuration. It
-//! is written from the contract in `f64`, independently of the integers of the other models, and
-//! does no I/O.
+//! [`IdealCamera`] has the regions, filter, features, thresholds, reference and rendering of a
+//! configured camera, without the limits of hardware. Its windows always contain their real
+//! neighbors, its mean is the real mean, and its thresholds are the decimal numbers of the
+//! configuration. It is written from the contract in `f64`, independently of the integers of the
+//! other models, and does no I/O.
 #![forbid(unsafe_code)]
 
 mod camera;

@@ -22,13 +22,13 @@ pub(crate) fn filter_median(from: &PaddedPlane, to: &mut PaddedPlane, columns: &
 }
 
 impl SortedColumns {
-    fn sort(&mut self, [above, own, below]: [&[f64]; 3]) {
+    fn sort(&mut self, [above, middle_line, below]: [&[f64]; 3]) {
         for list in [&mut self.low, &mut self.middle, &mut self.high] {
-            list.resize(own.len(), 0.0);
+            list.resize(middle_line.len(), 0.0);
         }
         let out = self.low.iter_mut().zip(&mut self.middle).zip(&mut self.high);
         for ((&a, (&b, &c)), ((low, middle), high)) in
-            above.iter().zip(own.iter().zip(below)).zip(out)
+            above.iter().zip(middle_line.iter().zip(below)).zip(out)
         {
             (*low, *middle, *high) = sorted(a, b, c);
         }
@@ -44,12 +44,12 @@ impl SortedColumns {
             (&self.low[..len + 2], &self.middle[..len + 2], &self.high[..len + 2]);
         for (x, value) in out.iter_mut().enumerate() {
             let (a, b, c) = three(low, x);
-            let least = larger(larger(a, b), c);
+            let max_of_lows = larger(larger(a, b), c);
             let (a, b, c) = three(middle, x);
-            let (_, between, _) = sorted(a, b, c);
+            let (_, median_of_middles, _) = sorted(a, b, c);
             let (a, b, c) = three(high, x);
-            let most = smaller(smaller(a, b), c);
-            *value = sorted(least, between, most).1;
+            let min_of_highs = smaller(smaller(a, b), c);
+            *value = sorted(max_of_lows, median_of_middles, min_of_highs).1;
         }
     }
 }
@@ -74,7 +74,7 @@ mod tests {
 
     /// Zeros and ones are enough, because minima and maxima commute with thresholds.
     #[test]
-    fn it_is_the_fifth_of_nine() {
+    fn the_median_is_the_fifth_of_nine_values() {
         for bits in 0..512_u16 {
             let nine: Vec<f64> = (0..9).map(|place| f64::from(bits >> place & 1)).collect();
             let mut columns = SortedColumns::default();

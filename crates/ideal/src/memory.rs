@@ -35,16 +35,16 @@ impl ReferenceMemory {
     /// Pairs a frame with the references of its regions.
     pub(crate) fn frame_view<'a>(
         &'a self,
-        now: &'a PaddedPlane,
+        denoised: &'a PaddedPlane,
         grid: &'a RegionGrid,
     ) -> FrameView<'a> {
-        FrameView { grid, denoised: now, references: &self.references }
+        FrameView { grid, denoised, references: &self.references }
     }
 
     /// Updates the reference of a region for the next frame.
     pub(crate) fn update_reference(
         &mut self,
-        now: &PaddedPlane,
+        denoised: &PaddedPlane,
         grid: &RegionGrid,
         region: usize,
         action: RegionAction,
@@ -54,7 +54,8 @@ impl ReferenceMemory {
             (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Forward) => {
                 let (columns, rows) = grid.area(region);
                 for y in rows {
-                    plane.row_mut(y)[columns.clone()].copy_from_slice(&now.row(y)[columns.clone()]);
+                    plane.row_mut(y)[columns.clone()]
+                        .copy_from_slice(&denoised.row(y)[columns.clone()]);
                 }
                 valid[region] = true;
             }

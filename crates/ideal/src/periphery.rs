@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: the real means of their blocks, each rounded to the nearest
-//! grey level. An ideal camera also sends values of P bits, so its decision to send a summary does
-//! not depend on rounding in hardware.
+//! The summaries of irrelevant regions, which are the real means of their blocks, each rounded to
+//! the nearest grey level. The means are rounded because the ideal camera sends values of P bits,
+//! as every camera does.
 
 use std::ops::Range;
 
@@ -24,10 +24,10 @@ pub(crate) struct PeripheryState {
 impl PeripheryState {
     /// Creates the periphery of a camera; `None` if the camera has no periphery.
     pub(crate) fn from_camera(camera: &Camera, grid: &RegionGrid) -> Option<Self> {
-        camera.periphery().map(|own| Self {
-            blocks: to_index(own.blocks),
-            side: to_index(own.block_side),
-            level: own.level.into(),
+        camera.periphery().map(|periphery| Self {
+            blocks: to_index(periphery.blocks),
+            side: to_index(periphery.block_side),
+            level: periphery.level.into(),
             shown_means: vec![None; grid.regions()],
         })
     }

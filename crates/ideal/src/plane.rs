@@ -61,11 +61,11 @@ impl PaddedPlane {
     fn read_padded_from<T: Copy + Into<f64>>(&mut self, pixels: &[T], grid: &RegionGrid) {
         for y in 0..self.height {
             let source = &pixels[y.min(grid.height - 1) * grid.width..][..grid.width];
-            let (own, padding) = self.row_mut(y).split_at_mut(grid.width);
-            for (value, &pixel) in own.iter_mut().zip(source) {
+            let (pixel_values, padding) = self.row_mut(y).split_at_mut(grid.width);
+            for (value, &pixel) in pixel_values.iter_mut().zip(source) {
                 *value = pixel.into();
             }
-            padding.fill(*own.last().expect("a frame has pixels"));
+            padding.fill(*pixel_values.last().expect("a frame has pixels"));
         }
     }
 

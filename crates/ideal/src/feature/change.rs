@@ -13,18 +13,18 @@ pub(crate) fn count_changed_pixels(
     scratch: &mut ScoreBuffers,
     changed: &mut [f64],
 ) {
-    let FrameView { grid, denoised: now, references: before } = *view;
+    let FrameView { grid, denoised: current, references } = *view;
     let [hits, ..] = &mut scratch.lines;
-    hits.resize(now.width(), 0.0);
+    hits.resize(current.width(), 0.0);
     changed.fill(0.0);
-    for y in 0..now.height() {
-        let pairs = now.row(y).iter().zip(before.plane.row(y));
-        for (hit, (now, then)) in hits.iter_mut().zip(pairs) {
-            *hit = if (now - then).abs() > level { 1.0 } else { 0.0 };
+    for y in 0..current.height() {
+        let pairs = current.row(y).iter().zip(references.plane.row(y));
+        for (hit, (current, referenced)) in hits.iter_mut().zip(pairs) {
+            *hit = if (current - referenced).abs() > level { 1.0 } else { 0.0 };
         }
         add_row_to_sums(hits, grid.side, &mut changed[grid.regions_of_row(y)]);
     }
-    for (changed, valid) in changed.iter_mut().zip(&before.valid) {
+    for (changed, valid) in changed.iter_mut().zip(&references.valid) {
         if !valid {
             *changed = pixels_per_region(grid);
         }

@@ -22,18 +22,18 @@ pub(super) fn score(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, sc
 /// Returns whether the pixel at column `x` is a corner. The ring starts at the upper left and goes
 /// clockwise, with one bit per neighbor.
 #[inline(always)]
-fn is_corner([above, own, below]: [&[f64]; 3], x: usize, level: f64) -> bool {
+fn is_corner([above, middle, below]: [&[f64]; 3], x: usize, level: f64) -> bool {
     let ring = [
         above[x],
         above[x + 1],
         above[x + 2],
-        own[x + 2],
+        middle[x + 2],
         below[x + 2],
         below[x + 1],
         below[x],
-        own[x],
+        middle[x],
     ];
-    let (bright, dark) = (own[x + 1] + level, own[x + 1] - level);
+    let (bright, dark) = (middle[x + 1] + level, middle[x + 1] - level);
     let (mut brighter, mut darker) = (0_u8, 0_u8);
     for value in ring {
         brighter = brighter << 1 | u8::from(value > bright);

@@ -10,8 +10,8 @@
 use super::{ScoreBuffers, add_row_to_sums};
 use crate::view::FrameView;
 
-/// Counts the hits of every region. Each filter is a smoothing along one axis and a difference
-/// along the other, so the vertical part is computed once per column.
+/// Counts the hits of every region. Each filter smooths along one axis and takes a difference along
+/// the other axis. Its vertical part is computed once per column, because three windows use it.
 pub(super) fn score(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, scores: &mut [f64]) {
     let FrameView { grid, denoised: plane, .. } = *view;
     let [smooth, slope, hits] = &mut scratch.lines;
@@ -20,9 +20,9 @@ pub(super) fn score(level: f64, view: &FrameView, scratch: &mut ScoreBuffers, sc
     hits.resize(plane.width(), 0.0);
     scores.fill(0.0);
     for y in 0..plane.height() {
-        let [above, own, below] = plane.window_lines(y);
+        let [above, middle, below] = plane.window_lines(y);
         let out = smooth.iter_mut().zip(slope.iter_mut());
-        for ((smooth, slope), (a, (b, c))) in out.zip(above.iter().zip(own.iter().zip(below))) {
+        for ((smooth, slope), (a, (b, c))) in out.zip(above.iter().zip(middle.iter().zip(below))) {
             *smooth = a + 2.0 * b + c;
             *slope = c - a;
         }

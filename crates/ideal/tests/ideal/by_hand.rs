@@ -60,7 +60,7 @@ fn a_step_is_an_edge_two_pixels_wide() {
 
 /// The ideal camera ignores the neighborhood and the fraction bits of the configuration.
 #[test]
-fn hardware_does_not_matter() {
+fn properties_of_hardware_have_no_effect() {
     let mut isolated = config(24, 16, 8);
     isolated.region.neighborhood = Neighborhood::Isolated;
     let mut shared = isolated.clone();
@@ -73,7 +73,7 @@ fn hardware_does_not_matter() {
 /// The checkerboard of 0 and 200 has mean 100; every pixel is 100 away from it, and the variance is
 /// 10,000.
 #[test]
-fn a_checkerboard_has_the_variance_of_its_swing() {
+fn a_checkerboard_has_the_mad_and_variance_of_its_amplitude() {
     let pixel = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 0 } else { 200 };
     let outcome = outcome_of_first_frame(&config(8, 8, 8), pixel);
     assert_eq!((outcome.scores[2][0], outcome.scores[3][0]), (100.0, 10_000.0));
@@ -90,7 +90,7 @@ fn a_checkerboard_has_the_variance_of_its_swing() {
 }
 
 #[test]
-fn a_bright_pixel_is_five_of_eight_for_itself_only() {
+fn a_bright_pixel_is_a_corner_only_at_its_own_place() {
     let mut config = config(9, 9, 9);
     let outcome = outcome_of_first_frame(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
     assert_eq!(outcome.scores[1][0], 1.0);

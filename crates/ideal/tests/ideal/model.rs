@@ -99,9 +99,9 @@ proptest! {
                 let n = camera.region_pixels();
                 let quantum = 1.0 / f64::from(1_u32 << mean.fraction_bits);
                 let bound = f64::from(n / 2) / f64::from(n) * quantum;
-                for (&own, &score) in ideal.scores[feature].iter().zip(&model.scores[feature]) {
-                    let other = score_in_ideal_unit(&camera, feature, score);
-                    prop_assert!((own - other).abs() <= bound * (1.0 + 1e-9), "{own} {other}");
+                for (&ideal_score, &score) in ideal.scores[feature].iter().zip(&model.scores[feature]) {
+                    let model_score = score_in_ideal_unit(&camera, feature, score);
+                    prop_assert!((ideal_score - model_score).abs() <= bound * (1.0 + 1e-9), "{ideal_score} {model_score}");
                 }
             }
         }
