@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame in the form that video has: a byte per pixel for up to 8 bits, a word for more. Video
-//! goes from a pipe into the engine without being widened, narrowed or copied on the way.
+//! A frame in the form that video has, which is a byte per pixel for up to 8 bits and a word for
+//! more. With this form, video from a pipe reaches the engine without a conversion or a copy.
 
 use crate::{Frame, FrameError, convert_depth, index};
 
@@ -26,11 +26,13 @@ impl FramePixels<'_> {
     /// Appends pixels of `bits` bits as 8-bit grey, one byte per pixel, the form that a browser
     /// draws.
     pub fn append_grey(self, bits: u32, grey: &mut Vec<u8>) {
-        let low = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
+        let grey_value = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
         match self {
             Self::Bytes(pixels) if bits == 8 => grey.extend_from_slice(pixels),
-            Self::Bytes(pixels) => grey.extend(pixels.iter().map(|&pixel| low(pixel.into()))),
-            Self::Words(pixels) => grey.extend(pixels.iter().map(|&pixel| low(pixel))),
+            Self::Bytes(pixels) => {
+                grey.extend(pixels.iter().map(|&pixel| grey_value(pixel.into())))
+            }
+            Self::Words(pixels) => grey.extend(pixels.iter().map(|&pixel| grey_value(pixel))),
         }
     }
 }
@@ -189,9 +191,9 @@ fn check_values<T: Copy + Ord + Into<u16>>(
         return Ok(());
     }
     let place = pixels.iter().position(|&pixel| pixel.into() > max).expect("the largest is above");
-    let at =
+    let coordinate =
         |place: usize| u32::try_from(place).expect("a frame has its width and height in 32 bits");
-    let (x, y) = (at(place % index(width)), at(place / index(width)));
+    let (x, y) = (coordinate(place % index(width)), coordinate(place / index(width)));
     Err(FrameError::PixelRange { x, y, value: pixels[place].into(), bits, max })
 }
 
@@ -200,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_and_words_are_one_frame() {
+    fn frames_from_bytes_and_from_words_are_equal() {
         let bytes = ByteFrame::from_bytes(3, 2, 4, vec![0, 1, 2, 3, 4, 15]).unwrap();
         let words = ByteFrame::from_words(3, 2, 4, vec![0, 1, 2, 3, 4, 15]).unwrap();
         assert_eq!(bytes, words);
@@ -214,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn both_types_refuse_the_same() {
+    fn both_constructors_refuse_the_same_pixels() {
         for (width, height, bits, pixels) in [
             (0, 3, 8, vec![]),
             (1, 1, 0, vec![0]),

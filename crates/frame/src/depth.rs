@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fewer_bits_drop_the_low_ones() {
+    fn a_conversion_to_fewer_bits_drops_the_low_bits() {
         assert_eq!(convert_depth(0xABCD, 16, 8), 0xAB);
         assert_eq!(convert_depth(0xABCD, 16, 12), 0xABC);
         assert_eq!(convert_depth(0xFF, 8, 1), 1);
@@ -41,7 +41,7 @@ mod tests {
     }
 
     #[test]
-    fn more_bits_repeat_those_there_are() {
+    fn a_conversion_to_more_bits_repeats_the_bits() {
         assert_eq!(convert_depth(0xAB, 8, 16), 0xABAB);
         assert_eq!(convert_depth(0xAB, 8, 12), 0xABA);
         assert_eq!(convert_depth(0b101, 3, 8), 0b1011_0110);
@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_stay_ends_order_stays_and_the_way_back_is_exact() {
+    fn a_conversion_keeps_ends_and_order_and_can_be_undone() {
         for from in 1..=16 {
             let max = u16::MAX >> (16 - from);
             for to in from..=16 {

@@ -148,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_frame_is_refused_by_name() {
+    fn the_error_names_what_makes_pixels_no_frame() {
         assert_eq!(Frame::filled(0, 3, 8, 0), Err(FrameError::EmptyFrame { width: 0, height: 3 }));
         assert_eq!(Frame::filled(1, 1, 17, 0), Err(FrameError::PixelBits { bits: 17 }));
         assert_eq!(Frame::filled(1, 1, 0, 0), Err(FrameError::PixelBits { bits: 0 }));

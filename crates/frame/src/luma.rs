@@ -12,11 +12,11 @@ pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
 /// Bytes at the end that are not a whole pixel are left out.
 pub fn append_luma_of_rgba(pixels: &[u8], grey: &mut Vec<u8>) {
     // The sum fits into 16 bits, so that the compiler can vectorise the loop.
-    let mix = |&[red, green, blue, _]: &[u8; 4]| {
+    let weighted_sum = |&[red, green, blue, _]: &[u8; 4]| {
         let sum = 77 * u16::from(red) + 150 * u16::from(green) + 29 * u16::from(blue) + 128;
         sum.to_be_bytes()[0]
     };
-    grey.extend(pixels.as_chunks().0.iter().map(mix));
+    grey.extend(pixels.as_chunks().0.iter().map(weighted_sum));
 }
 
 #[cfg(test)]
