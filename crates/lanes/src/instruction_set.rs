@@ -18,8 +18,8 @@ pub trait VectorTask {
     fn run(self);
 }
 
-/// Work over panels of 32-bit values, each as wide as two vector registers. It is inlined like a
-/// [`VectorTask`]. For each level it is compiled only with the panel size of that level.
+/// Work over panels, which are rows of 32-bit values that fill two vector registers. It is inlined
+/// like a [`VectorTask`], and is compiled once per level, with the panel size of that level.
 pub trait PanelTask {
     /// Does the work on panels of `LANES` values. `FUSED` says that a product is multiplied and
     /// added in one instruction, which rounds once.
@@ -197,11 +197,11 @@ mod tests {
     #[test]
     fn every_available_level_runs_its_task() {
         let levels = InstructionSet::available();
-        let mut ran = 0;
+        let mut run_count = 0;
         for level in &levels {
-            level.run(CountingTask(&mut ran));
+            level.run(CountingTask(&mut run_count));
         }
-        assert_eq!(usize::try_from(ran).unwrap(), levels.len());
+        assert_eq!(usize::try_from(run_count).unwrap(), levels.len());
         for level in &levels {
             let mut lanes = 0;
             level.run_panels(LaneCountTask(&mut lanes));

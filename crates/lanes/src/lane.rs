@@ -7,7 +7,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Neg, Sub};
 
-/// The lanes of a block: as many as a full AVX-512 register holds bytes.
+/// The number of lanes of a block, which is the number of bytes of an AVX-512 register.
 pub const BLOCK_LANES: usize = 64;
 
 /// One value per lane of a block.

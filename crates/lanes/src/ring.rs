@@ -7,8 +7,9 @@
 
 use crate::PixelLane;
 
-/// Returns the score of the best of the eight arcs of five neighbors in a ring. The score of an arc
-/// is its worst pixel by `worse`; `better` chooses among scores.
+/// Returns the score of the best of the eight arcs of five neighbors in a ring. `worse` returns the
+/// worse of two pixels, and `better` the better one. The score of an arc is its worst pixel. With
+/// minimum and maximum, the best arc is the brightest one; with maximum and minimum, the darkest.
 #[inline(always)]
 pub fn best_arc<T: PixelLane>(
     x: [T; 8],
@@ -17,11 +18,11 @@ pub fn best_arc<T: PixelLane>(
 ) -> T {
     let pair = [worse(x[0], x[1]), worse(x[2], x[3]), worse(x[4], x[5]), worse(x[6], x[7])];
     // An arc is the four pixels k to k + 3 with a fifth, k - 1 or k + 4.
-    let arcs = |four: T, before: T, after: T| worse(four, better(before, after));
-    let a = arcs(worse(pair[0], pair[1]), x[7], x[4]);
-    let b = arcs(worse(pair[1], pair[2]), x[1], x[6]);
-    let c = arcs(worse(pair[2], pair[3]), x[3], x[0]);
-    let d = arcs(worse(pair[3], pair[0]), x[5], x[2]);
+    let best_of_two = |four: T, before: T, after: T| worse(four, better(before, after));
+    let a = best_of_two(worse(pair[0], pair[1]), x[7], x[4]);
+    let b = best_of_two(worse(pair[1], pair[2]), x[1], x[6]);
+    let c = best_of_two(worse(pair[2], pair[3]), x[3], x[0]);
+    let d = best_of_two(worse(pair[3], pair[0]), x[5], x[2]);
     better(better(a, b), better(c, d))
 }
 
@@ -33,9 +34,10 @@ mod tests {
     fn every_ring_of_zeros_and_ones_has_its_best_arc() {
         for bits in 0..256u32 {
             let ring: [u8; 8] = std::array::from_fn(|place| u8::from(bits >> place & 1 == 1));
-            let arc = |value| (0..8).any(|start| (0..5).all(|k| ring[(start + k) % 8] == value));
-            assert_eq!(best_arc(ring, u8::min, u8::max) == 1, arc(1), "{ring:?}");
-            assert_eq!(best_arc(ring, u8::max, u8::min) == 0, arc(0), "{ring:?}");
+            let has_arc_of =
+                |value| (0..8).any(|start| (0..5).all(|k| ring[(start + k) % 8] == value));
+            assert_eq!(best_arc(ring, u8::min, u8::max) == 1, has_arc_of(1), "{ring:?}");
+            assert_eq!(best_arc(ring, u8::max, u8::min) == 0, has_arc_of(0), "{ring:?}");
         }
     }
 }
