@@ -32,11 +32,11 @@ fn main() {
             let mut best = f64::INFINITY;
             for (own, other) in own.zip(other) {
                 let input = ByteFrame::from(&own);
-                let seen = reference.step(&input).unwrap();
+                let ideal_outcome = reference.step(&input).unwrap();
                 let outcome = engine.step(&other).unwrap().clone();
                 for _ in 0..10 {
                     let start = Instant::now();
-                    fidelity.add(&input, seen, &outcome, engine.rendered()).unwrap();
+                    fidelity.add(&input, ideal_outcome, &outcome, engine.rendered()).unwrap();
                     best = best.min(start.elapsed().as_secs_f64());
                 }
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The areas, in pixels, where the decisions of two cameras differ. With areas, regions of
-//! different sizes can be compared.
+//! The areas, in pixels, where the decisions of two cameras differ. Areas are counted and not
+//! regions, so that cameras with regions of different sizes can be compared.
 
 use foveate_camera::RegionAction;
 use serde::{Deserialize, Serialize};
@@ -53,7 +53,8 @@ pub(crate) struct DecisionAreas {
     pub(crate) summarized: u64,
 }
 
-/// Returns whether the area is 0. Such tallies omit the key, like older tallies without summaries.
+/// Returns whether the area is 0. A stored tally then omits the key, as tallies of older versions
+/// do, which had no summaries.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
 fn is_zero_area(area: &u64) -> bool {
     *area == 0
@@ -67,15 +68,15 @@ impl DecisionAreas {
             let (ideal, candidate) = (bits(STATE_BITS), bits(0));
             let differs = |mask: u8| if (ideal ^ candidate) & mask == 0 { 0 } else { area };
             let active = |state: u8| state & (SRS | TRS) == SRS | TRS;
-            let when = |yes: bool| if yes { area } else { 0 };
+            let area_if = |yes: bool| if yes { area } else { 0 };
             self.add(&Self {
                 srs: differs(SRS),
                 trs: differs(TRS),
                 action: differs(ACTION),
-                ideal: when(active(ideal)),
-                candidate: when(active(candidate)),
-                both: when(active(ideal) && active(candidate)),
-                summarized: when(candidate & ACTION == SUMMARIZED),
+                ideal: area_if(active(ideal)),
+                candidate: area_if(active(candidate)),
+                both: area_if(active(ideal) && active(candidate)),
+                summarized: area_if(candidate & ACTION == SUMMARIZED),
             });
         }
     }

@@ -91,13 +91,13 @@ impl Fidelity {
         screen: FramePixels<'_>,
     ) -> Result<(), FidelityError> {
         self.check_inputs(input, ideal, candidate, screen)?;
-        let Self { pairs, pixel_comparison: eye, tally, .. } = self;
+        let Self { pairs, pixel_comparison: comparison, tally, .. } = self;
         for (pair, tally) in pairs.iter().zip(&mut tally.scores) {
             pair.add_frame(ideal, candidate, tally);
         }
-        match eye {
-            PixelComparison::Bytes(sight) => sight.compare_frame(input, ideal, screen, tally),
-            PixelComparison::Words(sight) => sight.compare_frame(input, ideal, screen, tally),
+        match comparison {
+            PixelComparison::Bytes(typed) => typed.compare_frame(input, ideal, screen, tally),
+            PixelComparison::Words(typed) => typed.compare_frame(input, ideal, screen, tally),
         }
         self.add_decisions(ideal, candidate);
         self.tally.frames += 1;
@@ -109,8 +109,8 @@ impl Fidelity {
     /// no region has been stale before it.
     pub fn next_clip(&mut self) {
         match &mut self.pixel_comparison {
-            PixelComparison::Bytes(sight) => sight.staleness.end_runs(),
-            PixelComparison::Words(sight) => sight.staleness.end_runs(),
+            PixelComparison::Bytes(typed) => typed.staleness.end_runs(),
+            PixelComparison::Words(typed) => typed.staleness.end_runs(),
         }
     }
 
@@ -127,20 +127,20 @@ impl Fidelity {
     }
 
     fn add_decisions(&mut self, ideal: &IdealOutcome, candidate: &FrameOutcome) {
-        let Self { cells, states: [own, other], tally, .. } = self;
-        own.clear();
-        own.extend(
+        let Self { cells, states: [ideal_states, candidate_states], tally, .. } = self;
+        ideal_states.clear();
+        ideal_states.extend(
             (0..ideal.srs.len())
                 .map(|at| decision_state(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
         );
-        other.clear();
-        other.extend(
+        candidate_states.clear();
+        candidate_states.extend(
             (0..candidate.srs.len()).map(|at| {
                 decision_state(candidate.srs[at], candidate.trs[at], candidate.actions[at])
             }),
         );
         let mut table = NO_AREAS;
-        cells.add_areas(own, other, &mut table);
+        cells.add_areas(ideal_states, candidate_states, &mut table);
         tally.areas.add_table(&table);
     }
 
@@ -154,10 +154,11 @@ impl Fidelity {
         let expected = (self.ideal.width(), self.ideal.height(), self.ideal.pixel_bits());
         let given = (input.width(), input.height(), input.bits());
         if given != expected {
-            let kind = |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
+            let description =
+                |(width, height, bits)| format!("{width}x{height} pixels of {bits} bits");
             return Err(FidelityError::FrameFormat {
-                given: kind(given),
-                expected: kind(expected),
+                given: description(given),
+                expected: description(expected),
             });
         }
         let bits = self.candidate.pixel_bits();
@@ -225,12 +226,18 @@ impl<T: PixelSample> TypedPixelComparison<T> {
         tally: &mut ErrorTally,
     ) {
         // The types have been checked, so this always succeeds.
-        let Some(pictures) = self.planes.convert(input.borrowed_pixels(), ideal, screen) else {
+        let Some(compared_frames) = self.planes.convert(input.borrowed_pixels(), ideal, screen)
+        else {
             return;
         };
-        let [to_ideal, to_input] = self.comparison.compare(pictures);
+        let [to_ideal, to_input] = self.comparison.compare(compared_frames);
         tally.to_ideal.add(&to_ideal);
         tally.to_input.add(&to_input);
-        self.staleness.add_frame(&ideal.srs, pictures.denoised, pictures.screen, &mut tally.stale);
+        self.staleness.add_frame(
+            &ideal.srs,
+            compared_frames.denoised,
+            compared_frames.screen,
+            &mut tally.stale,
+        );
     }
 }

@@ -45,10 +45,10 @@ pub struct FidelityFigures {
     pub psnr_ideal: Option<f64>,
     /// The PSNR of the candidate's screen against the input in dB; `None` if they are identical.
     pub psnr_input: Option<f64>,
-    /// The SSIM of the candidate's screen against the ideal's, at most 1: the mean over frames of
-    /// the SSIM of ffmpeg's filter `ssim`. It is that of the filter's C code: the assembler code
-    /// for x86 is wrong if width / 4 is 2 more than a multiple of 4. A frame that is less than 8
-    /// pixels wide or high is one window.
+    /// The SSIM of the candidate's screen against the ideal's, at most 1. It is the mean over
+    /// frames of the SSIM that the C code of ffmpeg's filter `ssim` computes. The filter's
+    /// assembler code for x86 computes another value, a wrong one, if width / 4 is 2 more than a
+    /// multiple of 4. A frame that is less than 8 pixels wide or high is one window.
     pub ssim_ideal: f64,
     /// The SSIM of the candidate's screen against the input, at most 1.
     pub ssim_input: f64,
@@ -102,7 +102,7 @@ impl ErrorTally {
     /// Returns the figures of the tally.
     #[must_use]
     pub fn figures(&self) -> FidelityFigures {
-        let Self { frames, pixels, areas, stale, .. } = self;
+        let Self { frames, pixels, areas, stale: staleness, .. } = self;
         let share = |area: u64| ratio(area, *pixels, 0.0);
         let union = areas.ideal + areas.candidate - areas.both.min(areas.ideal);
         FidelityFigures {
@@ -122,10 +122,10 @@ impl ErrorTally {
             ssim_ideal: self.to_ideal.ssim(*frames),
             ssim_input: self.to_input.ssim(*frames),
             staleness: Staleness {
-                max: f64::from(stale.max),
-                mean: ratio(stale.sum, stale.pixels, 0.0),
-                longest: stale.longest,
-                share: ratio(stale.stale, stale.relevant, 0.0),
+                max: f64::from(staleness.max),
+                mean: ratio(staleness.sum, staleness.pixels, 0.0),
+                longest: staleness.longest,
+                share: ratio(staleness.stale, staleness.relevant, 0.0),
             },
         }
     }

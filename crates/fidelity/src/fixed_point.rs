@@ -73,9 +73,9 @@ mod tests {
             values.for_each(|value| sum.add(FixedPoint::nearest(value)));
             sum
         };
-        let forth = sum(&mut values.into_iter());
-        assert_eq!(forth, sum(&mut values.into_iter().rev()));
-        assert_eq!(FixedPoint::try_from(String::from(forth)), Ok(forth));
+        let forward_sum = sum(&mut values.into_iter());
+        assert_eq!(forward_sum, sum(&mut values.into_iter().rev()));
+        assert_eq!(FixedPoint::try_from(String::from(forward_sum)), Ok(forward_sum));
         assert_eq!(FixedPoint::whole(7).to_f64(), 7.0);
         assert_eq!(FixedPoint::nearest(f64::INFINITY), FixedPoint(i128::MAX));
     }

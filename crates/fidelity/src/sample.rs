@@ -30,8 +30,9 @@ pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
     fn plane_pixels<'p>(plane: FramePixels<'p>) -> Option<&'p [Self]>;
 }
 
-/// A whole number below 2^52 plus this number has its digits in the lowest bits. This conversion
-/// takes one addition in every vector instruction set.
+/// The number 2^52. The sum of this number and a whole number below 2^52 is a floating-point number
+/// whose lowest bits are the whole number. A conversion by this sum takes one addition in every
+/// vector instruction set.
 const SHIFT: f64 = 4_503_599_627_370_496.0; // 2^52
 
 impl PixelSample for u8 {

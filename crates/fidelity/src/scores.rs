@@ -37,9 +37,10 @@ pub(crate) struct ScorePair {
     feature_indices: Option<(usize, usize)>,
     name: &'static str,
     unit: &'static str,
-    /// The divisor that converts a score of the candidate to the unit of the ideal, which divides
-    /// by the same number. `depth` is then a power of two for another pixel depth, which is exact.
+    /// The divisor that converts a score of the candidate to the natural unit of the ideal.
     divisor: f64,
+    /// The factor that converts grey levels of the candidate to those of the ideal. It is a power
+    /// of two, so the conversion is exact.
     depth_factor: f64,
     /// The divisor of both scores, which makes shares of a region.
     share_divisor: f64,
@@ -63,13 +64,14 @@ impl ScorePair {
         };
         let levels =
             2.0_f64.powf(f64::from(ideal.pixel_bits()) - f64::from(candidate.pixel_bits()));
-        let own = candidate.features().iter().enumerate();
-        let find = |kind| own.clone().find(|(_, feature)| feature.kind() == kind);
+        let candidate_features = candidate.features().iter().enumerate();
+        let find = |kind| candidate_features.clone().find(|(_, feature)| feature.kind() == kind);
         let mut pairs = Vec::new();
         for (at, feature) in ideal.features().iter().enumerate() {
             let kind = feature.kind();
-            let Some((other, feature)) = find(kind) else { continue };
-            let base = Self { feature_indices: Some((at, other)), name: kind.name(), ..hits };
+            let Some((candidate_index, feature)) = find(kind) else { continue };
+            let base =
+                Self { feature_indices: Some((at, candidate_index)), name: kind.name(), ..hits };
             let measure = kind.score_unit();
             pairs.push(match measure {
                 ScoreUnit::Pixels => base,
@@ -101,9 +103,9 @@ impl ScorePair {
         tally: &mut ScoreTally,
     ) {
         match self.feature_indices {
-            Some((own, other)) => self.compare(
-                &ideal.scores[own],
-                candidate.scores[other].iter().map(|&score| count_to_f64(score)),
+            Some((ideal_index, candidate_index)) => self.compare(
+                &ideal.scores[ideal_index],
+                candidate.scores[candidate_index].iter().map(|&score| count_to_f64(score)),
                 tally,
             ),
             None => self.compare(

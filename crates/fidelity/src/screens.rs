@@ -2,10 +2,10 @@
 //! The squared errors and the SSIM of the candidate's screen, against the ideal's screen and the
 //! input at the same time.
 //!
-//! The SSIM is that of ffmpeg's filter `ssim` for one plane: it has windows of 8x8 pixels every 4
-//! pixels, made of the sums of 4x4 blocks. The pixels that are left at the right and at the bottom
-//! belong to no window. For a frame that is less than 8 pixels wide or high ffmpeg has no window;
-//! here the whole frame is one window.
+//! The SSIM is that of ffmpeg's filter `ssim` for one plane. It has windows of 8x8 pixels, 4 pixels
+//! apart, each of which is made of four blocks of 4x4 pixels. Pixels at the right and at the bottom
+//! that fill no block belong to no window. For a frame that is less than 8 pixels wide or high,
+//! ffmpeg has no window; here the whole frame is one window.
 
 use serde::{Deserialize, Serialize};
 
@@ -48,8 +48,8 @@ const BLOCK: usize = 4;
 /// The number of columns that are summed at a time.
 const TILE: usize = 64;
 
-/// The number of sums: of the screen, the ideal's screen and the input; of their squares; and of
-/// the products of the screen with the other two.
+/// The number of sums. There are sums of the pixels of three frames (the screen, the ideal's screen
+/// and the input), of their squares, and of the products of the screen with the other two.
 const SUM_COUNT: usize = 8;
 
 /// The sums of 4 rows, column by column.
@@ -73,8 +73,8 @@ pub(crate) struct ScreenComparison<T> {
 impl<T: PixelSample> ScreenComparison<T> {
     /// Creates a comparison of frames of `width` x `height` pixels with values up to `peak`.
     pub(crate) fn new(width: usize, height: usize, peak: u32) -> Self {
-        let whole = width < 2 * BLOCK || height < 2 * BLOCK;
-        let pixels = if whole { count_to_f64((width * height) as u64) } else { 64.0 };
+        let is_one_window = width < 2 * BLOCK || height < 2 * BLOCK;
+        let pixels = if is_one_window { count_to_f64((width * height) as u64) } else { 64.0 };
         let list = || std::array::from_fn(|_| vec![0.0; width / BLOCK]);
         Self {
             width,
@@ -86,21 +86,21 @@ impl<T: PixelSample> ScreenComparison<T> {
     }
 
     /// Compares one frame with the ideal's screen, and with the input.
-    pub(crate) fn compare(&mut self, pictures: ComparedFrames<'_, T>) -> [ScreenTally; 2] {
+    pub(crate) fn compare(&mut self, frames: ComparedFrames<'_, T>) -> [ScreenTally; 2] {
         let mut squares = [0_u64; 2];
-        let mut likeness = [0.0; 2];
-        let mut all = [0.0; SUM_COUNT];
-        let small = self.width < 2 * BLOCK || self.height < 2 * BLOCK;
+        let mut ssim_sums = [0.0; 2];
+        let mut frame_sums = [0.0; SUM_COUNT];
+        let is_one_window = self.width < 2 * BLOCK || self.height < 2 * BLOCK;
         for top in (0..self.height).step_by(BLOCK) {
-            self.sum_rows(pictures, top, &mut squares, small.then_some(&mut all));
-            if top > 0 && top + BLOCK <= self.height && !small {
+            self.sum_rows(frames, top, &mut squares, is_one_window.then_some(&mut frame_sums));
+            if top > 0 && top + BLOCK <= self.height && !is_one_window {
                 let row = self.ssim_of_windows();
-                likeness = [likeness[0] + row[0], likeness[1] + row[1]];
+                ssim_sums = [ssim_sums[0] + row[0], ssim_sums[1] + row[1]];
             }
             self.rows.swap(0, 1);
         }
-        let windows = if small {
-            likeness = windows_from_sums(all).map(|window| self.ssim.window_ssim(window));
+        let windows = if is_one_window {
+            ssim_sums = windows_from_sums(frame_sums).map(|window| self.ssim.window_ssim(window));
             1.0
         } else {
             let (across, down) = (self.width / BLOCK - 1, self.height / BLOCK - 1);
@@ -108,27 +108,27 @@ impl<T: PixelSample> ScreenComparison<T> {
         };
         std::array::from_fn(|which| ScreenTally {
             squares: FixedPoint::whole(squares[which]),
-            ssim: FixedPoint::nearest(likeness[which] / windows),
+            ssim: FixedPoint::nearest(ssim_sums[which] / windows),
         })
     }
 
     /// Sums up to four rows: the squared errors of all columns, and the sums of whole blocks.
     fn sum_rows(
         &mut self,
-        pictures: ComparedFrames<'_, T>,
+        frames: ComparedFrames<'_, T>,
         top: usize,
         squares: &mut [u64; 2],
-        mut all: Option<&mut [f64; SUM_COUNT]>,
+        mut frame_sums: Option<&mut [f64; SUM_COUNT]>,
     ) {
         let mut tile = ColumnSums::<T>::new();
         for left in (0..self.width).step_by(TILE) {
             let len = TILE.min(self.width - left);
-            let part = |picture| self.tile_rows(picture, top, left, len);
-            tile.fill(part(pictures.screen), part(pictures.rendered), part(pictures.input), len);
+            let part = |plane| self.tile_rows(plane, top, left, len);
+            tile.fill(part(frames.screen), part(frames.rendered), part(frames.input), len);
             let [rendered, input] = tile.squares(len);
             *squares = [squares[0] + rendered, squares[1] + input];
-            if let Some(all) = all.as_deref_mut() {
-                tile.add_to_frame_sums(all, len);
+            if let Some(frame_sums) = frame_sums.as_deref_mut() {
+                tile.add_to_frame_sums(frame_sums, len);
             }
             let blocks = left / BLOCK..(left + len) / BLOCK;
             for (at, row) in self.rows[1].iter_mut().enumerate() {
@@ -141,13 +141,13 @@ impl<T: PixelSample> ScreenComparison<T> {
     /// nothing to a sum.
     fn tile_rows<'p>(
         &'p self,
-        picture: &'p [T],
+        plane: &'p [T],
         top: usize,
         left: usize,
         len: usize,
     ) -> [&'p [T]; BLOCK] {
         std::array::from_fn(|row| match top + row < self.height {
-            true => &picture[(top + row) * self.width + left..][..len],
+            true => &plane[(top + row) * self.width + left..][..len],
             false => &self.zero[..len],
         })
     }
@@ -157,17 +157,17 @@ impl<T: PixelSample> ScreenComparison<T> {
         let ([above, below], count) = (&self.rows, self.width / BLOCK);
         let (above, below) = (above.each_ref(), below.each_ref());
         let (above, below) = (above.map(|list| &list[..count]), below.map(|list| &list[..count]));
-        let mut likeness = [0.0; 2];
+        let mut ssim_sums = [0.0; 2];
         for at in 0..count - 1 {
             let sums = std::array::from_fn(|sum| {
                 let (above, below) = (above[sum], below[sum]);
                 above[at] + above[at + 1] + below[at] + below[at + 1]
             });
             let [rendered, input] = windows_from_sums(sums);
-            likeness[0] += self.ssim.window_ssim(rendered);
-            likeness[1] += self.ssim.window_ssim(input);
+            ssim_sums[0] += self.ssim.window_ssim(rendered);
+            ssim_sums[1] += self.ssim.window_ssim(input);
         }
-        likeness
+        ssim_sums
     }
 }
 
@@ -191,8 +191,8 @@ impl<T: PixelSample> ColumnSums<T> {
         let len = len.min(TILE);
         let (a, b, c) =
             (a.map(|row| &row[..len]), b.map(|row| &row[..len]), c.map(|row| &row[..len]));
-        let [own, ideal, input] = &mut self.pixels;
-        let [own2, ideal2, input2, with_ideal, with_input] = &mut self.products;
+        let [screen, ideal, input] = &mut self.pixels;
+        let [screen2, ideal2, input2, with_ideal, with_input] = &mut self.products;
         for x in 0..len {
             let mut sums = [0_u32; 3];
             let mut products = [T::Product::default(); 5];
@@ -206,13 +206,13 @@ impl<T: PixelSample> ColumnSums<T> {
                     *sum += one.product(other);
                 }
             }
-            [own[x], ideal[x], input[x]] = sums;
-            [own2[x], ideal2[x], input2[x], with_ideal[x], with_input[x]] = products;
+            [screen[x], ideal[x], input[x]] = sums;
+            [screen2[x], ideal2[x], input2[x], with_ideal[x], with_input[x]] = products;
         }
     }
 
-    /// Returns the sums of the squared differences of the screen to the other two:
-    /// `a^2 + b^2 - 2 a b`.
+    /// Returns the sums of the squared differences between the screen and each of the other two
+    /// frames, by `(a - b)^2 = a^2 + b^2 - 2 a b`.
     fn squares(&self, len: usize) -> [u64; 2] {
         let sum = |which: usize| -> u64 {
             self.products[which][..len].iter().map(|&product| product.into()).sum()

@@ -33,13 +33,13 @@ impl FrameSimilarity {
                 return Err(FidelityError::ResultLength { what, given, expected: self.pixels });
             }
         }
-        let pictures = ComparedFrames {
+        let compared_frames = ComparedFrames {
             input: original,
             denoised: original,
             rendered: original,
             screen: seen,
         };
-        let [_, to_input] = self.comparison.compare(pictures);
+        let [_, to_input] = self.comparison.compare(compared_frames);
         self.tally.add(&to_input);
         self.frames += 1;
         Ok(())

@@ -44,11 +44,11 @@ impl SsimConstants {
         let both = a * a + b * b;
         let variances = squares * self.pixels - both;
         let covariance = product * self.pixels - a * b;
-        let alike = (2.0 * a * b + self.c1) * (2.0 * covariance + self.c2);
-        let all = (both + self.c1) * (variances + self.c2);
+        let numerator = (2.0 * a * b + self.c1) * (2.0 * covariance + self.c2);
+        let denominator = (both + self.c1) * (variances + self.c2);
         // If both constants are 0, as for pixels of 1 to 3 bits in small windows, two black windows
         // give 0 / 0.
-        if alike == all { 1.0 } else { alike / all }
+        if numerator == denominator { 1.0 } else { numerator / denominator }
     }
 }
 

@@ -104,13 +104,13 @@ impl<T: PixelSample> StalenessTracker<T> {
         let rows = denoised.chunks_exact(self.width).zip(screen.chunks_exact(self.width));
         for (denoised, screen) in rows {
             let results = self.sums.iter_mut().zip(&mut self.largest).zip(&mut self.counts);
-            for (((sum, largest), count), (&now, &shown)) in
+            for (((sum, largest), count), (&denoised_pixel, &shown)) in
                 results.zip(denoised.iter().zip(screen))
             {
-                let distance = now.difference(shown);
-                *sum += T::Sum::from(distance);
-                *largest = distance.max(*largest);
-                *count += u8::from(distance > self.level);
+                let difference = denoised_pixel.difference(shown);
+                *sum += T::Sum::from(difference);
+                *largest = difference.max(*largest);
+                *count += u8::from(difference > self.level);
             }
         }
     }

@@ -36,8 +36,8 @@ impl ErrorTally {
         self.pixels += other.pixels;
         self.peak = self.peak.max(other.peak);
         for score in &other.scores {
-            match self.scores.iter_mut().find(|own| own.feature == score.feature) {
-                Some(own) => own.add(score),
+            match self.scores.iter_mut().find(|tally| tally.feature == score.feature) {
+                Some(tally) => tally.add(score),
                 None => self.scores.push(score.clone()),
             }
         }

@@ -72,9 +72,9 @@ fn tallies_add_up_in_any_order() {
     for clip in &clips {
         run(&ideal, &candidate, clip, &mut whole);
         whole.next_clip();
-        let mut own = Fidelity::new(&ideal, &candidate).unwrap();
-        run(&ideal, &candidate, clip, &mut own);
-        parts.push(own.into_tally());
+        let mut part = Fidelity::new(&ideal, &candidate).unwrap();
+        run(&ideal, &candidate, clip, &mut part);
+        parts.push(part.into_tally());
     }
     for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
         let mut merged = ErrorTally::default();
@@ -89,7 +89,7 @@ fn tallies_add_up_in_any_order() {
 }
 
 #[test]
-fn nothing_compared_is_nothing_wrong() {
+fn a_tally_without_frames_has_no_errors() {
     let figures = ErrorTally::default().figures();
     assert_eq!((figures.frames, figures.srs_flips, figures.missed), (0, 0.0, 0.0));
     assert_eq!((figures.active_iou, figures.ssim_ideal, figures.psnr_ideal), (1.0, 1.0, None));
@@ -99,35 +99,37 @@ fn nothing_compared_is_nothing_wrong() {
 /// squared level is sixteen.
 #[test]
 fn scores_of_fewer_bits_are_scaled_up() {
-    let mut own = config((2, 2), 2, 8);
-    own.spatial = [FeatureKind::Variance, FeatureKind::Mad].map(SpatialConfig::new).to_vec();
-    let mut other = config((2, 2), 2, 6);
-    other.spatial = [FeatureKind::Mad, FeatureKind::Edge, FeatureKind::Variance]
+    let mut ideal_camera = config((2, 2), 2, 8);
+    ideal_camera.spatial =
+        [FeatureKind::Variance, FeatureKind::Mad].map(SpatialConfig::new).to_vec();
+    let mut candidate_camera = config((2, 2), 2, 6);
+    candidate_camera.spatial = [FeatureKind::Mad, FeatureKind::Edge, FeatureKind::Variance]
         .map(SpatialConfig::new)
         .to_vec();
-    other.spatial[0].mean_fraction_bits = Some(1);
-    other.spatial[1].min_score = Some(Decimal::from_whole(1));
-    let [own, other] = [own, other].map(|config| config.validate().unwrap());
-    let (mut ideal, mut candidate) = (blank_ideal(&own), blank_outcome(&other));
+    candidate_camera.spatial[0].mean_fraction_bits = Some(1);
+    candidate_camera.spatial[1].min_score = Some(Decimal::from_whole(1));
+    let [ideal_camera, candidate_camera] =
+        [ideal_camera, candidate_camera].map(|config| config.validate().unwrap());
+    let (mut ideal, mut candidate) = (blank_ideal(&ideal_camera), blank_outcome(&candidate_camera));
     // The score 24 / (4 * 2) = 3 grey levels of 6 bits is 12 levels of 8 bits; 80 / 16 = 5 squared
     // levels are 80.
     (ideal.scores[1][0], candidate.scores[0][0]) = (12.5, 24);
     (ideal.scores[0][0], candidate.scores[2][0]) = (82.0, 80);
-    let mut fidelity = Fidelity::new(&own, &other).unwrap();
-    let input = frame_from_words(&own, vec![0; 4]);
+    let mut fidelity = Fidelity::new(&ideal_camera, &candidate_camera).unwrap();
+    let input = frame_from_words(&ideal_camera, vec![0; 4]);
     fidelity.add(&input, &ideal, &candidate, FramePixels::Bytes(&[0; 4])).unwrap();
     let figures = fidelity.tally().figures();
-    let seen = figures.scores.iter().map(|score| (&*score.feature, &*score.unit, score.max));
+    let observed = figures.scores.iter().map(|score| (&*score.feature, &*score.unit, score.max));
     let expected = [
         ("variance", "squared grey levels", 2.0),
         ("mad", "grey levels", 0.5),
         ("temporal", "share of the region's pixels", 0.0),
     ];
-    assert_eq!(seen.collect::<Vec<_>>(), expected);
+    assert_eq!(observed.collect::<Vec<_>>(), expected);
 }
 
 #[test]
-fn what_does_not_belong_together_is_refused() {
+fn sizes_types_and_lengths_that_do_not_match_are_refused() {
     let camera = config((16, 8), 8, 8).validate().unwrap();
     let other = config((16, 9), 8, 8).validate().unwrap();
     let text = Fidelity::new(&camera, &other).unwrap_err().to_string();

@@ -57,10 +57,10 @@ fn filtered(folder: &Path, filter: &str, camera: &Camera) -> (Vec<String>, Strin
         .args(["-lavfi", &format!("{filter}=stats_file=stats"), "-f", "null", "-"])
         .output()
         .unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{said}");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{messages}");
     let stats = fs::read_to_string(folder.join("stats")).unwrap();
-    (stats.lines().map(str::to_owned).collect(), said)
+    (stats.lines().map(str::to_owned).collect(), messages)
 }
 
 /// Returns the value after the last `key` of a text.
@@ -75,8 +75,8 @@ fn printed(psnr: Option<f64>, digits: usize) -> String {
 }
 
 /// Compares the six digits that ffmpeg prints, to which its single precision is right.
-fn assert_ssim(own: f64, theirs: &str, context: &str) {
-    assert_eq!(format!("{own:.6}"), theirs, "{own}, {context}");
+fn assert_ssim(ssim: f64, printed: &str, context: &str) {
+    assert_eq!(format!("{ssim:.6}"), printed, "{ssim}, {context}");
 }
 
 /// Returns the PSNR and SSIM without cameras.
@@ -98,15 +98,15 @@ fn likeness(camera: &Camera, input: &[ByteFrame], shown: &[ByteFrame]) -> (Optio
 
 fn compare(camera: &Camera, input: &[ByteFrame], ideal: &[ByteFrame], shown: &[ByteFrame]) {
     let mut whole = Fidelity::new(camera, camera).unwrap();
-    let mut single: Vec<FidelityFigures> = Vec::new();
+    let mut frame_figures: Vec<FidelityFigures> = Vec::new();
     for ((input, ideal), shown) in input.iter().zip(ideal).zip(shown) {
-        let mut seen = blank_ideal(camera);
-        seen.rendered = greys(&ideal.borrowed_pixels().to_words());
-        let mut alone = Fidelity::new(camera, camera).unwrap();
-        for fidelity in [&mut whole, &mut alone] {
-            fidelity.add(input, &seen, &blank_outcome(camera), shown.borrowed_pixels()).unwrap();
+        let mut outcome = blank_ideal(camera);
+        outcome.rendered = greys(&ideal.borrowed_pixels().to_words());
+        let mut single_frame = Fidelity::new(camera, camera).unwrap();
+        for fidelity in [&mut whole, &mut single_frame] {
+            fidelity.add(input, &outcome, &blank_outcome(camera), shown.borrowed_pixels()).unwrap();
         }
-        single.push(alone.tally().figures());
+        frame_figures.push(single_frame.tally().figures());
     }
     let all = whole.tally().figures();
     if camera.pixel_bits() == 8 {
@@ -116,22 +116,26 @@ fn compare(camera: &Camera, input: &[ByteFrame], ideal: &[ByteFrame], shown: &[B
     write(&folder.path().join("screen"), shown);
     for (name, other) in [("ideal", ideal), ("input", input)] {
         write(&folder.path().join("other"), other);
-        let own = |figures: &FidelityFigures| match name {
+        let psnr_and_ssim = |figures: &FidelityFigures| match name {
             "ideal" => (figures.psnr_ideal, figures.ssim_ideal),
             _ => (figures.psnr_input, figures.ssim_input),
         };
         let context = format!("{}x{} {name}", camera.width(), camera.height());
-        let (stats, said) = filtered(folder.path(), "psnr", camera);
-        assert_eq!(stats.len(), single.len());
-        for (figures, line) in single.iter().zip(&stats) {
-            assert_eq!(printed(own(figures).0, 2), value(line, "psnr_y:"), "{line} {context}");
+        let (stats, messages) = filtered(folder.path(), "psnr", camera);
+        assert_eq!(stats.len(), frame_figures.len());
+        for (figures, line) in frame_figures.iter().zip(&stats) {
+            assert_eq!(
+                printed(psnr_and_ssim(figures).0, 2),
+                value(line, "psnr_y:"),
+                "{line} {context}"
+            );
         }
-        assert_eq!(printed(own(&all).0, 6), value(&said, "average:"), "{context}");
-        let (stats, said) = filtered(folder.path(), "ssim", camera);
-        for (figures, line) in single.iter().zip(&stats) {
-            assert_ssim(own(figures).1, &value(line, "Y:"), &format!("{line} {context}"));
+        assert_eq!(printed(psnr_and_ssim(&all).0, 6), value(&messages, "average:"), "{context}");
+        let (stats, messages) = filtered(folder.path(), "ssim", camera);
+        for (figures, line) in frame_figures.iter().zip(&stats) {
+            assert_ssim(psnr_and_ssim(figures).1, &value(line, "Y:"), &format!("{line} {context}"));
         }
-        assert_ssim(own(&all).1, &value(&said, "SSIM Y:"), &context);
+        assert_ssim(psnr_and_ssim(&all).1, &value(&messages, "SSIM Y:"), &context);
     }
 }
 

@@ -35,10 +35,10 @@ fn ssim(a: &[f64], b: &[f64], camera: &Camera) -> f64 {
     let mut windows = Vec::new();
     for top in (0..=height - 8).step_by(4) {
         for left in (0..=width - 8).step_by(4) {
-            let cut = |plane: &[f64]| -> Vec<f64> {
+            let window = |plane: &[f64]| -> Vec<f64> {
                 (0..64).map(|at| plane[(top + at / 8) * width + left + at % 8]).collect()
             };
-            windows.push(window_ssim(&cut(a), &cut(b), peak));
+            windows.push(window_ssim(&window(a), &window(b), peak));
         }
     }
     mean(&windows)
@@ -49,27 +49,32 @@ pub(crate) fn check_pictures(
     figures: &FidelityFigures,
     frames: &[MadeUpFrame],
     shown: &[Vec<u16>],
-    own: &Camera,
+    ideal_camera: &Camera,
 ) {
     let rendered = |frame: &MadeUpFrame| frame.ideal.rendered.clone();
     let input = |frame: &MadeUpFrame| greys(&frame.input);
     let rendered: Vec<_> = frames.iter().map(rendered).collect();
     let input: Vec<_> = frames.iter().map(input).collect();
-    check(figures.psnr_ideal, figures.ssim_ideal, (&rendered, shown), own);
-    check(figures.psnr_input, figures.ssim_input, (&input, shown), own);
+    check(figures.psnr_ideal, figures.ssim_ideal, (&rendered, shown), ideal_camera);
+    check(figures.psnr_input, figures.ssim_input, (&input, shown), ideal_camera);
 }
 
-fn check(psnr: Option<f64>, found: f64, (other, shown): (&[Vec<f64>], &[Vec<u16>]), own: &Camera) {
-    let peak = f64::from(own.pixel_max());
-    let (mut squares, mut likeness) = (Vec::new(), Vec::new());
+fn check(
+    psnr: Option<f64>,
+    found: f64,
+    (other, shown): (&[Vec<f64>], &[Vec<u16>]),
+    ideal_camera: &Camera,
+) {
+    let peak = f64::from(ideal_camera.pixel_max());
+    let (mut squares, mut ssim_values) = (Vec::new(), Vec::new());
     for (other, shown) in other.iter().zip(shown) {
         let shown = greys(shown);
-        likeness.push(ssim(&shown, other, own));
+        ssim_values.push(ssim(&shown, other, ideal_camera));
         squares.extend(shown.iter().zip(other).map(|(a, b)| (a - b) * (a - b)));
     }
     let mse = mean(&squares);
     let expected = (mse > 0.0).then(|| 10.0 * (peak * peak / mse).log10());
     assert_eq!(psnr.is_some(), expected.is_some());
     assert!((psnr.unwrap_or(0.0) - expected.unwrap_or(0.0)).abs() < 1e-9);
-    assert!((found - mean(&likeness)).abs() < 1e-9, "{found} {}", mean(&likeness));
+    assert!((found - mean(&ssim_values)).abs() < 1e-9, "{found} {}", mean(&ssim_values));
 }

@@ -35,27 +35,31 @@ fn nearby_pixels(random: &mut RandomNumbers, base: &[u16], from: u32, to: u32) -
         .collect()
 }
 
-fn made_up(random: &mut RandomNumbers, own: &Camera, other: &Camera) -> MadeUpFrame {
-    let (bits, max) = (own.pixel_bits(), own.pixel_max());
-    let input: Vec<u16> = (0..pixels(own)).map(|_| random.pixel(max)).collect();
+fn made_up(
+    random: &mut RandomNumbers,
+    ideal_camera: &Camera,
+    candidate_camera: &Camera,
+) -> MadeUpFrame {
+    let (bits, max) = (ideal_camera.pixel_bits(), ideal_camera.pixel_max());
+    let input: Vec<u16> = (0..pixels(ideal_camera)).map(|_| random.pixel(max)).collect();
     let actions = [RegionAction::Forward, RegionAction::Hold, RegionAction::Blank];
-    let mut ideal = blank_ideal(own);
+    let mut ideal = blank_ideal(ideal_camera);
     for region in 0..ideal.srs.len() {
         (ideal.srs[region], ideal.trs[region]) = (random.below(3) > 0, random.coin());
         ideal.actions[region] = actions[random.below(2) as usize];
-        ideal.scores[0][region] = f64::from(random.below(own.region_pixels()));
-        ideal.changed[region] = f64::from(random.below(own.region_pixels()));
+        ideal.scores[0][region] = f64::from(random.below(ideal_camera.region_pixels()));
+        ideal.changed[region] = f64::from(random.below(ideal_camera.region_pixels()));
     }
     ideal.denoised = greys(&nearby_pixels(random, &input, bits, bits));
     ideal.rendered = greys(&nearby_pixels(random, &input, bits, bits));
-    let mut candidate = blank_outcome(other);
+    let mut candidate = blank_outcome(candidate_camera);
     for region in 0..candidate.srs.len() {
         (candidate.srs[region], candidate.trs[region]) = (random.coin(), random.below(3) > 0);
         candidate.actions[region] = actions[random.below(2) as usize];
-        candidate.scores[0][region] = random.below(other.region_pixels()).into();
-        candidate.temporal_count[region] = random.below(other.region_pixels());
+        candidate.scores[0][region] = random.below(candidate_camera.region_pixels()).into();
+        candidate.temporal_count[region] = random.below(candidate_camera.region_pixels());
     }
-    let screen = nearby_pixels(random, &input, bits, other.pixel_bits());
+    let screen = nearby_pixels(random, &input, bits, candidate_camera.pixel_bits());
     MadeUpFrame { input, ideal, candidate, screen }
 }
 
@@ -73,36 +77,38 @@ fn share(part: f64, whole: f64, empty: f64) -> f64 {
 fn check_decisions(
     figures: &FidelityFigures,
     frames: &[MadeUpFrame],
-    own: &Camera,
-    other: &Camera,
+    ideal_camera: &Camera,
+    candidate_camera: &Camera,
 ) {
     let mut counts = [0.0; 8];
-    let [all, srs, trs, action, mine, theirs, both, either] = &mut counts;
+    let [all, srs, trs, action, ideal_active, candidate_active, both, either] = &mut counts;
     for MadeUpFrame { ideal, candidate, .. } in frames {
-        for (x, y) in (0..own.height()).flat_map(|y| (0..own.width()).map(move |x| (x, y))) {
-            let (a, b) = (region(own, x, y), region(other, x, y));
-            let one = |yes: bool| f64::from(u8::from(yes));
+        for (x, y) in
+            (0..ideal_camera.height()).flat_map(|y| (0..ideal_camera.width()).map(move |x| (x, y)))
+        {
+            let (a, b) = (region(ideal_camera, x, y), region(candidate_camera, x, y));
+            let as_count = |yes: bool| f64::from(u8::from(yes));
             *all += 1.0;
-            *srs += one(ideal.srs[a] != candidate.srs[b]);
-            *trs += one(ideal.trs[a] != candidate.trs[b]);
-            *action += one(ideal.actions[a] != candidate.actions[b]);
+            *srs += as_count(ideal.srs[a] != candidate.srs[b]);
+            *trs += as_count(ideal.trs[a] != candidate.trs[b]);
+            *action += as_count(ideal.actions[a] != candidate.actions[b]);
             let active = (ideal.srs[a] && ideal.trs[a], candidate.srs[b] && candidate.trs[b]);
-            *mine += one(active.0);
-            *theirs += one(active.1);
-            *both += one(active.0 && active.1);
-            *either += one(active.0 || active.1);
+            *ideal_active += as_count(active.0);
+            *candidate_active += as_count(active.1);
+            *both += as_count(active.0 && active.1);
+            *either += as_count(active.0 || active.1);
         }
     }
-    let [all, srs, trs, action, mine, theirs, both, either] = counts;
+    let [all, srs, trs, action, ideal_active, candidate_active, both, either] = counts;
     let expected = [
         (figures.srs_flips, srs / all),
         (figures.trs_flips, trs / all),
         (figures.action_flips, action / all),
-        (figures.missed, share(mine - both, mine, 0.0)),
-        (figures.false_alarms, share(theirs - both, theirs, 0.0)),
+        (figures.missed, share(ideal_active - both, ideal_active, 0.0)),
+        (figures.false_alarms, share(candidate_active - both, candidate_active, 0.0)),
         (figures.active_iou, share(both, either, 1.0)),
-        (figures.active, theirs / all),
-        (figures.ideal_active, mine / all),
+        (figures.active, candidate_active / all),
+        (figures.ideal_active, ideal_active / all),
     ];
     for (at, (figure, expected)) in expected.into_iter().enumerate() {
         assert_eq!(figure, expected, "decision {at}");
@@ -114,29 +120,29 @@ fn check_staleness(
     figures: &FidelityFigures,
     frames: &[MadeUpFrame],
     shown: &[Vec<u16>],
-    own: &Camera,
+    ideal_camera: &Camera,
 ) {
-    let (mut max, mut sum, mut seen) = (0.0_f64, 0.0, 0.0);
+    let (mut max, mut sum, mut relevant_pixels) = (0.0_f64, 0.0, 0.0);
     let (mut relevant, mut stale, mut longest) = (0.0, 0.0, 0);
-    let mut runs = vec![0_u64; own.regions() as usize];
+    let mut runs = vec![0_u64; ideal_camera.regions() as usize];
     for (MadeUpFrame { ideal, .. }, shown) in frames.iter().zip(shown) {
-        let mut above = vec![0; runs.len()];
-        let mut inside = vec![0; runs.len()];
+        let mut differing = vec![0; runs.len()];
+        let mut counted = vec![0; runs.len()];
         for (at, (&scene, &shown)) in ideal.denoised.iter().zip(shown).enumerate() {
             let at = u32::try_from(at).unwrap();
-            let region = region(own, at % own.width(), at / own.width());
+            let region = region(ideal_camera, at % ideal_camera.width(), at / ideal_camera.width());
             let difference = (scene - f64::from(shown)).abs();
-            inside[region] += 1;
-            above[region] += u32::from(difference > f64::from(own.temporal().level));
+            counted[region] += 1;
+            differing[region] += u32::from(difference > f64::from(ideal_camera.temporal().level));
             if ideal.srs[region] {
                 max = max.max(difference);
                 sum += difference;
-                seen += 1.0;
+                relevant_pixels += 1.0;
             }
         }
         for (region, run) in runs.iter_mut().enumerate() {
-            let needed = own.temporal().min_count.max(1).min(inside[region]);
-            let is_stale = ideal.srs[region] && above[region] >= needed;
+            let needed = ideal_camera.temporal().min_count.max(1).min(counted[region]);
+            let is_stale = ideal.srs[region] && differing[region] >= needed;
             relevant += f64::from(u8::from(ideal.srs[region]));
             stale += f64::from(u8::from(is_stale));
             *run = if is_stale { *run + 1 } else { 0 };
@@ -145,16 +151,21 @@ fn check_staleness(
     }
     let staleness = &figures.staleness;
     assert_eq!(staleness.max, max);
-    assert_eq!(staleness.mean, share(sum, seen, 0.0));
+    assert_eq!(staleness.mean, share(sum, relevant_pixels, 0.0));
     assert_eq!((staleness.longest, staleness.share), (longest, share(stale, relevant, 0.0)));
 }
 
-fn check_scores(figures: &FidelityFigures, frames: &[MadeUpFrame], own: &Camera, other: &Camera) {
-    if own.region_size() != other.region_size() {
+fn check_scores(
+    figures: &FidelityFigures,
+    frames: &[MadeUpFrame],
+    ideal_camera: &Camera,
+    candidate_camera: &Camera,
+) {
+    if ideal_camera.region_size() != candidate_camera.region_size() {
         assert!(figures.scores.is_empty());
         return;
     }
-    let n = f64::from(own.region_pixels());
+    let n = f64::from(ideal_camera.region_pixels());
     let real = |score: u64| f64::from(u32::try_from(score).unwrap());
     let (mut edge, mut temporal) = (Vec::new(), Vec::new());
     for MadeUpFrame { ideal, candidate, .. } in frames {
@@ -179,32 +190,33 @@ fn check_scores(figures: &FidelityFigures, frames: &[MadeUpFrame], own: &Camera,
     }
 }
 
-fn check(own: &Camera, other: &Camera, seed: u64, count: usize) {
+fn check(ideal_camera: &Camera, candidate_camera: &Camera, seed: u64, count: usize) {
     let mut random = RandomNumbers(seed);
-    let frames: Vec<MadeUpFrame> = (0..count).map(|_| made_up(&mut random, own, other)).collect();
-    let mut fidelity = Fidelity::new(own, other).unwrap();
+    let frames: Vec<MadeUpFrame> =
+        (0..count).map(|_| made_up(&mut random, ideal_camera, candidate_camera)).collect();
+    let mut fidelity = Fidelity::new(ideal_camera, candidate_camera).unwrap();
     for frame in &frames {
-        let input: ByteFrame = frame_from_words(own, frame.input.clone());
-        let shown = frame_from_words(other, frame.screen.clone());
+        let input: ByteFrame = frame_from_words(ideal_camera, frame.input.clone());
+        let shown = frame_from_words(candidate_camera, frame.screen.clone());
         fidelity.add(&input, &frame.ideal, &frame.candidate, shown.borrowed_pixels()).unwrap();
     }
     let figures = fidelity.into_tally().figures();
-    let depths = (other.pixel_bits(), own.pixel_bits());
+    let depths = (candidate_camera.pixel_bits(), ideal_camera.pixel_bits());
     let shown = |frame: &MadeUpFrame| -> Vec<u16> {
         frame.screen.iter().map(|&pixel| convert_depth(pixel, depths.0, depths.1)).collect()
     };
     let shown: Vec<_> = frames.iter().map(shown).collect();
-    check_decisions(&figures, &frames, own, other);
-    check_staleness(&figures, &frames, &shown, own);
-    check_pictures(&figures, &frames, &shown, own);
-    check_scores(&figures, &frames, own, other);
+    check_decisions(&figures, &frames, ideal_camera, candidate_camera);
+    check_staleness(&figures, &frames, &shown, ideal_camera);
+    check_pictures(&figures, &frames, &shown, ideal_camera);
+    check_scores(&figures, &frames, ideal_camera, candidate_camera);
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
-    fn figures_are_what_a_count_of_pixels_gives(
+    fn figures_equal_those_of_a_count_of_pixels(
         size in (1_u32..150, 1_u32..40),
         sides in (2_u32..20, 2_u32..20, any::<bool>()),
         bits in (prop_oneof![Just(8_u32), 1..=16_u32], prop_oneof![Just(8_u32), 1..=16_u32]),
@@ -212,12 +224,12 @@ proptest! {
         seed in any::<u64>(),
         count in 1_usize..5,
     ) {
-        let (own, other) = (sides.0, if sides.2 { sides.0 } else { sides.1 });
-        let mut ideal = config(size, own, bits.0);
+        let (ideal_side, candidate_side) = (sides.0, if sides.2 { sides.0 } else { sides.1 });
+        let mut ideal = config(size, ideal_side, bits.0);
         let max = (1_u32 << bits.0) - 1;
         ideal.temporal.level = Some((max * thresholds.0 / 3).min(max - 1));
-        ideal.temporal.min_count = (own * own * thresholds.1 / 6).min(own * own);
+        ideal.temporal.min_count = (ideal_side * ideal_side * thresholds.1 / 6).min(ideal_side * ideal_side);
         let ideal = ideal.validate().unwrap();
-        check(&ideal, &config(size, other, bits.1).validate().unwrap(), seed, count);
+        check(&ideal, &config(size, candidate_side, bits.1).validate().unwrap(), seed, count);
     }
 }

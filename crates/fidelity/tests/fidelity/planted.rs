@@ -56,29 +56,35 @@ fn figures(fault: impl FnOnce(&mut PlantedResults)) -> FidelityFigures {
 }
 
 #[test]
-fn nothing_is_seen_where_nothing_is_wrong() {
-    let seen = figures(|_| {});
-    let flips = [seen.srs_flips, seen.trs_flips, seen.action_flips, seen.missed, seen.false_alarms];
+fn equal_results_have_no_errors() {
+    let observed = figures(|_| {});
+    let flips = [
+        observed.srs_flips,
+        observed.trs_flips,
+        observed.action_flips,
+        observed.missed,
+        observed.false_alarms,
+    ];
     assert_eq!(flips, [0.0; 5]);
-    assert_eq!([seen.active_iou, seen.active, seen.ideal_active], [1.0, 0.5, 0.5]);
-    assert_eq!((seen.psnr_ideal, seen.psnr_input), (None, None));
-    assert_eq!((seen.ssim_ideal, seen.ssim_input), (1.0, 1.0));
-    let stale = &seen.staleness;
+    assert_eq!([observed.active_iou, observed.active, observed.ideal_active], [1.0, 0.5, 0.5]);
+    assert_eq!((observed.psnr_ideal, observed.psnr_input), (None, None));
+    assert_eq!((observed.ssim_ideal, observed.ssim_input), (1.0, 1.0));
+    let stale = &observed.staleness;
     assert_eq!((stale.max, stale.mean, stale.longest, stale.share), (0.0, 0.0, 0, 0.0));
-    for score in &seen.scores {
+    for score in &observed.scores {
         assert_eq!((score.max, score.mean, score.rms), (0.0, 0.0, 0.0), "{}", score.feature);
     }
 }
 
 /// Each fault is in one of eight regions.
 #[test]
-fn flipped_decisions_are_seen() {
+fn flipped_decisions_change_their_figures() {
     let base = figures(|_| {});
-    let seen = figures(|results| results.candidate.srs[5] = false);
-    assert_eq!(seen, FidelityFigures { srs_flips: 0.125, ..base.clone() });
-    let seen = figures(|results| results.candidate.actions[5] = RegionAction::Blank);
-    assert_eq!(seen, FidelityFigures { action_flips: 0.125, ..base.clone() });
-    let seen = figures(|results| results.candidate.trs[5] = true);
+    let observed = figures(|results| results.candidate.srs[5] = false);
+    assert_eq!(observed, FidelityFigures { srs_flips: 0.125, ..base.clone() });
+    let observed = figures(|results| results.candidate.actions[5] = RegionAction::Blank);
+    assert_eq!(observed, FidelityFigures { action_flips: 0.125, ..base.clone() });
+    let observed = figures(|results| results.candidate.trs[5] = true);
     let expected = FidelityFigures {
         trs_flips: 0.125,
         false_alarms: 0.2,
@@ -86,36 +92,36 @@ fn flipped_decisions_are_seen() {
         active: 0.625,
         ..base.clone()
     };
-    assert_eq!(seen, expected);
-    let seen = figures(|results| results.candidate.trs[0] = false);
+    assert_eq!(observed, expected);
+    let observed = figures(|results| results.candidate.trs[0] = false);
     let expected =
         FidelityFigures { trs_flips: 0.125, missed: 0.25, active_iou: 0.75, active: 0.375, ..base };
-    assert_eq!(seen, expected);
+    assert_eq!(observed, expected);
 }
 
 #[test]
-fn errors_of_scores_are_seen() {
-    let seen = figures(|results| results.candidate.scores[0][3] = 26);
-    let [edge, temporal] = &seen.scores[..] else { panic!("two scores") };
+fn errors_of_scores_change_their_figures() {
+    let observed = figures(|results| results.candidate.scores[0][3] = 26);
+    let [edge, temporal] = &observed.scores[..] else { panic!("two scores") };
     assert_eq!((edge.max, edge.mean, edge.rms), (0.25, 0.25 / 8.0, (0.0625_f64 / 8.0).sqrt()));
     assert_eq!(temporal.max, 0.0);
-    let seen = figures(|results| results.candidate.temporal_count[3] = 3);
-    let [edge, temporal] = &seen.scores[..] else { panic!("two scores") };
+    let observed = figures(|results| results.candidate.temporal_count[3] = 3);
+    let [edge, temporal] = &observed.scores[..] else { panic!("two scores") };
     assert_eq!((edge.max, temporal.max), (0.0, 4.0 / 64.0));
 }
 
 #[test]
-fn errors_of_pixels_are_seen() {
-    let seen = figures(|results| results.screen[100] += 20);
+fn errors_of_pixels_change_their_figures() {
+    let observed = figures(|results| results.screen[100] += 20);
     let psnr = Some(10.0 * (255.0_f64 * 255.0 * 512.0 / 400.0).log10());
-    assert_eq!((seen.psnr_ideal, seen.psnr_input), (psnr, psnr));
-    assert!(seen.ssim_ideal < 1.0 && seen.ssim_ideal == seen.ssim_input);
-    assert_eq!((seen.staleness.max, seen.staleness.mean), (20.0, 20.0 / 512.0));
-    let seen = figures(|results| results.ideal.rendered[100] += 20.0);
-    assert_eq!((seen.psnr_ideal, seen.psnr_input), (psnr, None));
-    assert!(seen.ssim_ideal < 1.0 && seen.ssim_input == 1.0);
-    assert_eq!(seen.staleness.max, 0.0);
+    assert_eq!((observed.psnr_ideal, observed.psnr_input), (psnr, psnr));
+    assert!(observed.ssim_ideal < 1.0 && observed.ssim_ideal == observed.ssim_input);
+    assert_eq!((observed.staleness.max, observed.staleness.mean), (20.0, 20.0 / 512.0));
+    let observed = figures(|results| results.ideal.rendered[100] += 20.0);
+    assert_eq!((observed.psnr_ideal, observed.psnr_input), (psnr, None));
+    assert!(observed.ssim_ideal < 1.0 && observed.ssim_input == 1.0);
+    assert_eq!(observed.staleness.max, 0.0);
     // Two pixels above the level of 8 are the minimum count.
-    let seen = figures(|results| results.screen[100..102].fill(0));
-    assert_eq!((seen.staleness.longest, seen.staleness.share), (1, 0.125));
+    let observed = figures(|results| results.screen[100..102].fill(0));
+    assert_eq!((observed.staleness.longest, observed.staleness.share), (1, 0.125));
 }

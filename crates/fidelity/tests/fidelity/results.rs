@@ -30,10 +30,10 @@ pub(crate) fn run(
 ) {
     let mut camera = IdealCamera::new(ideal);
     let mut engine = Engine::new(candidate);
-    for (own, other) in frames {
-        let seen = camera.step(own).unwrap();
-        engine.step_byte_frame(other).unwrap();
-        fidelity.add(own, seen, engine.outcome(), engine.rendered()).unwrap();
+    for (ideal_frame, candidate_frame) in frames {
+        let outcome = camera.step(ideal_frame).unwrap();
+        engine.step_byte_frame(candidate_frame).unwrap();
+        fidelity.add(ideal_frame, outcome, engine.outcome(), engine.rendered()).unwrap();
     }
 }
 

@@ -39,7 +39,7 @@ fn a_fade_is_stale_once_it_has_left_the_level_behind() {
 }
 
 #[test]
-fn what_was_sent_is_never_stale() {
+fn pixels_that_were_sent_are_never_stale() {
     let camera = fading(ReferencePolicy::LastSent);
     let figures = tally(&camera, &camera, &fade(&camera, 8)).figures();
     // The differences are 0 1 2 0 1 2 0 1.
@@ -49,17 +49,21 @@ fn what_was_sent_is_never_stale() {
 
 /// Returns the staleness of one region with made-up frames: whether it is relevant, and the number
 /// of its pixels from which the screen differs by 9.
-fn watched(config: &CameraConfig, frames: &[(bool, usize)], cut: Option<usize>) -> Staleness {
+fn region_staleness(
+    config: &CameraConfig,
+    frames: &[(bool, usize)],
+    next_clip_at: Option<usize>,
+) -> Staleness {
     let camera = config.validate().unwrap();
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
     let input = frame_from_words(&camera, vec![0; pixels(&camera)]);
-    for (number, &(srs, away)) in frames.iter().enumerate() {
-        if cut == Some(number) {
+    for (number, &(srs, differing)) in frames.iter().enumerate() {
+        if next_clip_at == Some(number) {
             fidelity.next_clip();
         }
         let mut ideal = blank_ideal(&camera);
         ideal.srs = vec![srs];
-        ideal.denoised[..away].fill(9.0);
+        ideal.denoised[..differing].fill(9.0);
         fidelity.add(&input, &ideal, &blank_outcome(&camera), input.borrowed_pixels()).unwrap();
     }
     fidelity.tally().figures().staleness
@@ -70,26 +74,26 @@ fn a_frame_that_is_not_relevant_or_not_stale_ends_a_run() {
     let mut config = config((8, 8), 8, 8);
     (config.temporal.level, config.temporal.min_count) = (Some(8), 3);
     let run = |frames: &[(bool, usize)]| {
-        let staleness = watched(&config, frames, None);
+        let staleness = region_staleness(&config, frames, None);
         (staleness.longest, staleness.share)
     };
     assert_eq!(run(&[(true, 3); 5]), (5, 1.0));
     assert_eq!(run(&[(true, 3), (true, 3), (false, 3), (true, 64)]), (2, 1.0));
     assert_eq!(run(&[(true, 3), (true, 2), (true, 4), (true, 4)]), (2, 0.75));
     assert_eq!(run(&[(false, 64); 3]), (0, 0.0));
-    let cut = watched(&config, &[(true, 3); 5], Some(2));
-    assert_eq!((cut.longest, cut.share), (3, 1.0), "a clip ends every run");
+    let two_clips = region_staleness(&config, &[(true, 3); 5], Some(2));
+    assert_eq!((two_clips.longest, two_clips.share), (3, 1.0), "a clip ends every run");
     config.temporal.level = Some(9);
-    assert_eq!(watched(&config, &[(true, 64)], None).share, 0.0, "9 is not more than 9");
+    assert_eq!(region_staleness(&config, &[(true, 64)], None).share, 0.0, "9 is not more than 9");
 }
 
 #[test]
-fn a_minimum_of_zero_is_one_and_more_than_there_are_is_all() {
+fn a_minimum_count_is_limited_to_one_and_to_the_pixels_of_a_region() {
     let mut config = config((8, 8), 8, 8);
     (config.temporal.level, config.temporal.min_count) = (Some(8), 0);
-    assert_eq!(watched(&config, &[(true, 0), (true, 1)], None).share, 0.5);
+    assert_eq!(region_staleness(&config, &[(true, 0), (true, 1)], None).share, 0.5);
     // Only 2x3 pixels of an 8x8 region lie inside of the frame.
     (config.frame.width, config.frame.height) = (Some(2), Some(3));
     config.temporal.min_count = 20;
-    assert_eq!(watched(&config, &[(true, 5), (true, 6)], None).share, 0.5);
+    assert_eq!(region_staleness(&config, &[(true, 5), (true, 6)], None).share, 0.5);
 }
