@@ -60,8 +60,8 @@ pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Desig
         for &filter in DenoiseFilter::ALL {
             for &reference in ReferencePolicy::ALL {
                 for &payload in Payload::ALL {
-                    let turn = kinds[designs.len() % kinds.len()];
-                    let mut config = config(size, side, bits, features_with(turn));
+                    let kind = kinds[designs.len() % kinds.len()];
+                    let mut config = config(size, side, bits, features_with(kind));
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
@@ -78,11 +78,11 @@ pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Desig
 /// The scores of random frames lie on both sides of the thresholds.
 pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
     let mut designs = Vec::new();
-    for (turn, one) in design_matrix(size, side, bits).iter().enumerate() {
-        let mut config = one.config();
+    for (number, design_without_means) in design_matrix(size, side, bits).iter().enumerate() {
+        let mut config = design_without_means.config();
         config.camera.render.irrelevant = IrrelevantRendering::Mean;
-        config.camera.periphery.blocks = Some(SUMMARY_BLOCKS[turn % SUMMARY_BLOCKS.len()]);
-        config.camera.periphery.level = Some((1 << bits) >> (turn % 7 + 1));
+        config.camera.periphery.blocks = Some(SUMMARY_BLOCKS[number % SUMMARY_BLOCKS.len()]);
+        config.camera.periphery.level = Some((1 << bits) >> (number % 7 + 1));
         for spatial in &mut config.camera.spatial {
             spatial.min_score = match spatial.feature {
                 FeatureKind::Edge | FeatureKind::Corner => {

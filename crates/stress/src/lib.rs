@@ -2,9 +2,9 @@
 //! Hard cases and their expected results.
 //!
 //! Every case fixes the expected result before it computes the observed one, and reports the worst
-//! error. Some cases show a *failure that the contract keeps on purpose* (the drift of `previous`),
-//! or the error of a method that Foveate does not use (single-pass variance in f32). They expect
-//! that failure: without it the case would not be hard.
+//! error. Some cases expect a *failure that the contract keeps on purpose* (the drift of
+//! `previous`), or the error of a method that Foveate does not use (single-pass variance in f32).
+//! If such a failure did not occur, the inputs of the case would be too easy.
 //!
 //! The models are not assumed to agree: frames run through the functional model, the engine and the
 //! cycle-level model.

@@ -34,8 +34,8 @@ impl AgreementTally {
     }
 }
 
-/// Runs frames through all three. `unrest` inserts gaps between pixels and, before every eighth
-/// frame, a part of a frame that a reset ends. All three are reset then.
+/// Runs frames through all three models. If `unrest` is set, gaps are inserted between pixels, and
+/// before every eighth frame a part of a frame is sent, after which all three models are reset.
 pub(crate) fn compare_models(
     design: &Design,
     frames: impl IntoIterator<Item = Frame>,
@@ -45,29 +45,29 @@ pub(crate) fn compare_models(
     let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
     let pipelined = design.as_pipelined().expect("cases are of pipelined designs");
-    let mut clocks = CycleLevelRun::new(pipelined, unrest);
+    let mut cycle_level = CycleLevelRun::new(pipelined, unrest);
     // A decision may come one frame late, and those that are pending at a reset never come.
-    let mut owed = std::collections::VecDeque::new();
+    let mut pending = std::collections::VecDeque::new();
     for (number, frame) in (0u64..).zip(frames) {
         if unrest && number % 8 == 7 {
-            clocks.cut_frame_by_reset(&frame);
+            cycle_level.cut_frame_by_reset(&frame);
             camera.reset();
             engine.reset();
-            owed.clear();
+            pending.clear();
         }
-        let (Ok(expected), Ok(fast)) = (camera.step(&frame), engine.step(&frame)) else {
+        let (Ok(expected), Ok(actual)) = (camera.step(&frame), engine.step(&frame)) else {
             tally.check(false);
             continue;
         };
-        tally.check(expected.srs == fast.srs && expected.trs == fast.trs);
-        tally.check(expected.scores == fast.scores);
-        tally.check(expected.temporal_count == fast.temporal_count);
-        tally.check(expected.actions == fast.actions);
+        tally.check(expected.srs == actual.srs && expected.trs == actual.trs);
+        tally.check(expected.scores == actual.scores);
+        tally.check(expected.temporal_count == actual.temporal_count);
+        tally.check(expected.actions == actual.actions);
         let rendered = expected.rendered.pixels() == engine.rendered().to_words();
         tally.check(rendered);
-        owed.push_back(expected.clone());
-        for decision in clocks.send_frame(&frame) {
-            let Some(expected) = owed.pop_front() else {
+        pending.push_back(expected.clone());
+        for decision in cycle_level.send_frame(&frame) {
+            let Some(expected) = pending.pop_front() else {
                 tally.check(false);
                 continue;
             };

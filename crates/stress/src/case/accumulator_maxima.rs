@@ -16,8 +16,8 @@ pub(crate) fn largest_scores(_: RunDepth) -> Vec<CaseRow> {
     let sizes = [(64, 16), (64, 8), (8, 8), (7, 16), (5, 10), (2, 1)];
     let mut sums = FeatureKind::ALL.to_vec();
     sums.retain(|kind| !kind.score_unit().is_count());
-    let of = |size| sums.iter().rev().map(move |&kind| largest_score_row(kind, size));
-    sizes.into_iter().flat_map(of).collect()
+    let rows_of_size = |size| sums.iter().rev().map(move |&kind| largest_score_row(kind, size));
+    sizes.into_iter().flat_map(rows_of_size).collect()
 }
 
 fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
@@ -32,18 +32,19 @@ fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     let scores = [n / 2, n.div_ceil(2)].map(|ones| {
         let half =
             frame_from_fn((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });
-        let clear = FunctionalCamera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
-        let fast = Engine::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
+        let model_score =
+            FunctionalCamera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
+        let engine_score = Engine::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
         // If the two disagree, the score is not valid.
-        clear.ok().filter(|clear| fast.ok() == Some(*clear)).unwrap_or(0)
+        model_score.ok().filter(|model_score| engine_score.ok() == Some(*model_score)).unwrap_or(0)
     });
     let [low, high] = scores;
     let observed = low.max(high);
-    let tight = bits_for(observed) == feature.score_bits();
+    let is_tight = bits_for(observed) == feature.score_bits();
     let designs = format!("{kind}, N {side}, P {bits}: {} bits", feature.score_bits());
     let row =
         CaseRow::for_equal_numbers("largest score reached", designs, feature.score_max(), observed);
-    CaseRow { is_as_expected: row.is_as_expected && tight, ..row }
+    CaseRow { is_as_expected: row.is_as_expected && is_tight, ..row }
 }
 
 /// Tests the counts with a hit at every pixel of a region.

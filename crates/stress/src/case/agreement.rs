@@ -22,9 +22,9 @@ fn agreement_row(case: &'static str, designs: String, tally: AgreementTally) -> 
 
 fn compare_designs(
     designs: &[Design],
-    one: impl Fn(&Design) -> AgreementTally + Send + Sync,
+    compare: impl Fn(&Design) -> AgreementTally + Send + Sync,
 ) -> AgreementTally {
-    designs.par_iter().map(one).reduce(AgreementTally::default, AgreementTally::add)
+    designs.par_iter().map(compare).reduce(AgreementTally::default, AgreementTally::add)
 }
 
 /// Compares the models on every scene: all zero, all maximum, checkerboard, hot pixels, ramps, half
@@ -122,11 +122,11 @@ fn random_frames(
     frames: u64,
 ) -> impl Iterator<Item = foveate_frame::Frame> {
     (0..frames).map(move |t| {
-        let now = RandomNumbers::new(t).frame(size, bits);
-        let before = RandomNumbers::new(t.saturating_sub(1)).frame(size, bits);
+        let current = RandomNumbers::new(t).frame(size, bits);
+        let previous = RandomNumbers::new(t.saturating_sub(1)).frame(size, bits);
         let repeats = t % 2 == 1;
         crate::test_frames::frame_from_fn(size, bits, |x, y| {
-            let source = if repeats && y < size.1 / 2 { &before } else { &now };
+            let source = if repeats && y < size.1 / 2 { &previous } else { &current };
             source.get(x, y).into()
         })
     })

@@ -48,19 +48,20 @@ impl ScreenErrors {
                 continue;
             }
             let (left, top) = (region % design.columns() * side, region / design.columns() * side);
-            let inside = (top..(top + side).min(design.height()))
+            let positions = (top..(top + side).min(design.height()))
                 .flat_map(|y| (left..(left + side).min(design.width())).map(move |x| (x, y)));
-            let off: Vec<u32> = inside
+            let differences: Vec<u32> = positions
                 .map(|(x, y)| {
                     u32::from(outcome.rendered.get(x, y).abs_diff(outcome.denoised.get(x, y)))
                 })
                 .collect();
-            let above = off.iter().filter(|&&off| off > temporal.level).count();
+            let exceeding =
+                differences.iter().filter(|&&difference| difference > temporal.level).count();
             self.compared_regions += 1;
             self.off_regions +=
-                u64::from(temporal.min_count > 0 && above >= temporal.min_count as usize);
+                u64::from(temporal.min_count > 0 && exceeding >= temporal.min_count as usize);
             self.difference =
-                self.difference.max(off.into_iter().max().expect("a region has pixels"));
+                self.difference.max(differences.into_iter().max().expect("a region has pixels"));
         }
     }
 }
@@ -137,24 +138,24 @@ pub(crate) fn flicker(depth: RunDepth) -> Vec<CaseRow> {
 /// send it again. If they have not, `last-sent` sends it again, and `previous` leaves it black, as
 /// the paper defines it.
 pub(crate) fn relevance_returns(_: RunDepth) -> Vec<CaseRow> {
-    let plain = || frame_from_fn(SIZE, 8, |_, _| 50);
-    let black = |reference| {
+    let flat_frame = || frame_from_fn(SIZE, 8, |_, _| 50);
+    let pixels_after_a_change = |reference| {
         let design = design(&config_with_reference(reference));
         let mut camera = FunctionalCamera::new(&design);
         let mut shown = 0;
         // The texture appears, disappears, and returns for two frames. The second of these has no
         // change.
-        for frame in [textured(0), plain(), textured(0), textured(0)] {
+        for frame in [textured(0), flat_frame(), textured(0), textured(0)] {
             if let Ok(outcome) = camera.step(&frame) {
                 shown = outcome.rendered.pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
             }
         }
         shown
     };
-    let lit: u64 = textured(0).pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
+    let textured_pixels: u64 = textured(0).pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
     // When the texture returns after the plain frame, its pixels change, so both references detect
     // it. In a return without a change, only SRS may change.
-    let returned = |reference| {
+    let pixels_after_no_change = |reference| {
         let mut config = config_with_reference(reference);
         config.camera.spatial[0].level = Some(390);
         let design = design(&config);
@@ -175,26 +176,26 @@ pub(crate) fn relevance_returns(_: RunDepth) -> Vec<CaseRow> {
         CaseRow::for_equal_numbers(
             "region comes back, changed",
             "last-sent, lit pixels",
-            lit,
-            black(ReferencePolicy::LastSent),
+            textured_pixels,
+            pixels_after_a_change(ReferencePolicy::LastSent),
         ),
         CaseRow::for_equal_numbers(
             "region comes back, changed",
             "previous, lit pixels",
-            lit,
-            black(ReferencePolicy::Previous),
+            textured_pixels,
+            pixels_after_a_change(ReferencePolicy::Previous),
         ),
         CaseRow::for_equal_numbers(
             "region comes back as it was",
             "last-sent, lit pixels",
-            lit,
-            returned(ReferencePolicy::LastSent),
+            textured_pixels,
+            pixels_after_no_change(ReferencePolicy::LastSent),
         ),
         CaseRow::for_equal_numbers(
             "region comes back as it was (stays black)",
             "previous, lit pixels",
             0,
-            returned(ReferencePolicy::Previous),
+            pixels_after_no_change(ReferencePolicy::Previous),
         ),
     ]
 }
@@ -211,11 +212,11 @@ pub(crate) fn invariant_on_scenes(depth: RunDepth) -> Vec<CaseRow> {
             let design = design(&config);
             let (width, height) = size;
             let frames = scene.default_frames();
-            let kind = SceneParameters { width, height, bits: 8, region_size: SIDE, frames };
-            let seen = screen_errors(&design, scene.frames(kind));
-            worst.off_regions += seen.off_regions;
-            worst.compared_regions += seen.compared_regions;
-            worst.difference = worst.difference.max(seen.difference);
+            let parameters = SceneParameters { width, height, bits: 8, region_size: SIDE, frames };
+            let errors = screen_errors(&design, scene.frames(parameters));
+            worst.off_regions += errors.off_regions;
+            worst.compared_regions += errors.compared_regions;
+            worst.difference = worst.difference.max(errors.difference);
         }
     }
     let designs = format!("last-sent, {} scenes, both filters", Scene::ALL.len());

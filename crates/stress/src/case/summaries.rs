@@ -73,12 +73,12 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
 /// block shows is within the level of its mean.
 pub(crate) fn fade(depth: RunDepth) -> Vec<CaseRow> {
     let frames = depth.choose(600, 10_000);
-    let slow = |t: u32| if (t / 250).is_multiple_of(2) { t % 250 } else { 250 - t % 250 };
+    let slow_fade = |t: u32| if (t / 250).is_multiple_of(2) { t % 250 } else { 250 - t % 250 };
     let mut jumps = RandomNumbers::new(5);
     let jumps: Vec<u32> =
         (0..frames).map(|_| u32::try_from(jumps.below(256)).expect("a pixel has 8 bits")).collect();
     let lights: [(&'static str, Vec<u32>); 2] =
-        [("one level per frame", (0..frames).map(slow).collect()), ("jumps", jumps)];
+        [("one level per frame", (0..frames).map(slow_fade).collect()), ("jumps", jumps)];
     let mut rows = Vec::new();
     for (name, lights) in lights {
         for &blocks in SUMMARY_BLOCKS {

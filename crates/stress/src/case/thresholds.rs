@@ -27,25 +27,25 @@ fn config_without_filter(feature: FeatureKind) -> DesignConfig {
     config
 }
 
-/// Returns the answer of both models to one question about the second of two frames, or `None` if
-/// they differ.
+/// Returns a value of the outcome of the second of two frames, which the two functions read from the
+/// outcomes of the model and of the engine. Returns `None` if the two values differ.
 fn compare_answers<A: PartialEq>(
     config: &DesignConfig,
     frames: [&Frame; 2],
-    clear: impl Fn(&foveate_model::FunctionalOutcome) -> A,
-    fast: impl Fn(&foveate_engine::FrameOutcome) -> A,
+    model_answer: impl Fn(&foveate_model::FunctionalOutcome) -> A,
+    engine_answer: impl Fn(&foveate_engine::FrameOutcome) -> A,
 ) -> Option<A> {
     let design = design(config);
     let (mut camera, mut engine) = (FunctionalCamera::new(&design), Engine::new(&design));
     camera.step(frames[0]).ok()?;
     engine.step(frames[0]).ok()?;
-    let clear = clear(camera.step(frames[1]).ok()?);
-    (clear == fast(engine.step(frames[1]).ok()?)).then_some(clear)
+    let model_answer = model_answer(camera.step(frames[1]).ok()?);
+    (model_answer == engine_answer(engine.step(frames[1]).ok()?)).then_some(model_answer)
 }
 
-/// Makes a row from the answers, of which the false ones are wrong.
+/// Makes a row from the results of trials, each true if the trial is right.
 fn threshold_row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
-    let wrong = answers.iter().map(|&right| u64::from(!right)).sum();
+    let wrong = answers.iter().map(|&is_right| u64::from(!is_right)).sum();
     CaseRow::for_no_errors(
         "thresholds on, below, above",
         designs,
@@ -105,18 +105,23 @@ fn temporal_thresholds(rounds: u64) -> CaseRow {
         let mut random = RandomNumbers::new(seed);
         let changed = random.below(u64::from(SIDE * SIDE) + 1);
         let changed = u32::try_from(changed).expect("at most the pixels of a region");
-        let by = 1 + u32::try_from(random.below(200)).expect("below 200");
-        let still = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |_, _| 20);
-        let moved = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, y| {
-            if y * SIDE + x < changed { 20 + by } else { 20 }
+        let difference = 1 + u32::try_from(random.below(200)).expect("below 200");
+        let base_frame = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |_, _| 20);
+        let changed_frame = crate::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, y| {
+            if y * SIDE + x < changed { 20 + difference } else { 20 }
         });
-        for level in [by - 1, by, by + 1] {
+        for level in [difference - 1, difference, difference + 1] {
             for min in [changed.saturating_sub(1), changed, (changed + 1).min(SIDE * SIDE)] {
                 let mut config = config_without_filter(FeatureKind::Edge);
                 (config.camera.temporal.level, config.camera.temporal.min_count) =
                     (Some(level), min);
-                let trs = compare_answers(&config, [&still, &moved], |o| o.trs[0], |o| o.trs[0]);
-                let count = if by > level { changed } else { 0 };
+                let trs = compare_answers(
+                    &config,
+                    [&base_frame, &changed_frame],
+                    |o| o.trs[0],
+                    |o| o.trs[0],
+                );
+                let count = if difference > level { changed } else { 0 };
                 answers.push(trs == Some(count >= min));
             }
         }

@@ -25,7 +25,7 @@ fn integer_and_f32_rows((side, bits): (u32, u32), regions: u32) -> [CaseRow; 2] 
     let design = design(&config);
     let mut random = RandomNumbers::new(u64::from(side));
     let base = design.pixel_max() - 4;
-    let (mut ours, mut naive) = (0.0_f64, 0.0_f64);
+    let (mut integer_error, mut f32_error) = (0.0_f64, 0.0_f64);
     for _ in 0..regions {
         let region = crate::test_frames::frame_from_fn((side, side), bits, {
             let spread: Vec<u32> = (0..design.region_pixels())
@@ -37,8 +37,8 @@ fn integer_and_f32_rows((side, bits): (u32, u32), regions: u32) -> [CaseRow; 2] 
         let mut camera = FunctionalCamera::new(&design);
         let score = camera.step(&region).expect("the region is a frame of the design").scores[0][0];
         let n = f64::from(design.region_pixels());
-        ours = ours.max((to_f64(score) / (n * n) - exact).abs() / exact);
-        naive = naive.max((f64::from(single_pass_variance(&region)) - exact).abs() / exact);
+        integer_error = integer_error.max((to_f64(score) / (n * n) - exact).abs() / exact);
+        f32_error = f32_error.max((f64::from(single_pass_variance(&region)) - exact).abs() / exact);
     }
     let designs = format!("variance, N {side}, P {bits}, mean {}", base + 2);
     let row = |case, expected: &str, error: f64, holds| CaseRow {
@@ -52,12 +52,12 @@ fn integer_and_f32_rows((side, bits): (u32, u32), regions: u32) -> [CaseRow; 2] 
     // If the sum of squares fits into the 24 bits of an f32, it is exact.
     let cancels = bits_for(u64::from(design.region_pixels()) * u64::from(base + 3).pow(2)) > 24;
     [
-        row("variance, integers", "error below 1e-9", ours, ours < 1e-9),
+        row("variance, integers", "error below 1e-9", integer_error, integer_error < 1e-9),
         row(
             "variance, single-pass f32 (not used)",
             if cancels { "error above 10 %" } else { "error below 10 %" },
-            naive,
-            (naive > 0.1) == cancels,
+            f32_error,
+            (f32_error > 0.1) == cancels,
         ),
     ]
 }
