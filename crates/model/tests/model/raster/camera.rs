@@ -24,8 +24,8 @@ fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
 }
 
-/// Checks that the last decision comes at the clock of `DepartureTiming`. If all regions are active,
-/// the last word leaves at its clock, too; otherwise it leaves no later.
+/// Checks that the last decision comes at the clock of `DepartureTiming`. If all regions are
+/// active, the last word leaves at its clock, too; otherwise it leaves no later.
 fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &RasterTrace) {
     let departure = design.timing().departure();
     let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
