@@ -39,8 +39,8 @@ pub struct InputOptions {
     pub images: ImageRelation,
     /// The labels of an IDX file, if they are not beside it under their usual name.
     pub labels: Option<PathBuf>,
-    /// The number of every frame must be known, so a late start is reached by decoding and not by
-    /// seeking.
+    /// True if the number of every frame must be known. A late start is then reached by decoding
+    /// from the beginning, because a seek does not give the numbers of the skipped frames.
     pub numbered: bool,
     /// The request that ends every wait for frames with
     /// [`FootageError::Interrupted`](crate::FootageError::Interrupted).

@@ -11,9 +11,9 @@ pub(crate) struct SampleLayout {
     pub(crate) height: u32,
     /// The number of bits per sample. Above 8 bits, samples are words.
     pub(crate) depth: u32,
-    /// A pixel has red, green and blue samples instead of one.
+    /// True if a pixel has red, green and blue samples instead of one.
     pub(crate) is_colour: bool,
-    /// Words have their high byte first.
+    /// True if words have their high byte first.
     pub(crate) is_big_endian: bool,
 }
 

@@ -36,7 +36,7 @@ pub struct FrameOrigin {
     pub number: u64,
     /// The width and height before cropping and scaling.
     pub size: (u32, u32),
-    /// The name of the frame is that of a file that holds only this frame.
+    /// True if the name of the frame is that of a file that holds only this frame.
     pub own_file: bool,
 }
 

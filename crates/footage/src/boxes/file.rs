@@ -24,7 +24,7 @@ use foveate_frame::Rect;
 pub struct FrameKey<'a> {
     /// The path of the frame's file, or another name.
     pub name: &'a Path,
-    /// `name` is the path of a file that holds only this frame.
+    /// True if `name` is the path of a file that holds only this frame.
     pub own_file: bool,
     /// The number of the frame in the input, counted from 0.
     pub number: u64,

@@ -53,7 +53,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
 struct RunLengthReader<'a> {
     width: u32,
     height: u32,
-    /// A pixel has four bits instead of eight.
+    /// True if a pixel has four bits instead of eight.
     is_four_bit: bool,
     codes: &'a [u8],
 }

@@ -32,7 +32,7 @@ pub enum SetFiles {
 pub struct IdxFile {
     /// The name of the file, without the folder.
     pub name: String,
-    /// The file is gzipped.
+    /// True if the file is gzipped.
     pub packed: bool,
 }
 

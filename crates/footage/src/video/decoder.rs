@@ -105,8 +105,8 @@ impl VideoDecoder {
         Ok(Self { stream, log: FfmpegLog::default(), announced_frame: None })
     }
 
-    /// Returns the next frame that ffmpeg announces, or `None` if no more frames follow, or none
-    /// that can be taken.
+    /// Returns the next frame that ffmpeg announces. Returns `None` if no more frames follow, or if
+    /// the next frame cannot be taken from the pipe.
     ///
     /// # Errors
     /// Fails on an interrupt.

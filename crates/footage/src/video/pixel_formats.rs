@@ -24,9 +24,9 @@ const SHARED_WORD_FORMATS: [(&str, &str); 8] = [
 pub(super) struct SampleFormat {
     /// The number of bits per sample.
     pub(super) depth: u32,
-    /// A pixel has three samples.
+    /// True if a pixel has three samples.
     pub(super) colour: bool,
-    /// High bytes come first.
+    /// True if high bytes come first.
     pub(super) big_endian: bool,
 }
 
