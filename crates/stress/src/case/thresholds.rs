@@ -27,8 +27,8 @@ fn config_without_filter(feature: FeatureKind) -> DesignConfig {
     config
 }
 
-/// Returns a value of the outcome of the second of two frames, which the two functions read from the
-/// outcomes of the model and of the engine. Returns `None` if the two values differ.
+/// Returns a value of the outcome of the second of two frames. The two functions read the value
+/// from the outcomes of the model and of the engine. Returns `None` if the two values differ.
 fn compare_answers<A: PartialEq>(
     config: &DesignConfig,
     frames: [&Frame; 2],
