@@ -93,7 +93,7 @@ impl ElementType {
 }
 
 /// The type of stored values, and the affine mapping to the real numbers that they stand for:
-/// `(value - zero) * scale`.
+/// `(value - zero_point) * scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoding {
     /// The type of a stored value.

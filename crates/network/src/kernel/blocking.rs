@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The number of channels and positions in a pass of the inner loop: as many as have sums that fit
-//! into the registers.
+//! The number of channels and positions in a pass of the inner loop: as many as possible while all
+//! sums fit into the registers.
 
 use foveate_lanes::InstructionSet;
 use std::ops::Range;
@@ -29,10 +29,11 @@ impl BlockSizes {
         }
     }
 
-    /// Returns the blocks that are fastest for so many channels. The last block may have more
-    /// channels than are left.
+    /// Returns the blocks that are fastest for a number of channels. The last block may have more
+    /// channels than remain.
     pub(crate) fn blocks(self, channels: usize) -> Vec<Range<usize>> {
-        // The smallest time for each number of channels, with the size of the first block.
+        // The smallest time for each number of channels, with the size of the first block. It
+        // follows from the times for fewer channels.
         let mut best = vec![(0, 0)];
         for left in 1..=channels {
             let time =

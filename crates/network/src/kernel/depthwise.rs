@@ -3,9 +3,9 @@
 //! padding adds products of 0.
 //!
 //! The inputs of an area are copied, with their padding, into planes: one for each phase of the
-//! stride along either axis. In a plane the inputs of a tap lie as the outputs do, at a constant
-//! offset. Tiles therefore need not end with a row, so that all lanes of a tile are used in narrow
-//! inputs, too.
+//! stride along either axis. In a plane the inputs of a tap have the same arrangement as the
+//! outputs, at a constant offset. Tiles therefore need not end with a row, so that all lanes of a
+//! tile are used in narrow inputs, too.
 
 use super::gathered_inputs::{ConvInput, StridedInputs, copy_short_run};
 use super::output_areas::OutputArea;

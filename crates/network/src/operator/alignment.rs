@@ -6,9 +6,9 @@ use crate::tensor_form::TensorForm;
 use std::ops::Range;
 
 /// Returns the positions of an output that depend on those of an input. `to` maps an axis of the
-/// input to an axis of the output, or to `None`. An output depends on the input at its own index of
-/// each axis that both have as positions, and on all inputs along an axis that only the input has
-/// as positions. An axis of one element is repeated.
+/// input to an axis of the output, or to `None`. Along an axis of positions of both, an output
+/// depends on the input at its own index. Along an axis that is an axis of positions of the input
+/// alone, an output depends on all inputs. An axis of one element is repeated.
 pub(crate) fn aligned_mask(
     (form, mask): (&TensorForm, &Mask),
     output: &TensorForm,
@@ -17,18 +17,23 @@ pub(crate) fn aligned_mask(
     if !form.has_positions() || !output.has_positions() {
         return full_if(!mask.is_empty(), output);
     }
-    // For the rows and the columns of the input: the source of their index.
-    let index = |axis: Option<usize>| match axis.and_then(&to) {
-        Some(own) if output.position_axes().len() == 2 && own == output.position_axes().start => {
+    // Returns the source of the index for the rows or for the columns of the input.
+    let index_source = |axis: Option<usize>| match axis.and_then(&to) {
+        Some(output_axis)
+            if output.position_axes().len() == 2 && output_axis == output.position_axes().start =>
+        {
             AxisIndexSource::Row
         }
-        Some(own) if own + 1 == output.position_axes().end && output.has_positions() => {
+        Some(output_axis)
+            if output_axis + 1 == output.position_axes().end && output.has_positions() =>
+        {
             AxisIndexSource::Column
         }
         Some(_) | None => AxisIndexSource::All,
     };
-    let rows = index((form.position_axes().len() == 2).then_some(form.position_axes().start));
-    let columns = index(form.position_axes().end.checked_sub(1));
+    let rows =
+        index_source((form.position_axes().len() == 2).then_some(form.position_axes().start));
+    let columns = index_source(form.position_axes().end.checked_sub(1));
     let is_same = (form.height(), form.width()) == (output.height(), output.width());
     match (rows, columns) {
         (AxisIndexSource::Row, AxisIndexSource::Column) if is_same => mask.clone(),

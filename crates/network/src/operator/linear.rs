@@ -22,17 +22,17 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
     parts.iter().sum::<f32>() + rest
 }
 
-/// Returns the form of the product of the last axis with a matrix of `own` x `outputs` values.
+/// Returns the form of the product of the last axis with a matrix of `inner` x `outputs` values.
 pub(super) fn matrix_product_form(
     inputs: &[&TensorForm],
-    own: usize,
+    inner: usize,
     outputs: usize,
 ) -> Result<TensorForm, String> {
     let form = only_input(inputs)?;
     let mut shape = form.shape().to_vec();
     match shape.last_mut() {
-        Some(last) if *last == own => *last = outputs,
-        _ => return Err(format!("its matrix takes {own} values, not {}", form.describe())),
+        Some(last) if *last == inner => *last = outputs,
+        _ => return Err(format!("its matrix takes {inner} values, not {}", form.describe())),
     }
     // Positions before the last axis remain positions.
     let last = shape.len() - 1;

@@ -48,7 +48,7 @@ impl Operator for QuantizedBinary {
                     T::from_sum((i32::from(x) - a.zero_point) * (i32::from(y) - b.zero_point), factor, to.zero_point)
                 });
             }
-            // `read::quantized` makes no other operation than products and sums.
+            // The reader makes only products and sums of 8-bit values.
             _ => self.operator.compute_lines(job, |x: T, y: T| {
                 let real = |value: T, of: Encoding| (i32::from(value) - of.zero_point) as f32 * of.scale;
                 quantize_steps::<T>((real(x, a) + real(y, b)) / to.scale, to.zero_point)

@@ -73,8 +73,8 @@ pub(super) fn softmax_operator(
 ) -> Result<Softmax, String> {
     let is_to_end = opset < 13;
     let axis = node.int("axis", if is_to_end { 1 } else { -1 });
-    // With the axis behind the last one, each value is the only one of its sum. A tensor of one
-    // axis has this with the default.
+    // If the axis is behind the last one, each value is the only one of its sum. The default of 1
+    // is such an axis for a tensor of one axis.
     let count = (node.forms)(value).shape().len();
     if is_to_end && usize::try_from(index_from_start(axis, count)) == Ok(count) {
         return Err(format!("its axis {axis} is behind the last, so that every share is 1"));

@@ -4,8 +4,8 @@
 //!
 //! A [`VisionNetwork`] is a network with its [`VisionOptions`]: the [`Framing`] brings frames to
 //! the size of the input, a [`PixelMapping`] converts pixels to values, and a [`Detector`] reads
-//! detections in a format of [`DetectionFormat`]. This module reads no files but that of the
-//! network, and knows no camera.
+//! detections in a format of [`DetectionFormat`]. This module reads only the file of the network,
+//! and does not depend on a camera.
 
 mod agreement;
 mod detection;

@@ -48,7 +48,7 @@ impl NetworkDefaults {
     }
 }
 
-/// Returns true if outputs that have a format probably have it on purpose.
+/// Returns true if outputs probably have a format on purpose, and not by chance.
 fn is_likely(head: DetectionFormat, outputs: &[OutputTensor], input: (usize, usize)) -> bool {
     match (head, &outputs[0].shape[..]) {
         (DetectionFormat::Yolov5, [_, cells, values])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The quantized network of the project is compared with onnxruntime 1.31. `scripts/figures/quantize.py`
-//! wrote both files of `golden`.
+//! The quantized network of the project is compared with onnxruntime 1.31. Both files of `golden`
+//! were written by `scripts/figures/quantize.py`.
 
 use foveate_network::{ElementType, ExecutionMode, Executor, FrameSize, Mask, Network};
 use std::path::Path;

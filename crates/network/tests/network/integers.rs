@@ -356,7 +356,7 @@ fn axes_have_scales_of_their_own() {
     assert_eq!(*executor.tensor(2).real_values(), [3.0, -1.5, 1.5]);
 }
 
-/// A change that rounding to 8 bits removes is no change, and a limit is compared with the real
+/// A change that rounding to 8 bits removes does not count. A limit is compared with the real
 /// numbers that values stand for.
 #[test]
 fn what_rounds_away_is_not_passed_on() {

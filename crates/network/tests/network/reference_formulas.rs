@@ -158,7 +158,7 @@ fn pooling_is_that_of_the_standard() {
     assert_eq!(run("GlobalMaxPool", &[]), [24.0]);
 }
 
-/// With an even size, one channel more counts behind than before.
+/// If the size is even, one more channel counts behind the channel of a value than before it.
 #[test]
 fn local_responses_are_those_of_the_standard() {
     const CHANNELS: usize = 7;

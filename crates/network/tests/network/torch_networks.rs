@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small networks are compared with torch. `scripts/figures/golden_networks.py`, which wrote the files, has
-//! compared torch with onnxruntime.
+//! Small networks are compared with torch. `scripts/figures/golden_networks.py` wrote the files,
+//! and has compared torch with onnxruntime.
 
 use foveate_network::{ExecutionMode, Executor, FrameSize, Mask, Network};
 use std::path::Path;

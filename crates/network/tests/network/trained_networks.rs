@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trained networks of other projects, in the folder that the environment variable FOVEATE_DATA
-//! names, are read, and a part has the bits of a dense computation. `scripts/figures/compare_networks.py`
-//! compares the networks with onnxruntime.
+//! names, are read, and a part has the bits of a dense computation. The networks are compared with
+//! onnxruntime by `scripts/figures/compare_networks.py`.
 
 use crate::exactness::{first_difference, masked_clip};
 use foveate_network::{ExecutionMode, FrameSize, Network};
