@@ -19,8 +19,8 @@ fn the_cycles_match_the_golden_trace_of_scale_sim() {
 }
 
 /// The numbers of the last cycle on 32 x 32, as SCALE-Sim 3.0.0 printed them in
-/// `scripts/figures/compare_scalesim.py`: side of the input with padding, kernel, input channels, filters,
-/// groups, weight-stationary, output-stationary.
+/// `scripts/figures/compare_scalesim.py`: side of the input with padding, kernel, input channels,
+/// filters, groups, weight-stationary, output-stationary.
 const SCALE_SIM: &[(u64, u64, u64, u64, u64, u64, u64)] = &[
     (31, 5, 48, 128, 1, 125_095, 116_103),
     (15, 3, 256, 384, 1, 227_231, 170_351),
