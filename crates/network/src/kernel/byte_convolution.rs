@@ -112,6 +112,8 @@ pub(crate) fn convolve_bytes<X: ByteNumber, Y: TensorNumber>(
                 stride,
             });
         }
+        // The sums of a panel are finished and written channel by channel, each to the positions of
+        // the panel's chunks.
         for (sums, chunks) in
             sums.chunks(stride * lanes).zip(chunks.chunks(lanes / CHUNK_POSITIONS))
         {

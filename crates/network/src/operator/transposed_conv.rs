@@ -199,6 +199,8 @@ impl TransposedConv {
         let channels_per_group = self.channels / self.groups;
         let form = TensorForm::features(vec![1, channels_per_group, height, width]);
         let values_per_group = self.inputs / self.groups * input.position_count();
+        // The outputs of the phase are computed side by side in planes of their own. Then they are
+        // copied to their positions among the outputs of the other phases.
         let mut planes = vec![0.0; form.element_count()];
         for (group, weights) in weights.iter().enumerate() {
             let picture = ConvInput {

@@ -200,6 +200,9 @@ impl<'a> NodeReader<'a> {
                 return Err(format!("its pads have {} values, not 4", pads.len()));
             }
             (mode @ ("SAME_UPPER" | "SAME_LOWER"), _) => {
+                // The number of outputs is the length of the input by the stride, rounded up. The
+                // padding is the part of the last window that lies beyond the input. An odd element
+                // goes to the end for SAME_UPPER, and to the front for SAME_LOWER.
                 let along = |axis: usize| {
                     let span = (kernel[axis] - 1) * dilation[axis] + 1;
                     let outputs = sizes[axis].div_ceil(stride[axis]);
