@@ -7,7 +7,7 @@ pub(crate) fn size_text(bytes: u64) -> String {
     let units = [(30, "GiB"), (20, "MiB"), (10, "KiB")];
     let unit = units.into_iter().find(|(shift, _)| bytes > 0 && bytes.trailing_zeros() >= *shift);
     unit.map_or_else(
-        || format!("{bytes} bytes"),
+        || if bytes == 1 { "1 byte".to_owned() } else { format!("{bytes} bytes") },
         |(shift, unit)| format!("{} {unit}", bytes >> shift),
     )
 }
@@ -20,7 +20,7 @@ mod tests {
     fn the_unit_divides_the_number() {
         let cases = [
             (0, "0 bytes"),
-            (1, "1 bytes"),
+            (1, "1 byte"),
             (1 << 10, "1 KiB"),
             (3 << 20, "3 MiB"),
             (1 << 30, "1 GiB"),

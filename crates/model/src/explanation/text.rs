@@ -216,7 +216,7 @@ fn quotient_text(value: u64, unit: u64) -> String {
 
 /// Returns the end of a name that is too long.
 fn shortened_name(name: &str) -> String {
-    const MOST: usize = 40;
+    const MAX_LETTERS: usize = 40;
     let letters = name.chars().count();
     if letters <= MAX_LETTERS {
         return name.to_owned();

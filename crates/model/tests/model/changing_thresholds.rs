@@ -21,7 +21,7 @@ use crate::schedule::{tail_delay, tail_steps};
 /// random value that fits its port.
 fn jittered_thresholds(design: &Design, random: &mut SeededRandom) -> ThresholdInputs {
     let mut thresholds = ThresholdInputs::from_camera(design);
-    let mut pick = |own: u64, bits: u32| {
+    let mut pick = |designed: u64, bits: u32| {
         if random.below(3) == 0 { random.below(1 << bits) as u64 } else { designed }
     };
     for (index, feature) in design.features().iter().enumerate() {

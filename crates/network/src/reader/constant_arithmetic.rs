@@ -136,8 +136,10 @@ fn float_operation(kind: &str, a: f32, b: f32) -> f32 {
         "Mul" => a * b,
         "Div" => a / b,
         "Pow" => a.powf(b),
-        "Min" => a.min(b),
-        _ => a.max(b),
+        // A NaN stays, as in the operators that run on frames; `f32::min` would drop it.
+        "Min" if b < a || b.is_nan() => b,
+        "Max" if b > a || b.is_nan() => b,
+        _ => a,
     }
 }
 
@@ -224,4 +226,22 @@ fn broadcast_shape_of(constants: &[&Constant]) -> FoldResult<Vec<usize>> {
         broadcast_shape(&shape, &constant.shape)
             .ok_or_else(|| format!("{shape:?} and {:?} do not fit together", constant.shape))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::float_operation;
+
+    /// Constants are folded as the operators compute: `f32::min` would drop a NaN.
+    #[test]
+    fn the_smaller_and_the_larger_of_a_nan_are_a_nan() {
+        for kind in ["Min", "Max"] {
+            assert!(float_operation(kind, f32::NAN, 1.0).is_nan(), "{kind}");
+            assert!(float_operation(kind, 1.0, f32::NAN).is_nan(), "{kind}");
+        }
+        assert_eq!(
+            [("Min", 1.0), ("Max", 2.0)].map(|(kind, _)| float_operation(kind, 1.0, 2.0)),
+            [1.0, 2.0]
+        );
+    }
 }

@@ -35,7 +35,9 @@ pub fn real_number(value: f64, digits: usize) -> String {
         return MISSING.to_owned();
     }
     if value.abs() < 999.5 {
-        return format!("{value:.digits$}");
+        let text = format!("{value:.digits$}");
+        let is_zero = !text.contains(|digit: char| ('1'..='9').contains(&digit));
+        return if is_zero { text.trim_start_matches('-').to_owned() } else { text };
     }
     let (whole, sign) = (format!("{:.0}", value.abs()), if value < 0.0 { "-" } else { "" });
     whole.parse().map_or_else(|_| format!("{value:.3e}"), |whole| sign.to_owned() + &grouped(whole))
@@ -75,8 +77,8 @@ mod tests {
             "0 12 999 1,000 143,472 1,182,240"
         );
         assert_eq!(
-            [0.25, 37.04, 12_345.6, -4e3].map(|value| real_number(value, 1)),
-            ["0.2", "37.0", "12,346", "-4,000"]
+            [0.25, -0.04, -0.3, 37.04, 12_345.6, -4e3].map(|value| real_number(value, 1)),
+            ["0.2", "0.0", "-0.3", "37.0", "12,346", "-4,000"]
         );
         assert_eq!(real_number(f64::INFINITY, 1), "–");
         let ticks = [0.0, 0.001, 2.5, 1e3, 2e4, 1.5e6, 3e9].map(tick_label);

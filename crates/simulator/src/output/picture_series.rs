@@ -7,7 +7,7 @@ use foveate_camera::Camera;
 use foveate_toolchain::Interrupt;
 
 use super::PictureFormat;
-use super::canvas::PictureCanvas;
+use super::canvas::{PictureCanvas, PictureLayout};
 use super::png_series::PngSeries;
 use super::png_writers::PngWriters;
 use super::raw_image::RawImage;
@@ -19,6 +19,9 @@ use crate::SimulatorError;
 pub(super) trait PicturePainter: Send {
     fn paint(&mut self, step: &SinkFrame<'_>) -> PictureCanvas;
 }
+
+/// The height of the largest legend and chart below a painted frame in pixels.
+const MAX_FOOTER_HEIGHT: u32 = 256;
 
 /// The files of a series.
 enum SeriesFiles {
@@ -78,12 +81,15 @@ impl FrameSink for PictureSeriesSink {
     }
 
     fn max_bytes_owed(&self, camera: &Camera) -> u64 {
-        // A painted picture has a footer below the frame, and is larger if the frame is small.
-        let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
+        let (width, height) = (camera.width(), camera.height());
         match &self.series {
-            SeriesFiles::Folder(_) => {
-                PngWriters::max_bytes_in_work(camera.width(), camera.height() + lines, samples)
+            SeriesFiles::Folder(_) if self.painter.is_some() => {
+                // A small frame is enlarged, and its legend and chart stand below it.
+                let layout = PictureLayout::new(width, height);
+                let height = layout.frame_height + MAX_FOOTER_HEIGHT;
+                PngWriters::max_bytes_in_work(layout.width, height, 3)
             }
+            SeriesFiles::Folder(_) => PngWriters::max_bytes_in_work(width, height, 2),
             SeriesFiles::Video(_) => 0,
         }
     }

@@ -226,10 +226,10 @@ impl<'a> RasterOracle<'a> {
             .collect();
         let shown = (i64::from(got.lost_region), i64::from(got.lost_frame));
         let shown = if got.lost_valid { vec![shown] } else { Vec::new() };
-        let agrees = shown == expected;
+        let agrees = shown == due;
         agrees
             .then_some(())
-            .ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {expected:?}"))
+            .ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
     }
 
     /// Returns the number of a frame as the ports show it.

@@ -114,7 +114,7 @@ fn simulate(
     assert!(ready);
     let (mut next, mut silence, mut clock) = (0, 0, 0);
     // Pixels change little, so that some regions are held.
-    let mut picture: Vec<Vec<u16>> = vec![fill.to_vec(); beat_shape(design).0];
+    let mut beats: Vec<Vec<u16>> = vec![fill.to_vec(); beat_shape(design).0];
     while silence < design.timing().clocks_per_frame() + 200 {
         let valid = next < marks.len() && !(with_gaps && random.below(4) == 0);
         let sof = if valid { marks[next] } else { random.below(2) == 0 };
