@@ -10,7 +10,7 @@ from typing import Any, Protocol
 #: Address of a register whose value is constant in every core.
 IDENTITY = 0
 #: Number of bytes of the head of a packet, and of a whole REGISTER packet.
-HEAD, SIZE = 8, 24
+HEAD_BYTES, PACKET_BYTES = 8, 24
 
 
 class Port(Protocol):
@@ -23,79 +23,79 @@ class Port(Protocol):
         """Send all bytes."""
 
 
-def packet(address: int, value: int, is_written: bool) -> bytes:
+def register_packet(address: int, value: int, is_written: bool) -> bytes:
     """Return a REGISTER packet: head, payload and tail."""
-    body = struct.pack("<BBHHHIII", 0xFA, 6 | is_written << 4, SIZE // 8, address, 0, value, 0, 0)
+    body = struct.pack("<BBHHHIII", 0xFA, 6 | is_written << 4, PACKET_BYTES // 8, address, 0, value, 0, 0)
     return body + struct.pack("<I", zlib.crc32(body))
 
 
-class Line:
+class SerialLine:
     """Reads and writes registers over a port, and keeps all other received bytes."""
 
     def __init__(self, port: Port, timeout: float, attempts: int) -> None:
         self._port, self._timeout, self._attempts = port, timeout, attempts
         self._bytes = bytearray()
         #: True after a command was sent again, because a second answer to it may still come.
-        self._is_late = False
+        self._may_have_old_answer = False
 
     def read(self, address: int) -> int:
         """Return the value of a register."""
-        return self._ask(address, 0, False)
+        return self._run_command(address, 0, False)
 
     def write(self, address: int, value: int) -> None:
         """Write a register."""
-        self._ask(address, value, True)
+        self._run_command(address, value, True)
 
     def received(self) -> bytes:
         """Return the bytes of other packets since the last call."""
-        found = bytes(self._bytes)
+        other_packets = bytes(self._bytes)
         self._bytes.clear()
-        return found
+        return other_packets
 
-    def _ask(self, address: int, value: int, is_written: bool) -> int:
-        if self._is_late and address != IDENTITY:
+    def _run_command(self, address: int, value: int, is_written: bool) -> int:
+        if self._may_have_old_answer and address != IDENTITY:
             # Answers come in the order of commands, so no old answer can follow this one and be mistaken for the next.
-            self._ask(IDENTITY, 0, False)
-            self._is_late = False
-        command, start = packet(address, value, is_written), len(self._bytes)
+            self._run_command(IDENTITY, 0, False)
+            self._may_have_old_answer = False
+        command, start = register_packet(address, value, is_written), len(self._bytes)
         for attempt in range(self._attempts):
-            self._is_late |= attempt > 0
+            self._may_have_old_answer |= attempt > 0
             self._port.write(command)
-            until = time.monotonic() + self._timeout
+            deadline = time.monotonic() + self._timeout
             while True:
-                self._hear()
-                answer, start = self._answer(command, start)
+                self._receive()
+                answer, start = self._take_answer(command, start)
                 # An answer with another value belongs to an older command.
                 if answer is not None and (answer == value or not is_written):
                     return answer
-                if answer is None and time.monotonic() > until:
+                if answer is None and time.monotonic() > deadline:
                     break
-        self._is_late = True
-        what = f"write {value:#x} to" if is_written else "read"
+        self._may_have_old_answer = True
+        action = f"write {value:#x} to" if is_written else "read"
         raise TimeoutError(
-            f"the board did not answer: it was asked {self._attempts} times to {what} register {address:#x}, and had {self._timeout} s "
+            f"the board did not answer: it was asked {self._attempts} times to {action} register {address:#x}, and had {self._timeout} s "
             "each time; are the port and its rate right, and is the board configured?"
         )
 
-    def _hear(self) -> None:
+    def _receive(self) -> None:
         """Take the bytes that have come."""
         # A port that is asked for more bytes than have come would wait for them.
-        came = self._port.read(max(1, getattr(self._port, "in_waiting", 1)))
-        if came:
-            self._bytes += came
+        received = self._port.read(max(1, getattr(self._port, "in_waiting", 1)))
+        if received:
+            self._bytes += received
         else:
             time.sleep(0.001)
 
-    def _answer(self, command: bytes, start: int) -> tuple[int | None, int]:
+    def _take_answer(self, command: bytes, start: int) -> tuple[int | None, int]:
         """Remove the first answer from a position on. Return its value, and the position at which to search next."""
         address, is_written = struct.unpack_from("<H", command, 4)[0], command[1] >> 4 == 1
-        while (at := self._bytes.find(command[:HEAD], start)) >= 0:
-            found = bytes(self._bytes[at : at + SIZE])
-            if len(found) < SIZE:
-                return None, at
-            (value,) = struct.unpack_from("<I", found, HEAD)
-            if found == packet(address, value, is_written):
-                del self._bytes[at : at + SIZE]
-                return value, at
-            start = at + 1
-        return None, max(start, len(self._bytes) - HEAD + 1)
+        while (position := self._bytes.find(command[:HEAD_BYTES], start)) >= 0:
+            answer = bytes(self._bytes[position : position + PACKET_BYTES])
+            if len(answer) < PACKET_BYTES:
+                return None, position
+            (value,) = struct.unpack_from("<I", answer, HEAD_BYTES)
+            if answer == register_packet(address, value, is_written):
+                del self._bytes[position : position + PACKET_BYTES]
+                return value, position
+            start = position + 1
+        return None, max(start, len(self._bytes) - HEAD_BYTES + 1)

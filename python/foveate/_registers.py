@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 from foveate._foveate import Camera, Design
-from foveate._line import Line, Port
+from foveate._line import Port, SerialLine
 
 #: The register of a board, above those of its core: name, lowest bit and width of each field.
 BOARD, BOARD_FIELDS = 0x1000, (("done", 0, 1), ("failed", 1, 1), ("lost", 16, 16))
@@ -85,7 +85,7 @@ class Registers:
 
     def __init__(self, design: Any, read: Callable[[int], int], write: Callable[[int, int], object]) -> None:
         self._read, self._write = read, write
-        self._line: Line | None = None
+        self._line: SerialLine | None = None
         self._names: dict[str, tuple[Register, RegisterField | None]] = {}
         design = design.design if isinstance(design, Camera) else Design(design)
         self._fingerprint = design.fingerprint
@@ -109,35 +109,35 @@ class Registers:
         attempts : int, default 3
             Number of times that a command is sent before a TimeoutError is raised.
         """
-        line = Line(port, timeout, attempts)
+        line = SerialLine(port, timeout, attempts)
         core = cls(design, line.read, line.write)
         core._line = line
         return core
 
     def _check(self) -> None:
-        """Compare the constant registers of the core with the design. Writes nothing."""
+        """Compare the constant registers of the core with the design, without writing one."""
         for name, problem in (("identity", "there is no Foveate core"), ("version", "the core has another map of registers")):
-            for _, found, right in self._differing(name):
-                raise RuntimeError(f"{problem}: `{name}` reads {found:#x}, not {right:#x}")
+            for _, value, expected in self._differences(name):
+                raise RuntimeError(f"{problem}: `{name}` reads {value:#x}, not {expected:#x}")
         fingerprint = f"{self['fingerprint_high']:08x}{self['fingerprint_low']:08x}"
         if fingerprint != self._fingerprint:
-            also = "".join(f"; `{name}` is {own}, not {other}" for name, own, other in self._differing("frame", "grid", "region"))
-            raise RuntimeError(f"the core has another design than expected: its fingerprint is {fingerprint}, not {self._fingerprint}{also}")
+            details = "".join(f"; `{name}` is {value}, not {expected}" for name, value, expected in self._differences("frame", "grid", "region"))
+            raise RuntimeError(f"the core has another design than expected: its fingerprint is {fingerprint}, not {self._fingerprint}{details}")
 
-    def _differing(self, *names: str) -> Iterator[tuple[str, int, int]]:
+    def _differences(self, *names: str) -> Iterator[tuple[str, int, int]]:
         """Yield the constant fields of these registers that differ from the design: name, value read, and right value."""
         for name in names:
             register, _ = self._find(name)
             value = int(self._read(register.address))
             for field in register.fields:
-                if field.reset is not None and _part(value, field) != field.reset:
-                    yield f"{name}.{field.name}", _part(value, field), field.reset
+                if field.reset is not None and _field_value(value, field) != field.reset:
+                    yield f"{name}.{field.name}", _field_value(value, field), field.reset
 
     def _find(self, name: str) -> tuple[Register, RegisterField | None]:
         """Return a register, and the field of that name or its only field."""
         if name not in self._names:
-            near = difflib.get_close_matches(str(name), self._names, 1, 0)
-            raise KeyError(f"this core has no register `{name}`; the nearest is `{near[0]}`")
+            nearest = difflib.get_close_matches(str(name), self._names, 1, 0)
+            raise KeyError(f"this core has no register `{name}`; the nearest is `{nearest[0]}`")
         return self._names[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -147,28 +147,28 @@ class Registers:
     def __getitem__(self, name: str) -> int:
         register, field = self._find(name)
         value = int(self._read(register.address))
-        return value if field is None else _part(value, field)
+        return value if field is None else _field_value(value, field)
 
     def __setitem__(self, name: str, value: int) -> None:
-        self._put([self._ready(name, value)])
+        self._write_all([self._prepare_write(name, value)])
 
-    def _ready(self, name: str, value: int) -> tuple[int, int, int]:
+    def _prepare_write(self, name: str, value: int) -> tuple[int, int, int]:
         """Return the address of a write, a mask of the bits that are kept, and the value of the other bits."""
         register, field = self._find(name)
-        meant = [one for one in ([field] if field else register.fields) if one.access != "read"]
-        if not meant:
+        writable_fields = [written for written in ([field] if field else register.fields) if written.access != "read"]
+        if not writable_fields:
             raise ValueError(f"`{name}` can only be read")
         low, value = field.low if field else 0, operator.index(value)
-        width = max(one.low + one.width for one in meant) - low
+        width = max(written.low + written.width for written in writable_fields) - low
         if not 0 <= value < 1 << width:
             raise ValueError(f"{name} = {value}: expected 0 to {(1 << width) - 1}")
-        # An event that reads as 1 would be cleared if this 1 were written back.
-        others = (one for one in register.fields if field not in (None, one) and one.access == "read, write")
-        return register.address, sum(_mask(one) for one in others), value << low
+        # Only fields that keep their value are written back: an event that reads as 1 would be cleared by a written 1.
+        kept_fields = (other for other in register.fields if field not in (None, other) and other.access == "read, write")
+        return register.address, sum(_field_mask(other) for other in kept_fields), value << low
 
-    def _put(self, ready: Iterable[tuple[int, int, int]]) -> None:
-        for address, kept, value in ready:
-            self._write(address, (int(self._read(address)) & kept if kept else 0) | value)
+    def _write_all(self, writes: Iterable[tuple[int, int, int]]) -> None:
+        for address, kept_bits, value in writes:
+            self._write(address, (int(self._read(address)) & kept_bits if kept_bits else 0) | value)
 
     def set(self, **values: int) -> None:
         """Write several thresholds that the core takes over together when the next frame begins.
@@ -176,28 +176,28 @@ class Registers:
         ``control.enable`` is 0 meanwhile, and is restored even if a write fails. So frames that begin in this time are left out: some
         microseconds on a bus, some milliseconds on a serial line. For a single threshold no frame is left out.
         """
-        ready = [self._ready(name, value) for name, value in values.items()]
+        writes = [self._prepare_write(name, value) for name, value in values.items()]
         if any(name.split(".")[0] == "control" for name in values):
             raise ValueError("`control` stops the core while others are written; write it by itself")
-        if len(ready) < 2:
-            return self._put(ready)
-        before = self["control"]
+        if len(writes) < 2:
+            return self._write_all(writes)
+        control = self["control"]
         try:
             self["control.enable"] = 0
-            self._put(ready)
+            self._write_all(writes)
         finally:
-            self["control"] = before
+            self["control"] = control
 
     def events(self) -> list[str]:
         """Return the names of the events that have happened since they were cleared."""
         value = self["events"]
-        return [field.name for field in self._names["events"][0].fields if _part(value, field)]
+        return [field.name for field in self._names["events"][0].fields if _field_value(value, field)]
 
     def clear(self, *names: str) -> None:
         """Clear these events: ``core.clear(*core.events())``. Other events stay; without names all events stay."""
-        ready = [self._ready(f"events.{name}", 1) for name in names]
-        if ready:
-            self._put([(ready[0][0], 0, sum({value for _, _, value in ready}))])
+        writes = [self._prepare_write(f"events.{name}", 1) for name in names]
+        if writes:
+            self._write_all([(writes[0][0], 0, sum({value for _, _, value in writes}))])
 
     def counters(self) -> dict[str, int]:
         """Return the counters: frames that came (modulo 2^32), repaired and skipped frames, and dropped regions (modulo 2^16)."""
@@ -222,9 +222,9 @@ class Registers:
         return b"" if self._line is None else self._line.received()
 
 
-def _mask(field: RegisterField) -> int:
+def _field_mask(field: RegisterField) -> int:
     return (1 << field.width) - 1 << field.low
 
 
-def _part(value: int, field: RegisterField) -> int:
-    return (value & _mask(field)) >> field.low
+def _field_value(value: int, field: RegisterField) -> int:
+    return (value & _field_mask(field)) >> field.low

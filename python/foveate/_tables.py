@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
-from foveate._extras import need
+from foveate._extras import require_packages
 from foveate._foveate import Outcome, event_columns
 
 if TYPE_CHECKING:
@@ -52,13 +52,13 @@ def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str 
     columns = event_columns(outcomes, only_active)
     codes, texts = columns.pop("action")
     if kind == "pandas":
-        need("kind = 'pandas'", ["pandas"], "tables")
+        require_packages("kind = 'pandas'", ["pandas"], "tables")
         import pandas
 
         action = pandas.Categorical.from_codes(codes.astype(np.int8), categories=list(texts))
         return pandas.DataFrame({**columns, "action": action})
     if kind == "pyarrow":
-        need("kind = 'pyarrow'", ["pyarrow"], "tables")
+        require_packages("kind = 'pyarrow'", ["pyarrow"], "tables")
         import pyarrow
 
         action = pyarrow.DictionaryArray.from_arrays(codes.astype(np.int8), list(texts))

@@ -24,21 +24,21 @@ Images = Literal["clip", "set", "cifar-sheet"]
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-def _named(function: _Function) -> _Function:
+def _check_options(function: _Function) -> _Function:
     """Make a function refuse an unknown option with the name of the nearest known one."""
-    known = set(inspect.signature(function).parameters)
+    parameters = set(inspect.signature(function).parameters)
 
     @functools.wraps(function)
-    def checked(*values: Any, **options: Any) -> Any:
+    def checked_function(*values: Any, **options: Any) -> Any:
         for name in options:
-            if name not in known:
+            if name not in parameters:
                 _foveate.refuse_option(function.__name__, name)
         return function(*values, **options)
 
-    return cast(_Function, checked)
+    return cast(_Function, checked_function)
 
 
-@_named
+@_check_options
 def explain(
     inputs: Inputs,
     camera: Any = None,
@@ -87,7 +87,7 @@ def explain(
     return Explanation(json.loads(values), text)
 
 
-@_named
+@_check_options
 def fidelity(
     inputs: Inputs,
     camera: Any = None,
@@ -184,7 +184,7 @@ def estimate(camera: Any) -> Estimate:
     return Estimate(json.loads(values), text)
 
 
-@_named
+@_check_options
 def infer(
     network: PathLike,
     inputs: Any,
@@ -286,6 +286,6 @@ def infer(
     except BaseException:
         shutil.rmtree(temporary)
         raise
-    found = Inference(temporary / "inference", json.loads(summary))
-    weakref.finalize(found, shutil.rmtree, temporary, ignore_errors=True)
-    return found
+    inference = Inference(temporary / "inference", json.loads(summary))
+    weakref.finalize(inference, shutil.rmtree, temporary, ignore_errors=True)
+    return inference

@@ -11,21 +11,21 @@ from typing import Any, Generic, Protocol, TypeVar, cast
 
 import numpy as np
 
-from foveate._extras import missing
+from foveate._extras import missing_package_error
 from foveate._foveate import Camera, Design, Outcome, luma
 
 try:
     import torch
     from torch.utils.data import Dataset
 except ModuleNotFoundError:
-    raise missing("foveate.torch", "torch", "torch") from None
+    raise missing_package_error("foveate.torch", "torch", "torch") from None
 
 __all__ = ["RegionDataset", "RegionTransform"]
 
 _T = TypeVar("_T")
 
 
-class _Indexed(Protocol):
+class _ImageDataset(Protocol):
     def __getitem__(self, index: int, /) -> tuple[Any, Any]: ...
     def __len__(self) -> int: ...
 
@@ -80,11 +80,11 @@ class RegionTransform(Generic[_T]):
         if camera is None:
             camera = self._local.camera = Camera(self._camera)
         camera.reset()
-        return cast(Outcome, camera.step(_grey(image), keep=True))
+        return cast(Outcome, camera.step(_grey_pixels(image), keep=True))
 
     def __call__(self, image: _T) -> _T:
         """Return the rendered frame of an image, in the type of the image."""
-        return cast(_T, _like(image, self.outcome(image).rendered))
+        return cast(_T, _in_type_of(image, self.outcome(image).rendered))
 
     def __repr__(self) -> str:
         return f"RegionTransform({self.design!r})"
@@ -112,7 +112,7 @@ class RegionDataset(Dataset[Any]):
     >>> loader = torch.utils.data.DataLoader(regions, batch_size=64, num_workers=2)
     """
 
-    def __init__(self, dataset: _Indexed, camera: Any, *, transform: Any = None, tags: bool = False) -> None:
+    def __init__(self, dataset: _ImageDataset, camera: Any, *, transform: Any = None, tags: bool = False) -> None:
         self.dataset, self.transform, self.tags = dataset, transform, tags
         self.regions: RegionTransform[Any] = RegionTransform(camera)
 
@@ -122,13 +122,13 @@ class RegionDataset(Dataset[Any]):
     def __getitem__(self, index: int) -> Any:
         image, target = self.dataset[index]
         outcome = self.regions.outcome(image)
-        seen = _like(image, outcome.rendered)
+        rendered = _in_type_of(image, outcome.rendered)
         if self.transform is not None:
-            seen = self.transform(seen)
-        return (seen, torch.from_numpy(outcome.active), target) if self.tags else (seen, target)
+            rendered = self.transform(rendered)
+        return (rendered, torch.from_numpy(outcome.active), target) if self.tags else (rendered, target)
 
 
-def _grey(image: Any) -> Any:
+def _grey_pixels(image: Any) -> Any:
     """Return the pixels of an image as a grey array."""
     if isinstance(image, torch.Tensor):
         if image.is_floating_point():
@@ -144,7 +144,7 @@ def _grey(image: Any) -> Any:
     return luma(array) if array.ndim == 3 and array.shape[2] == 3 and array.dtype == np.uint8 else array
 
 
-def _like(image: Any, rendered: Any) -> Any:
+def _in_type_of(image: Any, rendered: Any) -> Any:
     """Return the rendered frame in the type of an image."""
     if isinstance(image, torch.Tensor):
         tensor = torch.from_numpy(rendered)

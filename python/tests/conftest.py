@@ -18,8 +18,8 @@ def command():
     """Runs the program `foveate` that the environment variable FOVEATE names, else the one of the package."""
     program = [os.environ["FOVEATE"]] if "FOVEATE" in os.environ else [sys.executable, "-m", "foveate"]
 
-    def run(*words):
-        return subprocess.run([*program, *map(str, words)], check=True, capture_output=True, text=True).stdout
+    def run(*arguments):
+        return subprocess.run([*program, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
 
     return run
 
@@ -27,16 +27,16 @@ def command():
 @pytest.fixture(scope="session")
 def frames():
     """Makes a clip in which a part changes: 12 frames of 60 x 83 pixels, which is not a multiple of a region."""
-    chance = np.random.default_rng(7)
-    still = chance.integers(0, 256, (60, 83), np.uint8)
+    generator = np.random.default_rng(7)
+    still = generator.integers(0, 256, (60, 83), np.uint8)
     clip = np.repeat(still[None], 12, axis=0)
     for number in range(1, 12):
-        clip[number, 10:30, 3 * number : 3 * number + 25] = chance.integers(0, 256, (20, 25), np.uint8)
+        clip[number, 10:30, 3 * number : 3 * number + 25] = generator.integers(0, 256, (20, 25), np.uint8)
     return clip
 
 
-def equal(one, other):
+def equal(outcome, expected):
     """Returns whether two outcomes are equal, except for the frame itself."""
     names = ("srs", "trs", "active", "action", "changed", "rendered")
-    same = all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
-    return same and all(np.array_equal(one.scores[name], other.scores[name]) for name in one.scores)
+    same = all(np.array_equal(getattr(outcome, name), getattr(expected, name)) for name in names)
+    return same and all(np.array_equal(outcome.scores[name], expected.scores[name]) for name in outcome.scores)

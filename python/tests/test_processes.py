@@ -16,12 +16,12 @@ import foveate as fv
 from conftest import ROOT, equal
 
 
-def large(seed=0):
+def large_frame(seed=0):
     return np.random.default_rng(seed).integers(0, 256, (1500, 2000), np.uint8)
 
 
 def test_a_step_does_not_hold_the_interpreter():
-    frame, camera, ended = large(), fv.Camera(), threading.Event()
+    frame, camera, ended = large_frame(), fv.Camera(), threading.Event()
 
     def work():
         for _ in range(40):
@@ -30,7 +30,7 @@ def test_a_step_does_not_hold_the_interpreter():
             camera.reset()
         ended.set()
 
-    before = sys.getswitchinterval()
+    switch_interval = sys.getswitchinterval()
     # A thread that held the interpreter during its steps would not release it before its end.
     sys.setswitchinterval(100)
     try:
@@ -42,12 +42,12 @@ def test_a_step_does_not_hold_the_interpreter():
             time.sleep(0)
         thread.join()
     finally:
-        sys.setswitchinterval(before)
+        sys.setswitchinterval(switch_interval)
     assert turns > 5
 
 
 def test_cameras_of_many_threads_give_the_bits_of_one():
-    clip = [large(seed)[:200, :300] for seed in range(6)]
+    clip = [large_frame(seed)[:200, :300] for seed in range(6)]
 
     def run(_):
         camera = fv.Camera("steady")
@@ -60,7 +60,7 @@ def test_cameras_of_many_threads_give_the_bits_of_one():
 
 
 def test_a_camera_in_two_threads_is_refused_or_right():
-    frame, camera = large(), fv.Camera()
+    frame, camera = large_frame(), fv.Camera()
     camera.step(frame)
     refused = []
 
@@ -87,8 +87,8 @@ def test_a_run_can_be_shared_by_threads():
     assert sorted(numbers) == list(range(40))
 
 
-def seen_in_a_process(camera):
-    frame = large(1)[:100, :100]
+def scores_in_a_process(camera):
+    frame = large_frame(1)[:100, :100]
     return camera.step(frame).scores["edge"].tolist()
 
 
@@ -97,8 +97,8 @@ def seen_in_a_process(camera):
 def test_cameras_work_in_other_processes(method):
     context = multiprocessing.get_context(method)
     with context.Pool(2) as pool:
-        found = pool.map(seen_in_a_process, [fv.Camera("seamless"), fv.Camera("seamless", threads=2)])
-    assert found[0] == found[1] == seen_in_a_process(fv.Camera("seamless"))
+        scores = pool.map(scores_in_a_process, [fv.Camera("seamless"), fv.Camera("seamless", threads=2)])
+    assert scores[0] == scores[1] == scores_in_a_process(fv.Camera("seamless"))
 
 
 FORKED = """
@@ -165,9 +165,9 @@ def test_ctrl_c_ends_long_work_at_once(what, tmp_path):
     assert process.stdout.readline() == "go\n"
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    began = time.monotonic()
+    interrupt_time = time.monotonic()
     _, errors = process.communicate(timeout=30)
-    assert time.monotonic() - began < 5
+    assert time.monotonic() - interrupt_time < 5
     if what == "command":
         assert process.returncode == 130 and "interrupted; the results so far are in" in errors
     else:
@@ -196,22 +196,22 @@ def test_ctrl_c_ends_an_estimate_while_its_netlist_is_read(tmp_path):
         [sys.executable, "-c", "import foveate as fv; fv.Design().estimate()"], stderr=subprocess.PIPE, text=True,
         env={**os.environ, "FOVEATE_YOSYS": str(tmp_path / "yosys"), "FOVEATE_CACHE": "off"},
     )
-    begun = time.monotonic()
+    start_time = time.monotonic()
     while not {"whole", "leaves"} <= {path.name for path in tmp_path.iterdir()}:
-        assert process.poll() is None and time.monotonic() - begun < 60
+        assert process.poll() is None and time.monotonic() - start_time < 60
         time.sleep(0.01)
     time.sleep(0.3)
     process.send_signal(signal.SIGINT)
-    began = time.monotonic()
+    interrupt_time = time.monotonic()
     _, errors = process.communicate(timeout=60)
-    assert time.monotonic() - began < 1.5
+    assert time.monotonic() - interrupt_time < 1.5
     assert process.returncode == -signal.SIGINT and errors.rstrip().endswith("KeyboardInterrupt")
 
 
 def test_the_command_is_there():
-    shown = subprocess.run([sys.executable, "-m", "foveate", "--version"], capture_output=True, text=True, check=True)
-    assert shown.stdout == f"foveate {fv.__version__}\n"
-    wrong = subprocess.run([sys.executable, "-m", "foveate", "chekc"], capture_output=True, text=True)
-    assert wrong.returncode == 2 and "check" in wrong.stderr
-    missing = subprocess.run([sys.executable, "-m", "foveate", "simulate", "no.mp4", "-o", "x"], capture_output=True, text=True)
-    assert missing.returncode == 2 and missing.stderr.startswith("foveate: input `no.mp4` does not exist")
+    version = subprocess.run([sys.executable, "-m", "foveate", "--version"], capture_output=True, text=True, check=True)
+    assert version.stdout == f"foveate {fv.__version__}\n"
+    unknown_command = subprocess.run([sys.executable, "-m", "foveate", "chekc"], capture_output=True, text=True)
+    assert unknown_command.returncode == 2 and "check" in unknown_command.stderr
+    missing_input = subprocess.run([sys.executable, "-m", "foveate", "simulate", "no.mp4", "-o", "x"], capture_output=True, text=True)
+    assert missing_input.returncode == 2 and missing_input.stderr.startswith("foveate: input `no.mp4` does not exist")

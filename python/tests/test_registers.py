@@ -24,16 +24,16 @@ def page(design, tmp_path_factory):
     """Returns address, name, doc and fields of each register in REGISTERS.md."""
     folder = tmp_path_factory.mktemp("core") / "core"
     design.generate(folder)
-    found = []
+    registers = []
     for line in (folder / "REGISTERS.md").read_text().splitlines():
         if not (row := re.fullmatch(r"\| (.*) \| (.*) \| \[(\d+):(\d+)\] \| `(\w+)` \| (.*) \| (.*) \| (.*) \|", line)):
             continue
         address, name, high, low, field, access, reset, doc = row.groups()
         if address.strip():
-            found.append((int(address, 16), name.strip("`"), []))
+            registers.append((int(address, 16), name.strip("`"), []))
         width, reset = int(high) - int(low) + 1, int(reset, 16) if reset.strip() else None
-        found[-1][2].append((field, int(low), width, access, reset, doc))
-    return found
+        registers[-1][2].append((field, int(low), width, access, reset, doc))
+    return registers
 
 
 class Core:
@@ -79,11 +79,11 @@ def test_a_design_has_the_registers_of_its_page(design, page):
     table = design.registers()
     assert [(one.address, one.name) for one in table] == [(address, name) for address, name, _ in page]
     assert len(page) > 20 and sum(len(fields) for *_, fields in page) > 40
-    for own, (_, _, fields) in zip(table, page, strict=True):
+    for register, (_, _, fields) in zip(table, page, strict=True):
         # If a field is all of a register, the page has the doc of the register, too.
-        docs = [f"{own.doc}: {field.doc}" if field.name == "value" else field.doc for field in own.fields]
-        seen = [(*field[:5], doc) for field, doc in zip(own.fields, docs, strict=True)]
-        assert seen == fields, own.name
+        docs = [f"{register.doc}: {field.doc}" if field.name == "value" else field.doc for field in register.fields]
+        fields_of_register = [(*field[:5], doc) for field, doc in zip(register.fields, docs, strict=True)]
+        assert fields_of_register == fields, register.name
     assert fv.Camera(design).registers() == table
     # A camera has the size of its frames, and its registers have that size, too.
     camera = fv.Camera({"hardware": {"organization": "raster", "interface": "axi"}})
@@ -162,20 +162,20 @@ def test_a_core_runs_on_where_a_write_fails(design, core):
 
 
 WRONG = [
-    (lambda own: own["edge_levl"], KeyError, "no register `edge_levl`; the nearest is `edge_level`"),
-    (lambda own: own["q"], KeyError, "the nearest is"),
-    (lambda own: own["status.bsy"], KeyError, "nearest is `status.busy`"),
-    (lambda own: own.set(edge_level=1, egde_min=2), KeyError, "nearest is `edge_min`"),
-    (lambda own: own.clear("frame_dune"), KeyError, "nearest is `events.frame_done`"),
-    (lambda own: own.__setitem__("edge_level", 2048), ValueError, "edge_level = 2048: expected 0 to 2047"),
-    (lambda own: own.set(edge_level=1, edge_min=-1), ValueError, "edge_min = -1: expected 0 to 127"),
-    (lambda own: own.__setitem__("control", 8), ValueError, "control = 8: expected 0 to 7"),
-    (lambda own: own.__setitem__("control.wait", 2), ValueError, "control.wait = 2: expected 0 to 1"),
-    (lambda own: own.__setitem__("status", 1), ValueError, "`status` can only be read"),
-    (lambda own: own.__setitem__("region.size", 8), ValueError, "`region.size` can only be read"),
-    (lambda own: own.set(edge_level=1, control=3), ValueError, "by itself"),
-    (lambda own: own.set(**{"edge_level": 1, "control.wait": 1}), ValueError, "by itself"),
-    (lambda own: own.__setitem__("edge_level", 1.5), TypeError, "integer"),
+    (lambda driver: driver["edge_levl"], KeyError, "no register `edge_levl`; the nearest is `edge_level`"),
+    (lambda driver: driver["q"], KeyError, "the nearest is"),
+    (lambda driver: driver["status.bsy"], KeyError, "nearest is `status.busy`"),
+    (lambda driver: driver.set(edge_level=1, egde_min=2), KeyError, "nearest is `edge_min`"),
+    (lambda driver: driver.clear("frame_dune"), KeyError, "nearest is `events.frame_done`"),
+    (lambda driver: driver.__setitem__("edge_level", 2048), ValueError, "edge_level = 2048: expected 0 to 2047"),
+    (lambda driver: driver.set(edge_level=1, edge_min=-1), ValueError, "edge_min = -1: expected 0 to 127"),
+    (lambda driver: driver.__setitem__("control", 8), ValueError, "control = 8: expected 0 to 7"),
+    (lambda driver: driver.__setitem__("control.wait", 2), ValueError, "control.wait = 2: expected 0 to 1"),
+    (lambda driver: driver.__setitem__("status", 1), ValueError, "`status` can only be read"),
+    (lambda driver: driver.__setitem__("region.size", 8), ValueError, "`region.size` can only be read"),
+    (lambda driver: driver.set(edge_level=1, control=3), ValueError, "by itself"),
+    (lambda driver: driver.set(**{"edge_level": 1, "control.wait": 1}), ValueError, "by itself"),
+    (lambda driver: driver.__setitem__("edge_level", 1.5), TypeError, "integer"),
 ]
 
 
@@ -217,21 +217,21 @@ def test_a_core_may_be_that_of_a_camera(design, core):
     assert fv.Registers(camera, core.read, core.write)["frame.width"] == 64
 
 
-def register(address, value, written, frame=0):
+def register_packet(address, value, written, frame=0):
     """Makes a REGISTER packet by docs/packets.md."""
     words = 0xFA | 6 << 8 | written << 12 | 3 << 16 | address << 32, value
     body = struct.pack("<QQI", *words, frame)
     return body + struct.pack("<I", zlib.crc32(body))
 
 
-def split(packets):
+def split_packets(packets):
     """Returns the packets of a stream without damage."""
-    found, at = [], 0
-    while at < len(packets):
-        size = 8 * struct.unpack_from("<H", packets, at + 2)[0]
-        found.append(packets[at : at + size])
-        at += size
-    return found
+    packets_found, start = [], 0
+    while start < len(packets):
+        size = 8 * struct.unpack_from("<H", packets, start + 2)[0]
+        packets_found.append(packets[start : start + size])
+        start += size
+    return packets_found
 
 
 class Port:
@@ -240,48 +240,48 @@ class Port:
     def __init__(self, core, packets=b"", piece=7):
         self.core, self.board, self.piece = core, 0x0005_0001, piece
         #: The bytes of the current packet that have not come yet; the bytes that have left the core, answers included; and those that have not.
-        self.rest, self.queue, self.packets = b"", [], split(packets)
-        self.commands, self.held = [], []
-        #: The fate of the answer by the number of its command. None: the command is not received.
-        self.fate = {}
+        self.unread_bytes, self.queue, self.packets = b"", [], split_packets(packets)
+        self.commands, self.held_answers = [], []
+        #: For numbers of commands: a function from an answer to the packets that are sent in its place, or None if the command is not received.
+        self.answer_filters = {}
 
     def write(self, data):
         number = len(self.commands)
         self.commands.append(data)
         head, value, _ = struct.unpack("<QQQ", data)
         address, written = head >> 32 & 0xFFFF, head >> 12 & 1
-        assert data == register(address, value, written)
-        fate = self.fate.get(number, lambda answer: [answer])
-        if fate is None:
+        assert data == register_packet(address, value, written)
+        answer_filter = self.answer_filters.get(number, lambda answer: [answer])
+        if answer_filter is None:
             return
         if written:
             self.core.write(address, value)
         else:
             value = self.board if address == 0x1000 else self.core.read(address)
-        self.queue += [*self.packets[:2], *fate(register(address, value, written))]
+        self.queue += [*self.packets[:2], *answer_filter(register_packet(address, value, written))]
         del self.packets[:2]
 
-    def hold(self, answer):
-        """Holds an answer (a fate): it comes before the next one."""
-        self.held.append(answer)
+    def hold_answer(self, answer):
+        """Holds an answer until send_held_answers is called. An answer filter."""
+        self.held_answers.append(answer)
         return []
 
-    def late(self, answer):
-        """Sends held answers, and then this one (a fate)."""
-        held, self.held = self.held, []
-        return [*held, answer]
+    def send_held_answers(self, answer):
+        """Sends the held answers, and then this one. An answer filter."""
+        earlier_answers, self.held_answers = self.held_answers, []
+        return [*earlier_answers, answer]
 
     def read(self, size):
-        if not self.rest:
-            of = self.queue or self.packets
-            self.rest = of.pop(0) if of else b""
+        if not self.unread_bytes:
+            packets = self.queue or self.packets
+            self.unread_bytes = packets.pop(0) if packets else b""
         size = min(size, self.piece)
-        found, self.rest = self.rest[:size], self.rest[size:]
-        return found
+        piece, self.unread_bytes = self.unread_bytes[:size], self.unread_bytes[size:]
+        return piece
 
-    def left(self):
+    def unread(self):
         """Returns all bytes that have not come yet."""
-        return self.rest + b"".join([*self.queue, *self.packets])
+        return self.unread_bytes + b"".join([*self.queue, *self.packets])
 
 
 class PySerial(Port):
@@ -289,7 +289,7 @@ class PySerial(Port):
 
     @property
     def in_waiting(self):
-        return min(len(self.left()), 100)
+        return min(len(self.unread()), 100)
 
     def read(self, size):
         assert size <= max(1, self.in_waiting)
@@ -316,7 +316,7 @@ def clock(monkeypatch):
     return clock
 
 
-over = fv.Registers.over_serial
+over_serial = fv.Registers.over_serial
 
 
 @pytest.fixture(scope="module")
@@ -324,22 +324,22 @@ def packets(design, tmp_path_factory, command):
     folder = tmp_path_factory.mktemp("clip")
     (folder / "design.toml").write_text(design.toml())
     command("simulate", "scene:street", "--frames", "12", "--packets", "--config", folder / "design.toml", "-o", folder / "out")
-    found = (folder / "out/packets.bin").read_bytes()
-    assert len(split(found)) > 100
-    return found
+    recording = (folder / "out/packets.bin").read_bytes()
+    assert len(split_packets(recording)) > 100
+    return recording
 
 
 @pytest.mark.parametrize("kind, piece", [(Port, 1), (Port, 7), (Port, 1000), (PySerial, 1000)])
 def test_a_core_is_driven_between_packets_and_none_is_lost(kind, piece, design, core, packets):
     port = kind(core, packets, piece)
-    driver = over(design, port)
+    driver = over_serial(design, port)
     driver.set(edge_level=120, edge_min=4)
-    heard = driver.received()
+    other_packets = driver.received()
     assert core.frames[-1] == (120, 4)
     assert (driver["edge_level"], driver["status.busy"], driver.events()) == (120, 0, [])
     assert driver.board() == {"done": 1, "failed": 0, "lost": 5}
-    assert 0 < len(heard) < len(packets) / 2
-    assert heard + driver.received() + port.left() == packets
+    assert 0 < len(other_packets) < len(packets) / 2
+    assert other_packets + driver.received() + port.unread() == packets
     assert driver.received() == b""
     # Every answer was found: 4 reads of a new driver, 6 commands of `set`, and 4 reads.
     assert len(port.commands) == 14
@@ -347,8 +347,8 @@ def test_a_core_is_driven_between_packets_and_none_is_lost(kind, piece, design, 
 
 def test_a_recording_while_a_core_is_driven_can_be_decoded(design, core, packets, command, tmp_path):
     port = Port(core, packets)
-    driver = over(design, port)
-    (tmp_path / "recording.bin").write_bytes(driver.received() + port.left())
+    driver = over_serial(design, port)
+    (tmp_path / "recording.bin").write_bytes(driver.received() + port.unread())
     (tmp_path / "design.toml").write_text(design.toml())
     command("decode", tmp_path / "recording.bin", "--config", tmp_path / "design.toml", "-o", tmp_path / "seen")
     assert '"complete": true' in (tmp_path / "seen/summary.json").read_text()
@@ -356,24 +356,24 @@ def test_a_recording_while_a_core_is_driven_can_be_decoded(design, core, packets
 
 def test_a_command_or_an_answer_that_is_lost_is_sent_again(design, core, packets):
     port = Port(core, packets)
-    port.fate = {0: None, 5: lambda answer: []}
-    driver = over(design, port)
+    port.answer_filters = {0: None, 5: lambda answer: []}
+    driver = over_serial(design, port)
     assert driver["edge_min"] == 5
-    assert port.commands[0] == port.commands[1] == register(0, 0, 0)
-    assert driver.received() + port.left() == packets
+    assert port.commands[0] == port.commands[1] == register_packet(0, 0, 0)
+    assert driver.received() + port.unread() == packets
 
 
 @pytest.mark.parametrize("bit", [*range(64), *range(96, 192)])
 def test_an_answer_with_a_wrong_bit_is_none(bit, design, core):
     port = Port(core)
-    driver = over(design, port)
+    driver = over_serial(design, port)
     flipped = []
 
     def flip(answer):
         flipped.append((int.from_bytes(answer, "little") ^ 1 << bit).to_bytes(24, "little"))
         return flipped
 
-    port.fate[len(port.commands)] = flip
+    port.answer_filters[len(port.commands)] = flip
     assert driver["edge_level"] == 100
     # Such a packet may be part of a recording.
     assert driver.received() == flipped[0]
@@ -381,19 +381,20 @@ def test_an_answer_with_a_wrong_bit_is_none(bit, design, core):
 
 def test_an_answer_with_a_wrong_value_has_a_wrong_crc(design, core):
     port = Port(core)
-    driver = over(design, port)
-    port.fate[len(port.commands)] = lambda answer: [answer[:8] + b"\x63" + answer[9:]]
+    driver = over_serial(design, port)
+    port.answer_filters[len(port.commands)] = lambda answer: [answer[:8] + b"\x63" + answer[9:]]
     assert driver["edge_level"] == 100
 
 
 def test_an_answer_is_found_in_noise(design, core):
     port = Port(core)
-    driver = over(design, port)
+    driver = over_serial(design, port)
     driver.received()
     # Beginnings of an answer, the last of them before a whole one; answers of another register; and the answer to a write.
-    head = register(0x100, 77, 0)
-    noise = [b"\xfa\xfa", head[:9], head[:23], register(0x104, 3, 0), register(0x100, 3, 1), register(0x100, 3, 0, frame=1), head[:9]]
-    port.fate[len(port.commands)] = lambda answer: [*noise, answer, b"\xfa\x06\x03"]
+    head = register_packet(0x100, 77, 0)
+    others = [register_packet(0x104, 3, 0), register_packet(0x100, 3, 1), register_packet(0x100, 3, 0, frame=1)]
+    noise = [b"\xfa\xfa", head[:9], head[:23], *others, head[:9]]
+    port.answer_filters[len(port.commands)] = lambda answer: [*noise, answer, b"\xfa\x06\x03"]
     count = len(port.commands)
     assert (driver["edge_level"], driver["edge_min"]) == (100, 5)
     assert len(port.commands) == count + 2
@@ -402,22 +403,22 @@ def test_an_answer_is_found_in_noise(design, core):
 
 def test_an_old_answer_is_not_taken_for_a_new_one(design, core):
     port = Port(core)
-    driver = over(design, port)
+    driver = over_serial(design, port)
     number = len(port.commands)
     # The first answer is late. The second one comes in time; the first comes with the next command.
-    port.fate = {number: port.hold, number + 2: port.late}
+    port.answer_filters = {number: port.hold_answer, number + 2: port.send_held_answers}
     assert driver["edge_level"] == 100
     core.values[0x100] = 44
     assert driver["edge_level"] == 44
     number = len(port.commands)
-    port.fate = {number: port.hold, number + 2: port.late}
+    port.answer_filters = {number: port.hold_answer, number + 2: port.send_held_answers}
     driver["edge_level"] = 50
     driver["edge_level"] = 50
-    assert port.commands.count(register(0x100, 50, 1)) == 3
+    assert port.commands.count(register_packet(0x100, 50, 1)) == 3
     # The answer may also come after a time without any byte.
-    driver = over(design, port, attempts=1)
+    driver = over_serial(design, port, attempts=1)
     number = len(port.commands)
-    port.fate = {number: port.hold, number + 1: port.late}
+    port.answer_filters = {number: port.hold_answer, number + 1: port.send_held_answers}
     with pytest.raises(TimeoutError):
         driver["edge_level"]
     core.values[0x100] = 45
@@ -426,48 +427,48 @@ def test_an_old_answer_is_not_taken_for_a_new_one(design, core):
 
 def test_a_write_is_answered_by_what_was_written(design, core):
     port = Port(core)
-    driver = over(design, port)
-    port.fate[len(port.commands)] = lambda answer: [register(0x100, 51, 1)]
+    driver = over_serial(design, port)
+    port.answer_filters[len(port.commands)] = lambda answer: [register_packet(0x100, 51, 1)]
     driver["edge_level"] = 50
-    assert port.commands[-2:] == 2 * [register(0x100, 50, 1)]
+    assert port.commands[-2:] == 2 * [register_packet(0x100, 50, 1)]
 
 
 class Silent:
     """A port on which no byte comes, or only bytes of other packets."""
 
-    def __init__(self, what):
-        self.what, self.commands, self.reads = what, [], 0
+    def __init__(self, content):
+        self.content, self.commands, self.reads = content, [], 0
 
     def write(self, data):
         self.commands.append(data)
 
     def read(self, size):
         self.reads += 1
-        return self.what and self.what[:size]
+        return self.content and self.content[:size]
 
 
-@pytest.mark.parametrize("what", [b"", None, b"\xfa"])
-def test_a_board_that_does_not_answer_is_a_timeout(what, design, clock):
-    port = Silent(what)
+@pytest.mark.parametrize("content", [b"", None, b"\xfa"])
+def test_a_board_that_does_not_answer_is_a_timeout(content, design, clock):
+    port = Silent(content)
     with pytest.raises(TimeoutError, match="asked 3 times to read register 0x0, and had 0.3 s each time"):
-        over(design, port)
-    assert port.commands == 3 * [register(0, 0, 0)] and 0.9 < clock.now < 1
+        over_serial(design, port)
+    assert port.commands == 3 * [register_packet(0, 0, 0)] and 0.9 < clock.now < 1
     # The processor is idle while no byte comes.
-    assert what or port.reads < 1000
-    port = Silent(what)
+    assert content or port.reads < 1000
+    port = Silent(content)
     with pytest.raises(TimeoutError, match="asked 2 times to read register 0x0, and had 2 s each time"):
-        over(design, port, timeout=2, attempts=2)
+        over_serial(design, port, timeout=2, attempts=2)
     assert len(port.commands) == 2
 
 
 def test_a_write_without_an_answer_says_so(design, core):
     port = Port(core)
-    driver = over(design, port)
-    port.fate = dict.fromkeys(range(len(port.commands), 100))
+    driver = over_serial(design, port)
+    port.answer_filters = dict.fromkeys(range(len(port.commands), 100))
     with pytest.raises(TimeoutError, match="write 0x5 to register 0x100"):
         driver["edge_level"] = 5
 
 
 def test_a_board_with_another_core_is_refused(design, core):
     with pytest.raises(RuntimeError, match="another design"):
-        over(fv.Design(design, frame={"width": 72}), Port(core))
+        over_serial(fv.Design(design, frame={"width": 72}), Port(core))

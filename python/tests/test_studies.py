@@ -18,16 +18,16 @@ pytest.importorskip("matplotlib")
 
 from foveate.studies import accuracy, statistics, tables, training  # noqa: E402
 from foveate.studies.__main__ import main  # noqa: E402
-from foveate.studies.cameras import Regions, seen  # noqa: E402
+from foveate.studies.cameras import Regions, render_screens  # noqa: E402
 from foveate.studies.data import StudyError, read, read_idx, write_idx  # noqa: E402
 from foveate.studies.models import lenet5  # noqa: E402
-from foveate.studies.runs import Bench, Result, Run, Settings, complete, write_whole  # noqa: E402
+from foveate.studies.runs import Result, Run, RunFolder, Settings, complete, write_whole  # noqa: E402
 
 SMALL = ["--epochs", "1", "--validation", "100", "--limit", "0.5"]
 ACCURACY = [*SMALL, "--seeds", "2", "--figure-seeds", "1", "--thresholds", "1", "12"]
 
 
-def half(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+def make_half(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """Makes images whose class is the place of a bright square, so that one epoch is enough to learn it."""
     draws = np.random.default_rng(seed)
     labels = draws.integers(0, 10, count).astype(np.uint8)
@@ -46,7 +46,7 @@ def sets(tmp_path_factory: pytest.TempPathFactory) -> Path:
         home = folder / place
         home.mkdir(parents=True)
         for name, images, seed in (("train", count, 1), ("t10k", 200, 2)):
-            for kind, array in zip(("images-idx3", "labels-idx1"), half(images, seed), strict=True):
+            for kind, array in zip(("images-idx3", "labels-idx1"), make_half(images, seed), strict=True):
                 path = home / f"{name}-{kind}-ubyte"
                 write_idx(path, array)
                 if packed:
@@ -56,19 +56,19 @@ def sets(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def done(sets: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def finished_study(sets: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Runs the small study of accuracy once."""
     folder = tmp_path_factory.mktemp("accuracy") / "out"
     assert main(["accuracy", "-o", str(folder), "--data", str(sets), *ACCURACY]) == 0
     return folder
 
 
-def files(folder: Path) -> dict[str, bytes]:
+def read_files(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-def test_a_study_writes_its_runs_tables_and_figure(done: Path) -> None:
-    names = files(done)
+def test_a_study_writes_its_runs_tables_and_figure(finished_study: Path) -> None:
+    names = read_files(finished_study)
     assert {"accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg", "accuracy.png"} <= set(names)
     assert not [name for name in names if Path(name).name.startswith(".")]
     assert "Intervals cover seeds and images, not other training recipes" in names["accuracy.md"].decode()
@@ -88,41 +88,41 @@ def test_a_study_writes_its_runs_tables_and_figure(done: Path) -> None:
     assert len(rows) - 1 == len(runs)
 
 
-def test_a_second_start_makes_nothing_again(done: Path, sets: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = files(done)
+def test_a_second_start_makes_nothing_again(finished_study: Path, sets: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = read_files(finished_study)
 
     def never(*_: Any) -> None:
         raise AssertionError("a run was made again")
 
     with monkeypatch.context() as patch:
-        patch.setattr(Bench, "make", never)
-        assert main(["accuracy", "-o", str(done), "--data", str(sets), *ACCURACY]) == 0
-    assert files(done) == before
+        patch.setattr(RunFolder, "make", never)
+        assert main(["accuracy", "-o", str(finished_study), "--data", str(sets), *ACCURACY]) == 0
+    assert read_files(finished_study) == before
 
 
-def test_the_same_seeds_give_the_same_bytes_in_any_number_of_processes(done: Path, sets: Path, tmp_path: Path) -> None:
+def test_the_same_seeds_give_the_same_bytes_in_any_number_of_processes(finished_study: Path, sets: Path, tmp_path: Path) -> None:
     settings = Settings(epochs=1, validation=100, limit=0.5)
     runs = [Run("mnist", None, None, 0), Run("mnist", Regions(1), Regions(1), 0), Run("mnist", None, Regions(1), 0)]
-    complete(Bench(tmp_path, sets, settings), runs, jobs=2, report=lambda _: None)
-    again, first = files(tmp_path), files(done)
-    assert len(again) == 5
+    complete(RunFolder(tmp_path, sets, settings), runs, jobs=2, report=lambda _: None)
+    new_files, study_files = read_files(tmp_path), read_files(finished_study)
+    assert len(new_files) == 5
     # Weights are zip files of torch, whose digests are in the results.
-    assert {name: text for name, text in again.items() if name.endswith(".json")}.items() <= first.items()
+    assert {name: text for name, text in new_files.items() if name.endswith(".json")}.items() <= study_files.items()
 
 
-def test_runs_of_a_seed_are_paired(done: Path) -> None:
-    results = [json.loads(path.read_text()) for path in done.glob("runs/mnist*/*.json")]
-    begun = {(one["seed"], one["initial_weights"]) for one in results if one["initial_weights"] is not None}
-    assert len(begun) == 2 and len({weights for _, weights in begun}) == 2
-    ended = {(one["trained"], one["trained_weights"]) for one in results if one["seed"] == 0}
-    assert len(ended) == len({trained for trained, _ in ended}) >= 3
+def test_runs_of_a_seed_are_paired(finished_study: Path) -> None:
+    results = [json.loads(path.read_text()) for path in finished_study.glob("runs/mnist*/*.json")]
+    initial_weights = {(result["seed"], result["initial_weights"]) for result in results if result["initial_weights"] is not None}
+    assert len(initial_weights) == 2 and len({weights for _, weights in initial_weights}) == 2
+    trained_weights = {(result["trained"], result["trained_weights"]) for result in results if result["seed"] == 0}
+    assert len(trained_weights) == len({trained for trained, _ in trained_weights}) >= 3
     assert torch.equal(training.order(50, 1, 3), training.order(50, 1, 3))
     assert not torch.equal(training.order(50, 1, 3), training.order(50, 2, 3))
     assert sorted(training.order(50, 1, 3).tolist()) == list(range(50))
 
 
 def test_other_settings_and_other_images_are_other_runs(sets: Path, tmp_path: Path) -> None:
-    names = {Bench(tmp_path, sets, settings).home("mnist").name
+    names = {RunFolder(tmp_path, sets, settings).set_folder("mnist").name
              for settings in (Settings(validation=100), Settings(validation=101), Settings(validation=100, epochs=9))}
     assert len(names) == 3
 
@@ -134,14 +134,14 @@ def test_an_interrupted_run_leaves_nothing(tmp_path: Path) -> None:
 
     with pytest.raises(KeyboardInterrupt):
         write_whole(tmp_path / "run.json", stopped)
-    assert files(tmp_path) == {}
+    assert read_files(tmp_path) == {}
 
 
 def test_ctrl_c_ends_in_one_line(sets: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     def stopped(*_: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Bench, "make", stopped)
+    monkeypatch.setattr(RunFolder, "make", stopped)
     assert main(["accuracy", "-o", str(tmp_path / "out"), "--data", str(sets), *ACCURACY]) == 130
     assert capsys.readouterr().err.startswith("interrupted: the runs below ")
 
@@ -150,26 +150,26 @@ def test_ctrl_c_ends_in_one_line(sets: Path, tmp_path: Path, monkeypatch: pytest
 def test_images_are_those_of_the_command_bit_for_bit(size: int, means: int, tmp_path: Path, command: Any) -> None:
     source = tmp_path / "t10k-images-idx3-ubyte"
     # Every image comes twice: the second one must not be a frame without changes.
-    write_idx(source, np.repeat(half(50, 4)[0], 2, axis=0))
+    write_idx(source, np.repeat(make_half(50, 4)[0], 2, axis=0))
     keys = ["--set", "spatial=[{feature='edge', level=100, min_score=3}]", "--set", "denoise.filter='none'", "--set", f"region.size={size}"]
     keys += ["--set", "render.irrelevant='mean'", "--set", f"periphery.blocks={means}"] if means else []
     command("dataset", source, "-o", tmp_path / "out", *keys)
-    ours = seen(read_idx(source), Regions(3, size, filter="none", means=means))
-    assert np.array_equal(ours.images, read_idx(tmp_path / "out" / source.name))
-    theirs = np.load(tmp_path / "out" / "active.npy")
-    assert ours.active == pytest.approx(theirs.mean()) and 0 < ours.active < 1
+    screens = render_screens(read_idx(source), Regions(3, size, filter="none", means=means))
+    assert np.array_equal(screens.images, read_idx(tmp_path / "out" / source.name))
+    command_active = np.load(tmp_path / "out" / "active.npy")
+    assert screens.active == pytest.approx(command_active.mean()) and 0 < screens.active < 1
     sent = json.loads((tmp_path / "out" / "summary.json").read_text())["bandwidth"]
-    assert ours.sent == sent["region"]["bytes"] / sent["raw"]["bytes"]
+    assert screens.sent == sent["region"]["bytes"] / sent["raw"]["bytes"]
 
 
 def test_bytes_leave_out_padding() -> None:
     """Makes an image of 28 x 28 with one bright corner in the last region, of which 4 x 4 pixels are in the image."""
     images = np.zeros((3, 28, 28), np.uint8)
     images[1, 25:27, 25:27] = 255
-    one = seen(images, Regions(1, filter="none"))
-    assert one.active == 1 / 48
+    screens = render_screens(images, Regions(1, filter="none"))
+    assert screens.active == 1 / 48
     # 3 images of 16 regions have 96 bits.
-    assert one.sent == (16 + 12) / (3 * 784)
+    assert screens.sent == (16 + 12) / (3 * 784)
 
 
 def test_quantiles_are_those_of_scipy() -> None:
@@ -197,17 +197,17 @@ def test_mcnemar_is_a_sign_test() -> None:
 
 
 def test_a_bootstrap_is_as_wide_as_its_standard_error() -> None:
-    draws = np.random.default_rng(3)
-    first, second = draws.random((2, 4, 4000)) < 0.9
+    generator = np.random.default_rng(3)
+    first, second = generator.random((2, 4, 4000)) < 0.9
     low, high = statistics.bootstrap(first, second)
-    each = second.mean(0) - first.mean(0)
-    assert (low + high) / 2 == pytest.approx(each.mean(), abs=5e-4)
-    assert high - low == pytest.approx(2 * 1.96 * each.std() / 4000**0.5, rel=0.1)
+    differences = second.mean(0) - first.mean(0)
+    assert (low + high) / 2 == pytest.approx(differences.mean(), abs=5e-4)
+    assert high - low == pytest.approx(2 * 1.96 * differences.std() / 4000**0.5, rel=0.1)
     assert statistics.bootstrap(first, first) == (0, 0)
 
 
-class Table:
-    """A bench with known results."""
+class KnownResults:
+    """A folder of runs with known results."""
 
     def __init__(self, validation: dict[Regions | None, float]) -> None:
         self.validation = validation
@@ -221,9 +221,9 @@ class Table:
 @pytest.mark.parametrize(("validation", "chosen"), [([0.99, 0.989, 0.985], 2), ([0.98, 0.98, 0.985], 3), ([0.97, 0.975, 0.974], 2)])
 def test_a_threshold_is_chosen_on_validation_images(validation: list[float], chosen: int) -> None:
     cameras = [Regions(threshold) for threshold in (1, 2, 3)]
-    bench: Any = Table({None: 0.99, **dict(zip(cameras, validation, strict=True))})
+    run_folder: Any = KnownResults({None: 0.99, **dict(zip(cameras, validation, strict=True))})
     plan = accuracy.Plan(thresholds=(1, 2, 3), seeds=1, figure_seeds=1, margin=0.002)
-    assert accuracy._choose(bench, "mnist", cameras, plan).min_score == chosen
+    assert accuracy._choose_camera(run_folder, "mnist", cameras, plan).min_score == chosen
 
 
 @pytest.mark.parametrize(("difference", "images", "words"), [
@@ -246,16 +246,16 @@ def test_lenet_has_its_layers() -> None:
     assert {name: sum(one.numel() for one in layer.parameters()) for name, layer in model.named_children() if list(layer.parameters())} == sizes
 
 
-def test_savings_beside_accuracy(done: Path, sets: Path) -> None:
+def test_savings_beside_accuracy(finished_study: Path, sets: Path) -> None:
     pytest.importorskip("onnx")
-    words = ["savings", "-o", str(done), "--data", str(sets), "--sets", "mnist", *SMALL, "--seeds", "1", "--learned", "1"]
+    words = ["savings", "-o", str(finished_study), "--data", str(sets), "--sets", "mnist", *SMALL, "--seeds", "1", "--learned", "1"]
     assert main([*words, "--sizes", "8", "14", "--thresholds", "1", "--images", "4"]) == 0
-    rows = json.loads((done / "savings.json").read_text())["rows"]
+    rows = json.loads((finished_study / "savings.json").read_text())["rows"]
     means = [f"n8-edge1-unfiltered-means{blocks}" for blocks in (1, 2, 4)]
     assert [row["camera"] for row in rows] == ["n8-edge1", "n14-edge1", "n8-edge1-shared", "n8-edge1-unfiltered", *means]
     for row in rows:
         assert 0 < row["macs_share"] <= 1 and row["regions_difference"] is not None
-    assert (done / "savings.svg").read_text().startswith("<?xml")
+    assert (finished_study / "savings.svg").read_text().startswith("<?xml")
 
 
 def test_pictures_and_a_larger_network(tmp_path: Path) -> None:
@@ -296,7 +296,7 @@ def test_what_cannot_be_done_is_said_in_one_line(words: list[str], message: str,
 
 
 def test_damaged_files_are_refused(tmp_path: Path) -> None:
-    good, labels = half(3, 1)
+    good, labels = make_half(3, 1)
     write_idx(tmp_path / "good", good)
     assert np.array_equal(read_idx(tmp_path / "good"), good)
     content = (tmp_path / "good").read_bytes()

@@ -15,8 +15,8 @@ from foveate.torch import RegionDataset, RegionTransform  # noqa: E402
 
 
 def images(count=20, shape=(28, 28)):
-    chance = np.random.default_rng(4)
-    made = chance.integers(0, 256, (count, *shape), np.uint8)
+    generator = np.random.default_rng(4)
+    made = generator.integers(0, 256, (count, *shape), np.uint8)
     made[:, : shape[0] // 2] = 30
     return made
 

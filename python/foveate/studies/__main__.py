@@ -8,19 +8,19 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foveate._extras import need
+from foveate._extras import require_packages
 from foveate.studies.data import SETS, StudyError
 
 if TYPE_CHECKING:
-    from foveate.studies.runs import Bench
+    from foveate.studies.runs import RunFolder
 
 
-def main(words: list[str] | None = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Run a study with the words of a command line. Return the exit code."""
-    options = _parser().parse_args(words)
+    options = _parser().parse_args(arguments)
     try:
-        _checked(options)
-        _equipped(options)
+        _check_options(options)
+        _check_packages(options)
         return _run(options)
     except (StudyError, ImportError, OSError) as problem:
         print(f"error: {problem}", file=sys.stderr)
@@ -35,21 +35,22 @@ def _parser() -> argparse.ArgumentParser:
     studies = parser.add_subparsers(dest="study", required=True)
     accuracy = studies.add_parser("accuracy", help="accuracy of networks that learn from regions, beside originals")
     savings = studies.add_parser("savings", help="accuracy against bytes and MACs, over thresholds and region sizes")
-    for one in (accuracy, savings):
-        one.add_argument("-o", "--output", type=Path, required=True, help="folder of runs, tables and figures; a second start goes on")
-        one.add_argument("--data", type=Path, default=os.environ.get("FOVEATE_DATA"),
+    for study in (accuracy, savings):
+        study.add_argument("-o", "--output", type=Path, required=True, help="folder of runs, tables and figures; a second start goes on")
+        study.add_argument("--data", type=Path, default=os.environ.get("FOVEATE_DATA"),
                          help="folder of the sets: IDX files or torchvision's layout; default $FOVEATE_DATA; nothing is downloaded")
-        one.add_argument("--sets", nargs="+", default=list(SETS), help=f"{', '.join(SETS)} or pictures (DATA/train/CLASS/*, DATA/test/CLASS/*)")
-        one.add_argument("--epochs", type=int, default=3)
-        one.add_argument("--batch", type=int, default=64)
-        one.add_argument("--rate", type=float, default=0.001, help="rate of Adam at the start; it falls to 0 (default 0.001)")
-        one.add_argument("--validation", type=int, default=5000, help="images at the end of the training images, to choose thresholds (default 5000)")
-        one.add_argument("--limit", type=float, default=1.0, help="share of every part of the sets, 0 to 1")
-        one.add_argument("--model", default="lenet5", help="lenet5, resnet18, resnet50 or vgg16")
-        one.add_argument("--size", type=int, help="scale images to this width and height")
-        one.add_argument("--weights", type=Path, help="state_dict of torchvision's network to start from")
-        one.add_argument("--device", default="cpu", help="cpu or cuda")
-        one.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread; Ctrl-C lets those that have begun end")
+        study.add_argument("--sets", nargs="+", default=list(SETS), help=f"{', '.join(SETS)} or pictures (DATA/train/CLASS/*, DATA/test/CLASS/*)")
+        study.add_argument("--epochs", type=int, default=3)
+        study.add_argument("--batch", type=int, default=64)
+        study.add_argument("--rate", type=float, default=0.001, help="rate of Adam at the start; it falls to 0 (default 0.001)")
+        study.add_argument("--validation", type=int, default=5000,
+                           help="images at the end of the training images, to choose thresholds (default 5000)")
+        study.add_argument("--limit", type=float, default=1.0, help="share of every part of the sets, 0 to 1")
+        study.add_argument("--model", default="lenet5", help="lenet5, resnet18, resnet50 or vgg16")
+        study.add_argument("--size", type=int, help="scale images to this width and height")
+        study.add_argument("--weights", type=Path, help="state_dict of torchvision's network to start from")
+        study.add_argument("--device", default="cpu", help="cpu or cuda")
+        study.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread; Ctrl-C lets those that have begun end")
     accuracy.add_argument("--thresholds", type=int, nargs="+", default=list(range(1, 11)), help="min_score of edge (default 1 to 10)")
     accuracy.add_argument("--seeds", type=int, default=10, help="seeds of the originals and of the chosen threshold (default 10)")
     accuracy.add_argument("--figure-seeds", type=int, default=3, help="seeds of every threshold (default 3)")
@@ -63,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _checked(options: argparse.Namespace) -> None:
+def _check_options(options: argparse.Namespace) -> None:
     """Raise an error for values that no study can use."""
     if options.data is None:
         raise StudyError("--data is missing: give the folder of the sets, or name it in FOVEATE_DATA")
@@ -79,7 +80,7 @@ def _checked(options: argparse.Namespace) -> None:
         raise StudyError(f"--thresholds {min(options.thresholds)}: expected 1 or more")
 
 
-def _equipped(options: argparse.Namespace) -> None:
+def _check_packages(options: argparse.Namespace) -> None:
     """Raise an error if a package is missing that is needed only hours later."""
     packages = {
         "torch": True,
@@ -88,41 +89,41 @@ def _equipped(options: argparse.Namespace) -> None:
         "torchvision": options.model != "lenet5",
         "PIL": "pictures" in options.sets,
     }
-    need("foveate.studies", [name for name, is_needed in packages.items() if is_needed], "studies")
+    require_packages("foveate.studies", [name for name, is_needed in packages.items() if is_needed], "studies")
 
 
 def _run(options: argparse.Namespace) -> int:
     # --help must be fast, and torch takes seconds to load.
-    from foveate.studies.runs import Bench, Settings
+    from foveate.studies.runs import RunFolder, Settings
     from foveate.studies.training import check_device
 
     check_device(options.device)
     settings = Settings(
         model=options.model, size=options.size, device=options.device, epochs=options.epochs, batch=options.batch, rate=options.rate,
         validation=options.validation, limit=options.limit, weights=None if options.weights is None else str(options.weights))
-    bench = Bench(options.output, options.data, settings, alone=len(options.sets) == 1)
-    return _accuracy(bench, options) if options.study == "accuracy" else _savings(bench, options)
+    run_folder = RunFolder(options.output, options.data, settings, alone=len(options.sets) == 1)
+    return _accuracy(run_folder, options) if options.study == "accuracy" else _savings(run_folder, options)
 
 
-def _accuracy(bench: Bench, options: argparse.Namespace) -> int:
+def _accuracy(run_folder: RunFolder, options: argparse.Namespace) -> int:
     from foveate.studies import plots, tables
     from foveate.studies.accuracy import Plan, runs_of, study
 
     plan = Plan(options.sets, sorted(set(options.thresholds)), options.seeds, options.figure_seeds, options.margin / 100)
-    summary = study(bench, plan, jobs=options.jobs, report=_say)
+    summary = study(run_folder, plan, jobs=options.jobs, report=_print_progress)
     text = tables.accuracy_markdown(summary)
-    tables.write_all(options.output / "accuracy", runs_of(bench, plan, summary), summary, text)
+    tables.write_all(options.output / "accuracy", runs_of(run_folder, plan, summary), summary, text)
     plots.accuracy(summary, options.output)
     print(text, end="")
     return 0
 
 
-def _savings(bench: Bench, options: argparse.Namespace) -> int:
+def _savings(run_folder: RunFolder, options: argparse.Namespace) -> int:
     from foveate.studies import plots, tables
     from foveate.studies.savings import Plan, study
 
     plan = Plan(options.sets, options.sizes, sorted(set(options.thresholds)), options.seeds, options.learned, options.images)
-    summary = study(bench, plan, jobs=options.jobs, report=_say)
+    summary = study(run_folder, plan, jobs=options.jobs, report=_print_progress)
     text = tables.savings_markdown(summary)
     tables.write_all(options.output / "savings", summary["rows"], summary, text)
     plots.savings(summary, options.output)
@@ -130,7 +131,7 @@ def _savings(bench: Bench, options: argparse.Namespace) -> int:
     return 0
 
 
-def _say(line: str) -> None:
+def _print_progress(line: str) -> None:
     print(line, file=sys.stderr, flush=True)
 
 

@@ -12,7 +12,7 @@ from foveate import ACTIONS
 from foveate._foveate import Camera
 from foveate.studies.data import StudyError
 
-__all__ = ["Regions", "Seen", "name_of", "seen"]
+__all__ = ["Regions", "Screens", "name_of", "render_screens"]
 
 SUMMARIZE = ACTIONS.index("summarize")
 
@@ -52,7 +52,7 @@ def name_of(regions: Regions | None) -> str:
 
 
 @dataclass(frozen=True)
-class Seen:
+class Screens:
     """The screens of a receiver for a set.
 
     Attributes
@@ -70,25 +70,25 @@ class Seen:
     sent: float
 
 
-def seen(images: NDArray[np.uint8], regions: Regions | None) -> Seen:
+def render_screens(images: NDArray[np.uint8], regions: Regions | None) -> Screens:
     """Show every image to a camera as a first frame, as ``foveate dataset`` does."""
     if regions is None:
-        return Seen(images, 1.0, 1.0)
+        return Screens(images, 1.0, 1.0)
     camera = regions.camera()
     rendered = np.empty_like(images)
     counts: NDArray[np.int64] | None = None
     summaries = 0
-    for image, place in zip(images, rendered):
+    for image, screen in zip(images, rendered):
         camera.reset()
         outcome = camera.step(image)
-        place[...] = outcome.rendered
+        screen[...] = outcome.rendered
         counts = outcome.active.astype(np.int64) if counts is None else counts + outcome.active
         summaries += int((outcome.action == SUMMARIZE).sum())
     assert counts is not None, "a part of a set has an image"
     pixels = int((counts * _pixels(counts.shape, images.shape[1:], regions.size)).sum())
     tags = -(-2 * counts.size * len(images) // 8)
     sent = pixels + regions.means ** 2 * summaries + tags
-    return Seen(rendered, float(counts.sum() / (counts.size * len(images))), sent / images.size)
+    return Screens(rendered, float(counts.sum() / (counts.size * len(images))), sent / images.size)
 
 
 def _pixels(grid: tuple[int, ...], frame: tuple[int, ...], size: int) -> NDArray[np.int64]:

@@ -69,13 +69,13 @@ def read(name: str, folder: Path, *, alone: bool, validation: int, limit: float,
         train, test = _idx_halves(name, folder, alone)
         classes = int(train.labels.max()) + 1
         if size is not None:
-            train, test = _scaled(train, size), _scaled(test, size)
+            train, test = _scale(train, size), _scale(test, size)
     if not 0 < validation < len(train.labels):
         raise StudyError(f"--validation {validation}: {name} has {len(train.labels)} training images; expected 1 to {len(train.labels) - 1}")
     first = len(train.labels) - validation
-    parts = [_share(part, limit) for part in (
+    limited_splits = [_limited(part, limit) for part in (
         Split(train.images[:first], train.labels[:first]), Split(train.images[first:], train.labels[first:]), test)]
-    return DataSet(name, classes, *parts)
+    return DataSet(name, classes, *limited_splits)
 
 
 def read_idx(path: Path) -> NDArray[np.uint8]:
@@ -106,18 +106,18 @@ def _idx_halves(name: str, folder: Path, alone: bool) -> tuple[Split, Split]:
     if name not in SETS:
         raise StudyError(f"--sets {name}: there is no such set; expected {', '.join(SETS)} or pictures")
     places = [folder / place for place in SETS[name]] + ([folder, folder / "raw"] if alone else [])
-    home = next((place for place in places if any((place / f"train-images-idx3-ubyte{end}").is_file() for end in ("", ".gz"))), None)
-    if home is None:
-        looked = ", ".join(str(place) for place in places)
+    set_folder = next((place for place in places if any((place / f"train-images-idx3-ubyte{end}").is_file() for end in ("", ".gz"))), None)
+    if set_folder is None:
+        searched = ", ".join(str(place) for place in places)
         raise StudyError(f"{name} is not below {folder}: put its four IDX files (train-images-idx3-ubyte and so on, gzipped or not) into one "
-                         f"of {looked}; nothing is downloaded")
-    return _idx_half(home, "train"), _idx_half(home, "t10k")
+                         f"of {searched}; nothing is downloaded")
+    return _idx_half(set_folder, "train"), _idx_half(set_folder, "t10k")
 
 
-def _idx_half(home: Path, half: str) -> Split:
+def _idx_half(set_folder: Path, half: str) -> Split:
     arrays: list[NDArray[np.uint8]] = []
     for kind, axes in (("images-idx3", 3), ("labels-idx1", 1)):
-        names = [home / f"{half}-{kind}-ubyte{end}" for end in ("", ".gz")]
+        names = [set_folder / f"{half}-{kind}-ubyte{end}" for end in ("", ".gz")]
         path = next((path for path in names if path.is_file()), None)
         if path is None:
             raise StudyError(f"{names[0]} is missing, also with .gz: put it beside the other files of the set")
@@ -127,7 +127,7 @@ def _idx_half(home: Path, half: str) -> Split:
         arrays.append(array)
     images, labels = arrays
     if len(images) != len(labels):
-        raise StudyError(f"{home}: {half} has {len(images)} images and {len(labels)} labels; expected as many labels as images")
+        raise StudyError(f"{set_folder}: {half} has {len(images)} images and {len(labels)} labels; expected as many labels as images")
     return Split(images, labels.astype(np.int64))
 
 
@@ -161,17 +161,17 @@ def _picture(path: Path, size: int) -> NDArray[np.uint8]:
     return luma(np.asarray(scaled))
 
 
-def _scaled(split: Split, size: int) -> Split:
+def _scale(split: Split, size: int) -> Split:
     import torch
 
     parts: list[Any] = []
     for start in range(0, len(split.images), 1000):
         tensor = torch.from_numpy(split.images[start:start + 1000].copy())[:, None].float()
-        larger = torch.nn.functional.interpolate(tensor, size=(size, size), mode="bilinear", align_corners=False, antialias=True)
-        parts.append(larger[:, 0].round().clamp(0, 255).to(torch.uint8).numpy())
+        scaled = torch.nn.functional.interpolate(tensor, size=(size, size), mode="bilinear", align_corners=False, antialias=True)
+        parts.append(scaled[:, 0].round().clamp(0, 255).to(torch.uint8).numpy())
     return Split(np.concatenate(parts), split.labels)
 
 
-def _share(split: Split, limit: float) -> Split:
+def _limited(split: Split, limit: float) -> Split:
     count = max(1, round(len(split.labels) * limit))
     return Split(split.images[:count], split.labels[:count])

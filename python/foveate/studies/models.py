@@ -6,14 +6,14 @@ from collections import OrderedDict
 from importlib import import_module
 from pathlib import Path
 
-from foveate._extras import missing
+from foveate._extras import missing_package_error
 from foveate.studies.data import StudyError
 
 try:
     import torch
     from torch import Tensor, nn
 except ModuleNotFoundError:
-    raise missing("foveate.studies", "torch", "studies") from None
+    raise missing_package_error("foveate.studies", "torch", "studies") from None
 
 __all__ = ["MODELS", "make"]
 
@@ -80,12 +80,12 @@ def make(name: str, classes: int, side: int, weights: Path | None = None) -> nn.
 
 def _load(body: nn.Module, weights: Path) -> None:
     try:
-        given = torch.load(weights, map_location="cpu", weights_only=True)
+        loaded = torch.load(weights, map_location="cpu", weights_only=True)
     except Exception as problem:
         first = (str(problem).splitlines() or [type(problem).__name__])[0]
         raise StudyError(f"--weights {weights}: cannot be read as a state_dict of torch: {first}") from None
-    own = body.state_dict()
-    fitting = {key: value for key, value in given.items() if key in own and own[key].shape == value.shape} if isinstance(given, dict) else {}
-    if len(fitting) < len(own) // 2:
-        raise StudyError(f"--weights {weights}: has {len(fitting)} of {len(own)} tensors of this network; expected torchvision's state_dict of it")
+    state = body.state_dict()
+    fitting = {key: value for key, value in loaded.items() if key in state and state[key].shape == value.shape} if isinstance(loaded, dict) else {}
+    if len(fitting) < len(state) // 2:
+        raise StudyError(f"--weights {weights}: has {len(fitting)} of {len(state)} tensors of this network; expected torchvision's state_dict of it")
     body.load_state_dict(fitting)

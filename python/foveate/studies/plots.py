@@ -29,10 +29,10 @@ def accuracy(summary: Mapping[str, Any], folder: Path) -> None:
         rows = entry["figure"]
         upper.axhline(100 * entry["figure_original"], color=_COLOURS[3], linewidth=1, linestyle="--", label="originals")
         for learned, colour, label in ((True, _COLOURS[4], "trained on regions"), (False, _COLOURS[1], "trained on originals")):
-            own = [row for row in rows if (row["trained"] != "original") == learned]
-            upper.plot([row["min_score"] for row in own], [100 * row["accuracy"]["mean"] for row in own], color=colour, label=label)
-            for row in own:
-                upper.plot([row["min_score"]] * row["seeds"], [100 * one for one in row["tests"]], ".", color=colour, markersize=5)
+            plotted_rows = [row for row in rows if (row["trained"] != "original") == learned]
+            upper.plot([row["min_score"] for row in plotted_rows], [100 * row["accuracy"]["mean"] for row in plotted_rows], color=colour, label=label)
+            for row in plotted_rows:
+                upper.plot([row["min_score"]] * row["seeds"], [100 * value for value in row["tests"]], ".", color=colour, markersize=5)
         lower.plot([row["min_score"] for row in rows], [100 * row["sent_share"] for row in rows], color=_COLOURS[0])
         lower.set_ylim(0, 100)
         lower.set_xlabel("threshold: edge points of a region")
@@ -54,17 +54,18 @@ def savings(summary: Mapping[str, Any], folder: Path) -> None:
         for row in summary["rows"]:
             if row["set"] == name:
                 kinds.setdefault(row["kind"], []).append(row)
-        for place, (key, label) in enumerate((("sent_share", "bytes sent, % of the originals"), ("macs_share", "MACs needed, % of a whole image"))):
-            one = axes[number][place]
-            one.axhline(0, color="#a0a4a9", linewidth=1)
+        for position, (key, label) in enumerate(
+            (("sent_share", "bytes sent, % of the originals"), ("macs_share", "MACs needed, % of a whole image"))):
+            axis = axes[number][position]
+            axis.axhline(0, color="#a0a4a9", linewidth=1)
             for (kind, rows), colour, mark in zip(kinds.items(), cycle(_COLOURS), cycle("osD^vPX<>")):
                 points = [(100 * row[key], 100 * row["original_difference"]) for row in rows]
-                one.plot(*np.transpose(points), color=colour, marker=mark, markersize=4, linewidth=1, label=kind)
+                axis.plot(*np.transpose(points), color=colour, marker=mark, markersize=4, linewidth=1, label=kind)
                 learned = [(100 * row[key], 100 * row["regions_difference"]) for row in rows if row["regions_difference"] is not None]
                 if learned:
-                    one.plot(*np.transpose(learned), color=colour, marker=mark, markersize=4, linewidth=1, linestyle=":", markerfacecolor="none")
+                    axis.plot(*np.transpose(learned), color=colour, marker=mark, markersize=4, linewidth=1, linestyle=":", markerfacecolor="none")
             if number == len(sets) - 1:
-                one.set_xlabel(label)
+                axis.set_xlabel(label)
         axes[number][0].set_ylabel(f"{_title(name)}: accuracy, points")
     _legend(axes[0][0], learned=any(row["regions_difference"] is not None for row in summary["rows"]))
     _save(figure, folder, "savings")
@@ -95,10 +96,10 @@ def _axes(rows: int, columns: int, heights: tuple[int, ...] | None = None) -> tu
 
     figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 2.9 * rows if heights is None else 5.2), squeeze=False,
                                    gridspec_kw=None if heights is None else {"height_ratios": heights}, layout="constrained")
-    for one in axes.flat:
-        one.grid(True, color="#e1e1e1", linewidth=0.6)
-        one.spines[["top", "right"]].set_visible(False)
-        one.tick_params(labelsize=8)
+    for axis in axes.flat:
+        axis.grid(True, color="#e1e1e1", linewidth=0.6)
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.tick_params(labelsize=8)
     return figure, axes
 
 

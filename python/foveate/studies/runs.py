@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foveate._extras import missing
+from foveate._extras import missing_package_error
 from foveate.studies import data, training
-from foveate.studies.cameras import Regions, Seen, name_of, seen
+from foveate.studies.cameras import Regions, Screens, name_of, render_screens
 from foveate.studies.data import DataSet, StudyError
 from foveate.studies.models import make
 
@@ -27,9 +27,9 @@ try:
     import torch
     from torch import nn
 except ModuleNotFoundError:
-    raise missing("foveate.studies", "torch", "studies") from None
+    raise missing_package_error("foveate.studies", "torch", "studies") from None
 
-__all__ = ["Bench", "Result", "Run", "Settings", "complete", "write_whole"]
+__all__ = ["RunFolder", "Result", "Run", "Settings", "complete", "write_whole"]
 
 
 @dataclass(frozen=True)
@@ -85,27 +85,27 @@ class Result:
         return float(self.values["validation_accuracy"])
 
 
-class Bench:
-    """Makes results, and keeps them in a folder."""
+class RunFolder:
+    """The folder of a study's runs: makes runs, and writes and reads their results."""
 
     def __init__(self, folder: Path, source: Path, settings: Settings, *, alone: bool = False) -> None:
         self.folder, self.source, self.settings, self.alone = folder, source, settings, alone
         self.set = lru_cache(maxsize=2)(self._set)
-        self.seen = lru_cache(maxsize=8)(self._seen)
-        self.home = lru_cache(maxsize=2)(self._home)
+        self.screens = lru_cache(maxsize=8)(self._screens)
+        self.set_folder = lru_cache(maxsize=2)(self._set_folder)
 
     def __reduce__(self) -> Any:
-        return _bench, (self.folder, self.source, self.settings, self.alone)
+        return _open_run_folder, (self.folder, self.source, self.settings, self.alone)
 
     def _set(self, name: str) -> DataSet:
         settings = self.settings
         return data.read(name, self.source, alone=self.alone, validation=settings.validation, limit=settings.limit, size=settings.size)
 
-    def _seen(self, name: str, regions: Regions | None, part: str) -> Seen:
+    def _screens(self, name: str, regions: Regions | None, part: str) -> Screens:
         split: data.Split = getattr(self.set(name), part)
-        return seen(split.images, regions)
+        return render_screens(split.images, regions)
 
-    def _home(self, name: str) -> Path:
+    def _set_folder(self, name: str) -> Path:
         """Return the folder of a set's runs, whose name depends on everything that they share: settings, images, version of torch."""
         parts = self.set(name)
         shared = hashlib.sha256(json.dumps([asdict(self.settings), torch.__version__], sort_keys=True).encode())
@@ -118,7 +118,7 @@ class Bench:
 
     def path(self, run: Run) -> Path:
         """Return the path of a run's file."""
-        return self.home(run.set) / f"{run.name}.json"
+        return self.set_folder(run.set) / f"{run.name}.json"
 
     def result(self, run: Run) -> Result | None:
         """Return the result of a run, or None if it was not made."""
@@ -127,8 +127,8 @@ class Bench:
             return None
         try:
             return Result(json.loads(path.read_text()))
-        except ValueError as problem:
-            raise StudyError(f"{path}: is no result of a run ({problem}); delete it, and the run is made again") from None
+        except ValueError as error:
+            raise StudyError(f"{path}: is no result of a run ({error}); delete it, and the run is made again") from None
 
     def network(self, name: str, trained: Regions | None, seed: int, *, fresh: bool = False) -> nn.Module:
         """Return a network with its initial weights, or as a run has trained it."""
@@ -144,20 +144,20 @@ class Bench:
         settings, parts = self.settings, self.set(run.set)
         if run.trained == run.tested:
             model = self.network(run.set, run.trained, run.seed, fresh=True)
-            begun = training.digest(model)
-            split = data.Split(self.seen(run.set, run.trained, "train").images, parts.train.labels)
+            initial_digest = training.digest(model)
+            split = data.Split(self.screens(run.set, run.trained, "train").images, parts.train.labels)
             training.train(model, split, epochs=settings.epochs, batch=settings.batch, rate=settings.rate, seed=run.seed, device=settings.device)
             target = self._weights(run.set, run.trained, run.seed)
             write_whole(target, lambda path: torch.save({key: value.cpu() for key, value in model.state_dict().items()}, path))
         else:
-            model, begun = self.network(run.set, run.trained, run.seed), None
-        test = self.seen(run.set, run.tested, "test")
-        known = self.seen(run.set, run.tested, "validation").images
-        validation = training.predict(model, known, settings.device) == parts.validation.labels
+            model, initial_digest = self.network(run.set, run.trained, run.seed), None
+        test = self.screens(run.set, run.tested, "test")
+        validation_images = self.screens(run.set, run.tested, "validation").images
+        validation = training.predict(model, validation_images, settings.device) == parts.validation.labels
         correct = training.predict(model, test.images, settings.device) == parts.test.labels
         values = {
             "set": run.set, "model": settings.model, "trained": name_of(run.trained), "tested": name_of(run.tested), "seed": run.seed,
-            "settings": asdict(settings), "torch": torch.__version__, "initial_weights": begun, "trained_weights": training.digest(model),
+            "settings": asdict(settings), "torch": torch.__version__, "initial_weights": initial_digest, "trained_weights": training.digest(model),
             "train_images": len(parts.train.labels), "validation_images": len(validation), "test_images": len(correct),
             "active_share": test.active, "sent_share": test.sent,
             "validation_accuracy": float(validation.mean()), "test_accuracy": float(correct.mean()),
@@ -167,11 +167,11 @@ class Bench:
         write_whole(self.path(run), lambda path: path.write_text(text))
 
     def _weights(self, name: str, trained: Regions | None, seed: int) -> Path:
-        return self.home(name) / f"{name_of(trained)}.s{seed:02}.pt"
+        return self.set_folder(name) / f"{name_of(trained)}.s{seed:02}.pt"
 
 
-def _bench(folder: Path, source: Path, settings: Settings, alone: bool) -> Bench:
-    return Bench(folder, source, settings, alone=alone)
+def _open_run_folder(folder: Path, source: Path, settings: Settings, alone: bool) -> RunFolder:
+    return RunFolder(folder, source, settings, alone=alone)
 
 
 def write_whole(target: Path, write: Callable[[Path], Any]) -> None:
@@ -185,29 +185,29 @@ def write_whole(target: Path, write: Callable[[Path], Any]) -> None:
         partial.unlink(missing_ok=True)
 
 
-def complete(bench: Bench, runs: Iterable[Run], *, jobs: int = 1, report: Callable[[str], None]) -> None:
+def complete(run_folder: RunFolder, runs: Iterable[Run], *, jobs: int = 1, report: Callable[[str], None]) -> None:
     """Make the missing results. Networks are trained before they are tested on other cameras."""
     runs = list(runs)
     for regions in dict.fromkeys(run.tested for run in runs):
         # An invalid camera is refused before any network is trained.
         if regions is not None:
             regions.camera()
-    missing = [run for run in dict.fromkeys(runs) if bench.result(run) is None]
-    for stage in ([run for run in missing if run.trained == run.tested], [run for run in missing if run.trained != run.tested]):
-        _stage(bench, stage, jobs, report)
+    missing = [run for run in dict.fromkeys(runs) if run_folder.result(run) is None]
+    for stage_runs in ([run for run in missing if run.trained == run.tested], [run for run in missing if run.trained != run.tested]):
+        _run_stage(run_folder, stage_runs, jobs, report)
 
 
-def _stage(bench: Bench, runs: list[Run], jobs: int, report: Callable[[str], None]) -> None:
+def _run_stage(run_folder: RunFolder, runs: list[Run], jobs: int, report: Callable[[str], None]) -> None:
     if jobs == 1 or len(runs) < 2:
         _one_thread()
         for number, run in enumerate(runs):
-            bench.make(run)
+            run_folder.make(run)
             report(f"{number + 1} of {len(runs)}: {run.set} {run.name}")
         return
     from concurrent.futures import ProcessPoolExecutor, as_completed
     from multiprocessing import get_context
 
-    with ProcessPoolExecutor(jobs, get_context("spawn"), _worker, (bench,)) as workers:
+    with ProcessPoolExecutor(jobs, get_context("spawn"), _worker, (run_folder,)) as workers:
         futures = {workers.submit(_make, run): run for run in runs}
         try:
             for number, future in enumerate(as_completed(futures)):
@@ -218,16 +218,16 @@ def _stage(bench: Bench, runs: list[Run], jobs: int, report: Callable[[str], Non
             raise
 
 
-_WORKER: list[Bench] = []
+_WORKER: list[RunFolder] = []
 
 
-def _worker(bench: Bench) -> None:
+def _worker(run_folder: RunFolder) -> None:
     import signal
 
     # The waiting process handles Ctrl-C.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _one_thread()
-    _WORKER[:] = [bench]
+    _WORKER[:] = [run_folder]
 
 
 def _make(run: Run) -> None:

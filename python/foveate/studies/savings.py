@@ -18,7 +18,7 @@ import numpy as np
 from foveate._work import infer
 from foveate.studies.cameras import Regions
 from foveate.studies.data import StudyError, write_idx
-from foveate.studies.runs import Bench, Run, complete
+from foveate.studies.runs import Run, RunFolder, complete
 
 __all__ = ["Plan", "study"]
 
@@ -48,7 +48,7 @@ class Plan:
         return kinds
 
 
-def study(bench: Bench, plan: Plan, *, jobs: int = 1, report: Callable[[str], None]) -> dict[str, Any]:
+def study(run_folder: RunFolder, plan: Plan, *, jobs: int = 1, report: Callable[[str], None]) -> dict[str, Any]:
     """Make all missing runs, and count MACs. Return a summary, a dict for JSON."""
     every, learned = range(plan.seeds), range(min(plan.learned, plan.seeds))
     cameras = [camera for kind in plan.cameras().values() for camera in kind]
@@ -56,46 +56,46 @@ def study(bench: Bench, plan: Plan, *, jobs: int = 1, report: Callable[[str], No
     for name in plan.sets:
         runs += [Run(name, camera, camera, seed) for camera in cameras for seed in learned]
         runs += [Run(name, None, camera, seed) for camera in cameras for seed in every]
-    complete(bench, runs, jobs=jobs, report=report)
+    complete(run_folder, runs, jobs=jobs, report=report)
     rows = []
     for name in plan.sets:
-        macs = _macs(bench, name, cameras, plan.images, report)
+        macs = _macs(run_folder, name, cameras, plan.images, report)
         for kind, members in plan.cameras().items():
-            rows += [_row(bench, name, kind, camera, macs[camera], every, learned) for camera in members]
-    return {"settings": asdict(bench.settings), "seeds": plan.seeds, "learned": plan.learned, "images": plan.images, "rows": rows}
+            rows += [_row(run_folder, name, kind, camera, macs[camera], every, learned) for camera in members]
+    return {"settings": asdict(run_folder.settings), "seeds": plan.seeds, "learned": plan.learned, "images": plan.images, "rows": rows}
 
 
-def _row(bench: Bench, name: str, kind: str, camera: Regions, macs: float, every: range, learned: range) -> dict[str, Any]:
-    known = _values(bench, Run(name, None, camera, 0))
+def _row(run_folder: RunFolder, name: str, kind: str, camera: Regions, macs: float, every: range, learned: range) -> dict[str, Any]:
+    values = _values(run_folder, Run(name, None, camera, 0))
     return {
         "set": name, "kind": kind, "camera": camera.name, "region": camera.size, "min_score": camera.min_score,
         "neighborhood": camera.neighborhood, "filter": camera.filter, "means": camera.means,
-        "active_share": known["active_share"], "sent_share": known["sent_share"], "macs_share": macs,
-        "original_difference": _difference(bench, name, None, camera, every),
-        "regions_difference": _difference(bench, name, camera, camera, learned),
+        "active_share": values["active_share"], "sent_share": values["sent_share"], "macs_share": macs,
+        "original_difference": _difference(run_folder, name, None, camera, every),
+        "regions_difference": _difference(run_folder, name, camera, camera, learned),
     }
 
 
-def _difference(bench: Bench, name: str, trained: Regions | None, tested: Regions, seeds: range) -> float | None:
+def _difference(run_folder: RunFolder, name: str, trained: Regions | None, tested: Regions, seeds: range) -> float | None:
     """Return the mean difference of accuracy from the originals, seed by seed."""
     if not seeds:
         return None
-    return float(np.mean([_values(bench, Run(name, trained, tested, seed))["test_accuracy"]
-                          - _values(bench, Run(name, None, None, seed))["test_accuracy"] for seed in seeds]))
+    return float(np.mean([_values(run_folder, Run(name, trained, tested, seed))["test_accuracy"]
+                          - _values(run_folder, Run(name, None, None, seed))["test_accuracy"] for seed in seeds]))
 
 
-def _values(bench: Bench, run: Run) -> dict[str, Any]:
-    result = bench.result(run)
+def _values(run_folder: RunFolder, run: Run) -> dict[str, Any]:
+    result = run_folder.result(run)
     assert result is not None, "it was completed"
     return result.values
 
 
-def _macs(bench: Bench, name: str, cameras: Sequence[Regions], images: int, report: Callable[[str], None]) -> dict[Regions, float]:
+def _macs(run_folder: RunFolder, name: str, cameras: Sequence[Regions], images: int, report: Callable[[str], None]) -> dict[Regions, float]:
     """Return the share of MACs that each camera needs. It depends only on masks, so one network is enough."""
-    test = bench.set(name).test.images[:images]
+    test = run_folder.set(name).test.images[:images]
     with tempfile.TemporaryDirectory(prefix="foveate-") as temporary:
         network, pictures = Path(temporary) / "network.onnx", Path(temporary) / "test-images-idx3-ubyte"
-        export(bench, name, network)
+        export(run_folder, name, network)
         write_idx(pictures, test)
         shares = {}
         for number, camera in enumerate(cameras):
@@ -105,16 +105,16 @@ def _macs(bench: Bench, name: str, cameras: Sequence[Regions], images: int, repo
     return shares
 
 
-def export(bench: Bench, name: str, path: Path) -> None:
+def export(run_folder: RunFolder, name: str, path: Path) -> None:
     """Write the network of seed 0 that learned from originals as ONNX."""
     import torch
 
-    side = bench.set(name).test.images.shape[1]
+    side = run_folder.set(name).test.images.shape[1]
     with warnings.catch_warnings():
         # The older exporter needs no other package; it warns that it is older.
         warnings.simplefilter("ignore")
         try:
-            torch.onnx.export(bench.network(name, None, 0).eval(), (torch.zeros(1, 1, side, side),), str(path), opset_version=17,
+            torch.onnx.export(run_folder.network(name, None, 0).eval(), (torch.zeros(1, 1, side, side),), str(path), opset_version=17,
                               dynamo=False, input_names=["picture"], output_names=["scores"])
         except ImportError:
             raise StudyError("counts of MACs need onnx: pip install onnx") from None

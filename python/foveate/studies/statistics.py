@@ -43,8 +43,8 @@ def t_interval(differences: Sequence[float]) -> tuple[float, float, float]:
     mean = float(values.mean())
     if len(values) < 2:
         return mean, float("nan"), float("nan")
-    half = t_quantile(len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
-    return mean, mean - half, mean + half
+    half_width = t_quantile(len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
+    return mean, mean - half_width, mean + half_width
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
@@ -60,12 +60,12 @@ def mcnemar(only_first: int, only_second: int) -> float:
     float
         Probability of a split at least as uneven, if each of these images were right in either network with equal probability.
     """
-    count, few = only_first + only_second, min(only_first, only_second)
-    ways = term = 1
-    for taken in range(few):
-        term = term * (count - taken) // (taken + 1)
-        ways += term
-    return min(1.0, 2 * ways / (1 << count))
+    count, smaller = only_first + only_second, min(only_first, only_second)
+    outcomes = term = 1
+    for index in range(smaller):
+        term = term * (count - index) // (index + 1)
+        outcomes += term
+    return min(1.0, 2 * outcomes / (1 << count))
 
 
 def bootstrap(first: NDArray[Any], second: NDArray[Any], *, rounds: int = 2000, seed: int = 0) -> tuple[float, float]:
@@ -77,7 +77,7 @@ def bootstrap(first: NDArray[Any], second: NDArray[Any], *, rounds: int = 2000, 
         Flags of the images that each network gets right. Images are drawn, the same for all networks; networks are not.
     """
     per_image = second.mean(axis=0) - first.mean(axis=0)
-    draws = np.random.default_rng(seed)
-    means = [per_image[draws.integers(0, len(per_image), len(per_image))].mean() for _ in range(rounds)]
+    generator = np.random.default_rng(seed)
+    means = [per_image[generator.integers(0, len(per_image), len(per_image))].mean() for _ in range(rounds)]
     low, high = np.quantile(means, (0.025, 0.975))
     return float(low), float(high)

@@ -67,10 +67,10 @@ def accuracy_markdown(summary: Mapping[str, Any]) -> str:
 
 def verdict(entry: Mapping[str, Any]) -> Sequence[str]:
     """Return the conclusions of a set. A difference is reported only if neither other seeds nor other images explain it."""
-    return [f"{entry['set']}, {_kind(row['trained'])}, tested on {row['tested']}: {_judged(row)}" for row in entry["table"]]
+    return [f"{entry['set']}, {_kind(row['trained'])}, tested on {row['tested']}: {_conclusion(row)}" for row in entry["table"]]
 
 
-def _judged(row: Mapping[str, Any]) -> str:
+def _conclusion(row: Mapping[str, Any]) -> str:
     largest = f"{100 * row['largest']:.2f} points"
     seeds = (row["difference"]["low"], row["difference"]["high"])
     if seeds[0] is None:

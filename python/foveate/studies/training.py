@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foveate._extras import missing
+from foveate._extras import missing_package_error
 from foveate.studies.data import Split, StudyError
 
 try:
     import torch
     from torch import Tensor, nn
 except ModuleNotFoundError:
-    raise missing("foveate.studies", "torch", "studies") from None
+    raise missing_package_error("foveate.studies", "torch", "studies") from None
 
 __all__ = ["check_device", "digest", "initial", "order", "predict", "train"]
 
 #: Number of images of a forward pass without training.
-_MANY = 250
+_PREDICTION_BATCH = 250
 
 
 def initial(make: Any, seed: int) -> nn.Module:
@@ -48,18 +48,18 @@ def train(model: nn.Module, split: Split, *, epochs: int, batch: int, rate: floa
     images = torch.from_numpy(np.array(split.images)).to(device)[:, None]
     labels = torch.from_numpy(split.labels).to(device)
     optimizer = torch.optim.Adam(model.parameters(), rate, fused=True)
-    steps, done = epochs * -(-len(labels) // batch), 0
+    steps, step = epochs * -(-len(labels) // batch), 0
     # Dropout needs this seed.
     torch.manual_seed(seed)
     for epoch in range(epochs):
         shuffled = order(len(labels), epoch, seed).to(device)
         for start in range(0, len(labels), batch):
-            chosen = shuffled[start:start + batch]
-            optimizer.param_groups[0]["lr"] = rate * (1 - done / steps)
+            batch_indices = shuffled[start:start + batch]
+            optimizer.param_groups[0]["lr"] = rate * (1 - step / steps)
             optimizer.zero_grad(set_to_none=True)
-            torch.autograd.backward(nn.functional.cross_entropy(model(images[chosen].float() / 255), labels[chosen]))
+            torch.autograd.backward(nn.functional.cross_entropy(model(images[batch_indices].float() / 255), labels[batch_indices]))
             optimizer.step()
-            done += 1
+            step += 1
 
 
 def check_device(device: str) -> None:
@@ -77,9 +77,9 @@ def predict(model: nn.Module, images: NDArray[np.uint8], device: str = "cpu") ->
     model.to(device).eval()
     parts = []
     with torch.inference_mode():
-        for start in range(0, len(images), _MANY):
-            some = torch.from_numpy(np.array(images[start:start + _MANY])).to(device)[:, None]
-            parts.append(model(some.float() / 255).argmax(1).cpu().numpy())
+        for start in range(0, len(images), _PREDICTION_BATCH):
+            batch = torch.from_numpy(np.array(images[start:start + _PREDICTION_BATCH])).to(device)[:, None]
+            parts.append(model(batch.float() / 255).argmax(1).cpu().numpy())
     return np.concatenate(parts)
 
 
