@@ -2,7 +2,7 @@
 // The controls of a camera: a row for each key, with the range or the choices that the engine gives. A value that the engine
 // refuses stays in its row, with the engine's message below it, and the camera stays as it was.
 
-import { make, plain } from "./elements.js";
+import { make, withoutBackticks } from "./elements.js";
 import { getKey } from "./toml.js";
 
 /** Keys by group, with their names on the page. Keys of features follow from the features. */
@@ -16,13 +16,13 @@ const GROUPS = [
 const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"]];
 
 export class Controls {
-  #place; #described; #change; #rows = new Map(); #shape = "";
+  #place; #tables; #actions; #rows = new Map(); #shape = "";
 
   /** `change(key, value)` returns nothing, or the message of a refusal, and so does `toggle(feature, on)`. */
-  constructor(place, described, { presets, change, toggle, preset }) {
+  constructor(place, tables, { presets, change, toggle, preset }) {
     this.#place = place;
-    this.#described = described;
-    this.#change = { change, toggle, preset };
+    this.#tables = tables;
+    this.#actions = { change, toggle, preset };
     this.presets = presets;
   }
 
@@ -36,26 +36,26 @@ export class Controls {
   }
 
   #groups(facts) {
-    const takes = key => facts.bounds[key] ?? this.#described.keys.find(own => own.key === key && own.kind !== "text");
-    const given = ([key]) => getKey(facts.config, key) !== undefined && getKey(facts.config, key) !== null && takes(key);
-    return GROUPS.map(([title, rows]) => [title, rows === "features" ? this.#features(facts) : rows.filter(given)]);
+    const rangeOf = key => facts.bounds[key] ?? this.#tables.keys.find(own => own.key === key && own.kind !== "text");
+    const isShown = ([key]) => getKey(facts.config, key) !== undefined && getKey(facts.config, key) !== null && rangeOf(key);
+    return GROUPS.map(([title, rows]) => [title, rows === "features" ? this.#features(facts) : rows.filter(isShown)]);
   }
 
   /** Makes a row to turn each feature on or off, and below it the rows of its keys. */
   #features({ config }) {
-    const rows = this.#described.features.flatMap(({ feature }) => {
-      const number = config.spatial.findIndex(own => own.feature === feature);
+    const rows = this.#tables.features.flatMap(({ feature }) => {
+      const number = config.spatial.findIndex(entry => entry.feature === feature);
       const keys = OF_FEATURE.filter(([name]) => number >= 0 && (config.spatial[number][name] ?? null) !== null);
-      const titled = keys.map(([name, title]) => [`spatial.${number}.${name}`, title, feature]);
-      return [[`feature.${feature}`, feature], ...titled];
+      const featureRows = keys.map(([name, title]) => [`spatial.${number}.${name}`, title, feature]);
+      return [[`feature.${feature}`, feature], ...featureRows];
     });
     return config.spatial.length > 1 ? [...rows, ["decision.combine", "Votes"]] : rows;
   }
 
   /** Makes a row with the key of the configuration and its values. */
   #help(key, feature) {
-    const plain = key.replace(/\.\d+\./, "."), { takes } = this.#described.keys.find(own => own.key === plain);
-    const unit = key.endsWith("min_score") ? `, in ${this.#described.features.find(own => own.feature === feature).unit}` : "";
+    const plain = key.replace(/\.\d+\./, "."), { takes } = this.#tables.keys.find(own => own.key === plain);
+    const unit = key.endsWith("min_score") ? `, in ${this.#tables.features.find(own => own.feature === feature).unit}` : "";
     return `${key}: ${takes}${unit}`;
   }
 
@@ -64,12 +64,12 @@ export class Controls {
     this.#rows.clear();
     this.#rows.set("preset", this.#preset());
     const groups = this.#groups(facts).filter(([, rows]) => rows.length).map(([title, rows]) => {
-      const made = rows.map(([key, name, feature]) => {
+      const elements = rows.map(([key, name, feature]) => {
         const row = key.startsWith("feature.") ? this.#feature(name) : this.#key(key, name, facts, feature);
         this.#rows.set(key, row);
         return row.element;
       });
-      return make("fieldset", {}, make("legend", { textContent: title }), ...made);
+      return make("fieldset", {}, make("legend", { textContent: title }), ...elements);
     });
     this.#place.replaceChildren(this.#rows.get("preset").element, ...groups);
     if (focused) this.#place.querySelector(`[data-key="${focused}"]`)?.querySelector("input, select")?.focus();
@@ -79,11 +79,11 @@ export class Controls {
     const select = make("select", { ariaLabel: "Preset" }, ...this.presets.map(({ name }) => make("option", { textContent: name })));
     const summary = make("p", { className: "quiet" });
     const row = line("preset", "Preset", select);
-    select.onchange = () => row.told(this.#change.preset(select.value));
+    select.onchange = () => row.showMessage(this.#actions.preset(select.value));
     row.element.append(summary);
     summary.style.gridColumn = "1 / -1";
     return { ...row, show: (facts, name) => {
-      row.told();
+      row.showMessage();
       select.value = name;
       summary.textContent = this.presets.find(own => own.name === name)?.summary ?? "";
     } };
@@ -95,26 +95,26 @@ export class Controls {
     element.dataset.key = `feature.${name}`;
     const row = refusable(element);
     box.onchange = () => {
-      const message = this.#change.toggle(name, box.checked);
+      const message = this.#actions.toggle(name, box.checked);
       if (message) box.checked = !box.checked;
-      row.told(message);
+      row.showMessage(message);
     };
     return { ...row, show: facts => {
-      row.told();
+      row.showMessage();
       box.checked = facts.features.includes(name);
     } };
   }
 
   #key(key, name, facts, feature) {
-    const takes = own => own.bounds[key] ?? this.#described.keys.find(known => known.key === key);
+    const rangeOf = own => own.bounds[key] ?? this.#tables.keys.find(known => known.key === key);
     const title = feature ? `${name}, ${feature}` : name;
-    const made = takes(facts).kind === "choice" ? choice(key, name, title) : number(key, name, title);
-    if (feature) made.element.classList.add("indented");
-    made.element.title = this.#help(key, feature);
-    made.onchange(value => made.told(this.#change.change(key, value)));
-    return { ...made, show: own => {
-      made.told();
-      made.set(getKey(own.config, key), takes(own));
+    const row = rangeOf(facts).kind === "choice" ? choice(key, name, title) : number(key, name, title);
+    if (feature) row.element.classList.add("indented");
+    row.element.title = this.#help(key, feature);
+    row.onchange(value => row.showMessage(this.#actions.change(key, value)));
+    return { ...row, show: own => {
+      row.showMessage();
+      row.set(getKey(own.config, key), rangeOf(own));
     } };
   }
 }
@@ -123,11 +123,11 @@ export class Controls {
 function refusable(element) {
   const message = make("p", { className: "refused", role: "alert", hidden: true });
   element.append(message);
-  const told = text => {
+  const showMessage = text => {
     message.hidden = !text;
-    message.textContent = text ? plain(text) : "";
+    message.textContent = text ? withoutBackticks(text) : "";
   };
-  return { element, told };
+  return { element, showMessage };
 }
 
 function line(key, name, ...fields) {

@@ -7,14 +7,14 @@ const POWERS = new Map([["pixels of a region", 0], ["grey levels", 1], ["squared
 
 /** Returns the configuration with `bits` per pixel; `features` are those of `engine.describe()`. */
 export function withDepth(config, bits, features) {
-  const made = structuredClone(config), from = config.frame.pixel_bits;
-  const level = value => Math.floor(value * 2 ** (bits - from));
-  const score = (value, power) => power ? Math.ceil(value * 1e9 * 2 ** (power * (bits - from))) / 1e9 : value;
-  made.frame.pixel_bits = bits;
-  for (const part of [...made.spatial, made.temporal, made.periphery ?? {}]) {
+  const scaled = structuredClone(config), oldBits = config.frame.pixel_bits;
+  const level = value => Math.floor(value * 2 ** (bits - oldBits));
+  const score = (value, power) => power ? Math.ceil(value * 1e9 * 2 ** (power * (bits - oldBits))) / 1e9 : value;
+  scaled.frame.pixel_bits = bits;
+  for (const part of [...scaled.spatial, scaled.temporal, scaled.periphery ?? {}]) {
     if (typeof part.level === "number") part.level = level(part.level);
     const unit = features.find(({ feature }) => feature === part.feature)?.unit;
     if (unit) part.min_score = score(part.min_score, POWERS.get(unit));
   }
-  return made;
+  return scaled;
 }

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Finds elements of the page by id, and makes new ones.
 
-export const at = id => document.getElementById(id);
+export const byId = id => document.getElementById(id);
 
 /** Makes an element with properties and children. */
-export function make(name, properties = {}, ...inside) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...inside);
-  return made;
+export function make(name, properties = {}, ...children) {
+  const element = Object.assign(document.createElement(name), properties);
+  element.append(...children);
+  return element;
 }
 
-/** Makes nodes of a message, which has backticks around names, as in a terminal. */
-export const plain = text => String(text).replaceAll("`", "");
+/** Returns a message without the backticks around names, which are for terminals. */
+export const withoutBackticks = text => String(text).replaceAll("`", "");
 
 /** Sets a text, if it has changed. */
-export function say(id, text) {
-  const place = at(id), now = plain(text);
-  if (place.textContent !== now) place.textContent = now;
+export function setText(id, text) {
+  const element = byId(id), newText = withoutBackticks(text);
+  if (element.textContent !== newText) element.textContent = newText;
 }
 
 /** Returns the name of a file as a path that no program takes for an option. */
@@ -40,17 +40,17 @@ export function download(name, type, text) {
 }
 
 /** Copies a text, and reports that in an element. */
-export async function copy(text, what, id = "copied") {
+export async function copy(text, name, id = "copied") {
   try {
     await navigator.clipboard.writeText(text);
-    say(id, `${what} is in the clipboard`);
+    setText(id, `${name} is in the clipboard`);
   } catch {
-    // Without permission for the clipboard, the old way remains.
+    // Without permission for the clipboard, only the older command remains.
     const area = make("textarea", { value: text });
     document.body.append(area);
     area.select();
-    const done = document.execCommand("copy");
+    const isCopied = document.execCommand("copy");
     area.remove();
-    say(id, done ? `${what} is in the clipboard` : `the browser refuses its clipboard; ${what} is: ${text}`);
+    setText(id, isCopied ? `${name} is in the clipboard` : `the browser refuses its clipboard; ${name} is: ${text}`);
   }
 }

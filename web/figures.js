@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The sent data over time: current figures, two charts, and the sums since the beginning.
 
-import { at, bytes, make, percent, say } from "./elements.js";
+import { byId, bytes, make, percent, setText } from "./elements.js";
 import { PIXEL_EVENT_BYTES } from "./pixel_camera.js";
 
 const HISTORY = 300;
 /** The ends of the chart of bytes, as powers of ten of the share of raw video. */
-const LEAST = -3.5, MOST = 1.2;
+const MIN_POWER = -3.5, MAX_POWER = 1.2;
 const SVG = "http://www.w3.org/2000/svg";
 
 /** A chart of lines whose values are heights from 0 to 1; `marks` are heights with their texts. */
@@ -41,9 +41,9 @@ class Chart {
 }
 
 export class Figures {
-  #history = []; #sums; #painted = 0; #fresh = false; #facts = null;
-  #regions = new Chart(at("regions-chart"), ["k6", "k5", "k4"], [[1, "100 %"], [0.5, "50 %"]]);
-  #bytes = new Chart(at("bytes-chart"), ["k1", "k4"],
+  #history = []; #sums; #paintTime = 0; #isChanged = false; #facts = null;
+  #regions = new Chart(byId("regions-chart"), ["k6", "k5", "k4"], [[1, "100 %"], [0.5, "50 %"]]);
+  #bytes = new Chart(byId("bytes-chart"), ["k1", "k4"],
     [[height(10), "1000 %"], [height(1), "100 %", "rest"], [height(0.1), "10 %"], [height(0.01), "1 %"], [height(0.001), "0.1 %"]]);
 
   constructor() { this.reset(null); }
@@ -53,16 +53,16 @@ export class Figures {
     this.#facts = facts;
     this.#history = [];
     this.#sums = { frames: 0, us: 0, camera: 0, pixels: 0 };
-    this.#fresh = false;
+    this.#isChanged = false;
   }
 
   /** Adds a frame: the results of the engine, the events of a pixel camera, its time, and its computing time in ms. */
   add(sent, events, time_us, cost, now) {
-    this.#fresh = true;
+    this.#isChanged = true;
     const last = this.#history.at(-1), sums = this.#sums;
-    const passed = last && time_us > last.time_us ? Math.min(time_us - last.time_us, 1e6) : 1e6 / 30;
+    const elapsed = last && time_us > last.time_us ? Math.min(time_us - last.time_us, 1e6) : 1e6 / 30;
     sums.frames++;
-    sums.us += passed;
+    sums.us += elapsed;
     sums.camera += sent.bits / 8;
     sums.pixels += events * PIXEL_EVENT_BYTES;
     this.#history.push({ ...sent, events, time_us, cost, now });
@@ -71,29 +71,29 @@ export class Figures {
 
   /** Shows new values, at most ten times a second. */
   paint(now) {
-    if (!this.#fresh || now - this.#painted < 100) return;
-    this.#fresh = false;
-    this.#painted = now;
-    const { columns, rows, width, height: lines } = this.#facts, all = columns * rows, raw = width * lines, history = this.#history;
+    if (!this.#isChanged || now - this.#paintTime < 100) return;
+    this.#isChanged = false;
+    this.#paintTime = now;
+    const { columns, rows, width, height: lines } = this.#facts, regionCount = columns * rows, rawBytes = width * lines, history = this.#history;
     const newest = history.at(-1);
-    const recent = history.filter(own => own.now > newest.now - 2000);
+    const recent = history.filter(entry => entry.now > newest.now - 2000);
     const seconds = (newest.now - recent[0].now) / 1000;
-    say("number", newest.number);
-    say("rate", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(0) : "–");
-    say("cost", (recent.reduce((sum, own) => sum + own.cost, 0) / recent.length).toFixed(1));
-    say("active", percent(newest.active / all));
-    say("share", percent(newest.bits / 8 / raw));
-    const share = name => history.map(own => own[name] / all);
+    setText("number", newest.number);
+    setText("rate", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(0) : "–");
+    setText("cost", (recent.reduce((sum, entry) => sum + entry.cost, 0) / recent.length).toFixed(1));
+    setText("active", percent(newest.active / regionCount));
+    setText("share", percent(newest.bits / 8 / rawBytes));
+    const share = name => history.map(entry => entry[name] / regionCount);
     this.#regions.show([share("trs"), share("srs"), share("active")]);
-    this.#bytes.show([history.map(own => height(own.events * PIXEL_EVENT_BYTES / raw)), history.map(own => height(own.bits / 8 / raw))]);
-    this.#totals(raw);
+    this.#bytes.show([history.map(entry => height(entry.events * PIXEL_EVENT_BYTES / rawBytes)), history.map(entry => height(entry.bits / 8 / rawBytes))]);
+    this.#totals(rawBytes);
   }
 
   #totals(frame) {
     const { frames, us, camera, pixels } = this.#sums, raw = frames * frame;
     const row = (name, count) => make("tr", {}, make("th", { scope: "row", textContent: name }),
       ...[bytes(count), percent(count / raw), bytes(count / us * 1e6)].map(textContent => make("td", { textContent })));
-    at("totals").replaceChildren(row("raw video", raw), row("pixel events", pixels), row("region camera", camera));
+    byId("totals").replaceChildren(row("raw video", raw), row("pixel events", pixels), row("region camera", camera));
   }
 
   /** The sums, for tests. */
@@ -103,5 +103,5 @@ export class Figures {
 /** Returns the height of a share of raw video in the chart of bytes. */
 function height(share) {
   const power = Math.log10(Math.max(share, 1e-9));
-  return Math.min(Math.max((power - LEAST) / (MOST - LEAST), 0), 1);
+  return Math.min(Math.max((power - MIN_POWER) / (MAX_POWER - MIN_POWER), 0), 1);
 }

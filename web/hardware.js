@@ -4,24 +4,24 @@
 import { make } from "./elements.js";
 
 /** The columns of the table that identify the camera of a row. */
-function nameOf({ config }) {
+function rowKey({ config }) {
   const { region, frame, denoise, spatial, temporal, render, periphery } = config;
-  const simple = frame.pixel_bits === 8 && region.neighborhood === "isolated" && spatial.length === 1 && !spatial[0].mean_fraction_bits
+  const isInTable = frame.pixel_bits === 8 && region.neighborhood === "isolated" && spatial.length === 1 && !spatial[0].mean_fraction_bits
     && (render.payload === "denoised" || denoise.filter === "none");
-  if (!simple) return null;
+  if (!isInTable) return null;
   const { irrelevant } = render;
   // Against the previous frame `hold` is built as `zero`.
-  const shown = irrelevant === "mean" ? `mean${periphery.blocks}` : temporal.reference === "previous" ? "zero" : irrelevant;
-  return [region.size, spatial[0].feature, denoise.filter, temporal.reference, shown].join();
+  const rendering = irrelevant === "mean" ? `mean${periphery.blocks}` : temporal.reference === "previous" ? "zero" : irrelevant;
+  return [region.size, spatial[0].feature, denoise.filter, temporal.reference, rendering].join();
 }
 
 /** Shows the hardware area of a camera. */
 export function showHardware(place, table, facts) {
   const [width, height] = table.frame, size = `${width}x${height}`;
-  const found = table.designs.find(row => row.slice(0, 5).join() === nameOf(facts));
+  const design = table.designs.find(row => row.slice(0, 5).join() === rowKey(facts));
   const title = make("p", { textContent: `This camera as one raster core, which takes video of ${size} row by row.` });
-  if (found) {
-    const [lut, ff, ram, mhz, rate] = found.slice(5);
+  if (design) {
+    const [lut, ff, ram, mhz, rate] = design.slice(5);
     const figures = [["LUT", lut], ["FF", ff], ["RAMB36", ram], ["MHz", mhz], ["frames/s", rate]];
     const list = figures.map(([name, value]) => make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value })));
     const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are inputs of the core and change none of this.` }));

@@ -4,47 +4,47 @@
 
 import { keysOf, valueOf, withKey } from "./toml.js";
 
-const OWN = ["source", "size", "preset"];
+const PAGE_KEYS = ["source", "size", "preset"];
 /** Settings of the network, as in `foveate infer`; its file stays on the computer where it was opened. */
 const NETWORK = ["framing", "mean", "scale", "detect"];
 /** The largest number of characters of a fragment. */
-const LONGEST = 8192;
+const MAX_CHARACTERS = 8192;
 const isFeature = key => key.startsWith("spatial.");
 
 /** Returns the fragment without `#`. `preset` is the configuration of that preset. */
-export function writeLink(own, preset, config, network) {
-  const before = keysOf(preset), now = keysOf(config);
-  const differs = key => before.get(key) !== now.get(key);
-  const features = [...before.keys(), ...now.keys()].some(key => isFeature(key) && differs(key));
-  const changed = [...now].filter(([key]) => isFeature(key) ? features : differs(key));
-  const wished = Object.entries(network).filter(([, value]) => value !== null).map(([key, value]) => [`network.${key}`, value]);
-  const pairs = [...OWN.filter(key => own[key]).map(key => [key, own[key]]), ...wished, ...changed.map(([key, value]) => [key, JSON.stringify(value)])];
+export function writeLink(pageSettings, preset, config, network) {
+  const presetValues = keysOf(preset), values = keysOf(config);
+  const differs = key => presetValues.get(key) !== values.get(key);
+  const features = [...presetValues.keys(), ...values.keys()].some(key => isFeature(key) && differs(key));
+  const changed = [...values].filter(([key]) => isFeature(key) ? features : differs(key));
+  const networkPairs = Object.entries(network).filter(([, value]) => value !== null).map(([key, value]) => [`network.${key}`, value]);
+  const pairs = [...PAGE_KEYS.filter(key => pageSettings[key]).map(key => [key, pageSettings[key]]), ...networkPairs, ...changed.map(([key, value]) => [key, JSON.stringify(value)])];
   return pairs.map(([key, value]) => `${key}=${encodeURIComponent(value).replace(/%3A/gi, ":")}`).join("&");
 }
 
-/** Returns the content of a fragment: `own`, the settings of a `network`, and a function from the preset's configuration to the link's. */
+/** Returns the content of a fragment: the settings of the page, the settings of a `network`, and a function from the preset's configuration to the link's. */
 export function readLink(fragment) {
-  const own = {}, network = {}, changed = [], keys = new Set();
-  if (fragment.length > LONGEST) throw new Error(`the link's settings have ${fragment.length} characters; at most ${LONGEST} are read`);
+  const pageSettings = {}, network = {}, changed = [], keys = new Set();
+  if (fragment.length > MAX_CHARACTERS) throw new Error(`the link's settings have ${fragment.length} characters; at most ${MAX_CHARACTERS} are read`);
   for (const pair of fragment.replace(/^#/, "").split("&").filter(Boolean)) {
     const [key, ...rest] = pair.split("=");
     if (keys.has(key)) throw new Error(`the link sets \`${key}\` twice; give it once`);
     keys.add(key);
-    const value = decoded(key, rest.join("="));
-    const [, of] = key.match(/^network\.(.+)$/) ?? [];
-    if (OWN.includes(key)) own[key] = value;
-    else if (NETWORK.includes(of)) network[of] = value;
-    else if (of === undefined && /^[a-z_]+(\.\d+)?\.[a-z_]+$/.test(key)) changed.push([key, valueOf(value)]);
+    const value = decodeValue(key, rest.join("="));
+    const [, networkKey] = key.match(/^network\.(.+)$/) ?? [];
+    if (PAGE_KEYS.includes(key)) pageSettings[key] = value;
+    else if (NETWORK.includes(networkKey)) network[networkKey] = value;
+    else if (networkKey === undefined && /^[a-z_]+(\.\d+)?\.[a-z_]+$/.test(key)) changed.push([key, valueOf(value)]);
     else throw new Error(`the link's \`${key}\` is not a setting; settings are source, size, preset, those of the network and keys of the configuration`);
   }
   const apply = preset => {
     const start = changed.some(([key]) => isFeature(key)) ? { ...preset, spatial: [] } : preset;
-    return changed.reduce((config, [key, value]) => keyed(config, key, value), start);
+    return changed.reduce((config, [key, value]) => setKey(config, key, value), start);
   };
-  return { own, network, apply };
+  return { pageSettings, network, apply };
 }
 
-function decoded(key, text) {
+function decodeValue(key, text) {
   try {
     return decodeURIComponent(text);
   } catch {
@@ -52,7 +52,7 @@ function decoded(key, text) {
   }
 }
 
-function keyed(config, key, value) {
+function setKey(config, key, value) {
   try {
     return withKey(config, key, value);
   } catch (error) {
@@ -60,9 +60,9 @@ function keyed(config, key, value) {
   }
 }
 
-/** The link to hand on of a page at `location` with that fragment. A page that this computer serves has a secret address, which is of no use
- *  elsewhere: the fragment alone is handed on. */
-export function linkToHandOn({ protocol, hostname, href }, fragment) {
+/** Returns the link to share of a page at `location` with that fragment. A page that this computer serves has a secret address, which is of
+ *  no use elsewhere, so only the fragment is shared. */
+export function linkToShare({ protocol, hostname, href }, fragment) {
   const isHere = /^https?:$/.test(protocol) && /^(.+\.)?localhost$|^127\.|^\[::1\]$/.test(hostname);
   return isHere ? fragment : href.replace(/#.*$/, "") + fragment;
 }

@@ -4,10 +4,10 @@
 import { Engine } from "./engine.js";
 import { Controls } from "./controls.js";
 import { withDepth } from "./depth.js";
-import { asPath, at, copy, make, plain, say } from "./elements.js";
+import { asPath, byId, copy, make, setText, withoutBackticks } from "./elements.js";
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
-import { linkToHandOn, readLink, writeLink } from "./link.js";
+import { linkToShare, readLink, writeLink } from "./link.js";
 import { NetworkView } from "./network.js";
 import { PixelCamera } from "./pixel_camera.js";
 import { showReasons } from "./reasons.js";
@@ -23,13 +23,13 @@ const START = { source: "scene:street", size: "", preset: "fovea" };
 const EXPLAIN_MS = 500, EXPLAIN_COST = 25;
 
 const frames_path = document.documentElement.dataset.frames;
-let engine, described, presets, table;
-let own = { ...START };
+let engine, tables, presets, hardwareTable;
+let settings = { ...START };
 let camera = null, config = null, source = null, pixels = null, files = [];
 let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** The last chosen number of means per side. */
 let means = 1;
-let speed = 1, wanted = 0, began = null, explained = { at: 0, cost: 0 };
+let speed = 1, isStepRequested = false, startTime = null, lastExplanation = { at: 0, cost: 0 };
 /** The last two frames, which are shown again to a changed camera while the source is stopped. */
 let last = [];
 let screens, figures, controls, network;
@@ -37,40 +37,40 @@ const recording = new Recording(() => camera);
 
 // The last error, until the next try.
 function notice(text) {
-  at("notice").hidden = !text;
-  say("notice", text ?? "");
+  byId("notice").hidden = !text;
+  setText("notice", text ?? "");
 }
 
 // --- The camera
 
 /** Returns a configuration without its frame size, which the page sets. */
-function unsized({ frame: { width, height, ...frame }, ...rest }) {
+function withoutSize({ frame: { width, height, ...frame }, ...rest }) {
   return { frame, ...rest };
 }
 
 function sizeOf() {
   const natural = source?.natural;
-  const [width, height] = own.size ? own.size.split("x").map(Number)
+  const [width, height] = settings.size ? settings.size.split("x").map(Number)
     : natural ? [natural.width, natural.height] : DEFAULT_SIZE.split("x").map(Number);
   return { width, height };
 }
 
 /** Makes the camera of a configuration, or throws the engine's message and leaves the camera as it was. */
-function configure(wish) {
+function configure(wantedConfig) {
   const { width, height } = sizeOf();
-  const made = engine.configure(writeToml(wish), width, height);
+  const newCamera = engine.configure(writeToml(wantedConfig), width, height);
   recording.end();
   camera?.free();
-  camera = made;
-  config = unsized(made.facts.config);
+  camera = newCamera;
+  config = withoutSize(newCamera.facts.config);
   means = config.periphery?.blocks ?? means;
   begin();
   screens.resize(camera.facts);
-  controls.show(camera.facts, own.preset);
-  showHardware(at("area"), table, camera.facts);
-  say("status", describe());
-  keepLink();
-  if (paused) again();
+  controls.show(camera.facts, settings.preset);
+  showHardware(byId("area"), hardwareTable, camera.facts);
+  setText("status", describe());
+  storeLink();
+  if (paused) repeatFrames();
 }
 
 function describe() {
@@ -88,11 +88,11 @@ function begin() {
 function forget() {
   camera.reset();
   pixels = new PixelCamera(camera.facts.bits);
-  began = null;
+  startTime = null;
 }
 
 /** Returns the message of a refusal, or nothing. */
-function tried(change) {
+function messageOf(change) {
   try {
     change();
     return undefined;
@@ -101,17 +101,17 @@ function tried(change) {
   }
 }
 
-function changed(key, value) {
-  return tried(() => {
-    const before = means;
-    configure(wished(key, value));
-    if (key === "region.size") means = before;
+function changeKey(key, value) {
+  return messageOf(() => {
+    const oldMeans = means;
+    configure(withChange(key, value));
+    if (key === "region.size") means = oldMeans;
   });
 }
 
 /** Returns the configuration with another value of a key, and with the changes that follow from it. */
-function wished(key, value) {
-  if (key === "frame.pixel_bits" && Number.isInteger(value) && value > 0) return withDepth(config, value, described.features);
+function withChange(key, value) {
+  if (key === "frame.pixel_bits" && Number.isInteger(value) && value > 0) return withDepth(config, value, tables.features);
   const wish = withKey(config, key, value);
   // A camera without means has no periphery table.
   if (key === "render.irrelevant" && value !== "mean") delete wish.periphery;
@@ -120,28 +120,28 @@ function wished(key, value) {
   return wish;
 }
 
-function toggled(feature, on) {
+function toggleFeature(feature, on) {
   const others = config.spatial.filter(one => one.feature !== feature);
-  const order = described.features.map(one => one.feature);
+  const order = tables.features.map(one => one.feature);
   const spatial = on ? [...others, { feature }].sort((a, b) => order.indexOf(a.feature) - order.indexOf(b.feature)) : others;
   if (!spatial.length) return `a camera needs a feature; turn another on first, then ${feature} off`;
-  return tried(() => configure({ ...config, spatial }));
+  return messageOf(() => configure({ ...config, spatial }));
 }
 
 function presetConfig(name) {
-  const found = presets.find(preset => preset.name === name);
-  if (!found) throw new Error(`there is no preset \`${name}\`; presets are ${presets.map(preset => preset.name).join(", ")}`);
-  return found.config;
+  const preset = presets.find(preset => preset.name === name);
+  if (!preset) throw new Error(`there is no preset \`${name}\`; presets are ${presets.map(preset => preset.name).join(", ")}`);
+  return preset.config;
 }
 
-function presetChosen(name) {
-  return tried(() => {
-    const before = own.preset;
-    own.preset = name;
+function choosePreset(name) {
+  return messageOf(() => {
+    const previous = settings.preset;
+    settings.preset = name;
     try {
       configure(presetConfig(name));
     } catch (error) {
-      own.preset = before;
+      settings.preset = previous;
       throw error;
     }
   });
@@ -149,16 +149,16 @@ function presetChosen(name) {
 
 // --- The source
 
-function sourceNamed(name) {
+function makeSource(name) {
   if (name === "webcam") return new Webcam();
   if (name === "computer" && frames_path) return new Computer(frames_path);
-  if (name === "files" && files.length) return sourceOf(files);
-  const scene = described.scenes.find(scene => `scene:${scene.name}` === name);
+  if (name === "files" && files.length) return sourceOfFiles(files);
+  const scene = tables.scenes.find(scene => `scene:${scene.name}` === name);
   if (scene) return new Scene(engine, scene, () => camera.facts.side);
   throw new Error(`there is no source \`${name}\` here; choose one in the list`);
 }
 
-function sourceOf(files) {
+function sourceOfFiles(files) {
   const isPicture = file => file.type.startsWith("image/");
   if (files.every(isPicture)) return new Pictures(files);
   if (files.length > 1) throw new Error(`${files.length} files are no one clip; give one clip, or pictures alone`);
@@ -171,48 +171,48 @@ function sourceOf(files) {
 let tickets = 0;
 /** Changes the source. If it does not open, the old one stays. */
 async function choose(name) {
-  const before = own.source, ticket = ++tickets;
+  const previous = settings.source, ticket = ++tickets;
   notice();
-  say("status", name === "webcam" ? "waiting for the camera" : "opening");
-  let made;
+  setText("status", name === "webcam" ? "waiting for the camera" : "opening");
+  let newSource;
   try {
-    made = sourceNamed(name);
-    await made.open(own.size ? sizeOf() : undefined);
+    newSource = makeSource(name);
+    await newSource.open(settings.size ? sizeOf() : undefined);
   } catch (error) {
-    made?.close();
+    newSource?.close();
     if (ticket !== tickets) return false;
     notice(error.message);
-    at("source").value = source ? before : "";
-    say("status", camera ? describe() : "");
+    byId("source").value = source ? previous : "";
+    setText("status", camera ? describe() : "");
     return false;
   }
   // Another source was chosen while this one opened.
   if (ticket !== tickets) {
-    made.close();
+    newSource.close();
     return false;
   }
   source?.close();
-  source = made;
-  source.onend = text => { if (source === made) notice(text); };
-  own.source = name;
+  source = newSource;
+  source.onend = text => { if (source === newSource) notice(text); };
+  settings.source = name;
   last = [];
-  at("source").value = name;
-  at("speed").disabled = !source.slow;
+  byId("source").value = name;
+  byId("speed").disabled = !source.slow;
   source.speed(speed);
   source.run(!paused);
-  if (config) notice(tried(() => configure(config)));
+  if (config) notice(messageOf(() => configure(config)));
   // A stopped page shows the first frame.
-  if (paused) wanted = 1;
+  if (paused) isStepRequested = true;
   return true;
 }
 
-async function opened(list) {
-  const before = files;
+async function openFiles(list) {
+  const previous = files;
   files = [...list];
   if (!files.length) return;
-  const option = at("source").querySelector("[value=files]");
+  const option = byId("source").querySelector("[value=files]");
   if (!await choose("files")) {
-    files = before;
+    files = previous;
     return;
   }
   option.hidden = false;
@@ -220,10 +220,10 @@ async function opened(list) {
 }
 
 /** Takes a dropped file: a network, or else a source. */
-function dropped(list) {
+function openDropped(list) {
   const [networks, others] = [true, false].map(is => list.filter(({ name }) => /\.onnx$/i.test(name) === is));
   if (networks.length) network.open(networks[0]);
-  if (others.length) opened(others);
+  if (others.length) openFiles(others);
 }
 
 // --- Frames
@@ -234,20 +234,20 @@ function step(frame) {
     recording.end();
     forget();
   }
-  began ??= frame.time_us;
-  const time = Math.max(frame.time_us - began, 0);
+  startTime ??= frame.time_us;
+  const time = Math.max(frame.time_us - startTime, 0);
   const sent = frame.rgba ? camera.stepRgba(frame.rgba, time) : camera.step(frame.grey, time);
-  if (sent.recording) recording.grew(sent.recording);
+  if (sent.recording) recording.showSize(sent.recording);
   const events = pixels.step(camera.input);
   screens.paint(camera);
   const now = performance.now();
   figures.add(sent, events, frame.time_us, now - start, now);
-  network.seen(sent.number);
+  network.frameShown(sent.number);
   explain(now);
 }
 
 /** Shows the last frames again to a changed camera. */
-function again() {
+function repeatFrames() {
   for (const frame of last) step({ ...frame, fresh: false });
 }
 
@@ -255,19 +255,19 @@ async function run() {
   for (;;) {
     const now = await new Promise(requestAnimationFrame);
     figures.paint(now);
-    if (!source || !camera || (paused && !wanted)) continue;
+    if (!source || !camera || (paused && !isStepRequested)) continue;
     const from = source, { width, height } = camera.facts;
     try {
       const frame = paused ? await from.step(width, height) : await from.take(width, height, now);
       if (!frame) continue;
-      wanted = 0;
+      isStepRequested = false;
       // Another source or size may have been chosen meanwhile.
       if (from !== source || width !== camera.facts.width || height !== camera.facts.height) continue;
       if (frame.fresh) last = [];
       last = [...last.slice(-1), frame];
       step(frame);
     } catch (error) {
-      wanted = 0;
+      isStepRequested = false;
       pause(true);
       notice(error.message);
     }
@@ -276,25 +276,25 @@ async function run() {
 
 function pause(on) {
   paused = on;
-  at("pause").setAttribute("aria-pressed", on);
+  byId("pause").setAttribute("aria-pressed", on);
   source?.run(!on);
 }
 
 function stepOnce() {
   if (!paused) pause(true);
-  wanted = 1;
+  isStepRequested = true;
 }
 
 async function reset() {
   notice();
   last = [];
-  const again = recording.on;
+  const wasRecording = recording.on;
   recording.end();
   await source?.restart().catch(error => notice(error.message));
   if (!camera) return;
   begin();
-  if (again) recording.begin();
-  if (paused) wanted = 1;
+  if (wasRecording) recording.begin();
+  if (paused) isStepRequested = true;
 }
 
 // --- One region
@@ -302,118 +302,118 @@ async function reset() {
 function explain(now, asked = false) {
   const region = screens.chosen;
   if (!region || !last.length) return;
-  if (!paused && !asked && (now - explained.at < EXPLAIN_MS || explained.cost > EXPLAIN_COST)) return;
+  if (!paused && !asked && (now - lastExplanation.at < EXPLAIN_MS || lastExplanation.cost > EXPLAIN_COST)) return;
   const start = performance.now();
-  const message = tried(() => showReasons(at("reasons"), camera.explain(region.x, region.y, own.source)));
-  if (message) at("reasons").replaceChildren(make("p", { className: "refused", textContent: plain(message) }));
-  explained = { at: now, cost: performance.now() - start };
+  const message = messageOf(() => showReasons(byId("reasons"), camera.explain(region.x, region.y, settings.source)));
+  if (message) byId("reasons").replaceChildren(make("p", { className: "refused", textContent: withoutBackticks(message) }));
+  lastExplanation = { at: now, cost: performance.now() - start };
 }
 
 // --- Downloads, commands and links
 
 /** Returns the source in the form of an input of `foveate infer`. */
 function inputsOfCommand() {
-  if (own.source.startsWith("scene:")) return [own.source];
-  const names = own.source === "files" ? files.map(({ name }) => asPath(name)) : ["clip.mp4"];
-  return own.size ? [...names, "--resize", own.size] : names;
+  if (settings.source.startsWith("scene:")) return [settings.source];
+  const names = settings.source === "files" ? files.map(({ name }) => asPath(name)) : ["clip.mp4"];
+  return settings.size ? [...names, "--resize", settings.size] : names;
 }
 
 function link() {
-  const { source: from, size, preset } = own;
+  const { source: from, size, preset } = settings;
   // Files stay on this computer.
   return `#${writeLink({ source: from === "files" ? "" : from, size, preset }, presetConfig(preset), config, network.wishes)}`;
 }
 
-let kept = 0;
-function keepLink() {
-  clearTimeout(kept);
-  kept = setTimeout(() => history.replaceState(null, "", link()), 200);
+let linkTimer = 0;
+function storeLink() {
+  clearTimeout(linkTimer);
+  linkTimer = setTimeout(() => history.replaceState(null, "", link()), 200);
 }
 
 /** Takes the settings of the link. Wrong settings are reported, and have their initial values. */
 async function fromLink() {
   let wish = readLink("");
-  const wrong = tried(() => {
+  const linkError = messageOf(() => {
     wish = readLink(location.hash);
-    presetConfig(wish.own.preset ?? START.preset);
-    if (wish.own.size && !/^\d+x\d+$/.test(wish.own.size)) throw new Error(`the link's size \`${wish.own.size}\` is none; write 640x480`);
+    presetConfig(wish.pageSettings.preset ?? START.preset);
+    if (wish.pageSettings.size && !/^\d+x\d+$/.test(wish.pageSettings.size)) throw new Error(`the link's size \`${wish.pageSettings.size}\` is none; write 640x480`);
   });
-  network.wishes = wrong ? {} : wish.network;
-  own = { ...START, source: frames_path ? "computer" : START.source, ...(wrong ? {} : wish.own) };
+  network.wishes = linkError ? {} : wish.network;
+  settings = { ...START, source: frames_path ? "computer" : START.source, ...(linkError ? {} : wish.pageSettings) };
   showSizes();
-  const preset = presetConfig(own.preset), from = own.source;
+  const preset = presetConfig(settings.preset), from = settings.source;
   // The camera must exist before a source gives it frames.
-  const refused = tried(() => configure(wrong ? preset : wish.apply(preset)));
-  if (refused) {
-    own.size = "";
+  const cameraError = messageOf(() => configure(linkError ? preset : wish.apply(preset)));
+  if (cameraError) {
+    settings.size = "";
     showSizes();
     configure(preset);
   }
-  let told = wrong ?? (refused && `the link is refused: ${refused}`);
+  let message = linkError ?? (cameraError && `the link is refused: ${cameraError}`);
   if (!await choose(from) && !source) {
-    told ??= at("notice").textContent;
+    message ??= byId("notice").textContent;
     await choose(frames_path && from !== "computer" ? "computer" : START.source);
   }
-  if (told) notice(told);
+  if (message) notice(message);
 }
 
 function showSizes() {
-  const options = [["", "as the source"], ...[...new Set([...SIZES, own.size].filter(Boolean))].map(size => [size, size])];
-  at("size").replaceChildren(...options.map(([value, textContent]) => make("option", { value, textContent })));
-  at("size").value = own.size;
+  const options = [["", "as the source"], ...[...new Set([...SIZES, settings.size].filter(Boolean))].map(size => [size, size])];
+  byId("size").replaceChildren(...options.map(([value, textContent]) => make("option", { value, textContent })));
+  byId("size").value = settings.size;
 }
 
 // --- The page itself
 
-function wire() {
+function addListeners() {
   const option = (value, textContent, more) => make("option", { value, textContent, ...more });
-  at("source").append(
+  byId("source").append(
     ...(frames_path ? [option("computer", "this computer")] : []), option("webcam", "webcam"), option("files", "files", { hidden: true }),
-    make("optgroup", { label: "scenes" }, ...described.scenes.map(scene => option(`scene:${scene.name}`, scene.name, { title: scene.summary }))));
-  at("source").onchange = event => choose(event.target.value);
-  at("size").onchange = event => {
-    const before = own.size;
-    own.size = event.target.value;
+    make("optgroup", { label: "scenes" }, ...tables.scenes.map(scene => option(`scene:${scene.name}`, scene.name, { title: scene.summary }))));
+  byId("source").onchange = event => choose(event.target.value);
+  byId("size").onchange = event => {
+    const before = settings.size;
+    settings.size = event.target.value;
     last = [];
-    const message = tried(() => configure(config));
+    const message = messageOf(() => configure(config));
     notice(message);
-    if (message) at("size").value = own.size = before;
+    if (message) byId("size").value = settings.size = before;
     // A camera source is asked for frames of that size.
-    else if (own.source === "webcam") choose("webcam");
-    else if (paused) wanted = 1;
+    else if (settings.source === "webcam") choose("webcam");
+    else if (paused) isStepRequested = true;
   };
-  at("open").onclick = () => at("files").click();
-  at("files").onchange = event => { opened(event.target.files); event.target.value = ""; };
-  at("pause").onclick = () => pause(!paused);
-  at("step").onclick = stepOnce;
-  at("reset").onclick = reset;
-  at("speed").onchange = event => { speed = Number(event.target.value); source?.speed(speed); };
-  at("copy-toml").onclick = () => copy(camera.facts.toml, "the TOML");
-  at("copy-link").onclick = () => {
-    const text = linkToHandOn(location, link());
+  byId("open").onclick = () => byId("files").click();
+  byId("files").onchange = event => { openFiles(event.target.files); event.target.value = ""; };
+  byId("pause").onclick = () => pause(!paused);
+  byId("step").onclick = stepOnce;
+  byId("reset").onclick = reset;
+  byId("speed").onchange = event => { speed = Number(event.target.value); source?.speed(speed); };
+  byId("copy-toml").onclick = () => copy(camera.facts.toml, "the TOML");
+  byId("copy-link").onclick = () => {
+    const text = linkToShare(location, link());
     copy(text, text.startsWith("#") ? "the part of the link behind its secret address" : "the link");
   };
-  at("record").onclick = () => { if (recording.on) recording.end(); else recording.begin(); };
-  at("download").onclick = () => recording.download();
+  byId("record").onclick = () => { if (recording.on) recording.end(); else recording.begin(); };
+  byId("download").onclick = () => recording.download();
   addEventListener("hashchange", () => { if (location.hash !== link()) fromLink(); });
-  const acts = new Map([[" ", () => pause(!paused)], ["s", stepOnce], ["r", reset]]);
+  const actions = new Map([[" ", () => pause(!paused)], ["s", stepOnce], ["r", reset]]);
   document.onkeydown = event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, textarea")) return;
     // The space bar belongs to the button with the focus.
     if (event.key === " " && event.target.matches("button, summary")) return;
-    const act = acts.get(event.key);
-    if (!act) return;
+    const action = actions.get(event.key);
+    if (!action) return;
     event.preventDefault();
-    act();
+    action();
   };
   const drop = on => event => {
     if (!event.dataTransfer?.types.includes("Files")) return;
     event.preventDefault();
-    at("drop").hidden = !on;
+    byId("drop").hidden = !on;
   };
   addEventListener("dragover", drop(true));
   addEventListener("dragleave", drop(false));
-  addEventListener("drop", event => { drop(false)(event); if (event.dataTransfer?.files.length) dropped([...event.dataTransfer.files]); });
+  addEventListener("drop", event => { drop(false)(event); if (event.dataTransfer?.files.length) openDropped([...event.dataTransfer.files]); });
   matchMedia("(prefers-color-scheme: dark)").onchange = () => {
     screens.recolour();
     if (last.length) screens.paint(camera);
@@ -422,9 +422,9 @@ function wire() {
 }
 
 /** Returns the bytes of a base64 text that was compressed by gzip. */
-async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+async function unpack(text) {
+  const compressed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
+  const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
   try {
     return await new Response(stream).arrayBuffer();
   } catch (error) {
@@ -433,22 +433,22 @@ async function unpacked(text) {
 }
 
 async function start() {
-  engine = await Engine.load(await unpacked(at("wasm").textContent));
-  at("wasm").remove();
-  described = engine.describe();
-  table = JSON.parse(at("hardware-table").textContent);
+  engine = await Engine.load(await unpack(byId("wasm").textContent));
+  byId("wasm").remove();
+  tables = engine.describe();
+  hardwareTable = JSON.parse(byId("hardware-table").textContent);
   // A preset with every key, but without a frame size.
-  presets = described.presets.map(({ name, summary, toml }) => {
+  presets = tables.presets.map(({ name, summary, toml }) => {
     const made = engine.configure(toml.replace(/^(width|height) = .*$/gm, ""), 64, 64);
     const { config } = made.facts;
     made.free();
-    return { name, summary, config: unsized(config) };
+    return { name, summary, config: withoutSize(config) };
   });
   screens = new Screens(() => explain(performance.now(), true));
   figures = new Figures();
-  network = new NetworkView(engine.module, { camera: () => camera, source: inputsOfCommand, told: keepLink });
-  controls = new Controls(at("controls"), described, { presets, change: changed, toggle: toggled, preset: presetChosen });
-  wire();
+  network = new NetworkView(engine.module, { camera: () => camera, source: inputsOfCommand, onchange: storeLink });
+  controls = new Controls(byId("controls"), tables, { presets, change: changeKey, toggle: toggleFeature, preset: choosePreset });
+  addListeners();
   await fromLink();
   // For tests and for users of the console.
   window.foveate = { engine, get camera() { return camera; }, get config() { return config; }, get sums() { return figures.sums; },
@@ -458,5 +458,5 @@ async function start() {
 
 start().catch(error => {
   notice(error.message);
-  say("status", "the engine did not start");
+  setText("status", "the engine did not start");
 });

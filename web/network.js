@@ -4,7 +4,7 @@
 
 import { Boxes } from "./boxes.js";
 import { className } from "./class_names.js";
-import { asPath, at, copy, plain, say } from "./elements.js";
+import { asPath, byId, copy, setText, withoutBackticks } from "./elements.js";
 import { NetworkControls } from "./network_controls.js";
 import { NetworkFigures } from "./network_figures.js";
 import { NetworkThread } from "./network_thread.js";
@@ -13,25 +13,26 @@ import { NetworkThread } from "./network_thread.js";
 const GUESSED = { framing: "letterbox", mean: null, scale: null, detect: null };
 
 export class NetworkView {
-  #module; #camera; #source; #told;
+  #module; #camera; #source; #onchange;
   #thread = null; #file = null; #facts = null; #wishes = { ...GUESSED };
   /** Answers to questions before the last change of network, settings or camera are ignored. */
   #ticket = 0;
-  /** `is` says whether the camera still has the shown frame. */
-  #shown = { id: 0, number: 0, is: false }; #looked = null; #looking = false; #opened = "";
+  /** The shown frame; `isCurrent` says whether the camera still has it. */
+  #shown = { id: 0, number: 0, isCurrent: false }; #result = null; #isRunning = false; #openedSize = "";
   #boxes = new Boxes(); #figures = new NetworkFigures(); #controls;
 
-  /** `module` is the compiled engine. `camera` gives the camera of now, `source` its source as a command has it. `told` is called when a wish has changed. */
-  constructor(module, { camera, source, told }) {
+  /** `module` is the compiled engine. `camera` returns the current camera, `source` its source as a command has it. `onchange` is called when a
+   *  setting has changed. */
+  constructor(module, { camera, source, onchange }) {
     this.#module = module;
     this.#camera = camera;
     this.#source = source;
-    this.#told = told;
-    this.#controls = new NetworkControls(wishes => this.#wish(wishes));
-    at("open-network").onclick = () => at("network-file").click();
-    at("network-file").onchange = event => { if (event.target.files.length) this.open(event.target.files[0]); event.target.value = ""; };
-    at("close-network").onclick = () => this.close();
-    at("copy-command").onclick = () => copy(at("network-command").textContent, "the command", "copied-command");
+    this.#onchange = onchange;
+    this.#controls = new NetworkControls(wishes => this.#changeSettings(wishes));
+    byId("open-network").onclick = () => byId("network-file").click();
+    byId("network-file").onchange = event => { if (event.target.files.length) this.open(event.target.files[0]); event.target.value = ""; };
+    byId("close-network").onclick = () => this.close();
+    byId("copy-command").onclick = () => copy(byId("network-command").textContent, "the command", "copied-command");
   }
 
   /** The settings that differ from the initial ones. */
@@ -41,10 +42,10 @@ export class NetworkView {
 
   /** Takes settings for the network that is opened next, or for the open one. */
   set wishes(wishes) {
-    const made = { ...GUESSED, ...wishes };
-    if (JSON.stringify(made) === JSON.stringify(this.#wishes)) return;
-    this.#wishes = made;
-    if (this.#thread) this.#make();
+    const settings = { ...GUESSED, ...wishes };
+    if (JSON.stringify(settings) === JSON.stringify(this.#wishes)) return;
+    this.#wishes = settings;
+    if (this.#thread) this.#openNetwork();
   }
 
   /** Opens a file. The network before it and its settings are dropped. */
@@ -53,11 +54,11 @@ export class NetworkView {
     this.close();
     this.#file = file.name;
     const ticket = ++this.#ticket;
-    this.#refused();
-    say("network-status", `reading ${file.name}`);
-    const thread = this.#thread = new NetworkThread(at("network-worker").textContent);
-    at("close-network").hidden = false;
-    at("network-hint").hidden = true;
+    this.#showRefusal();
+    setText("network-status", `reading ${file.name}`);
+    const thread = this.#thread = new NetworkThread(byId("network-worker").textContent);
+    byId("close-network").hidden = false;
+    byId("network-hint").hidden = true;
     try {
       const bytes = await file.arrayBuffer();
       await thread.ask("begin", { module: this.#module, file: bytes }, [bytes]);
@@ -65,7 +66,7 @@ export class NetworkView {
       if (ticket === this.#ticket) this.#fail(error.message);
       return;
     }
-    if (ticket === this.#ticket) await this.#make();
+    if (ticket === this.#ticket) await this.#openNetwork();
   }
 
   /** Ends the network. */
@@ -73,22 +74,22 @@ export class NetworkView {
     this.#ticket++;
     this.#thread?.end();
     this.#thread = this.#facts = null;
-    this.#looking = false;
-    this.#opened = "";
-    this.#nothing();
-    this.#refused();
-    at("network-open").hidden = at("close-network").hidden = true;
-    at("network-hint").hidden = false;
-    say("network-status", "");
+    this.#isRunning = false;
+    this.#openedSize = "";
+    this.#clearResults();
+    this.#showRefusal();
+    byId("network-open").hidden = byId("close-network").hidden = true;
+    byId("network-hint").hidden = false;
+    setText("network-status", "");
   }
 
   /** Makes the network of the file for the current camera. */
-  async #make() {
+  async #openNetwork() {
     const { width, height, bits } = this.#camera().facts, ticket = ++this.#ticket, thread = this.#thread;
-    this.#opened = `${width}x${height}x${bits}`;
+    this.#openedSize = `${width}x${height}x${bits}`;
     this.#facts = null;
-    this.#nothing();
-    this.#refused();
+    this.#clearResults();
+    this.#showRefusal();
     try {
       const { facts } = await thread.ask("open", { wishes: { name: this.#file, ...this.#wishes }, width, height, bits });
       if (ticket !== this.#ticket) return;
@@ -98,119 +99,119 @@ export class NetworkView {
     }
     if (ticket !== this.#ticket) return;
     this.#show();
-    this.#told();
-    this.#look();
+    this.#onchange();
+    this.#runNetwork();
   }
 
-  #wish(wishes) {
+  #changeSettings(wishes) {
     Object.assign(this.#wishes, wishes);
-    this.#make();
+    this.#openNetwork();
   }
 
   /** Called when the camera was replaced or reset. */
   restart() {
-    this.#shown.is = false;
+    this.#shown.isCurrent = false;
     if (!this.#thread) return;
     const { width, height, bits } = this.#camera().facts;
-    if (this.#opened && this.#opened !== `${width}x${height}x${bits}`) this.#make();
+    if (this.#openedSize && this.#openedSize !== `${width}x${height}x${bits}`) this.#openNetwork();
     else if (this.#facts) {
       this.#ticket++;
-      this.#nothing();
+      this.#clearResults();
       this.#command();
     }
   }
 
   /** Called when another frame is shown, which has this number. */
-  seen(number) {
-    this.#shown = { id: this.#shown.id + 1, number, is: true };
+  frameShown(number) {
+    this.#shown = { id: this.#shown.id + 1, number, isCurrent: true };
     if (!this.#facts) return;
-    this.#look();
-    this.#mark();
+    this.#runNetwork();
+    this.#markAge();
   }
 
   /** Runs the network on the current frame, if it is idle and has not had this frame. */
-  async #look() {
-    const { id, number, is } = this.#shown, ticket = this.#ticket;
-    if (!this.#facts || this.#looking || !is || this.#looked?.id === id) return;
+  async #runNetwork() {
+    const { id, number, isCurrent } = this.#shown, ticket = this.#ticket;
+    if (!this.#facts || this.#isRunning || !isCurrent || this.#result?.id === id) return;
     const camera = this.#camera(), { length } = camera.pixels;
     const planes = new Uint8Array(2 * length);
     planes.set(camera.pixels);
     planes.set(camera.rendered, length);
-    this.#looking = true;
+    this.#isRunning = true;
     const thread = this.#thread;
     try {
-      const { looked, ms } = await thread.ask("look", { planes: planes.buffer }, [planes.buffer]);
+      const { result, ms } = await thread.ask("look", { planes: planes.buffer }, [planes.buffer]);
       if (thread !== this.#thread) return;
-      this.#looking = false;
-      if (ticket === this.#ticket) this.#found({ id, number, ...looked }, ms);
+      this.#isRunning = false;
+      if (ticket === this.#ticket) this.#showResult({ id, number, ...result }, ms);
     } catch (error) {
       if (thread !== this.#thread) return;
-      this.#looking = false;
+      this.#isRunning = false;
       if (ticket === this.#ticket) {
         this.#facts = null;
         this.#fail(error.message);
         return;
       }
     }
-    this.#look();
+    this.#runNetwork();
   }
 
-  #found(looked, ms) {
-    this.#looked = looked;
-    this.#figures.add(looked, ms, performance.now());
-    if (this.#facts.head) this.#boxes.show(looked, this.#camera().facts, number => className(this.#facts, number));
-    this.#mark();
+  #showResult(result, ms) {
+    this.#result = result;
+    this.#figures.add(result, ms, performance.now());
+    if (this.#facts.head) this.#boxes.show(result, this.#camera().facts, number => className(this.#facts, number));
+    this.#markAge();
   }
 
   /** Shows to which frame the boxes belong. */
-  #mark() {
-    const looked = this.#looked;
-    if (!looked) return;
-    const before = this.#shown.id - looked.id;
-    this.#boxes.older(before > 0);
-    this.#figures.show(looked, before);
+  #markAge() {
+    const result = this.#result;
+    if (!result) return;
+    const framesBehind = this.#shown.id - result.id;
+    this.#boxes.markOlder(framesBehind > 0);
+    this.#figures.show(result, framesBehind);
   }
 
   /** Resets the results. */
-  #nothing() {
-    this.#looked = null;
+  #clearResults() {
+    this.#result = null;
     this.#boxes.clear();
     this.#figures.reset();
   }
 
   #show() {
-    at("network-open").hidden = false;
+    byId("network-open").hidden = false;
     this.#controls.show(this.#facts, this.#wishes);
     this.#command();
-    at("network-keys").hidden = !this.#facts?.head;
+    byId("network-keys").hidden = !this.#facts?.head;
     if (!this.#facts) return;
     const { input, macs, head } = this.#facts;
     const kind = head ? `detections of ${head}` : "no detector: its outputs are compared";
-    say("network-status", `${this.#file}: ${input.width}x${input.height} pixels, ${(macs / 1e6).toFixed(0)} million multiplications, ${kind}`);
+    setText("network-status", `${this.#file}: ${input.width}x${input.height} pixels, ${(macs / 1e6).toFixed(0)} million multiplications, ${kind}`);
   }
 
   /** Returns the command that does the same with the copied TOML. */
   #command() {
-    say("copied-command", "");
+    setText("copied-command", "");
     const { options } = this.#facts ?? {};
-    at("network-command").hidden = at("copy-command").disabled = !options;
+    byId("network-command").hidden = byId("copy-command").disabled = !options;
     if (!options) return;
     const word = text => /^[\w.:/=,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
-    say("network-command", `foveate infer ${word(asPath(this.#file))} ${this.#source().map(word).join(" ")} -o out --config camera.toml ${options}`);
+    setText("network-command", `foveate infer ${word(asPath(this.#file))} ${this.#source().map(word).join(" ")} -o out --config camera.toml ${options}`);
   }
 
   #fail(message) {
-    say("network-status", "");
-    this.#refused(message);
+    setText("network-status", "");
+    this.#showRefusal(message);
   }
 
-  #refused(message) {
-    at("network-refused").hidden = !message;
-    at("network-refused").textContent = message ? plain(message) : "";
+  #showRefusal(message) {
+    byId("network-refused").hidden = !message;
+    byId("network-refused").textContent = message ? withoutBackticks(message) : "";
   }
 
   /** The results, for tests. */
-  get looked() { return this.#looked; }
+  get result() { return this.#result; }
   get facts() { return this.#facts; }
   get shown() { return this.#shown; }
   get sums() { return this.#figures.sums; }

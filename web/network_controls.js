@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The settings of a network, which are options of `foveate infer`. Values that the engine guesses are shown, and can be changed.
 
-import { at, make } from "./elements.js";
+import { byId, make } from "./elements.js";
 
 /** Common ranges of pixels, with their mean and scale. */
 const RANGES = [["0 to 1", "0", "1"], ["0 to 255", "0", "1/255"], ["-1 to 1", "0.5", "0.5"], ["(x - 127) / 128", "127/255", "128/255"],
@@ -15,19 +15,19 @@ export class NetworkControls {
   /** `wish` is called with the changed settings of {framing, mean, scale, detect}. */
   constructor(wish) {
     this.#wish = wish;
-    at("range").append(...RANGES.map(([name], place) => option(place, name)), option("", "other"));
-    at("range").onchange = ({ target: { value } }) => {
-      if (value === "") return at("mean").focus();
+    byId("range").append(...RANGES.map(([name], place) => option(place, name)), option("", "other"));
+    byId("range").onchange = ({ target: { value } }) => {
+      if (value === "") return byId("mean").focus();
       const [, mean, scale] = RANGES[value];
       return wish({ mean, scale });
     };
-    for (const key of ["mean", "scale"]) at(key).onchange = ({ target: { value } }) => wish({ [key]: value.replaceAll(" ", "") || null });
-    at("framing").onchange = at("framing-size").onchange = () => {
-      const size = at("framing-size").value.trim();
-      wish({ framing: at("framing").value + (size && `=${size}`) });
+    for (const key of ["mean", "scale"]) byId(key).onchange = ({ target: { value } }) => wish({ [key]: value.replaceAll(" ", "") || null });
+    byId("framing").onchange = byId("framing-size").onchange = () => {
+      const size = byId("framing-size").value.trim();
+      wish({ framing: byId("framing").value + (size && `=${size}`) });
     };
-    at("detect").onchange = ({ target: { value } }) => wish({ detect: value === "likely" ? null : value === "none" ? "" : value });
-    at("score").onchange = at("overlap").onchange = () => wish({ detect: `${this.#facts.head},score=${at("score").value},overlap=${at("overlap").value}` });
+    byId("detect").onchange = ({ target: { value } }) => wish({ detect: value === "likely" ? null : value === "none" ? "" : value });
+    byId("score").onchange = byId("overlap").onchange = () => wish({ detect: `${this.#facts.head},score=${byId("score").value},overlap=${byId("overlap").value}` });
   }
 
   /** Shows the settings in use, or the requested ones if the network was refused. */
@@ -36,18 +36,18 @@ export class NetworkControls {
     const { mean, scale, head, likely, fits } = facts ?? { ...wishes, fits: HEADS };
     const wished = wishes.detect === null ? "likely" : wishes.detect === "" ? "none" : wishes.detect.split(",")[0];
     const known = fits.includes(wished) || ["likely", "none"].includes(wished) ? fits : [wished, ...fits];
-    at("detect").replaceChildren(option("likely", facts ? `likely: ${likely ?? "none"}` : "likely"), option("none", "none"), ...known.map(name => option(name, name)));
-    at("detect").value = wished;
+    byId("detect").replaceChildren(option("likely", facts ? `likely: ${likely ?? "none"}` : "likely"), option("none", "none"), ...known.map(name => option(name, name)));
+    byId("detect").value = wished;
     const place = RANGES.findIndex(([, ...own]) => own[0] === mean && own[1] === scale);
-    at("range").value = place < 0 ? "" : place;
-    at("mean").value = mean ?? "";
-    at("scale").value = scale ?? "";
+    byId("range").value = place < 0 ? "" : place;
+    byId("mean").value = mean ?? "";
+    byId("scale").value = scale ?? "";
     const [way, size] = wishes.framing.split("=");
-    at("framing").value = way;
-    at("framing-size").value = size ?? "";
+    byId("framing").value = way;
+    byId("framing-size").value = size ?? "";
     for (const key of ["score", "overlap"]) {
-      at(key).disabled = !head;
-      at(key).value = head ? Number(facts[key].toFixed(3)) : "";
+      byId(key).disabled = !head;
+      byId(key).value = head ? Number(facts[key].toFixed(3)) : "";
     }
   }
 }

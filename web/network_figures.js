@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The results of a network: those of the last frame, and sums since the beginning.
 
-import { at, make, percent, say } from "./elements.js";
+import { byId, make, percent, setText } from "./elements.js";
 
 /** The number of results over which means are shown. */
 const RECENT = 20;
 
 export class NetworkFigures {
-  #sums; #recent; #shown = 0;
+  #sums; #recent; #shownTime = 0;
 
   constructor() { this.reset(); }
 
@@ -15,8 +15,8 @@ export class NetworkFigures {
   reset() {
     this.#sums = { frames: 0, whole: 0, kept: 0, seen: 0, added: 0, same: 0, agreement: 0 };
     this.#recent = [];
-    at("network-figures").replaceChildren();
-    say("network-now", "");
+    byId("network-figures").replaceChildren();
+    setText("network-now", "");
   }
 
   /** Adds the results for a frame and for the receiver's screen, and their time in ms. */
@@ -30,13 +30,13 @@ export class NetworkFigures {
   }
 
   /** Shows the results of the last frame, which is `before` frames older than the shown one. */
-  show(looked, before) {
+  show(result, before) {
     const age = before === 0 ? "the frame shown" : `${before} frame${before === 1 ? "" : "s"} before the one shown`;
-    say("network-now", `Frame ${looked.number}, ${age}: ${words(looked)}.`);
-    at("network-now").classList.toggle("quiet", before > 0);
-    if (this.#shown === this.#recent.at(-1)?.now) return;
-    this.#shown = this.#recent.at(-1)?.now;
-    at("network-figures").replaceChildren(...[...this.#counts(looked), ...this.#speed()].map(([name, value]) =>
+    setText("network-now", `Frame ${result.number}, ${age}: ${describeResult(result)}.`);
+    byId("network-now").classList.toggle("quiet", before > 0);
+    if (this.#shownTime === this.#recent.at(-1)?.now) return;
+    this.#shownTime = this.#recent.at(-1)?.now;
+    byId("network-figures").replaceChildren(...[...this.#counts(result), ...this.#speed()].map(([name, value]) =>
       make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value }))));
   }
 
@@ -59,7 +59,7 @@ export class NetworkFigures {
 }
 
 /** Describes the results for a frame. */
-function words({ found, classes, class: both, same_places, agreement, relative_rms }) {
+function describeResult({ found, classes, class: both, same_places, agreement, relative_rms }) {
   if (found) return `${found.whole} found, ${found.kept} kept, ${found.whole - found.kept} lost, ${found.added} added`;
   const margin = value => value?.toPrecision(3) ?? "no number";
   if (classes) return `class ${both[0]}, by ${margin(classes.whole_margin)}; to the receiver class ${both[1]}, class ${both[0]} ${classes.seen_margin < 0 ? "behind" : "ahead"} by ${margin(classes.seen_margin && Math.abs(classes.seen_margin))}`;

@@ -4,30 +4,30 @@
 const FAULT = "the network stopped its engine; most likely it takes more memory than a page has, 4 GiB. Take a smaller network, or a smaller size";
 
 export class NetworkThread {
-  #worker; #link; #waiting = new Map(); #count = 0;
+  #worker; #link; #pending = new Map(); #count = 0;
 
   /** `text` is the script of the thread. */
   constructor(text) {
     this.#link = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
     this.#worker = new Worker(this.#link);
     this.#worker.onmessage = ({ data: { id, refused, fault, ...answer } }) => {
-      const { done, refuse } = this.#waiting.get(id);
-      this.#waiting.delete(id);
-      if (refused !== undefined) refuse(new Error(fault ? FAULT : refused)); else done(answer);
+      const { resolve, reject } = this.#pending.get(id);
+      this.#pending.delete(id);
+      if (refused !== undefined) reject(new Error(fault ? FAULT : refused)); else resolve(answer);
     };
     this.#worker.onerror = event => {
       event.preventDefault();
-      for (const { refuse } of this.#waiting.values()) refuse(new Error(`the network's thread does not start (${event.message || "refused by the browser"})`));
-      this.#waiting.clear();
+      for (const { reject } of this.#pending.values()) reject(new Error(`the network's thread does not start (${event.message || "refused by the browser"})`));
+      this.#pending.clear();
     };
   }
 
-  /** Asks the thread, and returns its answer. Buffers of `given` are transferred to the thread. */
-  ask(kind, asked, given = []) {
+  /** Asks the thread, and returns its answer. Buffers of `transferred` are moved to the thread. */
+  ask(kind, question, transferred = []) {
     const id = this.#count++;
-    return new Promise((done, refuse) => {
-      this.#waiting.set(id, { done, refuse });
-      this.#worker.postMessage({ id, kind, ...asked }, given);
+    return new Promise((resolve, reject) => {
+      this.#pending.set(id, { resolve, reject });
+      this.#worker.postMessage({ id, kind, ...question }, transferred);
     });
   }
 

@@ -12,14 +12,14 @@ const KINDS = new Map(Object.entries({
   },
   open: ({ wishes, width, height, bits }) => ({ facts: engine.openNetwork(wishes, width, height, bits) }),
   look: ({ planes }) => {
-    const start = performance.now(), looked = engine.look(new Uint8Array(planes));
-    return { looked, ms: performance.now() - start };
+    const start = performance.now(), result = engine.look(new Uint8Array(planes));
+    return { result, ms: performance.now() - start };
   },
 }));
 
-self.onmessage = async ({ data: { id, kind, ...asked } }) => {
+self.onmessage = async ({ data: { id, kind, ...question } }) => {
   try {
-    self.postMessage({ id, ...await KINDS.get(kind)(asked) });
+    self.postMessage({ id, ...await KINDS.get(kind)(question) });
   } catch (error) {
     self.postMessage({ id, refused: error.message, fault: error.fault ?? false });
   }

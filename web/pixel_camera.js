@@ -10,12 +10,12 @@ const CONTRAST = 200_000;
 const LINEAR_UP_TO = 20;
 
 /** Returns an 8-bit value at the depth of the camera: low bits are dropped, or bits are repeated below. */
-const converted = (value, bits) => bits <= 8 ? value >> (8 - bits) : (value << 8 | value) >> (16 - bits);
+const atDepth = (value, bits) => bits <= 8 ? value >> (8 - bits) : (value << 8 | value) >> (16 - bits);
 
 /** Returns the level of every 8-bit value for a camera of `bits` bits. */
 function levels(bits) {
   return Int32Array.from({ length: 256 }, (_, value) => {
-    const grey = converted(value, bits) * 255 / (2 ** bits - 1);
+    const grey = atDepth(value, bits) * 255 / (2 ** bits - 1);
     return Math.round(1e6 * (grey <= LINEAR_UP_TO ? grey * Math.log(LINEAR_UP_TO) / LINEAR_UP_TO : Math.log(grey)));
   });
 }
@@ -37,9 +37,9 @@ export class PixelCamera {
     const { remembered } = this;
     let events = 0;
     for (let place = 0; place < grey.length; place++) {
-      const moved = levels[grey[place]] - remembered[place];
-      if (moved < CONTRAST && moved > -CONTRAST) continue;
-      const steps = Math.trunc(moved / CONTRAST);
+      const change = levels[grey[place]] - remembered[place];
+      if (change < CONTRAST && change > -CONTRAST) continue;
+      const steps = Math.trunc(change / CONTRAST);
       remembered[place] += steps * CONTRAST;
       events += Math.abs(steps);
     }

@@ -24,9 +24,9 @@ export function showReasons(place, { json, text }) {
 const sentence = text => `${text.replace(/^TRS any, SRS 0: |^TRS \d, SRS \d: /, "").replace(/^./, letter => letter.toUpperCase())}.`;
 
 function feature({ feature, level, score, min_score, unit, vote }) {
-  const of = value => unit > 1 ? `${(value / unit).toFixed(2)} per pixel` : value;
-  const what = level === undefined ? `${feature}: ${of(score)}` : `${feature}: ${score} pixels above level ${level}`;
-  return `${what}; ${of(min_score)} needed: ${vote ? "votes" : "does not vote"}.`;
+  const perPixel = value => unit > 1 ? `${(value / unit).toFixed(2)} per pixel` : value;
+  const title = level === undefined ? `${feature}: ${perPixel(score)}` : `${feature}: ${score} pixels above level ${level}`;
+  return `${title}; ${perPixel(min_score)} needed: ${vote ? "votes" : "does not vote"}.`;
 }
 
 function change({ temporal: { against, reference, level, count, min_count } }) {
@@ -42,23 +42,23 @@ function summary({ summary: means }) {
 }
 
 function grids(json) {
-  const most = 2 ** json.pixel_bits - 1, { temporal } = json;
-  const made = [grid("pixels", json.raw, most)];
-  if (json.filter !== "none") made.push(grid(`after ${json.filter}`, json.denoised, most));
-  for (const { feature, hits } of json.spatial) if (hits) made.push(grid(`${feature}: what counts`, json.denoised, most, hits, "--k5"));
-  if (temporal.reference) made.push(grid(`reference, ${temporal.against}: what changed`, temporal.reference, most, temporal.hits, "--k6"));
-  return made;
+  const maxValue = 2 ** json.pixel_bits - 1, { temporal } = json;
+  const pictures = [grid("pixels", json.raw, maxValue)];
+  if (json.filter !== "none") pictures.push(grid(`after ${json.filter}`, json.denoised, maxValue));
+  for (const { feature, hits } of json.spatial) if (hits) pictures.push(grid(`${feature}: what counts`, json.denoised, maxValue, hits, "--k5"));
+  if (temporal.reference) pictures.push(grid(`reference, ${temporal.against}: what changed`, temporal.reference, maxValue, temporal.hits, "--k6"));
+  return pictures;
 }
 
 /** Makes a picture of pixels in which hits are marked. */
-function grid(title, rows, most, hits, colour) {
+function grid(title, rows, maxValue, hits, colour) {
   const count = rows.length, cell = Math.max(1, Math.floor(SIDE / count));
   const canvas = make("canvas", { width: cell * count, height: cell * count });
   const context = canvas.getContext("2d");
   const mark = colour && getComputedStyle(document.documentElement).getPropertyValue(colour).trim();
   for (const [y, row] of rows.entries())
     for (const [x, value] of row.entries()) {
-      const grey = Math.round(255 * value / most);
+      const grey = Math.round(255 * value / maxValue);
       context.fillStyle = `rgb(${grey},${grey},${grey})`;
       context.fillRect(x * cell, y * cell, cell, cell);
       if (!hits?.[y][x]) continue;

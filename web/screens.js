@@ -15,14 +15,14 @@ const ARROWS = new Map([["ArrowLeft", [-1, 0]], ["ArrowRight", [1, 0]], ["ArrowU
 const GREY = Uint32Array.from({ length: 256 }, (_, value) => (0xFF000000 | value * 0x010101) >>> 0);
 
 /** Returns a colour of the style as a word of ImageData. */
-function word(name, alpha) {
+function colourWord(name, alpha) {
   const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const [red, green, blue] = [1, 3, 5].map(place => parseInt(text.slice(place, place + 2), 16));
   return (alpha << 24 | blue << 16 | green << 8 | red) >>> 0;
 }
 
 export class Screens {
-  #facts = null; #chosen = null; #views = {}; #tints; #over; #choose;
+  #facts = null; #chosen = null; #views = {}; #tints; #overlay; #choose;
 
   /** `choose` is called with a region when the user chooses one. */
   constructor(choose) {
@@ -33,11 +33,11 @@ export class Screens {
       cursor.hidden = true;
       place.append(canvas, cursor);
       Object.assign(place, { tabIndex: 0, role: "application" });
-      place.onclick = event => this.#at(event, place);
-      place.onkeydown = event => this.#key(event);
+      place.onclick = event => this.#chooseAt(event, place);
+      place.onkeydown = event => this.#handleKey(event);
       this.#views[id] = { place, canvas, cursor, context: canvas.getContext("2d") };
     }
-    this.#over = document.createElement("canvas").getContext("2d");
+    this.#overlay = document.createElement("canvas").getContext("2d");
     this.recolour();
     const legend = document.getElementById("legend");
     for (const [name, colour] of KINDS) {
@@ -53,7 +53,7 @@ export class Screens {
   recolour() {
     this.#tints = Uint32Array.from({ length: 16 }, (_, byte) => {
       const kind = KINDS.find(([, , applies]) => applies(byte));
-      return kind ? word(kind[1], kind[3]) : 0;
+      return kind ? colourWord(kind[1], kind[3]) : 0;
     });
   }
 
@@ -66,9 +66,9 @@ export class Screens {
       view.data = new ImageData(width, height);
       view.words = new Uint32Array(view.data.data.buffer);
     }
-    Object.assign(this.#over.canvas, { width: columns, height: rows });
-    this.#over.data = new ImageData(columns, rows);
-    this.#over.words = new Uint32Array(this.#over.data.data.buffer);
+    Object.assign(this.#overlay.canvas, { width: columns, height: rows });
+    this.#overlay.data = new ImageData(columns, rows);
+    this.#overlay.words = new Uint32Array(this.#overlay.data.data.buffer);
     if (this.#chosen) this.choose(Math.min(this.#chosen.x, columns - 1), Math.min(this.#chosen.y, rows - 1));
     this.#label();
   }
@@ -78,14 +78,14 @@ export class Screens {
     const { input, decisions, receiver } = this.#views, { columns, rows, side } = this.#facts;
     this.#grey(input, camera.input);
     this.#grey(receiver, camera.screen);
-    const { words, data } = this.#over, regions = camera.regions;
+    const { words, data } = this.#overlay, regions = camera.regions;
     for (let region = 0; region < words.length; region++) words[region] = this.#tints[regions[region] & 15];
-    this.#over.putImageData(data, 0, 0);
+    this.#overlay.putImageData(data, 0, 0);
     const { context } = decisions;
     context.putImageData(input.data, 0, 0);
     // The last column and row of regions may reach beyond the frame.
     context.imageSmoothingEnabled = false;
-    context.drawImage(this.#over.canvas, 0, 0, columns * side, rows * side);
+    context.drawImage(this.#overlay.canvas, 0, 0, columns * side, rows * side);
   }
 
   #grey({ context, words, data }, pixels) {
@@ -108,31 +108,31 @@ export class Screens {
   get chosen() { return this.#chosen; }
 
   #label() {
-    const { columns, rows } = this.#facts, own = this.#chosen;
-    const region = own ? `region ${own.x},${own.y} is chosen` : "no region is chosen";
+    const { columns, rows } = this.#facts, region = this.#chosen;
+    const regionText = region ? `region ${region.x},${region.y} is chosen` : "no region is chosen";
     for (const { place } of Object.values(this.#views)) {
       const title = place.closest("figure").querySelector("figcaption").textContent;
-      place.setAttribute("aria-label", `${title}; ${columns} by ${rows} regions, ${region}; arrow keys choose one`);
+      place.setAttribute("aria-label", `${title}; ${columns} by ${rows} regions, ${regionText}; arrow keys choose one`);
     }
   }
 
-  #at(event, place) {
+  #chooseAt(event, place) {
     if (!this.#facts) return;
     const { width, height, side } = this.#facts, box = place.getBoundingClientRect();
-    const of = (offset, length, size) => Math.floor(Math.min(Math.max(offset / length, 0), 0.999999) * size / side);
-    this.choose(of(event.clientX - box.left, box.width, width), of(event.clientY - box.top, box.height, height));
+    const regionIndex = (offset, length, size) => Math.floor(Math.min(Math.max(offset / length, 0), 0.999999) * size / side);
+    this.choose(regionIndex(event.clientX - box.left, box.width, width), regionIndex(event.clientY - box.top, box.height, height));
     this.#choose(this.#chosen);
   }
 
-  #key(event) {
+  #handleKey(event) {
     const move = ARROWS.get(event.key);
     if (!move || !this.#facts) return;
     event.preventDefault();
-    const { columns, rows } = this.#facts, far = event.shiftKey ? 8 : 1;
-    const from = this.#chosen ?? { x: columns >> 1, y: rows >> 1 };
+    const { columns, rows } = this.#facts, distance = event.shiftKey ? 8 : 1;
+    const start = this.#chosen ?? { x: columns >> 1, y: rows >> 1 };
     const within = (value, count) => Math.min(Math.max(value, 0), count - 1);
     const first = !this.#chosen;
-    this.choose(within(from.x + (first ? 0 : move[0] * far), columns), within(from.y + (first ? 0 : move[1] * far), rows));
+    this.choose(within(start.x + (first ? 0 : move[0] * distance), columns), within(start.y + (first ? 0 : move[1] * distance), rows));
     this.#choose(this.#chosen);
   }
 }

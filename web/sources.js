@@ -13,12 +13,12 @@
 /** Frames per second of sources without times, as in `foveate simulate`. */
 const RATE = 30;
 /** The largest size in bytes of a scene whose frames are kept; of a larger scene every frame is made anew. */
-const KEPT = 100e6;
+const MAX_KEPT_BYTES = 100e6;
 /** Longest wait in ms for the time of a frame; a later time is most likely wrong. */
 const LONGEST_WAIT = 10_000;
 
 /** The base of all sources without a clock of their own. */
-class Paced {
+class TimedSource {
   natural = null;
   onend = () => {};
   #due = 0;
@@ -40,8 +40,8 @@ class Paced {
 }
 
 /** A built-in scene, which begins again after its last frame. */
-export class Scene extends Paced {
-  #engine; #scene; #side; #kept = new Map(); #size = "";
+export class Scene extends TimedSource {
+  #engine; #scene; #side; #keptFrames = new Map(); #size = "";
   /** `side` is the side of a region, for which some scenes are made. */
   constructor(engine, scene, side) {
     super();
@@ -58,19 +58,19 @@ export class Scene extends Paced {
     const side = this.#side(), size = `${width}x${height}, ${side}`;
     if (size !== this.#size) {
       this.#size = size;
-      this.#kept.clear();
+      this.#keptFrames.clear();
     }
-    let grey = this.#kept.get(number);
+    let grey = this.#keptFrames.get(number);
     if (!grey) {
       grey = this.#engine.scene(this.#scene.name, width, height, number, side);
-      if (this.#scene.frames * grey.length <= KEPT) this.#kept.set(number, grey);
+      if (this.#scene.frames * grey.length <= MAX_KEPT_BYTES) this.#keptFrames.set(number, grey);
     }
     return grey;
   }
 }
 
 /** Draws pictures at the size of the frame, cropped to its shape, and returns their pixels. */
-class Easel {
+class FrameCanvas {
   #canvas = document.createElement("canvas");
   #context = this.#canvas.getContext("2d", { willReadFrequently: true });
   pixels(picture, from, width, height) {
@@ -83,8 +83,8 @@ class Easel {
 }
 
 /** Pictures as a clip, in the order of their names, with numbers by value. A single picture stays. */
-export class Pictures extends Paced {
-  #files; #easel = new Easel(); #last = null;
+export class Pictures extends TimedSource {
+  #files; #frameCanvas = new FrameCanvas(); #last = null;
   constructor(files) {
     super();
     const order = new Intl.Collator("en", { numeric: true });
@@ -97,7 +97,7 @@ export class Pictures extends Paced {
   async step(width, height) {
     const own = this.number % this.#files.length, number = this.number++;
     const picture = await this.#picture(own);
-    const rgba = this.#easel.pixels(picture, picture, width, height);
+    const rgba = this.#frameCanvas.pixels(picture, picture, width, height);
     return { rgba, time_us: this.timeOf(number), fresh: this.#files.length > 1 && own === 0 };
   }
   async #picture(number) {
@@ -120,11 +120,11 @@ export class Pictures extends Paced {
 }
 
 /** The frames of a <video>, each once. */
-class Player {
+class VideoSource {
   natural = null;
   onend = () => {};
   slow = true;
-  #fresh = false; #easel = new Easel(); #closed = false;
+  #hasNewFrame = false; #frameCanvas = new FrameCanvas(); #closed = false;
   constructor() {
     this.video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
     this.video.disableRemotePlayback = true;
@@ -134,19 +134,19 @@ class Player {
     this.natural = { width, height };
     const next = (_, { mediaTime }) => {
       this.mediaTime = mediaTime;
-      this.#fresh = true;
+      this.#hasNewFrame = true;
       if (!this.#closed) this.video.requestVideoFrameCallback(next);
     };
     this.video.requestVideoFrameCallback(next);
   }
   async take(width, height) {
-    if (!this.#fresh) return null;
-    this.#fresh = false;
+    if (!this.#hasNewFrame) return null;
+    this.#hasNewFrame = false;
     return this.draw(width, height);
   }
   draw(width, height) {
     const from = { width: this.video.videoWidth, height: this.video.videoHeight };
-    return { rgba: this.#easel.pixels(this.video, from, width, height), time_us: Math.round(1e6 * (this.mediaTime ?? this.video.currentTime)) };
+    return { rgba: this.#frameCanvas.pixels(this.video, from, width, height), time_us: Math.round(1e6 * (this.mediaTime ?? this.video.currentTime)) };
   }
   close() {
     this.#closed = true;
@@ -155,7 +155,7 @@ class Player {
 }
 
 /** A clip that repeats. */
-export class Clip extends Player {
+export class Clip extends VideoSource {
   #file; #link; #rate = 1 / RATE; #last = null; #again = false;
   constructor(file) {
     super();
@@ -226,7 +226,7 @@ const REFUSALS = new Map(Object.entries({
 }));
 
 /** A webcam. */
-export class Webcam extends Player {
+export class Webcam extends VideoSource {
   slow = false;
   #stream;
   async open(size) {
@@ -336,12 +336,12 @@ export class Computer {
   close() { this.#ended = true; }
 }
 
-const easel = new Easel();
+const frameCanvas = new FrameCanvas();
 /** Returns grey pixels at another size, as RGBA. */
 function scaled({ head: { width: from, height: rows }, grey }, width, height) {
   const picture = new OffscreenCanvas(from, rows), data = new ImageData(from, rows);
   const words = new Uint32Array(data.data.buffer);
   for (let place = 0; place < words.length; place++) words[place] = 0xFF000000 | grey[place] * 0x010101;
   picture.getContext("2d").putImageData(data, 0, 0);
-  return easel.pixels(picture, picture, width, height);
+  return frameCanvas.pixels(picture, picture, width, height);
 }

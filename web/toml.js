@@ -23,12 +23,12 @@ function setOwn(table, name, value) {
 
 /** Returns the TOML of a configuration. */
 export function writeToml(config) {
-  const given = table => Object.entries(table).filter(([, value]) => value !== null && value !== undefined);
-  const lines = table => given(table).map(([key, value]) => `${key} = ${JSON.stringify(value)}\n`).join("");
-  const part = ([name, value]) => Array.isArray(value)
+  const definedEntries = table => Object.entries(table).filter(([, value]) => value !== null && value !== undefined);
+  const lines = table => definedEntries(table).map(([key, value]) => `${key} = ${JSON.stringify(value)}\n`).join("");
+  const tableText = ([name, value]) => Array.isArray(value)
     ? value.map(table => `[[${name}]]\n${lines(table)}`).join("\n")
     : `[${name}]\n${lines(value)}`;
-  return given(config).map(part).join("\n");
+  return definedEntries(config).map(tableText).join("\n");
 }
 
 /** Returns every key with its value, dotted as in overrides: `spatial.0.level`. */
@@ -48,12 +48,12 @@ export const getKey = (config, key) => key.split(".").reduce(ownOf, config);
 
 /** Returns another configuration, in which a dotted key has this value. */
 export function withKey(config, key, value) {
-  const made = structuredClone(config), path = key.split("."), last = path.pop();
-  let table = made;
+  const changed = structuredClone(config), path = key.split("."), last = path.pop();
+  let table = changed;
   for (const [place, name] of path.entries()) {
     if (ownOf(table, name) === undefined) setOwn(table, name, /^\d+$/.test(path[place + 1] ?? "") ? [] : {});
     table = ownOf(table, name);
   }
   setOwn(table, last, value);
-  return made;
+  return changed;
 }

@@ -97,5 +97,5 @@ def test_a_network_runs_on_the_page_that_is_served(served):
     (folder := Path(page.folder)).mkdir(exist_ok=True)
     (folder / "squares.onnx").write_bytes(onnx.squares())
     page.set_input_files("#network-file", folder / "squares.onnx")
-    until(page, "foveate.network.looked?.whole.length > 0", timeout=20)
+    until(page, "foveate.network.result?.whole.length > 0", timeout=20)
     assert page.locator("#network-refused").is_hidden()

@@ -20,8 +20,8 @@ FOVEATE = os.environ.get("FOVEATE", "foveate")
 DATA = os.environ.get("FOVEATE_DATA")
 # A size of another shape than the networks, so that letterbox and stretch differ.
 SIZE = "176x112"
-EXACT = "foveate.network.looked?.id === foveate.network.shown.id"
-LOOKED = "foveate.network.looked"
+EXACT = "foveate.network.result?.id === foveate.network.shown.id"
+RESULT = "foveate.network.result"
 
 
 def give(page, name, data):
@@ -45,7 +45,7 @@ def refused(page, text):
 
 def looked(page):
     until(page, EXACT, timeout=30)
-    return page.evaluate(LOOKED)
+    return page.evaluate(RESULT)
 
 
 def walk(page, count):
@@ -203,9 +203,9 @@ def test_boxes_are_of_the_frame_shown_or_marked_as_older(street):
     page.evaluate(
         """() => {
             window.marked = null;
-            const seen = foveate.network.seen.bind(foveate.network);
-            foveate.network.seen = number => {
-                seen(number);
+            const frameShown = foveate.network.frameShown.bind(foveate.network);
+            foveate.network.frameShown = number => {
+                frameShown(number);
                 window.marked = [...document.querySelectorAll(".boxes")].every(own => own.classList.contains("older"));
             };
         }"""
@@ -233,7 +233,7 @@ def test_counts_are_shown_and_begin_anew(street):
     assert page.evaluate("foveate.network.sums.frames") < 4
     # Another size is another network.
     page.select_option("#size", "320x240")
-    until(page, "foveate.network.looked?.whole.some(own => own.rect[2] > 176)")
+    until(page, "foveate.network.result?.whole.some(own => own.rect[2] > 176)")
     page.click("#close-network")
     assert page.locator(".box").count() == 0 and page.locator("#network-open").is_hidden()
 
@@ -266,7 +266,7 @@ def test_a_slow_network_does_not_slow_the_picture(opened):
     until(page, "foveate.sums.frames > 10")
     alone = rate()
     opened_network(page, "slow.onnx", onnx.filters(64, 6, (1, 1, 240, 320)))
-    until(page, "foveate.network.looked !== null", timeout=60)
+    until(page, "foveate.network.result !== null", timeout=60)
     beside = rate()
     ms = float(page.locator("#network-figures dd").last.inner_text())
     assert ms > 200, "the network of this test is not slow"
@@ -292,7 +292,7 @@ def test_what_cannot_be_shown_is_told(street, name, data, message):
     page = street()
     give(page, name, data() if callable(data) else data)
     refused(page, message)
-    assert page.evaluate(LOOKED) is None
+    assert page.evaluate(RESULT) is None
     # The page goes on, and the next network, too.
     page.evaluate("document.getElementById('step').click()")
     opened_network(page, "squares.onnx", onnx.squares())
