@@ -2,16 +2,16 @@
 """A page in Chromium that has loaded the engine, and the native program beside it.
 
 Nothing is served: the browser's requests to http://localhost/ are answered from the folder web/, all others are refused.
-The camera of the browser is a file whose pictures carry their number (film.py).
+The camera of the browser is a file whose pictures carry their number (camera_clip.py).
 """
 
 import os
 import shutil
 from pathlib import Path
 
-import film
+import camera_clip
 import pytest
-from native import Native
+from native import Program
 from playwright.sync_api import sync_playwright
 
 WEB = Path(__file__).resolve().parent.parent
@@ -27,14 +27,14 @@ window.Engine = Engine;
 @pytest.fixture(scope="session")
 def native(tmp_path_factory):
     """The installed program."""
-    return Native(os.environ["FOVEATE"], tmp_path_factory)
+    return Program(os.environ["FOVEATE"], tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
 def browser(tmp_path_factory):
-    """Chromium with a camera that plays a film."""
-    clip = tmp_path_factory.mktemp("camera") / "film.y4m"
-    film.write(clip)
+    """Chromium with a camera that plays the clip of camera_clip.py."""
+    clip = tmp_path_factory.mktemp("camera") / "clip.y4m"
+    camera_clip.write(clip)
     names = ["chromium", "chromium-browser", "google-chrome", "chrome"]
     chromium = next(filter(None, map(shutil.which, names)), None)
     assert chromium, "no Chromium in PATH; on Debian: apt-get install chromium"

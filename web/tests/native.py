@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The native witness: what `foveate simulate` says of the same frames, read from its files, with the hash of a frame written a
-second time from its definition (crates/engine/src/digest.rs)."""
+"""The native results: those of `foveate simulate` for the same frames, read from its files. The hash of a frame is written a second
+time from its definition (crates/engine/src/digest.rs), so that an error in one of them is found."""
 
 import csv
 import json
@@ -12,21 +12,21 @@ from PIL import Image
 ACTIONS = ["forward", "hold", "blank", "summarize"]
 
 
-class Native:
-    """The program."""
+class Program:
+    """The native program `foveate`."""
 
     def __init__(self, program, folders):
         self.program = program
         self.folders = folders
 
     def call(self, *arguments):
-        """Its standard output; what it says where it fails."""
-        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, f"foveate {' '.join(map(str, arguments))}: {done.stderr}"
-        return done.stdout
+        """Returns its standard output; fails with its messages if it fails."""
+        result = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
+        assert result.returncode == 0, f"foveate {' '.join(map(str, arguments))}: {result.stderr}"
+        return result.stdout
 
     def pictures(self, frames, size):
-        """Files of frames of 8-bit grey, in order."""
+        """Writes frames of 8-bit grey. Returns their files, in order."""
         folder = self.folders.mktemp("frames")
         names = []
         for number, frame in enumerate(frames):
@@ -35,23 +35,23 @@ class Native:
         return names
 
     def simulate(self, toml, inputs, *options):
-        """What came of every frame."""
+        """Returns the results of every frame."""
         folder = self.folders.mktemp("native")
         config = folder / "design.toml"
         config.write_text(toml)
         out = folder / "out"
         self.call("simulate", *inputs, "--config", config, "-o", out, "--events", "csv", *options)
-        return Run(out)
+        return SimulationResults(out)
 
 
-class Run:
-    """A folder of `simulate`."""
+class SimulationResults:
+    """The results in a folder of `simulate`."""
 
-    def __init__(self, out):
-        self.summary = json.loads((out / "summary.json").read_text())
+    def __init__(self, folder):
+        self.summary = json.loads((folder / "summary.json").read_text())
         frame = self.summary["configuration"]["frame"]
         self.width, self.height, self.bits = frame["width"], frame["height"], frame["pixel_bits"]
-        self.events = (out / "events.csv").read_text()
+        self.events = (folder / "events.csv").read_text()
         rows = list(csv.DictReader(self.events.splitlines()))
         scores = [name for name in rows[0] if name.startswith("score_")]
         count = int(rows[-1]["frame"]) + 1
@@ -59,11 +59,11 @@ class Run:
         self.frames = []
         for number in range(count):
             own = rows[number * regions : (number + 1) * regions]
-            self.frames.append(Frame(own, scores, out / "rendered" / f"{number:06}.png", self.bits))
+            self.frames.append(Frame(own, scores, folder / "rendered" / f"{number:06}.png", self.bits))
 
 
 class Frame:
-    """What came of one frame."""
+    """The results of one frame."""
 
     def __init__(self, rows, scores, picture, bits):
         self.rows = rows

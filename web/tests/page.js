@@ -24,8 +24,8 @@ window.run = ({ toml, width, height, frames, colours, explained }) => {
       void [screen, regions, input];
       return { sent, hash: camera.hash(), screen: base64(camera.screen), input: base64(camera.input), regions: base64(camera.regions) };
     });
-    const told = (explained ?? []).map(([x, y, name]) => camera.explain(x, y, name));
-    return { facts: camera.facts, outcomes, events: camera.events(), told };
+    const explanations = (explained ?? []).map(([x, y, name]) => camera.explain(x, y, name));
+    return { facts: camera.facts, outcomes, events: camera.events(), explanations };
   } finally {
     camera.free();
   }

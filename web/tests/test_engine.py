@@ -4,11 +4,11 @@
 import base64
 import json
 
-import film
-from compare import same
+import camera_clip
+from compare import assert_same_results
 from PIL import Image
 
-FOUR = """[[spatial]]
+FOUR_FEATURES = """[[spatial]]
 feature = "edge"
 level = 40
 [[spatial]]
@@ -22,7 +22,7 @@ mean_fraction_bits = 2
 feature = "variance"
 min_score = 90
 """
-SHOWN = {
+RENDERINGS = {
     "zero": "",
     "hold": '[render]\nirrelevant = "hold"\n',
     "mean": '[render]\nirrelevant = "mean"\npayload = "raw"\n',
@@ -31,8 +31,8 @@ SHOWN = {
 SIZES = [(97, 61), (64, 50), (50, 64), (5, 7), (131, 33)]
 
 
-def at_depth(toml, bits):
-    """A configuration of that depth; thresholds of 8 bits that it may not have are left out."""
+def toml_at_depth(toml, bits):
+    """Returns a configuration of that depth, without the thresholds for 8 bits that a smaller depth may not allow."""
     lines = toml.splitlines() if bits >= 8 else [line for line in toml.splitlines() if not line.startswith(("level", "min_score"))]
     return "\n".join([f"[frame]\npixel_bits = {bits}", *lines, ""])
 
@@ -41,15 +41,15 @@ def cameras():
     """Name, TOML, size: every preset, then features x references x what is shown x depths x sides of a region x sizes, each
     value with many of the others."""
     one = [f'[[spatial]]\nfeature = "{feature}"\n' for feature in ["edge", "corner", "mad", "variance"]]
-    features = [*one, FOUR, FOUR + '[decision]\ncombine = "all"\n']
+    features = [*one, FOUR_FEATURES, FOUR_FEATURES + '[decision]\ncombine = "all"\n']
     depths = [8, 10, 8, 5, 8, 16, 8, 1, 12]
     sides = [8, 16, 5, 4, 12, 64]
     number = 0
     for feature in features:
         for reference in ["previous", "last-sent"]:
-            for shown in SHOWN.values():
+            for shown in RENDERINGS.values():
                 bits = depths[number % len(depths)]
-                toml = at_depth(feature, bits) + shown
+                toml = toml_at_depth(feature, bits) + shown
                 toml += f'[temporal]\nreference = "{reference}"\n'
                 toml += f'[region]\nsize = {sides[number % len(sides)]}\nneighborhood = "{["isolated", "shared"][number // 2 % 2]}"\n'
                 toml += f'[denoise]\nfilter = "{["none", "median3x3"][number // 3 % 2]}"\n'
@@ -58,12 +58,12 @@ def cameras():
 
 
 def scene(page, name, size, count, side=8):
-    """Frames of a scene as the page makes them."""
+    """Returns frames of a scene as the page makes them."""
     return page.evaluate("(a) => scene(...a)", [name, *size, count, side])
 
 
 def run(page, toml, size, frames, **more):
-    """What the page says of frames."""
+    """Returns the results of the page for these frames."""
     return page.evaluate("(a) => run(a)", {"toml": toml, "width": size[0], "height": size[1], "frames": frames, **more})
 
 
@@ -76,10 +76,10 @@ def test_presets(page, native):
     for preset in page.evaluate("engine.describe().presets"):
         name, toml = preset["name"], preset["toml"]
         size, count = ((640, 480), 2) if "[frame]" in toml else ((224, 224), 4)
-        told = run(page, toml, size, scene(page, "street", size, count))
+        browser_results = run(page, toml, size, scene(page, "street", size, count))
         simulated = native.simulate(toml, ["scene:street"], "--frames", count)
-        same(told, simulated, f"preset {name}")
-        assert told["facts"]["fingerprint"] == simulated.summary["design_fingerprint"], name
+        assert_same_results(browser_results, simulated, f"preset {name}")
+        assert browser_results["facts"]["fingerprint"] == simulated.summary["design_fingerprint"], name
 
 
 def test_matrix(page, native):
@@ -91,7 +91,7 @@ def test_matrix(page, native):
             frames = scene(page, subject, size, 5)
             clips[subject, size] = frames, native.pictures(decoded(frames), size)
         frames, files = clips[subject, size]
-        same(run(page, toml, size, frames), native.simulate(toml, files), f"{name} on {subject}: {toml!r}")
+        assert_same_results(run(page, toml, size, frames), native.simulate(toml, files), f"{name} on {subject}: {toml!r}")
 
 
 def test_colours(page, native):
@@ -108,7 +108,7 @@ def test_colours(page, native):
         files.append(folder / f"{number}.png")
         image.save(files[-1])
     pictures = page.evaluate("(files) => decoded(files)", [base64.b64encode(file.read_bytes()).decode() for file in files])
-    same(run(page, "", size, pictures, colours=True), native.simulate("", files), "colours")
+    assert_same_results(run(page, "", size, pictures, colours=True), native.simulate("", files), "colours")
 
 
 def test_explanations(page, native):
@@ -117,41 +117,42 @@ def test_explanations(page, native):
     frames = scene(page, "street", size, 4)
     files = native.pictures(decoded(frames), size)
     folder = native.folders.mktemp("explain")
-    for toml in [FOUR, '[temporal]\nreference = "last-sent"\n[render]\nirrelevant = "mean"\n', "[frame]\npixel_bits = 12\n[region]\nsize = 20\n"]:
+    means = '[temporal]\nreference = "last-sent"\n[render]\nirrelevant = "mean"\n'
+    for toml in [FOUR_FEATURES, means, "[frame]\npixel_bits = 12\n[region]\nsize = 20\n"]:
         config = folder / "design.toml"
         config.write_text(toml)
         regions = [(0, 0), (2, 1), (3, 2)]
-        told = run(page, toml, size, frames, explained=[[x, y, str(files[-1])] for x, y in regions])["told"]
-        for (x, y), own in zip(regions, told, strict=True):
-            asked = ["explain", *files, "--config", config, "--frame", 3, "--region", f"{x},{y}"]
-            assert own["text"] == native.call(*asked), f"{toml!r}, region {x},{y}"
-            assert own["json"] == json.loads(native.call(*asked, "--json")), f"{toml!r}, region {x},{y}"
+        explanations = run(page, toml, size, frames, explained=[[x, y, str(files[-1])] for x, y in regions])["explanations"]
+        for (x, y), explanation in zip(regions, explanations, strict=True):
+            arguments = ["explain", *files, "--config", config, "--frame", 3, "--region", f"{x},{y}"]
+            assert explanation["text"] == native.call(*arguments), f"{toml!r}, region {x},{y}"
+            assert explanation["json"] == json.loads(native.call(*arguments, "--json")), f"{toml!r}, region {x},{y}"
 
 
 def test_camera(page, native):
-    """What a page gets of a camera are pictures of the film, in order, and they lead to the native results."""
-    seen = page.evaluate("watched(6)")
-    size = (seen["width"], seen["height"])
-    pictures = decoded(seen["pictures"])
-    numbers = [film.number_of(picture, size[0]) for picture in pictures]
-    assert None not in numbers, f"pictures that are none of the film: {numbers}"
-    steps = [(after - before) % film.FRAMES for before, after in zip(numbers, numbers[1:], strict=False)]
-    assert all(0 <= step <= film.FRAMES // 2 for step in steps) and any(steps), f"pictures out of order: {numbers}"
+    """The pictures that a page gets from a camera are those of its clip in order, and lead to the native results."""
+    camera_pictures = page.evaluate("watched(6)")
+    size = (camera_pictures["width"], camera_pictures["height"])
+    pictures = decoded(camera_pictures["pictures"])
+    numbers = [camera_clip.number_of(picture, size[0]) for picture in pictures]
+    assert None not in numbers, f"pictures that are not of the clip: {numbers}"
+    steps = [(after - before) % camera_clip.FRAMES for before, after in zip(numbers, numbers[1:], strict=False)]
+    assert all(0 <= step <= camera_clip.FRAMES // 2 for step in steps) and any(steps), f"pictures out of order: {numbers}"
     folder = native.folders.mktemp("seen")
     files = []
     for number, picture in enumerate(pictures):
         files.append(folder / f"{number}.png")
         image = Image.frombytes("RGBA", size, picture).convert("RGB")
         image.save(files[-1])
-    told = run(page, "", size, seen["pictures"], colours=True)
-    same(told, native.simulate("", files), f"pictures {numbers} of the camera")
+    browser_results = run(page, "", size, camera_pictures["pictures"], colours=True)
+    assert_same_results(browser_results, native.simulate("", files), f"pictures {numbers} of the camera")
 
 
 def test_refusals(page):
-    """What is refused is said in the words of the project, and the engine goes on."""
-    said = page.evaluate("(toml) => refused(() => engine.configure(toml, 16, 16))", "[region]\nsize = 65\n")
-    assert said == "`region.size` = 65 is out of range; the valid range is 2..=64"
-    for call, words in [
+    """A refusal has the message of the project, and the engine goes on."""
+    message = page.evaluate("(toml) => refused(() => engine.configure(toml, 16, 16))", "[region]\nsize = 65\n")
+    assert message == "`region.size` = 65 is out of range; the valid range is 2..=64"
+    for call, expected in [
         ("() => engine.configure('', 16384, 16384)", "1 to 8294400 pixels"),
         ("() => engine.configure('', 1.5, 8)", "the width 1.5 is refused"),
         ("() => engine.scene('steet', 8, 8, 0)", "did you mean `street`"),
@@ -161,10 +162,10 @@ def test_refusals(page):
         ("() => engine.configure('', 8, 8).explain(0, 0)", "no frame yet"),
         ("() => engine.configure('', 8, 8).step(new Uint8Array(3e8))", "300000000 bytes are more than the engine takes"),
     ]:
-        said = page.evaluate(f"refused({call})")
-        assert said and words in said, f"{call}: {said}"
-    told = page.evaluate(
+        message = page.evaluate(f"refused({call})")
+        assert message and expected in message, f"{call}: {message}"
+    messages = page.evaluate(
         "() => { const engine = window.engine, all = []; const said = refused(() => { for (;;) all.push(engine.configure('', 8, 8)); });"
         " all.forEach((camera) => camera.free()); return [said, refused(() => all[0].reset())]; }"
     )
-    assert "8 cameras already" in told[0] and "no camera number" in told[1], told
+    assert "8 cameras already" in messages[0] and "no camera number" in messages[1], messages

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A network beside the camera of the live page. The witness is `foveate infer` with the command that the page shows."""
+"""A network beside the camera of the live page. The expected results are those of `foveate infer`, with the command that the page shows."""
 
 import csv
 import json
@@ -24,7 +24,7 @@ EXACT = "foveate.network.result?.id === foveate.network.shown.id"
 RESULT = "foveate.network.result"
 
 
-def give(page, name, data):
+def drop_network(page, name, data):
     """Drops a network on the page."""
     path = Path(page.folder) / name
     path.parent.mkdir(exist_ok=True)
@@ -32,8 +32,8 @@ def give(page, name, data):
     page.set_input_files("#network-file", path)
 
 
-def opened_network(page, name, data):
-    give(page, name, data)
+def open_network(page, name, data):
+    drop_network(page, name, data)
     until(page, "foveate.network.facts !== null", timeout=30)
 
 
@@ -43,55 +43,56 @@ def refused(page, text):
     return page.inner_text("#network-refused")
 
 
-def looked(page):
+def network_result(page):
     until(page, EXACT, timeout=30)
     return page.evaluate(RESULT)
 
 
-def walk(page, count):
-    """Begins anew and steps; what the network says of each frame."""
+def step_frames(page, count):
+    """Restarts the source and steps. Returns the results of the network for each frame."""
     page.click("#reset")
     until(page, "foveate.sums.frames === 1")
-    found = [looked(page)]
+    results = [network_result(page)]
     for number in range(1, count):
         page.evaluate("document.getElementById('step').click()")
         until(page, "number => foveate.sums.frames === number + 1", number)
-        found.append(looked(page))
-    return found
+        results.append(network_result(page))
+    return results
 
 
 def infer(page, count):
-    """What the command says that the page shows: rows of detections, and the summary."""
+    """Runs the command that the page shows. Returns its rows of detections, and its summary."""
     folder = Path(page.folder)
     (folder / "camera.toml").write_text(page.evaluate("foveate.camera.facts.toml"))
     command = shlex.split(page.inner_text("#network-command"))
     assert command[:2] == ["foveate", "infer"]
-    done = subprocess.run([FOVEATE, *command[1:], "--max-frames", str(count), "--force"], cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    result = subprocess.run([FOVEATE, *command[1:], "--max-frames", str(count), "--force"], cwd=folder, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
     table = folder / "out" / "detections.csv"
     rows = list(csv.DictReader(table.read_text().splitlines())) if table.is_file() else []
     return rows, json.loads((folder / "out" / "inference.json").read_text())
 
 
 def boxes_of(rows, frame, whole):
-    own = [row for row in rows if int(row["frame"]) == frame and row["whole"] == whole]
-    places = [[float(row[side]) for side in ("x0", "y0", "x1", "y1")] for row in own]
-    return [[int(row["class"]), float(row["score"]), *place] for row, place in zip(own, places, strict=True)], [row["both"] for row in own]
+    frame_rows = [row for row in rows if int(row["frame"]) == frame and row["whole"] == whole]
+    places = [[float(row[side]) for side in ("x0", "y0", "x1", "y1")] for row in frame_rows]
+    boxes = [[int(row["class"]), float(row["score"]), *place] for row, place in zip(frame_rows, places, strict=True)]
+    return boxes, [row["both"] for row in frame_rows]
 
 
-def compare(found, rows, tolerance=0.0):
-    """The same boxes in the same order in every frame but the first, which the command does not count."""
+def compare(results, rows, tolerance=0.0):
+    """Checks that every frame but the first, which the command does not count, has the same boxes in the same order. Returns their number."""
     compared = 0
-    for number, one in list(enumerate(found))[1:]:
+    for number, result in list(enumerate(results))[1:]:
         for key, whole in (("whole", "true"), ("seen", "false")):
-            theirs, both = boxes_of(rows, number, whole)
-            ours = [[own["class"], own["score"], *own["rect"]] for own in one[key]]
-            assert len(ours) == len(theirs), f"frame {number}, {key}: {len(ours)} boxes, natively {len(theirs)}"
-            for mine, other in zip(ours, theirs, strict=True):
-                near = all(abs(a - b) <= tolerance * max(1, abs(b)) for a, b in zip(mine, other, strict=True))
-                assert near, f"frame {number}, {key}: the browser says {mine}, the native program {other}"
-            assert [str(own["both"]).lower() for own in one[key]] == both, f"frame {number}, {key}"
-            compared += len(ours)
+            native_boxes, both = boxes_of(rows, number, whole)
+            browser_boxes = [[box["class"], box["score"], *box["rect"]] for box in result[key]]
+            assert len(browser_boxes) == len(native_boxes), f"frame {number}, {key}: {len(browser_boxes)} boxes, natively {len(native_boxes)}"
+            for browser_box, native_box in zip(browser_boxes, native_boxes, strict=True):
+                near = all(abs(a - b) <= tolerance * max(1, abs(b)) for a, b in zip(browser_box, native_box, strict=True))
+                assert near, f"frame {number}, {key}: the browser says {browser_box}, the native program {native_box}"
+            assert [str(box["both"]).lower() for box in result[key]] == both, f"frame {number}, {key}"
+            compared += len(browser_boxes)
     return compared
 
 
@@ -106,10 +107,10 @@ def street(still):
 @pytest.mark.parametrize("more", ["", "&render.irrelevant=%22mean%22", "&network.framing=stretch"])
 def test_boxes_are_those_of_infer(street, more):
     page = street(more)
-    opened_network(page, "squares.onnx", onnx.squares())
+    open_network(page, "squares.onnx", onnx.squares())
     if "network" in more:
         assert "--framing stretch" in page.inner_text("#network-command")
-    found = walk(page, 8)
+    found = step_frames(page, 8)
     rows, summary = infer(page, 8)
     assert compare(found, rows) > 100
     # Counts are sums, of all frames and, without the first, of the command's.
@@ -134,8 +135,8 @@ def test_boxes_are_those_of_infer_at_every_depth(still, bits):
         Image.fromarray(np.array(moved, dtype=np.uint8)).save(folder / f"{number}.png")
     page.set_input_files("#files", [folder / f"{number}.png" for number in range(4)])
     until(page, "document.getElementById('source').value === 'files' && foveate.sums.frames >= 1")
-    opened_network(page, "squares.onnx", onnx.squares())
-    found = walk(page, 4)
+    open_network(page, "squares.onnx", onnx.squares())
+    found = step_frames(page, 4)
     rows, _ = infer(page, 4)
     assert compare(found, rows) > 50
 
@@ -157,10 +158,10 @@ def test_trained_detectors_are_those_of_infer(still, name, clip, cut, least):
     subprocess.run(["ffmpeg", "-v", "error", *source, str(folder / "%d.png")], check=True)
     page.set_input_files("#files", [folder / f"{number + 1}.png" for number in range(frames)])
     until(page, "document.getElementById('source').value === 'files' && foveate.sums.frames >= 1")
-    opened_network(page, name, (Path(DATA) / "networks" / name).read_bytes())
+    open_network(page, name, (Path(DATA) / "networks" / name).read_bytes())
     assert page.locator("#network-refused").is_hidden()
     assert page.evaluate("foveate.network.facts.scale") == "1/255"
-    found = walk(page, frames)
+    found = step_frames(page, frames)
     rows, _ = infer(page, frames)
     # Processors with AVX2 round once where WebAssembly rounds twice.
     assert compare(found, rows, 1e-3) >= least
@@ -168,9 +169,9 @@ def test_trained_detectors_are_those_of_infer(still, name, clip, cut, least):
 
 def test_a_network_that_is_no_detector_is_compared_by_its_class(street):
     page = street()
-    opened_network(page, "classes.onnx", onnx.classes())
+    open_network(page, "classes.onnx", onnx.classes())
     assert page.evaluate("foveate.network.facts.head") is None
-    found = walk(page, 6)
+    found = step_frames(page, 6)
     _, summary = infer(page, 6)
     theirs = summary["sight"]["classes"]
     for key in ("same_share", "whole_margin", "seen_margin"):
@@ -186,20 +187,21 @@ def test_a_network_that_is_no_detector_is_compared_by_its_class(street):
 
 def test_boxes_are_of_the_frame_shown_or_marked_as_older(street):
     page = street()
-    opened_network(page, "squares.onnx", onnx.squares())
-    found = walk(page, 3)[-1]
-    for place, key, odd in (("#input", "whole", "lost"), ("#receiver", "seen", "added")):
-        assert page.locator(f"{place} .boxes:not(.older) .box").count() == len(found[key])
-        assert page.locator(f"{place} .box.{odd}").count() == sum(not own["both"] for own in found[key]) > 0
+    open_network(page, "squares.onnx", onnx.squares())
+    result = step_frames(page, 3)[-1]
+    for place, key, kind in (("#input", "whole", "lost"), ("#receiver", "seen", "added")):
+        assert page.locator(f"{place} .boxes:not(.older) .box").count() == len(result[key])
+        assert page.locator(f"{place} .box.{kind}").count() == sum(not box["both"] for box in result[key]) > 0
     assert "the frame shown" in page.inner_text("#network-now")
     # A box lies where it was found.
-    first = max(found["whole"], key=lambda own: own["both"] is False)
-    shown = page.locator("#input .box.lost").first.bounding_box()
+    first = max(result["whole"], key=lambda box: box["both"] is False)
+    box_on_page = page.locator("#input .box.lost").first.bounding_box()
     picture = page.locator("#input canvas").bounding_box()
     share = picture["width"] / 176
-    assert any(abs(shown["x"] - picture["x"] - own["rect"][0] * share) < 2 and abs(shown["width"] - (own["rect"][2] - own["rect"][0]) * share) < 4
-               for own in found["whole"] if not own["both"]), first
-    # While the next frame is looked at, the boxes of the last one are marked.
+    left, width = box_on_page["x"] - picture["x"], box_on_page["width"]
+    assert any(abs(left - box["rect"][0] * share) < 2 and abs(width - (box["rect"][2] - box["rect"][0]) * share) < 4
+               for box in result["whole"] if not box["both"]), first
+    # While the network runs on the next frame, the boxes of the last one are marked.
     page.evaluate(
         """() => {
             window.marked = null;
@@ -213,14 +215,14 @@ def test_boxes_are_of_the_frame_shown_or_marked_as_older(street):
     page.evaluate("document.getElementById('step').click()")
     until(page, "window.marked !== null")
     assert page.evaluate("window.marked")
-    looked(page)
+    network_result(page)
     assert page.locator(".boxes.older").count() == 0
 
 
 def test_counts_are_shown_and_begin_anew(street):
     page = street()
-    opened_network(page, "squares.onnx", onnx.squares())
-    walk(page, 4)
+    open_network(page, "squares.onnx", onnx.squares())
+    step_frames(page, 4)
     sums = page.evaluate("foveate.network.sums")
     shown = dict(zip(page.locator("#network-figures dt").all_inner_texts(), page.locator("#network-figures dd").all_inner_texts(), strict=True))
     assert shown["found in whole frames"] == str(sums["whole"])
@@ -229,7 +231,7 @@ def test_counts_are_shown_and_begin_anew(street):
     assert float(shown["ms a picture"]) > 0
     page.locator("[data-key='region.size'] input[type=number]").fill("16")
     page.keyboard.press("Tab")
-    looked(page)
+    network_result(page)
     assert page.evaluate("foveate.network.sums.frames") < 4
     # Another size is another network.
     page.select_option("#size", "320x240")
@@ -240,12 +242,12 @@ def test_counts_are_shown_and_begin_anew(street):
 
 def test_score_and_overlap_decide_what_counts(street):
     page = street()
-    opened_network(page, "squares.onnx", onnx.squares())
-    before = len(looked(page)["whole"])
+    open_network(page, "squares.onnx", onnx.squares())
+    before = len(network_result(page)["whole"])
     page.fill("#score", "0.7")
     page.keyboard.press("Tab")
     until(page, "foveate.network.facts?.score > 0.69")
-    after = looked(page)["whole"]
+    after = network_result(page)["whole"]
     assert 0 < len(after) < before
     assert all(own["score"] >= 0.7 for own in after)
     assert "--detect yolov5,score=0.7,overlap=0.45" in page.inner_text("#network-command")
@@ -264,13 +266,13 @@ def test_a_slow_network_does_not_slow_the_picture(opened):
         return (page.evaluate("foveate.sums.frames") - before) / 3
 
     until(page, "foveate.sums.frames > 10")
-    alone = rate()
-    opened_network(page, "slow.onnx", onnx.filters(64, 6, (1, 1, 240, 320)))
+    rate_alone = rate()
+    open_network(page, "slow.onnx", onnx.filters(64, 6, (1, 1, 240, 320)))
     until(page, "foveate.network.result !== null", timeout=60)
-    beside = rate()
+    rate_with_network = rate()
     ms = float(page.locator("#network-figures dd").last.inner_text())
     assert ms > 200, "the network of this test is not slow"
-    assert beside > 0.5 * alone, f"{beside:.1f} frames/s beside the network, {alone:.1f} alone"
+    assert rate_with_network > 0.5 * rate_alone, f"{rate_with_network:.1f} frames/s beside the network, {rate_alone:.1f} alone"
 
 
 # --- What is refused
@@ -284,39 +286,39 @@ def test_a_slow_network_does_not_slow_the_picture(opened):
         ("big.onnx", lambda: onnx.filters(128, 2, (1, 1, 1024, 1024)), "MB of tensors"),
         ("many.onnx", lambda: onnx.filters(1, 1, (1, 4, 48, 64)), "with 1 or 3 channels, but it has 4"),
         ("any.onnx", lambda: onnx.filters(1, 1, (1, 1, "height", "width")), "say which, for example letterbox=416x416"),
-        ("odd.onnx", lambda: odd(), "has the operator Odd, which is not supported"),
+        ("odd.onnx", lambda: odd_model(), "has the operator Odd, which is not supported"),
     ],
     ids=["no network", "empty", "memory", "channels", "size", "operator"],
 )
 def test_what_cannot_be_shown_is_told(street, name, data, message):
     page = street()
-    give(page, name, data() if callable(data) else data)
+    drop_network(page, name, data() if callable(data) else data)
     refused(page, message)
     assert page.evaluate(RESULT) is None
     # The page goes on, and the next network, too.
     page.evaluate("document.getElementById('step').click()")
-    opened_network(page, "squares.onnx", onnx.squares())
+    open_network(page, "squares.onnx", onnx.squares())
     assert page.locator("#network-refused").is_hidden()
-    assert looked(page)["whole"]
+    assert network_result(page)["whole"]
 
 
-def odd():
+def odd_model():
     model = onnx.Model((1, 1, 48, 64))
     return model.bytes(model.node("Odd", ["picture"]))
 
 
 def test_a_format_that_does_not_fit_is_told_and_another_can_be_chosen(street):
     page = street("&network.detect=yunet")
-    give(page, "squares.onnx", onnx.squares())
+    drop_network(page, "squares.onnx", onnx.squares())
     assert "detections of yunet need outputs cls_8" in refused(page, "yunet")
     page.select_option("#detect", "likely")
     until(page, "foveate.network.facts !== null")
-    assert page.locator("#network-refused").is_hidden() and looked(page)["whole"]
+    assert page.locator("#network-refused").is_hidden() and network_result(page)["whole"]
 
 
 def test_a_size_is_given_to_a_network_that_takes_any(street):
     page = street()
-    give(page, "any.onnx", onnx.filters(1, 1, (1, 1, "height", "width")))
+    drop_network(page, "any.onnx", onnx.filters(1, 1, (1, 1, "height", "width")))
     refused(page, "letterbox=416x416")
     page.fill("#framing-size", "48x32")
     page.keyboard.press("Tab")
@@ -349,7 +351,7 @@ def test_a_thread_that_fails_is_told(street, before, after, message):
         }""",
         [before, after],
     )
-    give(page, "squares.onnx", onnx.squares())
+    drop_network(page, "squares.onnx", onnx.squares())
     refused(page, message)
     page.evaluate("document.getElementById('step').click()")
     until(page, "foveate.sums.frames === 2")
@@ -360,14 +362,14 @@ def test_a_thread_that_fails_is_told(street, before, after, message):
 
 def test_a_network_goes_by_keyboard_and_its_settings_by_link(street):
     page = street()
-    opened_network(page, "squares.onnx", onnx.squares())
+    open_network(page, "squares.onnx", onnx.squares())
     page.focus("#open-network")
     reached = []
     for _ in range(12):
         page.keyboard.press("Tab")
         reached.append(page.evaluate("[document.activeElement.id, getComputedStyle(document.activeElement).outlineStyle !== 'none']"))
-    wanted = {"close-network", "detect", "score", "overlap", "framing", "framing-size", "range", "mean", "scale", "network-command"}
-    assert wanted <= {name for name, visible in reached if visible}, reached
+    expected = {"close-network", "detect", "score", "overlap", "framing", "framing-size", "range", "mean", "scale", "network-command"}
+    assert expected <= {name for name, visible in reached if visible}, reached
     page.focus("#framing")
     page.keyboard.press("ArrowDown")
     until(page, "foveate.network.facts?.framing === 'stretch'")
@@ -377,16 +379,16 @@ def test_a_network_goes_by_keyboard_and_its_settings_by_link(street):
     until(page, "location.hash.includes('network.framing=stretch') && location.hash.includes('network.scale=1%2F255')")
     assert "squares" not in page.evaluate("location.hash")
     other = street("&network.framing=stretch&network.scale=1%2F255")
-    opened_network(other, "squares.onnx", onnx.squares())
+    open_network(other, "squares.onnx", onnx.squares())
     assert other.evaluate("[foveate.network.facts.framing, foveate.network.facts.scale]") == ["stretch", "1/255"]
     # The settings of the address were for the first network.
-    opened_network(other, "again.onnx", onnx.squares())
+    open_network(other, "again.onnx", onnx.squares())
     until(other, "foveate.network.facts?.framing === 'letterbox'")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_network_fits_a_narrow_page(still, scheme):
     page = still(f"#size={SIZE}", viewport={"width": 360, "height": 740}, color_scheme=scheme)
-    opened_network(page, "squares.onnx", onnx.squares())
-    looked(page)
+    open_network(page, "squares.onnx", onnx.squares())
+    network_result(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= 360

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A film for the camera of a browser: every picture carries its number as a band of black and white squares at the top, so that
-a test knows which one the browser got."""
+"""A clip for the camera of a browser. Every picture has its number as a band of black and white squares at the top, so that a test
+knows which picture the browser got."""
 
 SIZE = (320, 240)
 SQUARE = 32
@@ -9,24 +9,24 @@ BITS = SIZE[0] // SQUARE
 
 
 def squares(number):
-    """The number, then its complement as far as there is room: a picture that is none of the film is known by that."""
+    """Returns the bits of the number, then of its complement as far as there is room: a picture that is not of the clip has no such bits."""
     half = BITS // 2
     bits = [number % FRAMES >> bit & 1 for bit in range(half + 1)]
     return bits + [1 - bit for bit in bits[: BITS - half - 1]]
 
 
 def luma(number):
-    """A picture: the band, below it stripes that move and a slope."""
+    """Returns the luma of a picture: the band, and below it stripes that move and a slope."""
     width, height = SIZE
     band = b"".join(bytes([235 if bit else 16]) * SQUARE for bit in squares(number))
-    rows = [band] * SQUARE
+    lines = [band] * SQUARE
     for y in range(SQUARE, height):
-        rows.append(bytes(40 + (y // 2 + (90 if (x + 5 * number) // 24 % 3 == 0 else 0)) % 180 for x in range(width)))
-    return b"".join(rows)
+        lines.append(bytes(40 + (y // 2 + (90 if (x + 5 * number) // 24 % 3 == 0 else 0)) % 180 for x in range(width)))
+    return b"".join(lines)
 
 
 def write(path):
-    """Writes the film as YUV4MPEG2, grey."""
+    """Writes the clip as YUV4MPEG2, grey."""
     width, height = SIZE
     grey = bytes([128]) * (width * height // 2)
     with path.open("wb") as file:
@@ -36,9 +36,9 @@ def write(path):
 
 
 def number_of(rgba, width=SIZE[0]):
-    """The number of a picture as a canvas has it; None where it is no picture of the film."""
+    """Returns the number of a picture from the pixels of a canvas; None if it is no picture of the clip."""
     square = SQUARE * width // SIZE[0]
     row = square // 2 * width
-    bits = [rgba[4 * (row + square * at + square // 2)] > 128 for at in range(BITS)]
-    number = sum(bit << at for at, bit in enumerate(bits[: BITS // 2 + 1]))
+    bits = [rgba[4 * (row + square * index + square // 2)] > 128 for index in range(BITS)]
+    number = sum(bit << index for index, bit in enumerate(bits[: BITS // 2 + 1]))
     return number if [bool(bit) for bit in squares(number)] == bits and number < FRAMES else None
