@@ -76,12 +76,12 @@ def blocks_in(module):
     return sum(BLOCKS.get(cell["type"], 0) for cell in module["cells"].values())
 
 
-def weights(text):
+def module_areas(text):
     """Returns the area of each module of the source, the largest of its instances: logic, and 18-Kbit blocks."""
     boxes = ("blackbox", "whitebox")
     modules = json.loads(text)["modules"].items()
     modules = {name: module for name, module in modules if not any(box in module["attributes"] for box in boxes)}
-    own = {}
+    areas = {}
     for name, module in modules.items():
         logic, blocks = 0, blocks_in(module)
         for cell in module["cells"].values():
@@ -97,9 +97,9 @@ def weights(text):
             else:
                 logic += max((len(bits) for port, bits in cell["connections"].items() if cell["port_directions"].get(port) == "output"), default=0)
         source = source_of(name, module)
-        before = own.get(source, (0, 0))
-        own[source] = max(before, (logic, blocks))
-    return own
+        previous = areas.get(source, (0, 0))
+        areas[source] = max(previous, (logic, blocks))
+    return areas
 
 
 def synthesize(foveate, keys, frame):
@@ -113,19 +113,19 @@ def synthesize(foveate, keys, frame):
         script += "synth_xilinx -family xcup -run begin:map_ffram -top rcm\nopt_clean\nwrite_json out.json\n"
         pathlib.Path(folder, "run.ys").write_text(script)
         subprocess.run([YOSYS, "-q", "run.ys"], cwd=folder, check=True, capture_output=True)
-        return weights(pathlib.Path(folder, "out.json").read_text())
+        return module_areas(pathlib.Path(folder, "out.json").read_text())
 
 
-def grown(small, large):
+def growth_lines(small, large):
     """Yields a line for each module that grows more than it should."""
     for module in sorted(large):
         if module in ARRAYS:
             continue
-        before, blocks_before = small.get(module, (0, 0))
-        after, blocks = large[module]
-        most = FACTOR * before + MARGIN + PER_BLOCK * max(0, blocks - blocks_before)
-        if after > most:
-            yield f"{module} takes {after} of logic for the large frame and {before} for the small one, more than {most}"
+        small_area, small_blocks = small.get(module, (0, 0))
+        large_area, large_blocks = large[module]
+        limit = FACTOR * small_area + MARGIN + PER_BLOCK * max(0, large_blocks - small_blocks)
+        if large_area > limit:
+            yield f"{module} takes {large_area} of logic for the large frame and {small_area} for the small one, more than {limit}"
 
 
 def main():
@@ -142,10 +142,10 @@ def main():
     jobs = [(keys, frame) for _, keys, frames in designs for frame in frames]
     failed = False
     with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
-        found = pool.map(lambda job: synthesize(foveate, *job), jobs)
+        areas = pool.map(lambda job: synthesize(foveate, *job), jobs)
         for name, *_ in designs:
-            small, large = next(found), next(found)
-            lines = list(grown(small, large))
+            small, large = next(areas), next(areas)
+            lines = list(growth_lines(small, large))
             failed |= bool(lines)
             print(f"{name}: {len(large)} modules, {'; '.join(lines) or 'none grows'}", flush=True)
             if options.verbose:

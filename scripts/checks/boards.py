@@ -18,53 +18,53 @@ BLOCKS = ["ICESTORM_RAM", "DP16KD", "BSRAM"]
 LARGE = ["ICESTORM_SPRAM"]
 
 
-def boards():
+def open_boards():
     """Returns the names of the boards that need no Vivado."""
-    listed = json.loads(subprocess.run([FOVEATE, "build", "--list", "--json"], check=True, capture_output=True).stdout)
-    return [board["name"] for board in listed if not board["part"].startswith("xc")]
+    descriptions = json.loads(subprocess.run([FOVEATE, "build", "--list", "--json"], check=True, capture_output=True).stdout)
+    return [board["name"] for board in descriptions if not board["part"].startswith("xc")]
 
 
-def cells(built, names):
-    for cell in built["used"]:
+def cell_use(build, names):
+    for cell in build["used"]:
         if cell["cell"] in names:
             return f"{cell['used']} of {cell['available']}"
     return ""
 
 
-def row(name):
+def board_row(name):
     with tempfile.TemporaryDirectory() as folder:
         command = [FOVEATE, "build", "--board", name, "-o", f"{folder}/out", "--seeds", SEEDS, "--json"]
-        made = subprocess.run(command, stdout=subprocess.PIPE)
+        run = subprocess.run(command, stdout=subprocess.PIPE)
         # A board that is too slow gets a row, too.
-        if made.returncode not in (0, 1) or not made.stdout:
-            made.check_returncode()
-        built = json.loads(made.stdout)
-    clocks = built["reached_mhz"]
+        if run.returncode not in (0, 1) or not run.stdout:
+            run.check_returncode()
+        build = json.loads(run.stdout)
+    clocks = build["reached_mhz"]
     return {
         "board": name,
-        "logic": cells(built, LOGIC),
-        "block RAM": cells(built, BLOCKS),
-        "large RAM": cells(built, LARGE),
-        "clock needed, MHz": built["core_mhz"],
+        "logic": cell_use(build, LOGIC),
+        "block RAM": cell_use(build, BLOCKS),
+        "large RAM": cell_use(build, LARGE),
+        "clock needed, MHz": build["core_mhz"],
         "slowest seed": min(clocks),
         "median": statistics.median_low(clocks),
         "fastest": max(clocks),
         "seeds": len(clocks),
-        "sensor needed, MHz": built["pclk_mhz"],
-        "sensor reached": built["pclk_reached_mhz"],
-        "bytes": built["bytes"],
+        "sensor needed, MHz": build["pclk_mhz"],
+        "sensor reached": build["pclk_reached_mhz"],
+        "bytes": build["bytes"],
     }
 
 
 def main():
-    names = sys.argv[1:] or boards()
-    unknown = [name for name in names if name not in boards()]
+    names = sys.argv[1:] or open_boards()
+    unknown = [name for name in names if name not in open_boards()]
     if unknown:
-        print(f"boards: no open tools for {', '.join(unknown)}; use {', '.join(boards())}", file=sys.stderr)
+        print(f"boards: no open tools for {', '.join(unknown)}; use {', '.join(open_boards())}", file=sys.stderr)
         return 2
     rows = []
     for name in names:
-        rows.append(row(name))
+        rows.append(board_row(name))
         print(*(f"{key} {value}" for key, value in rows[-1].items() if value != ""), sep=", ", flush=True)
     if not sys.argv[1:]:
         with open(TABLE, "w", newline="") as file:

@@ -57,10 +57,10 @@ CONTROLS = [
 
 
 def foveate(*arguments, check=True):
-    done = subprocess.run([FOVEATE, *map(str, arguments)], capture_output=True, text=True)
-    if check and done.returncode != 0:
-        sys.exit(f"foveate {' '.join(map(str, arguments))}: {done.stderr}")
-    return done
+    result = subprocess.run([FOVEATE, *map(str, arguments)], capture_output=True, text=True)
+    if check and result.returncode != 0:
+        sys.exit(f"foveate {' '.join(map(str, arguments))}: {result.stderr}")
+    return result
 
 
 def registers(core):
@@ -78,24 +78,24 @@ def generate(folder, settings):
     def number(key):
         return int(re.search(rf"^{key} = (\d+)", design, re.MULTILINE)[1])
 
-    about = {"width": number("width"), "height": number("height"), "bits": number("pixel_bits")}
-    about |= {"lanes": number("pixels_per_clock"), "registers": registers(core)}
-    # Decisions come some lines after the last pixel.
-    about["quiet"] = about["width"] * number("size") * 3 + 1000
-    (folder / "core.json").write_text(json.dumps(about))
+    properties = {"width": number("width"), "height": number("height"), "bits": number("pixel_bits")}
+    properties |= {"lanes": number("pixels_per_clock"), "registers": registers(core)}
+    # The decisions of a frame come some lines after its last pixel, so a test waits this number of clocks for them.
+    properties["quiet"] = properties["width"] * number("size") * 3 + 1000
+    (folder / "core.json").write_text(json.dumps(properties))
     return core
 
 
-def play(folder, core, test=None):
-    """Runs all tests or one in Icarus. Returns those that passed."""
+def run_tests(folder, core, test=None):
+    """Runs all tests or one in Icarus. Returns whether each passed, by its name."""
     sources = [core / line for line in (core / "rcm_axi.f").read_text().split()]
     runner = get_runner("icarus")
     log = folder / "log.txt"
     runner.build(
         sources=sources, hdl_toplevel="rcm_axi", build_dir=folder / "build", build_args=["-g2005"], timescale=("1ns", "1ps"), log_file=log
     )
-    places = {"FOVEATE_CORE": folder / "core.json", "FOVEATE_OUT": folder / "out", "PYTHONPATH": BENCHES}
-    environment = {name: str(place) for name, place in places.items()} | {"COCOTB_LOG_LEVEL": "WARNING"}
+    paths = {"FOVEATE_CORE": folder / "core.json", "FOVEATE_OUT": folder / "out", "PYTHONPATH": BENCHES}
+    environment = {name: str(path) for name, path in paths.items()} | {"COCOTB_LOG_LEVEL": "WARNING"}
     results = runner.test(
         hdl_toplevel="rcm_axi", test_module="test_axi", test_dir=BENCHES, build_dir=folder / "build", extra_env=environment, log_file=log,
         results_xml=str(folder / "results.xml"), testcase=test,
@@ -104,32 +104,32 @@ def play(folder, core, test=None):
     return {case.get("name"): case.find("failure") is None and case.find("error") is None for case in cases}
 
 
-def same(folder, core):
+def frame_difference(folder, core):
     """Compares the received frames with those of `simulate`. Returns the difference, if any."""
     config = core / "design.toml"
-    seen, sim = folder / "seen", folder / "sim"
-    decoded = foveate("decode", folder / "packets.bin", "-c", config, "-o", seen, "-q", check=False)
-    losses = (seen / "losses.csv").read_text() if (seen / "losses.csv").is_file() else ""
+    decoded_folder, simulated_folder = folder / "seen", folder / "sim"
+    decoded = foveate("decode", folder / "packets.bin", "-c", config, "-o", decoded_folder, "-q", check=False)
+    losses = (decoded_folder / "losses.csv").read_text() if (decoded_folder / "losses.csv").is_file() else ""
     if folder.name in MAY_DROP:
         kinds = {line.split(",")[0] for line in losses.splitlines()[1:]}
         return None if kinds <= {"dropped-region", "dropped-row"} else f"losses: {kinds}"
     # The numbers of a stream after a restart include frames without packets.
     if decoded.returncode != 0 and folder.name not in FIRST_NUMBER:
         return decoded.stderr
-    foveate("simulate", folder / "frames", "-c", config, "-o", sim, "-q")
+    foveate("simulate", folder / "frames", "-c", config, "-o", simulated_folder, "-q")
     for name in ("active.npy", "srs.npy", "trs.npy"):
-        if not filecmp.cmp(seen / name, sim / name, shallow=False):
+        if not filecmp.cmp(decoded_folder / name, simulated_folder / name, shallow=False):
             return f"{name} differs"
-    shown = sorted((seen / "rendered").iterdir())
-    wanted = sorted((sim / "rendered").iterdir())
-    if len(shown) != len(wanted):
-        return f"{len(shown)} frames, expected {len(wanted)}"
-    differs = [one.name for one, other in zip(shown, wanted, strict=True) if not filecmp.cmp(one, other, shallow=False)]
+    decoded_frames = sorted((decoded_folder / "rendered").iterdir())
+    expected_frames = sorted((simulated_folder / "rendered").iterdir())
+    if len(decoded_frames) != len(expected_frames):
+        return f"{len(decoded_frames)} frames, expected {len(expected_frames)}"
+    differs = [frame.name for frame, expected in zip(decoded_frames, expected_frames, strict=True) if not filecmp.cmp(frame, expected, shallow=False)]
     return f"rendered frames differ: {differs}" if differs else None
 
 
-def controls(settings):
-    """Plants faults. Returns the number of those that were not found."""
+def count_missed_faults(settings):
+    """Plants each fault of CONTROLS. Returns the number of faults that no test found."""
     missed = 0
     for module, before, after, test in CONTROLS:
         with tempfile.TemporaryDirectory() as temporary:
@@ -139,7 +139,7 @@ def controls(settings):
             text = path.read_text()
             assert text.count(before) == 1, f"{module}: `{before}` is there {text.count(before)} times"
             path.write_text(text.replace(before, after))
-            found = not play(folder, core, test)[test] or same(folder / "out" / test, core) is not None
+            found = not run_tests(folder, core, test)[test] or frame_difference(folder / "out" / test, core) is not None
             missed += not found
             print(f"control: {module}: {'found' if found else 'NOT FOUND'} by {test}", flush=True)
     return missed
@@ -153,15 +153,15 @@ def main():
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary)
             core = generate(folder, settings)
-            outcome = play(folder, core)
+            outcome = run_tests(folder, core)
             for test, passed in outcome.items():
-                wrong = same(folder / "out" / test, core) if passed else "failed"
-                failures += wrong is not None
-                print(f"{name}: {test}: {wrong or 'ok'}", flush=True)
+                problem = frame_difference(folder / "out" / test, core) if passed else "failed"
+                failures += problem is not None
+                print(f"{name}: {test}: {problem or 'ok'}", flush=True)
             if not all(outcome.values()):
                 print((folder / "log.txt").read_text(), file=sys.stderr)
     if not quick:
-        failures += controls(DESIGNS["edges"])
+        failures += count_missed_faults(DESIGNS["edges"])
     print(f"{len(designs)} designs, {failures} failures")
     sys.exit(1 if failures else 0)
 

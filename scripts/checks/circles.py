@@ -7,8 +7,8 @@
 A file that imports a second one, which imports the first, can only be read together with it. Circles are allowed between a
 module and those in its folder: parent and child are one thing. This prints every other circle, and fails if there is one.
 
-An import is a `use`, or a path from `crate`. An item that `pub use` passes on counts for the file that defines it. Comments and
-the code after `#[cfg(test)]` are ignored.
+An import is a `use`, or a path from `crate`. An import of an item that `pub use` re-exports counts as an import of the file that
+defines the item. Comments and the code after `#[cfg(test)]` are ignored.
 """
 
 import re
@@ -28,7 +28,7 @@ def code(text):
 
 def paths(tree, before=()):
     """Returns the paths of a `use`, each as a tuple: `a::{b, c::d}` gives (a, b) and (a, c, d)."""
-    found, part, depth = [], "", 0
+    tree_paths, part, depth = [], "", 0
     for character in tree + ",":
         depth += {"{": 1, "}": -1}.get(character, 0)
         if character != "," or depth:
@@ -37,24 +37,24 @@ def paths(tree, before=()):
         start, brace, inside = part.strip().partition("{")
         names = tuple(name for name in start.split(" as ")[0].strip().split("::") if name)
         if brace:
-            found += paths(inside.rpartition("}")[0], before + names)
+            tree_paths += paths(inside.rpartition("}")[0], before + names)
         elif names:
-            found.append(before + names)
+            tree_paths.append(before + names)
         part = ""
-    return found
+    return tree_paths
 
 
 class Crate:
-    """Returns the modules of a crate, each a tuple of names; () is the root."""
+    """The modules of a crate, each a tuple of names; () is the root."""
 
     def __init__(self, texts):
         self.texts = {module: code(text) for module, text in texts.items()}
-        self.passed_on = {}
+        self.reexports = {}
         for module, text in self.texts.items():
             for tree in PUBLIC_USE.findall(text):
                 for path in paths(tree):
                     if (target := self.absolute(module, path)) is not None:
-                        self.passed_on[(*module, path[-1])] = target
+                        self.reexports[(*module, path[-1])] = target
 
     def absolute(self, module, path):
         """Returns a path from the root of the crate, or None if it leads out of the crate."""
@@ -67,48 +67,48 @@ class Crate:
             return module[: len(module) - up] + path[up:]
         return module + path if module + path[:1] in self.texts else None
 
-    def owner(self, path, steps=8):
+    def defining_module(self, path, steps=8):
         """Returns the module that defines the item at a path, following `pub use`."""
         for length in range(len(path), -1, -1):
             if path[:length] not in self.texts:
                 continue
-            target = self.passed_on.get(path[: length + 1])
+            target = self.reexports.get(path[: length + 1])
             if length < len(path) and target is not None and steps:
-                return self.owner(target + path[length + 1 :], steps - 1)
+                return self.defining_module(target + path[length + 1 :], steps - 1)
             return path[:length]
         return None
 
     def imports(self, module):
         """Returns the modules that a module imports, except its parents and children."""
         text = self.texts[module]
-        found = [self.absolute(module, path) for tree in USE.findall(text) for path in paths(tree)]
-        found += [tuple(path.split("::")[1:]) for path in PATH.findall(text)]
-        owners = {self.owner(path) for path in found if path is not None} - {None}
-        return {other for other in owners if not is_related(module, other)}
+        imported_paths = [self.absolute(module, path) for tree in USE.findall(text) for path in paths(tree)]
+        imported_paths += [tuple(path.split("::")[1:]) for path in PATH.findall(text)]
+        imported_modules = {self.defining_module(path) for path in imported_paths if path is not None} - {None}
+        return {other for other in imported_modules if not is_related(module, other)}
 
     def circles(self):
         """Returns the sets of modules in which each module reaches all others."""
         edges = {module: self.imports(module) for module in self.texts}
-        reached = {module: reach(edges, module) for module in edges}
+        reached = {module: reachable_modules(edges, module) for module in edges}
         in_circle = {module for module in edges if module in reached[module]}
         sets = {frozenset(other for other in reached[module] if module in reached[other]) for module in in_circle}
         return [{module: edges[module] & members for module in members} for members in sets]
 
 
-def is_related(one, other):
+def is_related(module, other):
     """Returns whether two modules are the same, or one is in the folder of the other."""
-    shorter = min(len(one), len(other))
-    return bool(shorter) and one[:shorter] == other[:shorter] or not one or not other
+    shorter = min(len(module), len(other))
+    return bool(shorter) and module[:shorter] == other[:shorter] or not module or not other
 
 
-def reach(edges, start):
+def reachable_modules(edges, start):
     """Returns the modules that a module imports, directly and indirectly."""
-    found, left = set(), [start]
-    while left:
-        for other in edges[left.pop()] - found:
-            found.add(other)
-            left.append(other)
-    return found
+    reached, pending = set(), [start]
+    while pending:
+        for other in edges[pending.pop()] - reached:
+            reached.add(other)
+            pending.append(other)
+    return reached
 
 
 def crate_at(folder):
@@ -121,14 +121,14 @@ def crate_at(folder):
 
 
 def main():
-    found = 0
+    count = 0
     for folder in sorted((ROOT / "crates").glob("*/src")):
         for circle in crate_at(folder).circles():
-            found += 1
+            count += 1
             print(f"{folder.parent.name}: files import each other:")
             for module, others in sorted(circle.items()):
                 print(f"    {'::'.join(module)} imports {', '.join(sorted('::'.join(other) for other in others))}")
-    sys.exit(1 if found else 0)
+    sys.exit(1 if count else 0)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Called by coverage.sh: adds up Verilator's coverage points per module and compares the holes with those that are explained.
+"""Called by coverage.sh: adds up Verilator's coverage points per module and compares the holes (the points without coverage) with the explained ones.
 
 A line of a leaf is one point, which is covered if one design covers it, because logic for a feature is idle in designs without
 it. The same is true of a bit of a serial or raster leaf: one sequencer or core serves all features and feeds, and much of it is idle in
@@ -17,10 +17,10 @@ import sys
 WORK, NAMES = sys.argv[1], [name for name in sys.argv[2:] if name != "--some"]
 HOLES = "scripts/checks/coverage_holes.txt"
 RENDERED = ("rpu", "rcm", "rcm_axi", "axi_registers")
-AROUND = ("rcm_axi", "axi_", "packet_")
+AXI_MODULES = ("rcm_axi", "axi_", "packet_")
 QUICK = 2  # designs of `--quick`
 # A bit has toggled when it rose and fell. All bits start at 0, so a bit that is 1 from reset on has risen.
-LEAST = {"line": 1, "toggle": 2}
+MIN_COUNTS = {"line": 1, "toggle": 2}
 
 
 def points(name):
@@ -35,7 +35,7 @@ def points(name):
         kind = {"v_line": "line", "v_branch": "line", "v_toggle": "toggle"}.get(kind)
         if kind and "rtl/" in fields["f"]:
             module = module.split("__")[0]
-            if name.startswith("axi") and not module.startswith(AROUND):
+            if name.startswith("axi") and not module.startswith(AXI_MODULES):
                 continue
             what = fields["o"] if kind == "toggle" else f"{fields['o']} {line_of(os.path.join(WORK, name, fields['f']), fields['l'])}"
             yield kind, module, what, int(match.group(2))
@@ -51,65 +51,65 @@ def line_of(path, number):
     return f"{lines_of(path)[int(number) - 1].strip()}\n{number}"
 
 
-def explained():
-    """Returns (pattern, pattern, reason) for each line `module | pattern | reason`."""
-    found = []
+def read_explanations():
+    """Returns (pattern of the module, pattern of the signal or line, reason) for each line of the file of holes."""
+    explanations = []
     for number, line in enumerate(open(HOLES), 1):
         if line.strip() and not line.startswith("#"):
             parts = [part.strip() for part in line.split(" | ")]
             if len(parts) != 3:
                 sys.exit(f"coverage: {HOLES}:{number}: wants `module | pattern | reason`")
-            found.append((parts[0], re.compile(parts[1]), parts[2]))
-    return found
+            explanations.append((parts[0], re.compile(parts[1]), parts[2]))
+    return explanations
 
 
 def main():
     # A module with several instances is covered if one of them is.
-    best = collections.defaultdict(int)
-    seen = collections.defaultdict(list)
+    max_counts = collections.defaultdict(int)
+    designs_of_point = collections.defaultdict(list)
     for name in NAMES:
         for kind, module, what, count in points(name):
             is_leaf = module not in RENDERED
             is_merged = is_leaf and (kind == "line" or module.startswith(("serial_", "raster_", "axi_", "packet_")))
             design = None if is_merged else name
             point = kind, module, what, design
-            best[point] = max(best[point], count)
-            if name not in seen[point]:
-                seen[point].append(name)
+            max_counts[point] = max(max_counts[point], count)
+            if name not in designs_of_point[point]:
+                designs_of_point[point].append(name)
     covered, total = collections.Counter(), collections.Counter()
     holes = collections.defaultdict(lambda: collections.defaultdict(list))
-    for (kind, module, what, design), count in best.items():
+    for (kind, module, what, design), count in max_counts.items():
         total[module, kind] += 1
-        if count >= LEAST[kind]:
+        if count >= MIN_COUNTS[kind]:
             covered[module, kind] += 1
         else:
             signal = re.sub(r"\[\d+\]$|\n\d+$", "", what)
-            where = design or " ".join(seen[kind, module, what, design])
-            holes[kind, module, signal][where].append(what[len(signal):].strip())
+            place = design or " ".join(designs_of_point[kind, module, what, design])
+            holes[kind, module, signal][place].append(what[len(signal):].strip())
     modules = sorted({module for module, _ in total})
     print(f"\n{'module':20} {'lines':>12} {'toggles':>14}")
 
     def share(keys):
-        got, all_of = sum(covered[key] for key in keys), sum(total[key] for key in keys)
-        return f"{got}/{all_of} {100 * got / all_of:5.1f} %" if all_of else "-"
+        covered_count, total_count = sum(covered[key] for key in keys), sum(total[key] for key in keys)
+        return f"{covered_count}/{total_count} {100 * covered_count / total_count:5.1f} %" if total_count else "-"
 
     for module in modules + [None]:
         rows = [[(m, kind) for m in modules if module in (m, None)] for kind in ("line", "toggle")]
         print(f"{module or 'all':20} {share(rows[0]):>16} {share(rows[1]):>20}")
-    reasons, used, bad = explained(), set(), 0
+    reasons, used_reasons, unexplained_count = read_explanations(), set(), 0
     print("\nholes:")
     for (kind, module, signal), places in sorted(holes.items()):
         reason = next((r for r in reasons if re.fullmatch(r[0], module) and r[1].fullmatch(signal)), None)
-        used.add(reason)
-        bad += reason is None
-        where = ", ".join(f"{name} {''.join(bits)}".strip() for name, bits in places.items())
-        print(f"  {'' if reason else 'NOT EXPLAINED '}{module} {kind} {signal} ({where}){': ' + reason[2] if reason else ''}")
+        used_reasons.add(reason)
+        unexplained_count += reason is None
+        place = ", ".join(f"{name} {''.join(bits)}".strip() for name, bits in places.items())
+        print(f"  {'' if reason else 'NOT EXPLAINED '}{module} {kind} {signal} ({place}){': ' + reason[2] if reason else ''}")
     # A run of few designs may lack some explained holes.
-    unused = [r for r in reasons if r not in used] if len(NAMES) > QUICK and "--some" not in sys.argv else []
+    unused = [r for r in reasons if r not in used_reasons] if len(NAMES) > QUICK and "--some" not in sys.argv else []
     for module, pattern, _ in unused:
         print(f"{HOLES}: nothing needs `{module} | {pattern.pattern}`; remove it")
-    print(f"{len(holes)} holes, {bad} not explained")
-    sys.exit(1 if bad or unused else 0)
+    print(f"{len(holes)} holes, {unexplained_count} not explained")
+    sys.exit(1 if unexplained_count or unused else 0)
 
 
 main()

@@ -6,7 +6,7 @@ Lines of an .sby file that only this script reads:
     # quick: TASK...            tasks that belong to the quick set (- if there are no tasks)
     # inside: LEAF...           formal/inside/LEAF.sv is put into that module, before its endmodule
     # change: TASK FILE SED     the proof (*: each) is of FILE with that change, for example a smaller limit
-    # control: same             faults are searched with the method of the proofs, not within a number of clocks
+    # control: same             a fault is searched for with the method of the proof, not only within a number of clocks
     # fault: TASK FILE SED      the proof must fail when SED changes FILE of the Verilog
 """
 import concurrent.futures
@@ -51,16 +51,16 @@ class Proof:
         section = re.search(r"^\[tasks\]\n(.*?)(?=^\[|\Z)", self.text, re.M | re.S)
         lines = section.group(1).splitlines() if section else []
         self.tasks = [line.split()[0] for line in lines if line.strip() and line[0] != "#"] or ["-"]
-        self.quick = self.words("quick")
-        self.inside = self.words("inside")
-        self.same = self.words("control") == ["same"]
+        self.quick = self.directive_words("quick")
+        self.inside = self.directive_words("inside")
+        self.has_same_control = self.directive_words("control") == ["same"]
         self.faults = re.findall(r"^# fault: (\S+) (\S+) (.*)$", self.text, re.M)
         self.changes = re.findall(r"^# change: (\S+) (\S+) (.*)$", self.text, re.M)
         for task in self.quick + [fault[0] for fault in self.faults + self.changes if fault[0] != "*"]:
             if task not in self.tasks:
                 fail(f"{path} names task `{task}`, which it does not have; it has {', '.join(self.tasks)}")
 
-    def words(self, key):
+    def directive_words(self, key):
         return " ".join(re.findall(rf"^# {key}: (.*)$", self.text, re.M)).split()
 
     def runs(self, quick):
@@ -73,15 +73,15 @@ class Proof:
 
 def designs():
     """Returns name and settings of each design of formal/designs.txt."""
-    words, found = {}, {}
+    macros, settings_of = {}, {}
     for line in open("formal/designs.txt"):
         name, _, rest = line.strip().partition(" ")
         if name.startswith("@"):
-            words[name] = rest.strip()
+            macros[name] = rest.strip()
         elif name and not name.startswith("#"):
-            settings = [re.sub(r"@\w+", lambda m: words[m.group()], word) for word in rest.split()]
-            found[name] = settings
-    return found
+            words = [re.sub(r"@\w+", lambda m: macros[m.group()], word) for word in rest.split()]
+            settings_of[name] = words
+    return settings_of
 
 
 def generate(name, settings):
@@ -156,42 +156,42 @@ def prepare(proof, task, fault, index):
     for path in glob.glob("rtl/*.v") + glob.glob("rtl/board/*.v"):
         shutil.copy(path, os.path.join(folder, "rtl"))
     if "generated/" in proof.text:
-        where = os.path.join(folder, "generated", task)
-        os.makedirs(where)
+        design_folder = os.path.join(folder, "generated", task)
+        os.makedirs(design_folder)
         source = os.path.join(WORK, "generated", task)
         for name in ("instances.vh", "registers.vh", "rtl/rpu.v", "rtl/rcm.v", "rtl/axi_registers.v"):
             if os.path.exists(os.path.join(source, name)):
-                shutil.copy(os.path.join(source, name), where)
+                shutil.copy(os.path.join(source, name), design_folder)
     for change in proof.changes:
         if change[0] in (task, "*"):
-            plant(proof, task, folder, change)
+            apply_change(proof, task, folder, change)
     if fault is not None:
-        plant(proof, task, folder, fault)
-        as_control(os.path.join(folder, f"{proof.name}.sby"), search=not proof.same)
+        apply_change(proof, task, folder, fault)
+        make_control(os.path.join(folder, f"{proof.name}.sby"), search=not proof.has_same_control)
     for leaf in proof.inside:
-        found = [os.path.join(folder, "rtl", f"{leaf}.v"), os.path.join(folder, "generated", task, f"{leaf}.v")]
-        path = next(path for path in found if os.path.exists(path))
+        candidates = [os.path.join(folder, "rtl", f"{leaf}.v"), os.path.join(folder, "generated", task, f"{leaf}.v")]
+        path = next(path for path in candidates if os.path.exists(path))
         text = open(path).read()
-        inside = open(os.path.join("formal", "inside", f"{leaf}.sv")).read()
+        statements = open(os.path.join("formal", "inside", f"{leaf}.sv")).read()
         with open(path, "w") as file:
-            file.write(text.replace("\nendmodule", f"\n{inside}\nendmodule"))
+            file.write(text.replace("\nendmodule", f"\n{statements}\nendmodule"))
     return folder
 
 
-def plant(proof, task, folder, fault):
+def apply_change(proof, task, folder, fault):
     _, name, change = fault
     paths = [os.path.join(folder, "rtl", name), os.path.join(folder, "generated", task, name), os.path.join(folder, name)]
     path = next((path for path in paths if os.path.exists(path)), None)
     if path is None:
         fail(f"{proof.name}.sby changes {name}, which is no file of the Verilog")
-    before = open(path).read()
+    original = open(path).read()
     subprocess.run(["sed", "-i", change, path], check=True)
-    if open(path).read() == before:
+    if open(path).read() == original:
         fail(f"{proof.name}.sby: `{change}` changes nothing in {name}; correct it")
 
 
-def as_control(path, search):
-    """Makes the proof search for a counterexample without a trace; with `search`, within a number of clocks."""
+def make_control(path, search):
+    """Changes a copy of an .sby file so that it searches for a counterexample without a trace; with `search`, within CONTROL_DEPTH clocks."""
     text = open(path).read()
     if search:
         text = re.sub(r"\bmode \w+", "mode bmc", text)
@@ -205,21 +205,21 @@ def as_control(path, search):
 
 def run(proof, task, fault, index):
     folder = prepare(proof, task, fault, index)
-    began = time.monotonic()
+    start = time.monotonic()
     command = SBY + ["-d", "work", f"{proof.name}.sby"] + ([] if task == "-" else [task])
     child = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
-    late = False
+    is_timeout = False
     try:
         child.wait(LIMIT)
     except subprocess.TimeoutExpired:
         # SymbiYosys itself ends its solvers, each of which is in a process group of its own.
-        late = True
+        is_timeout = True
         child.terminate()
         child.wait()
-    seconds = time.monotonic() - began
+    seconds = time.monotonic() - start
     status = os.path.join(folder, "work", "status")
     verdict = open(status).read().split()[0] if os.path.exists(status) else "ERROR"
-    if late:
+    if is_timeout:
         verdict = "TIMEOUT"
     return folder, verdict, seconds
 
@@ -251,14 +251,14 @@ def main():
         return
     work = [(proof, task, fault, index) for proof in proofs for index, (task, fault) in enumerate(proof.runs(quick))]
     os.makedirs(WORK, exist_ok=True)
-    known = designs()
+    settings_of = designs()
     for name in sorted({task for proof, task, *_ in work if "generated/" in proof.text}):
-        if name not in known:
+        if name not in settings_of:
             fail(f"design {name} is not in formal/designs.txt")
-        generate(name, known[name])
+        generate(name, settings_of[name])
 
-    began = time.monotonic()
-    good, found, bad = 0, 0, []
+    start = time.monotonic()
+    proven_count, found_count, failures = 0, 0, []
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         futures = {pool.submit(run, *item): item for item in work}
@@ -267,20 +267,20 @@ def main():
             folder, verdict, seconds = future.result()
             title = proof.name if task == "-" else f"{proof.name} {task}"
             if fault is None:
-                as_wanted = verdict == "PASS"
-                said = f"proven: {method(folder)}" if as_wanted else f"NOT PROVEN ({verdict})"
+                is_expected = verdict == "PASS"
+                result_text = f"proven: {method(folder)}" if is_expected else f"NOT PROVEN ({verdict})"
             else:
-                as_wanted = verdict == "FAIL"
-                said = f"{'found' if as_wanted else f'NOT FOUND ({verdict})'}: {fault[1]} {fault[2]}"
-            print(f"{title:32} {seconds:6.1f} s  {said}", flush=True)
-            if as_wanted:
-                good, found = good + (fault is None), found + (fault is not None)
+                is_expected = verdict == "FAIL"
+                result_text = f"{'found' if is_expected else f'NOT FOUND ({verdict})'}: {fault[1]} {fault[2]}"
+            print(f"{title:32} {seconds:6.1f} s  {result_text}", flush=True)
+            if is_expected:
+                proven_count, found_count = proven_count + (fault is None), found_count + (fault is not None)
             else:
-                bad.append(f"{title}: {said}; see {os.path.join(folder, 'work', 'logfile.txt')}")
-    print(f"{good} proofs, {found} injected faults found, {len(bad)} not as they should be, {time.monotonic() - began:.0f} s")
-    for line in bad:
+                failures.append(f"{title}: {result_text}; see {os.path.join(folder, 'work', 'logfile.txt')}")
+    print(f"{proven_count} proofs, {found_count} injected faults found, {len(failures)} not as they should be, {time.monotonic() - start:.0f} s")
+    for line in failures:
         print(f"  {line}", file=sys.stderr)
-    sys.exit(1 if bad else 0)
+    sys.exit(1 if failures else 0)
 
 
 main()

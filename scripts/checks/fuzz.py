@@ -25,8 +25,8 @@ import subprocess
 import sys
 import tempfile
 
-from fuzzing.answer import Answer, ask
-from fuzzing.mutate import mutated
+from fuzzing.answer import Answer, run_command
+from fuzzing.mutate import mutate
 from fuzzing.readers import READERS, samples
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
@@ -39,34 +39,34 @@ def run_file(program, bench, reader, data):
         folder = pathlib.Path(folder)
         path = folder / reader.file
         path.write_bytes(data)
-        return ask([program, *reader.command(bench, folder, path)], folder, path if reader.is_piped else None)
+        return run_command([program, *reader.command(bench, folder, path)], folder, path if reader.is_piped else None)
 
 
 def run_case(program, bench, reader, sample, seed, number, keep):
     """Returns the answer to one mutated file. The file is kept if the case fails."""
-    data = mutated(sample, f"{seed}:{reader.name}:{number}", reader.is_text)
-    answer, said = run_file(program, bench, reader, data)
+    data = mutate(sample, f"{seed}:{reader.name}:{number}", reader.is_text)
+    answer, messages = run_file(program, bench, reader, data)
     if answer.is_failure and keep:
         keep.mkdir(parents=True, exist_ok=True)
         (keep / f"{reader.name}-{seed}-{number}-{reader.file}").write_bytes(data)
-    return answer, said
+    return answer, messages
 
 
 def run_reader(pool, program, bench, reader, sample, args):
     """Counts the answers of a reader; prints each failure."""
-    answer, said = run_file(program, bench, reader, sample)
+    answer, messages = run_file(program, bench, reader, sample)
     if answer is not reader.sample_answer:
         # Mutations of a file that is not read correctly would test nothing.
-        print(f"  {reader.name}: its sample is {answer.value}, not {reader.sample_answer.value}: {said}", file=sys.stderr)
+        print(f"  {reader.name}: its sample is {answer.value}, not {reader.sample_answer.value}: {messages}", file=sys.stderr)
         return {**dict.fromkeys(Answer, 0), Answer.FAILED: 1}
     numbers = range(args.first, args.first + args.cases)
     cases = {pool.submit(run_case, program, bench, reader, sample, args.seed, number, args.keep): number for number in numbers}
     counts = dict.fromkeys(Answer, 0)
     for case in concurrent.futures.as_completed(cases):
-        answer, said = case.result()
+        answer, messages = case.result()
         counts[answer] += 1
         if answer.is_failure:
-            print(f"  {reader.name} case {cases[case]}: {answer.value}: {said}", file=sys.stderr)
+            print(f"  {reader.name} case {cases[case]}: {answer.value}: {messages}", file=sys.stderr)
     return counts
 
 
@@ -99,15 +99,15 @@ def main():
     unknown = [name for name in args.names if name not in known]
     if unknown:
         parser.error(f"there is no reader {unknown[0]}; there are {', '.join(known)}")
-    chosen = [known[name] for name in args.names] or READERS
+    readers = [known[name] for name in args.names] or READERS
     program = subprocess.run([SOURCES / "scripts/checks/foveate.sh"], check=True, capture_output=True, text=True).stdout.strip()
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
     rows = []
     with tempfile.TemporaryDirectory(prefix="foveate-fuzz-samples-") as folder, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         bench = pathlib.Path(folder)
-        made = samples(program, bench, chosen)
-        for reader in chosen:
-            rows.append((reader.name, run_reader(pool, program, bench, reader, made[reader.name], args)))
+        sample_files = samples(program, bench, readers)
+        for reader in readers:
+            rows.append((reader.name, run_reader(pool, program, bench, reader, sample_files[reader.name], args)))
     total = {answer: sum(counts[answer] for _, counts in rows) for answer in Answer}
     report([*rows, ("all", total)])
     failed = sum(count for answer, count in total.items() if answer.is_failure)

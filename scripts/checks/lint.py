@@ -56,8 +56,8 @@ def matrix():
             ]
 
 
-def summaries():
-    """Yields designs that send means: blocks of one pixel, sides that are no power of two, a second pass."""
+def mean_designs():
+    """Yields designs that send block means: blocks of one pixel, sides that are no power of two, a second pass."""
     for name, size, blocks, features, more in [
         ("pixels", 4, 4, EDGE, "denoise.filter='median3x3'"),
         ("deep", 12, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant'}"),
@@ -76,7 +76,7 @@ def summaries():
         ]
 
 
-def raster_summaries():
+def raster_mean_designs():
     """Yields raster designs that send means: blocks as wide as a word, a store outside, few rows of regions that wait."""
     for name, size, word, blocks, rows, features, more in [
         ("pixels", 4, 1, 4, 3, EDGE, "denoise.filter='median3x3'"),
@@ -135,7 +135,7 @@ def raster_matrix():
             number = 4 * index + choice
             size, word = RASTER_SHAPES[(index * 2 + choice) % len(RASTER_SHAPES)]
             depth = DEPTHS[(index + choice * 3 + choice // 2) % len(DEPTHS)]
-            columns, lack = max(4, -(-16 * word // size)), number % 2
+            columns, margin = max(4, -(-16 * word // size)), number % 2
 
             def pick(bit, off, on, number=number):
                 return on if number * 5 >> bit & 1 else off
@@ -147,7 +147,7 @@ def raster_matrix():
                 f"hardware.thresholds='{pick(4, 'runtime', 'constant')}'",
                 f"hardware.sync={'true' if number % 3 == 1 else 'false'}",
                 f"spatial=[{features}]",
-                f"frame={{width={columns * size - lack},height={(1 + choice) * size - lack},pixel_bits={depth}}}",
+                f"frame={{width={columns * size - margin},height={(1 + choice) * size - margin},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
                 f"denoise.filter='{pick(2, 'median3x3', 'none')}'",
                 f"temporal={{level=0,min_count=1,reference='{pick(3, 'last-sent', 'previous')}'}}",
@@ -179,8 +179,8 @@ def axi_matrix():
 
 
 def run(command, cwd):
-    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
-    return done.returncode, done.stdout + done.stderr
+    result = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+    return result.returncode, result.stdout + result.stderr
 
 
 def lines_of(text, pattern):
@@ -228,9 +228,9 @@ TOPS = ["rcm", "rcm_axi"]
 TOOLS = {"verilator": verilator, "iverilog": iverilog, "yosys": yosys, "slang": slang}
 
 
-def waivers():
+def read_waivers():
     """Returns (tool, pattern, reason, may be unused) for each line `tool | pattern | reason`."""
-    found = []
+    waivers = []
     for number, line in enumerate(open(WAIVERS), 1):
         if not line.strip() or line.startswith("#"):
             continue
@@ -238,8 +238,8 @@ def waivers():
         tool = parts[0].rstrip("?")
         if len(parts) != 3 or tool not in TOOLS:
             sys.exit(f"lint: {WAIVERS}:{number}: wants `tool | pattern | reason`, tool one of {', '.join(TOOLS)}")
-        found.append((tool, re.compile(parts[1]), parts[2], parts[0].endswith("?")))
-    return found
+        waivers.append((tool, re.compile(parts[1]), parts[2], parts[0].endswith("?")))
+    return waivers
 
 
 def check(name, settings):
@@ -269,29 +269,29 @@ def check_top(folder, top):
 
 
 def main():
-    began = time.monotonic()
+    start = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    matrices = (matrix(), summaries(), serial_matrix(), raster_matrix(), raster_summaries(), axi_matrix())
-    designs = [design for some in matrices for design in list(some)[:: 7 if quick else 1]]
-    excuses = waivers()
-    used, bad = collections.Counter(), 0
+    matrices = (matrix(), mean_designs(), serial_matrix(), raster_matrix(), raster_mean_designs(), axi_matrix())
+    designs = [design for matrix_designs in matrices for design in list(matrix_designs)[:: 7 if quick else 1]]
+    waivers = read_waivers()
+    used, finding_count = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for (name, _), findings in zip(designs, pool.map(lambda design: check(*design), designs), strict=True):
             for tool, line in findings:
-                excuse = next((e for e in excuses if e[0] == tool and e[1].search(line)), None)
-                if excuse:
-                    used[excuse] += 1
+                waiver = next((e for e in waivers if e[0] == tool and e[1].search(line)), None)
+                if waiver:
+                    used[waiver] += 1
                 else:
-                    bad += 1
+                    finding_count += 1
                     print(f"{name}: {tool}: {line}", flush=True)
-    unused = [] if quick else [excuse for excuse in excuses if not used[excuse] and not excuse[3]]
+    unused = [] if quick else [waiver for waiver in waivers if not used[waiver] and not waiver[3]]
     for tool, pattern, *_ in unused:
         print(f"{WAIVERS}: nothing needs `{tool} | {pattern.pattern}`; remove it")
-    print(f"{len(designs)} designs in {len(TOOLS)} tools: {bad} findings, {sum(used.values())} waived by {len(used)} of"
-          f" {len(excuses)} waivers, {time.monotonic() - began:.0f} s")
-    sys.exit(1 if bad or unused else 0)
+    print(f"{len(designs)} designs in {len(TOOLS)} tools: {finding_count} findings, {sum(used.values())} waived by {len(used)} of"
+          f" {len(waivers)} waivers, {time.monotonic() - start:.0f} s")
+    sys.exit(1 if finding_count or unused else 0)
 
 
 main()

@@ -39,14 +39,14 @@ OUTCOMES = ["equal", "refused", "different"]
 KNOWN = {"test_resize_downsample_scales_linear_align_corners", "test_resize_downsample_scales_cubic_align_corners"}
 
 
-def supported():
+def supported_attributes():
     """Returns the attributes of every supported operator of ONNX, over all versions."""
     attributes = {}
     for line in SCHEMAS.read_text().splitlines():
-        name, _, _, _, *own = line.split(" ")
+        name, _, _, _, *attribute_words = line.split(" ")
         if "." not in name:
             names = attributes.setdefault(name, [])
-            names += [word.split(":")[0] for word in own if word.split(":")[0] not in names]
+            names += [word.split(":")[0] for word in attribute_words if word.split(":")[0] not in names]
     return attributes
 
 
@@ -59,42 +59,42 @@ def only_operator(model):
 def run(case, folder):
     """Returns the outcome of a test, and the reason."""
     (folder / "model.onnx").write_bytes(case.model.SerializeToString())
-    inputs, wanted = case.data_sets[0]
+    inputs, expected = case.data_sets[0]
     words = [FOVEATE, "infer", "model.onnx"]
-    for at, value in enumerate(inputs):
+    for index, value in enumerate(inputs):
         if not isinstance(value, np.ndarray | np.generic) or value.dtype.kind not in "fiub":
-            return "refused", f"input {at} is no array of numbers"
-        np.save(folder / f"{at}.npy", np.asarray(value), allow_pickle=False)
-        words.append(f"{at}.npy")
+            return "refused", f"input {index} is no array of numbers"
+        np.save(folder / f"{index}.npy", np.asarray(value), allow_pickle=False)
+        words.append(f"{index}.npy")
     if not inputs:
         return "refused", "it has no input"
-    done = subprocess.run([*words, "-o", "out", "--force", "--json"], cwd=folder, capture_output=True, text=True)
-    if done.returncode == REFUSED:
-        return "refused", done.stderr.strip()
-    if done.returncode != 0:
-        return "different", f"exit code {done.returncode}: {done.stderr.strip()}"
-    return compare(case, wanted, folder)
+    result = subprocess.run([*words, "-o", "out", "--force", "--json"], cwd=folder, capture_output=True, text=True)
+    if result.returncode == REFUSED:
+        return "refused", result.stderr.strip()
+    if result.returncode != 0:
+        return "different", f"exit code {result.returncode}: {result.stderr.strip()}"
+    return compare(case, expected, folder)
 
 
 def outputs(folder):
     """Returns the written outputs, in the order of the model."""
-    listed = json.loads((folder / "out/inference.json").read_text(encoding="utf-8"))["outputs"]
-    return [np.load(folder / "out" / own["file"]) for own in listed]
+    descriptions = json.loads((folder / "out/inference.json").read_text(encoding="utf-8"))["outputs"]
+    return [np.load(folder / "out" / output["file"]) for output in descriptions]
 
 
-def compare(case, wanted, folder):
+def compare(case, expected_outputs, folder):
     """Returns whether all outputs are those of the test."""
     narrow = (onnx.TensorProto.FLOAT16, onnx.TensorProto.BFLOAT16)
-    is_narrow = any(value.type.tensor_type.elem_type in narrow for value in case.model.graph.output)
+    is_narrow = any(expected.type.tensor_type.elem_type in narrow for expected in case.model.graph.output)
     relative, absolute = (max(case.rtol, 1e-3), max(case.atol, 1e-6)) if is_narrow else (case.rtol, case.atol)
-    found = outputs(folder)
-    if len(found) != len(wanted):
-        return "different", f"{len(found)} outputs instead of {len(wanted)}"
-    for own, value in zip(found, map(np.asarray, wanted), strict=True):
-        if own.shape != value.shape or own.dtype.kind != value.dtype.kind:
-            return "different", f"{own.dtype} {own.shape} instead of {value.dtype} {value.shape}"
-        if not np.allclose(own.astype(np.float64), value.astype(np.float64), relative, absolute, equal_nan=True):
-            return "different", f"values {own.ravel()[:8]} instead of {value.ravel()[:8]}"
+    found_outputs = outputs(folder)
+    if len(found_outputs) != len(expected_outputs):
+        return "different", f"{len(found_outputs)} outputs instead of {len(expected_outputs)}"
+    for output, expected in zip(found_outputs, map(np.asarray, expected_outputs), strict=True):
+        if output.shape != expected.shape or output.dtype.kind != expected.dtype.kind:
+            return "different", f"{output.dtype} {output.shape} instead of {expected.dtype} {expected.shape}"
+        if not np.allclose(output.astype(np.float64), expected.astype(np.float64), relative, absolute, equal_nan=True):
+            return "different", f"values {output.ravel()[:8]} instead of {expected.ravel()[:8]}"
     return "equal", ""
 
 
@@ -106,20 +106,20 @@ def run_light(path, folder):
     shape = [length.dim_value for length in picture.type.tensor_type.shape.dim]
     np.save(folder / "0.npy", (np.arange(np.prod(shape)).reshape(shape) / np.prod(shape)).astype(np.float32))
     subprocess.run([FOVEATE, "infer", path, "0.npy", "-o", "out", "--force", "--quiet"], cwd=folder, check=True)
-    wanted = onnx.load_tensor(str(path).replace(".onnx", "_output_0.pb"))
-    wanted = onnx.numpy_helper.to_array(wanted)
-    (own,) = outputs(folder)
-    return float(np.abs(own - wanted).max() / np.abs(wanted).max())
+    expected = onnx.load_tensor(str(path).replace(".onnx", "_output_0.pb"))
+    expected = onnx.numpy_helper.to_array(expected)
+    (output,) = outputs(folder)
+    return float(np.abs(output - expected).max() / np.abs(expected).max())
 
 
 def light_networks(folder):
     """Compares all light networks. Returns those that differ by more than 1e-3."""
     failed = []
     for path in sorted((pathlib.Path(onnx.__file__).parent / "backend/test/data/light").glob("*.onnx")):
-        apart = run_light(path, folder)
-        print(f"{path.stem}: largest difference {apart:.1e} of the largest value")
-        if not apart < 1e-3:
-            failed.append(f"{path.stem} differs by {apart:.1e}")
+        difference = run_light(path, folder)
+        print(f"{path.stem}: largest difference {difference:.1e} of the largest value")
+        if not difference < 1e-3:
+            failed.append(f"{path.stem} differs by {difference:.1e}")
     return failed
 
 
@@ -130,7 +130,7 @@ def main():
     parser.add_argument("--verbose", action="store_true", help="print why a test was refused")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
-    attributes, counts, failed, known = supported(), collections.defaultdict(collections.Counter), [], set()
+    attributes, counts, failed, known = supported_attributes(), collections.defaultdict(collections.Counter), [], set()
     with tempfile.TemporaryDirectory() as folder:
         for case in collect_testcases(None):
             operator = only_operator(case.model)

@@ -27,17 +27,17 @@ CONTRIB = "com.microsoft."
 OLDEST = 7
 
 
-def supported():
+def supported_operators():
     """Returns the names of the supported operators, with their domain if it is not that of ONNX."""
     return re.findall(r'^    \("([A-Za-z0-9.]+)", ', OPERATORS.read_text(), flags=re.M)
 
 
-def count(least, most):
+def count_text(least, most):
     """Returns the number of inputs or outputs in the form of the file."""
     return f"{least}.." if most > 1 << 30 else f"{least}..{most}"
 
 
-def default(kind, value):
+def default_text(kind, value):
     """Returns a default of one number or word in the form of the file; an empty text for others."""
     match kind:
         case "FLOAT":
@@ -49,24 +49,24 @@ def default(kind, value):
     return ""
 
 
-def attribute(name, kind, is_required, value):
+def attribute_text(name, kind, is_required, value):
     """Returns an attribute in the form of the file; `value` is the message of its default."""
-    end = "!" if is_required else default(kind, value) if value.type != AttributeProto.UNDEFINED else ""
+    end = "!" if is_required else default_text(kind, value) if value.type != AttributeProto.UNDEFINED else ""
     return f"{name}:{kind}{end}"
 
 
-def line(name, schema, attributes):
+def versioned_line(name, schema, attributes):
     """Returns a line without its version, and the version."""
-    words = [count(schema.min_input, schema.max_input), count(schema.min_output, schema.max_output), *attributes]
+    words = [count_text(schema.min_input, schema.max_input), count_text(schema.min_output, schema.max_output), *attributes]
     return schema.since_version, f"{name} {{}} {' '.join(words)}"
 
 
-def changes(lines):
+def changed_lines(lines):
     """Returns the lines that differ from the one before by more than the version."""
-    return [text.format(since) for at, (since, text) in enumerate(lines) if at == 0 or lines[at - 1][1] != text]
+    return [text.format(since) for index, (since, text) in enumerate(lines) if index == 0 or lines[index - 1][1] != text]
 
 
-def standard(names):
+def onnx_lines(names):
     """Returns the lines of the operators of ONNX: for each the version in force at the oldest one, and all later ones."""
     lines = []
     history = [schema for schema in defs.get_all_schemas_with_history() if schema.domain == "" and not schema.deprecated]
@@ -75,51 +75,53 @@ def standard(names):
         if not versions:
             sys.exit(f"onnx knows no operator {name}")
         first = max((schema.since_version for schema in versions if schema.since_version <= OLDEST), default=OLDEST)
-        lines += changes([standard_line(name, schema) for schema in versions if schema.since_version >= first])
+        lines += changed_lines([standard_line(name, schema) for schema in versions if schema.since_version >= first])
     return lines
 
 
-def contributed(names, before):
+def runtime_lines(names, old_lines):
     """Returns the lines of the operators of onnxruntime."""
     try:
         from onnxruntime.capi.onnxruntime_pybind11_state import get_all_operator_schema
     except ImportError:
         print("onnxruntime is not installed: the operators of com.microsoft are not compared", file=sys.stderr)
-        return [line for line in before if line.startswith(CONTRIB)]
+        return [line for line in old_lines if line.startswith(CONTRIB)]
     schemas = {CONTRIB + schema.name: schema for schema in get_all_operator_schema() if schema.domain == CONTRIB[:-1]}
-    return [text for name in names for text in changes([runtime_line(name, schemas[name])])]
+    return [text for name in names for text in changed_lines([runtime_line(name, schemas[name])])]
 
 
 def standard_line(name, schema):
     """Returns the line of a schema of onnx."""
-    of = sorted(schema.attributes.items())
-    return line(name, schema, [attribute(key, own.type.name, own.required, own.default_value) for key, own in of])
+    attributes = [
+        attribute_text(key, attribute.type.name, attribute.required, attribute.default_value) for key, attribute in sorted(schema.attributes.items())
+    ]
+    return versioned_line(name, schema, attributes)
 
 
 def runtime_line(name, schema):
     """Returns the line of a schema of onnxruntime, whose defaults are bytes of a message."""
     attributes = []
-    for key, own in sorted(schema.attributes.items()):
+    for key, attribute in sorted(schema.attributes.items()):
         value = AttributeProto()
-        value.ParseFromString(own._default_value)
-        attributes.append(attribute(key, str(own.type).rsplit(".", maxsplit=1)[-1], own.required, value))
-    return line(name, schema, attributes)
+        value.ParseFromString(attribute._default_value)
+        attributes.append(attribute_text(key, str(attribute.type).rsplit(".", maxsplit=1)[-1], attribute.required, value))
+    return versioned_line(name, schema, attributes)
 
 
 def main():
     parser = argparse.ArgumentParser(prog="onnx_schemas.py", description="Compares the lists of attributes with the schemas of ONNX.")
     parser.add_argument("--write", action="store_true", help="write the file instead")
     options = parser.parse_args()
-    names = supported()
-    before = FILE.read_text().splitlines() if FILE.exists() else []
-    own = [name for name in names if not name.startswith(CONTRIB)]
-    now = standard(own) + contributed([name for name in names if name.startswith(CONTRIB)], before)
+    names = supported_operators()
+    old_lines = FILE.read_text().splitlines() if FILE.exists() else []
+    onnx_names = [name for name in names if not name.startswith(CONTRIB)]
+    new_lines = onnx_lines(onnx_names) + runtime_lines([name for name in names if name.startswith(CONTRIB)], old_lines)
     if options.write:
-        FILE.write_text("\n".join(now) + "\n")
-    elif now != before:
-        print(*difflib.unified_diff(before, now, "schemas.txt", "onnx", lineterm="", n=0), sep="\n")
+        FILE.write_text("\n".join(new_lines) + "\n")
+    elif new_lines != old_lines:
+        print(*difflib.unified_diff(old_lines, new_lines, "schemas.txt", "onnx", lineterm="", n=0), sep="\n")
         sys.exit("schemas.txt differs from the packages; scripts/checks/onnx_schemas.py --write writes it")
-    print(f"{len(names)} operators, {len(now)} lines, as version {defs.onnx_opset_version()} of the ONNX operators has them")
+    print(f"{len(names)} operators, {len(new_lines)} lines, as version {defs.onnx_opset_version()} of the ONNX operators has them")
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ CONTROLS = [
 ]
 
 
-def compiled(path):
+def rdl_fields(path):
     """Returns the fields that the compiler reads: register, field, address, bits, access, value after reset."""
     compiler = RDLCompiler()
     compiler.compile_file(str(path))
@@ -55,7 +55,7 @@ def compiled(path):
     return fields
 
 
-def page(path):
+def page_fields(path):
     """Returns the fields of REGISTERS.md in the same form."""
     fields, register, address = set(), None, None
     for line in path.read_text().splitlines():
@@ -69,35 +69,36 @@ def page(path):
     return fields
 
 
-def header(path):
+def header_macros(path):
     """Returns the macros of the C header, as numbers."""
-    macros = re.findall(r"^#define FOVEATE_(\w+) (?:0x([0-9A-F]+)u|(\d+))", path.read_text(), re.MULTILINE)
-    return {name: int(hexadecimal, 16) if hexadecimal else int(decimal) for name, hexadecimal, decimal in macros}
+    matches = re.findall(r"^#define FOVEATE_(\w+) (?:0x([0-9A-F]+)u|(\d+))", path.read_text(), re.MULTILINE)
+    return {name: int(hexadecimal, 16) if hexadecimal else int(decimal) for name, hexadecimal, decimal in matches}
 
 
-def macros(fields):
+def expected_macros(fields):
     """Returns the macros that the C header must have, without values other than constants."""
-    wanted = {}
+    expected = {}
     for register, field, address, high, low, _, _ in fields:
         name = register.upper() if field == "value" else f"{register}_{field}".upper()
-        wanted[register.upper()] = address
-        wanted[f"{name}_SHIFT"] = low
-        wanted[f"{name}_MASK"] = (1 << high + 1) - (1 << low)
-    return wanted
+        expected[register.upper()] = address
+        expected[f"{name}_SHIFT"] = low
+        expected[f"{name}_MASK"] = (1 << high + 1) - (1 << low)
+    return expected
 
 
 def differences(core):
     try:
-        fields = compiled(core / "software/foveate.rdl")
+        fields = rdl_fields(core / "software/foveate.rdl")
     except Exception as error:  # the compiler's own errors have no common class but this
         return [f"foveate.rdl is refused: {error}"]
-    found = [f"REGISTERS.md and foveate.rdl: {one}" for one in sorted(page(core / "REGISTERS.md") ^ fields, key=str)]
-    has, wanted = header(core / "software/foveate_registers.h"), macros(fields)
-    values = {name for name in has if name.endswith("_VALUE")}
-    found += [f"foveate_registers.h: {name} is {has.get(name)}, expected {value}" for name, value in wanted.items() if has.get(name) != value]
-    found += [f"foveate_registers.h: {name} is in no register" for name in has.keys() - wanted.keys() - values]
+    messages = [f"REGISTERS.md and foveate.rdl: {field}" for field in sorted(page_fields(core / "REGISTERS.md") ^ fields, key=str)]
+    macros, expected = header_macros(core / "software/foveate_registers.h"), expected_macros(fields)
+    values = {name for name in macros if name.endswith("_VALUE")}
+    wrong_macros = [(name, value) for name, value in expected.items() if macros.get(name) != value]
+    messages += [f"foveate_registers.h: {name} is {macros.get(name)}, expected {value}" for name, value in wrong_macros]
+    messages += [f"foveate_registers.h: {name} is in no register" for name in macros.keys() - expected.keys() - values]
     resets = {(f"{r}_{f}" if f != "value" else r).upper() + "_VALUE": value for r, f, *_, value in fields}
-    return found + [f"foveate_registers.h: {name} is {has[name]}" for name in values if resets.get(name) != has[name]]
+    return messages + [f"foveate_registers.h: {name} is {macros[name]}" for name in values if resets.get(name) != macros[name]]
 
 
 def main():
@@ -107,17 +108,17 @@ def main():
             core = Path(temporary) / str(number)
             options = [part for key in ["hardware.interface='axi'", *keys] for part in ("--set", key)]
             subprocess.run([FOVEATE, "generate", "--preset", "raster", *options, "-o", core, "-q"], check=True)
-            found = differences(core)
-            failures += len(found)
-            print(f"{name}: {len(page(core / 'REGISTERS.md'))} fields, {found or 'the compiler agrees'}", flush=True)
+            messages = differences(core)
+            failures += len(messages)
+            print(f"{name}: {len(page_fields(core / 'REGISTERS.md'))} fields, {messages or 'the compiler agrees'}", flush=True)
         core = Path(temporary) / "0"
-        for file, before, after in CONTROLS:
+        for file, original, replacement in CONTROLS:
             text = (core / file).read_text()
-            assert text.count(before) == 1, f"{file}: `{before}` is there {text.count(before)} times"
-            (core / file).write_text(text.replace(before, after))
-            found = differences(core)
-            failures += not found
-            print(f"control: {file}: {'found' if found else 'NOT FOUND'}: {after}", flush=True)
+            assert text.count(original) == 1, f"{file}: `{original}` is there {text.count(original)} times"
+            (core / file).write_text(text.replace(original, replacement))
+            messages = differences(core)
+            failures += not messages
+            print(f"control: {file}: {'found' if messages else 'NOT FOUND'}: {replacement}", flush=True)
             (core / file).write_text(text)
     print(f"registers: {len(DESIGNS)} designs, {failures} failures")
     sys.exit(1 if failures else 0)

@@ -12,7 +12,7 @@ import tempfile
 import time
 
 from documents import left_out
-from documents.given import given
+from documents.given import make_reader_files
 from documents.pages import PageError
 from documents.readers import ReaderError, read_names
 from documents.run import PageRun, check_table, read_pages
@@ -36,16 +36,16 @@ def is_compared(has_yosys):
 
 def run_page(page, steps, options, has_yosys):
     """Runs a page in a copy of the folder with the reader's files. Returns the counts and the seconds."""
-    began = time.monotonic()
+    start = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         tools, place = pathlib.Path(folder, "tools"), pathlib.Path(folder, "reader")
         tools.mkdir()
         (tools / "foveate").symlink_to(FOVEATE)
         (tools / "nextpnr-ecp5").symlink_to(os.environ["FOVEATE_NEXTPNR_ECP5"])
-        shutil.copytree(options.given, place)
+        shutil.copytree(options.reader_files, place)
         run = PageRun(page, left_out.TABLE, is_compared(has_yosys), options.whole)
         count = run.run(steps, place, environment(tools))
-    return f"{page}: {count}  [{time.monotonic() - began:.0f} s]"
+    return f"{page}: {count}  [{time.monotonic() - start:.0f} s]"
 
 
 def run_pages(steps_of, options):
@@ -94,11 +94,11 @@ def main():
         sys.exit(str(error))
     if unknown := set(options.pages) - set(steps_of):
         sys.exit(f"snippets: there is no page {', '.join(unknown)}")
-    chosen = {page: steps for page, steps in steps_of.items() if not options.pages or page in options.pages}
+    chosen_pages = {page: steps for page, steps in steps_of.items() if not options.pages or page in options.pages}
     with tempfile.TemporaryDirectory() as folder:
-        options.given = pathlib.Path(folder)
-        given(options.given, FOVEATE)
-        errors = run_pages(chosen, options)
+        options.reader_files = pathlib.Path(folder)
+        make_reader_files(options.reader_files, FOVEATE)
+        errors = run_pages(chosen_pages, options)
     if errors:
         sys.exit("\n\n".join(sorted(errors)))
     if not options.pages:

@@ -7,7 +7,7 @@
 Where code does something for one variant, the compiler has to name the place when another variant comes. So there is a
 `match` with every variant, or a method of the type. A comparison (`==`, `matches!`), a catch-all arm (`_ =>`), and a view
 of a design (`design.as_serial()`) whose None stands for all other organizations compile with a new variant and take it for
-any other. So does a question for what only one feature has (`feature.mean().is_some()`, `find_map(SpatialFeature::mean)`),
+any other. The same is true of a question about a property of only one feature (`feature.mean().is_some()`, `find_map(SpatialFeature::mean)`),
 a comparison of names, and a level that stands for a count of hits. This script prints each of them outside of tests, and
 fails if there is one.
 
@@ -20,15 +20,15 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TYPES = ("Organization", "Hardware", "FeatureKind", "ReferencePolicy", "IrrelevantRendering")
-# The values of these methods have variants, too: a new variant of a type may need a new one of these.
-ANSWERS = ("ArrayStructure", "ScoreUnit", "FeatureAccumulation", "ReferenceWriteTime")
-NAMES = rf"\b(?:{'|'.join(TYPES + ANSWERS)})::[A-Z]\w*"
+# These types are the results of methods of TYPES: a new variant of a type may need a new variant of these.
+PROPERTY_TYPES = ("ArrayStructure", "ScoreUnit", "FeatureAccumulation", "ReferenceWriteTime")
+NAMES = rf"\b(?:{'|'.join(TYPES + PROPERTY_TYPES)})::[A-Z]\w*"
 TESTS = re.compile(r"(^|/)(tests|benches|examples)/|(^|/)tests\.rs$")
 COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=]=[^>]|matches!\([^;]*?{NAMES}")
 # A design that must have that organization uses `.expect(..)`.
-VIEW = re.compile(r"\.as_(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
+DESIGN_VIEW = re.compile(r"\.as_(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
 # Questions about a property of one feature, in place of a match on the feature.
-PART = re.compile(
+FEATURE_QUESTION = re.compile(
     r"\.(?:mean|variance)\(\)\s*\.\s*is_(?:some|none)\b"
     r"|\bfind_map\(\s*(?:\|\w+\|\s*\w+\.|SpatialFeature::)(?:mean|variance)\b"
     r"|\b(?:kind|organization|reference|irrelevant)(?:\(\))?\s*\.\s*name\(\)\s*[!=]="
@@ -44,70 +44,70 @@ def without_comments(text):
     """Returns the text without comments, strings and tests, with the same number of lines."""
     text = text.split("#[cfg(test)]")[0]
     text = re.sub(r"//.*", "", text)
-    return re.sub(r'"(?:\\.|[^"\\])*"', lambda found: '""' + "\n" * found[0].count("\n"), text)
+    return re.sub(r'"(?:\\.|[^"\\])*"', lambda literal: '""' + "\n" * literal[0].count("\n"), text)
 
 
 def code(text):
-    """Returns that text without constants of the types."""
+    """Returns the text without comments, strings, tests, and constants of the types."""
     return CONSTANT.sub("", without_comments(text))
 
 
 def arms(text, start):
     """Returns the patterns of the arms of the `match` whose `{` is at `start`, each with its place."""
-    depth, pattern, place, found = 0, "", start + 1, []
-    at = start
-    while at < len(text):
-        character = text[at]
-        if depth == 1 and text.startswith("=>", at):
+    depth, pattern, place, patterns = 0, "", start + 1, []
+    position = start
+    while position < len(text):
+        character = text[position]
+        if depth == 1 and text.startswith("=>", position):
             blank = len(pattern) - len(pattern.lstrip())
-            found.append((pattern.strip(), place + blank))
-            at, pattern = past_arm(text, at + 2), ""
-            place = at
+            patterns.append((pattern.strip(), place + blank))
+            position, pattern = past_arm(text, position + 2), ""
+            place = position
             continue
         if character in "{([":
             depth += 1
         elif character in "})]":
             depth -= 1
             if depth == 0:
-                return found
-        if at != start:
+                return patterns
+        if position != start:
             pattern += character
-        at += 1
-    return found
+        position += 1
+    return patterns
 
 
-def past_arm(text, at):
-    """Returns the end of the body of an arm that begins at `at`."""
+def past_arm(text, position):
+    """Returns the end of the body of an arm that begins at `position`."""
     depth = 0
-    while at < len(text):
-        character = text[at]
+    while position < len(text):
+        character = text[position]
         if character in "{([":
             depth += 1
         elif character in "})]":
             depth -= 1
             if depth < 0:
-                return at
-            if depth == 0 and character == "}" and not re.match(r"\s*(?:[,.?]|else\b)", text[at + 1 :]):
-                return at + 1
+                return position
+            if depth == 0 and character == "}" and not re.match(r"\s*(?:[,.?]|else\b)", text[position + 1 :]):
+                return position + 1
         elif character == "," and depth == 0:
-            return at + 1
-        at += 1
-    return at
+            return position + 1
+        position += 1
+    return position
 
 
 def catch_alls(text):
     """Yields the places of `_ =>` in a match on one of the types."""
-    for found in re.finditer(r"\bmatch\b[^{};]*\{", text):
-        patterns = arms(text, found.end() - 1)
+    for match in re.finditer(r"\bmatch\b[^{};]*\{", text):
+        patterns = arms(text, match.end() - 1)
         if any(re.search(NAMES, pattern) for pattern, _ in patterns):
             yield from (place for pattern, place in patterns if re.fullmatch(r"[a-z_]\w*", pattern))
 
 
-def open_tests(text):
+def variant_tests(text):
     """Returns the lines that would take a new variant for another one."""
     text = code(text)
-    found = [*COMPARISON.finditer(text), *VIEW.finditer(text), *PART.finditer(text)]
-    places = [match.start() for match in found] + list(catch_alls(text))
+    matches = [*COMPARISON.finditer(text), *DESIGN_VIEW.finditer(text), *FEATURE_QUESTION.finditer(text)]
+    places = [match.start() for match in matches] + list(catch_alls(text))
     return sorted(text.count("\n", 0, place) + 1 for place in places)
 
 
@@ -119,7 +119,7 @@ def main():
         if TESTS.search(path) or path in OWN_PURPOSE:
             continue
         text = file.read_text(encoding="utf-8")
-        for line in open_tests(text):
+        for line in variant_tests(text):
             print(f"{path}:{line}: takes a new variant for one that is known; match every variant, or ask the type")
             count += 1
     if count:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Checks that all files name the version of Cargo.toml, and that published crates lack nothing.
+"""Checks that all files name the version of Cargo.toml, and that published crates have all the files that they need.
 
     scripts/checks/versions.py                  on every commit
     scripts/checks/versions.py --print          prints the version
@@ -18,44 +18,44 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LICENSES = ("LICENSE-APACHE", "LICENSE-MIT")
 
 
-def cited(text, key):
+def citation_value(text, key):
     """Returns the value of a key at the left margin of CITATION.cff, or None."""
-    found = re.search(rf'^{key}: *"?([^"\n]*?)"? *$', text, re.MULTILINE)
-    return found and found[1]
+    match = re.search(rf'^{key}: *"?([^"\n]*?)"? *$', text, re.MULTILINE)
+    return match and match[1]
 
 
-def section(changelog):
+def newest_section(changelog):
     """Returns the newest section of the changelog: its title, its date or None, and its text."""
-    found = re.search(r"^## \[([^\]]+)\](?: - (\S+))?\n(.*?)(?=^## \[|\Z)", changelog, re.MULTILINE | re.DOTALL)
-    return found.groups() if found else (None, None, "")
+    match = re.search(r"^## \[([^\]]+)\](?: - (\S+))?\n(.*?)(?=^## \[|\Z)", changelog, re.MULTILINE | re.DOTALL)
+    return match.groups() if match else (None, None, "")
 
 
 def disagreements(manifest, pyproject, citation, changelog):
     """Yields each place that names another version than the manifest of the workspace."""
     version = manifest["workspace"]["package"]["version"]
-    for name, wanted in manifest["workspace"]["dependencies"].items():
-        if isinstance(wanted, dict) and "path" in wanted and wanted.get("version") != f"={version}":
-            yield f'Cargo.toml: {name} is of version {wanted.get("version")}; it has to be "={version}"'
+    for name, dependency in manifest["workspace"]["dependencies"].items():
+        if isinstance(dependency, dict) and "path" in dependency and dependency.get("version") != f"={version}":
+            yield f'Cargo.toml: {name} is of version {dependency.get("version")}; it has to be "={version}"'
     if "version" not in pyproject["project"].get("dynamic", []):
         yield "pyproject.toml: the version has to be dynamic, so that maturin takes that of Cargo.toml"
-    if cited(citation, "version") != version:
-        yield f"CITATION.cff: version is {cited(citation, 'version')}; it has to be {version}"
-    title, _, _ = section(changelog)
+    if citation_value(citation, "version") != version:
+        yield f"CITATION.cff: version is {citation_value(citation, 'version')}; it has to be {version}"
+    title, _, _ = newest_section(changelog)
     if title not in ("Unreleased", version):
         yield f"CHANGELOG.md: the newest section is [{title}]; it has to be [Unreleased] or [{version}]"
 
 
-def missing(manifest, citation, changelog, tag=None):
+def release_problems(manifest, citation, changelog, tag=None):
     """Yields the problems that keep this commit from being a release."""
     package = manifest["workspace"]["package"]
     version = package["version"]
-    title, date, text = section(changelog)
+    title, date, text = newest_section(changelog)
     if title != version:
         yield f"CHANGELOG.md: the newest section is [{title}]; name it [{version}] - {datetime.date.today()}"
     elif not re.fullmatch(r"\d{4}-\d\d-\d\d", date or ""):
         yield f"CHANGELOG.md: section [{version}] is of {date}; a day like {datetime.date.today()} has to stand there"
-    elif cited(citation, "date-released") != date:
-        yield f"CITATION.cff: date-released is {cited(citation, 'date-released')}; the changelog says {date}"
+    elif citation_value(citation, "date-released") != date:
+        yield f"CITATION.cff: date-released is {citation_value(citation, 'date-released')}; the changelog says {date}"
     if not re.search(r"^- ", text, re.MULTILINE):
         yield f"CHANGELOG.md: section [{title}] says nothing"
     if not package.get("repository"):
@@ -64,7 +64,7 @@ def missing(manifest, citation, changelog, tag=None):
         yield f"the tag is {tag}; it has to be v{version}"
 
 
-def unfit(folder):
+def missing_files(folder):
     """Yields the files that a published crate must have in its folder, and lacks."""
     package = tomllib.loads((folder / "Cargo.toml").read_text())["package"]
     if package.get("publish") is False:
@@ -82,10 +82,10 @@ def unfit(folder):
 def main(arguments):
     manifest, pyproject = (tomllib.loads((ROOT / name).read_text()) for name in ("Cargo.toml", "pyproject.toml"))
     citation, changelog = ((ROOT / name).read_text() for name in ("CITATION.cff", "CHANGELOG.md"))
-    wrong = list(disagreements(manifest, pyproject, citation, changelog))
+    problems = list(disagreements(manifest, pyproject, citation, changelog))
     for folder in sorted((ROOT / "crates").iterdir()):
         if (folder / "Cargo.toml").is_file():
-            wrong += unfit(folder)
+            problems += missing_files(folder)
     match arguments:
         case []:
             pass
@@ -93,11 +93,11 @@ def main(arguments):
             print(manifest["workspace"]["package"]["version"])
             return
         case ["--release", *tag] if len(tag) < 2:
-            wrong += missing(manifest, citation, changelog, *tag)
+            problems += release_problems(manifest, citation, changelog, *tag)
         case _:
             sys.exit(f"versions: unknown arguments {' '.join(arguments)}; see the head of scripts/checks/versions.py")
-    if wrong:
-        sys.exit("\n".join(wrong))
+    if problems:
+        sys.exit("\n".join(problems))
 
 
 if __name__ == "__main__":

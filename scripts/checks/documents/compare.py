@@ -15,24 +15,24 @@ CHANGING = [
 LEFT_OUT = "..."
 
 
-def settled(line):
-    """Returns a line without the parts that differ between runs."""
+def normalized(line):
+    """Returns a line with a fixed text in place of each part that differs between runs."""
     line = line.rstrip()
     for pattern, place in CHANGING:
         line = pattern.sub(place, line)
     return line
 
 
-def agreed(part, printed):
-    """Returns the number of lines of a part that are printed."""
-    both = zip(part, printed, strict=False)
-    return next((number for number, (one, other) in enumerate(both) if one != other), min(len(part), len(printed)))
+def equal_line_count(part, printed):
+    """Returns how many lines at the beginning of a part equal the printed ones."""
+    pairs = zip(part, printed, strict=False)
+    return next((number for number, (line, other) in enumerate(pairs) if line != other), min(len(part), len(printed)))
 
 
 def difference(expected, printed):
     """Returns the number, from 0, of the first line that differs from the page, and the difference; None without a difference."""
-    expected, printed = [settled(line) for line in expected], [settled(line) for line in printed]
-    at, start, parts = 0, 0, []
+    expected, printed = [normalized(line) for line in expected], [normalized(line) for line in printed]
+    next_line, start, parts = 0, 0, []
     for number in [*(n for n, line in enumerate(expected) if line == LEFT_OUT), len(expected)]:
         parts.append((start, expected[start:number]))
         start = number + 1
@@ -41,18 +41,18 @@ def difference(expected, printed):
         if index == 0:
             places = [0]
         elif is_last:
-            places = [max(at, len(printed) - len(part))]
+            places = [max(next_line, len(printed) - len(part))]
         else:
-            places = list(range(at, len(printed) + 1))
-        best = max(places, key=lambda place: agreed(part, printed[place:]))
-        same = agreed(part, printed[best:])
+            places = list(range(next_line, len(printed) + 1))
+        best_place = max(places, key=lambda best_place: equal_line_count(part, printed[best_place:]))
+        same = equal_line_count(part, printed[best_place:])
         if same < len(part):
             is_known = same > 0 or len(places) == 1
-            found = printed[best + same] if is_known and best + same < len(printed) else None
+            found = printed[best_place + same] if is_known and best_place + same < len(printed) else None
             return start + same, f"prints `{found}`" if found is not None else "does not print this line"
-        at = best + len(part)
-    if at < len(printed):
-        return max(len(expected) - 1, 0), f"prints more behind this line: `{printed[at]}`"
+        next_line = best_place + len(part)
+    if next_line < len(printed):
+        return max(len(expected) - 1, 0), f"prints more behind this line: `{printed[next_line]}`"
     return None
 
 

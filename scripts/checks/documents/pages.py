@@ -37,16 +37,16 @@ def is_whole(command):
 
 def commands(lines):
     """Yields the commands of a block of (number, line), each with all its lines. An incomplete last command fails when it is run."""
-    taken, start = "", 0
+    command, start = "", 0
     for number, line in lines:
-        start = start if taken else number
-        taken += line + "\n"
-        if not taken.strip() or is_whole(taken):
-            if any(part.strip() and not part.strip().startswith("#") for part in taken.splitlines()):
-                yield Step(start, "command", taken.strip())
-            taken = ""
-    if taken:
-        yield Step(start, "command", taken.strip())
+        start = start if command else number
+        command += line + "\n"
+        if not command.strip() or is_whole(command):
+            if any(part.strip() and not part.strip().startswith("#") for part in command.splitlines()):
+                yield Step(start, "command", command.strip())
+            command = ""
+    if command:
+        yield Step(start, "command", command.strip())
 
 
 def session(start, lines):

@@ -9,7 +9,7 @@ import numpy
 import pandas
 import pyarrow.csv
 
-from documents.given import given
+from documents.given import make_reader_files
 
 READERS = {
     "csv": lambda path: [row["name"] for row in csv.DictReader(open(path, newline="", encoding="utf-8"))],
@@ -30,14 +30,14 @@ def read_names(foveate):
     """Checks that every reader reads the same names of frames from a set with difficult names."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        given(folder, foveate)
+        make_reader_files(folder, foveate)
         command = [foveate, "dataset", "-o", "out", "--resize", "64x64", "--quiet"]
         for inputs, count in [(["photos"], 4), (["train-images-idx3-ubyte.gz"], 12)]:
-            done = subprocess.run([*command, "--force", *inputs], cwd=folder, capture_output=True, text=True)
-            if done.returncode != 0:
-                raise ReaderError(f"dataset {inputs} fails:\n{done.stderr}")
+            result = subprocess.run([*command, "--force", *inputs], cwd=folder, capture_output=True, text=True)
+            if result.returncode != 0:
+                raise ReaderError(f"dataset {inputs} fails:\n{result.stderr}")
             names = {reader: read(folder / "out/frames.csv") for reader, read in READERS.items()}
-            for reader, seen in names.items():
-                if seen != names["csv"] or len(set(seen)) != count:
-                    raise ReaderError(f"{reader} reads {seen}\nwhere csv reads {names['csv']}")
+            for reader, read_by_reader in names.items():
+                if read_by_reader != names["csv"] or len(set(read_by_reader)) != count:
+                    raise ReaderError(f"{reader} reads {read_by_reader}\nwhere csv reads {names['csv']}")
             print(f"frames.csv of {inputs[0]}: {count} names, the same in {len(names)} readers, the last {names['csv'][-1]}")

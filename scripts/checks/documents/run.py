@@ -77,23 +77,23 @@ class PageRun:
             code, printed = shell.run(text, seconds)
         except ShellError as error:
             raise PageError(self.page, step.line, f"{error}:\n{step.text}") from None
-        self.judge(step, code, printed)
+        self.check_result(step, code, printed)
         if step.kind == "python":
             self.count.blocks += 1
         else:
             self.count.commands += 1
 
-    def judge(self, step, code, printed):
+    def check_result(self, step, code, printed):
         start, expected = step.expected or (step.line, [])
         fails = compare.is_refusal(expected)
         if (code != 0) != fails:
-            wanted = "is shown to fail, but ends with exit code 0" if fails else f"fails with exit code {code}"
-            raise PageError(self.page, step.line, f"this {wanted}:\n{step.text}\n" + "\n".join(printed))
+            outcome = "is shown to fail, but ends with exit code 0" if fails else f"fails with exit code {code}"
+            raise PageError(self.page, step.line, f"this {outcome}:\n{step.text}\n" + "\n".join(printed))
         if step.expected is None or not self.is_compared(step.text):
             return
-        wrong = compare.difference(expected, printed)
-        if wrong is not None:
-            line, message = wrong
+        difference = compare.difference(expected, printed)
+        if difference is not None:
+            line, message = difference
             place, shown = (start + line, f"`{expected[line]}`") if expected else (step.line, "nothing")
             everything = "\n".join(printed)
             raise PageError(self.page, place, f"{shown} is shown, but the command {message}\n{step.text}\nprints\n{everything}")

@@ -20,13 +20,14 @@ class Shell:
     """A bash in a folder."""
 
     def __init__(self, folder, environment):
-        self.beside = tempfile.TemporaryDirectory()
-        self.ended, ended = os.pipe()
-        self.said = f" >&{ended}\n"
+        # The text of each command and its output are files in this folder. The exit code comes through a pipe, whose end tells that the shell ended.
+        self.files_folder = tempfile.TemporaryDirectory()
+        self.exit_code_pipe, pipe_input = os.pipe()
+        self.report_exit_code = f" >&{pipe_input}\n"
         self.process = subprocess.Popen(
-            ["bash", "--noprofile", "--norc"], stdin=subprocess.PIPE, cwd=folder, env=environment, pass_fds=[ended], start_new_session=True
+            ["bash", "--noprofile", "--norc"], stdin=subprocess.PIPE, cwd=folder, env=environment, pass_fds=[pipe_input], start_new_session=True
         )
-        os.close(ended)
+        os.close(pipe_input)
         RUNNING.add(self)
 
     def __enter__(self):
@@ -37,8 +38,8 @@ class Shell:
         self.kill()
         self.process.stdin.close()
         self.process.wait()
-        os.close(self.ended)
-        self.beside.cleanup()
+        os.close(self.exit_code_pipe)
+        self.files_folder.cleanup()
 
     def kill(self):
         """Ends the shell and all processes that it has started."""
@@ -49,14 +50,14 @@ class Shell:
 
     def run(self, text, seconds):
         """Runs a command. Returns its exit code, and the lines of its standard output and standard error."""
-        step, printed = pathlib.Path(self.beside.name, "step"), pathlib.Path(self.beside.name, "printed")
+        step, printed = pathlib.Path(self.files_folder.name, "step"), pathlib.Path(self.files_folder.name, "printed")
         step.write_text(text + "\n", encoding="utf-8")
-        ask = f". {shlex.quote(str(step))} </dev/null >{shlex.quote(str(printed))} 2>&1; echo $?{self.said}"
-        self.process.stdin.write(ask.encode())
+        command = f". {shlex.quote(str(step))} </dev/null >{shlex.quote(str(printed))} 2>&1; echo $?{self.report_exit_code}"
+        self.process.stdin.write(command.encode())
         self.process.stdin.flush()
-        if not select.select([self.ended], [], [], seconds)[0]:
+        if not select.select([self.exit_code_pipe], [], [], seconds)[0]:
             raise ShellError(f"this has not ended after {seconds} s")
-        code = os.read(self.ended, 16)
+        code = os.read(self.exit_code_pipe, 16)
         if not code.strip():
             raise ShellError("this ends the shell")
         return int(code), printed.read_text(encoding="utf-8", errors="replace").splitlines()

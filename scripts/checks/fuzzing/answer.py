@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs the program on a file, and judges how it ends."""
+"""Runs the program on a file, and classifies its exit code and messages."""
 import enum
 import resource
 import subprocess
@@ -27,22 +27,22 @@ def limit_memory():
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
-def judge(code, said):
+def answer_of(code, messages):
     """Returns the answer of a run from its exit code and its lines on standard error, and the reason of a failure."""
-    errors = [line for line in said.splitlines() if line.startswith("foveate: ") and not line.startswith("foveate: warning: ")]
-    if "panicked at" in said or "memory allocation of" in said:
-        return Answer.FAILED, said.strip().splitlines()[0]
+    errors = [line for line in messages.splitlines() if line.startswith("foveate: ") and not line.startswith("foveate: warning: ")]
+    if "panicked at" in messages or "memory allocation of" in messages:
+        return Answer.FAILED, messages.strip().splitlines()[0]
     if code == 0:
         return Answer.ACCEPTED, ""
     if code not in (1, 2):
-        return Answer.FAILED, f"exit code {code}: {said.strip()[:200]}"
+        return Answer.FAILED, f"exit code {code}: {messages.strip()[:200]}"
     if not errors:
-        return Answer.FAILED, f"exit code {code} without a message: {said.strip()[:200]}"
+        return Answer.FAILED, f"exit code {code} without a message: {messages.strip()[:200]}"
     return (Answer.PARTIAL if code == 1 else Answer.REFUSED), errors[0]
 
 
-def ask(command, folder, standard_input=None):
-    """Runs a command in a folder, with a file or nothing as its input, and judges its answer."""
+def run_command(command, folder, standard_input=None):
+    """Runs a command in a folder, with a file or nothing as its input. Returns its answer, and the reason of a failure."""
     source = open(standard_input, "rb") if standard_input else subprocess.DEVNULL
     try:
         run = subprocess.run(command, cwd=folder, stdin=source, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -52,4 +52,4 @@ def ask(command, folder, standard_input=None):
     finally:
         if standard_input:
             source.close()
-    return judge(run.returncode, run.stderr.decode("utf-8", "replace"))
+    return answer_of(run.returncode, run.stderr.decode("utf-8", "replace"))

@@ -3,83 +3,83 @@
 import random
 import re
 
-MOST = 4
+MAX_MUTATIONS = 4
 # The largest number of bytes of an insertion, enough to exceed buffers and limits of a line.
-LONGEST = 1 << 21
+MAX_INSERTION = 1 << 21
 NUMBERS = [b"0", b"-1", b"1e308", b"-0.0", b"nan", b"inf", b"255", b"256", b"65535", b"65536", b"4294967295", b"4294967296",
            b"9223372036854775807", b"9223372036854775808", b"18446744073709551616", b"0x10", b"1_000", b"3.5", b""]
 WORDS = [b"", b"\x00", b"\xff\xfe", b"\xc3\x28", b"../..", b"$(touch x)", b"'", b'"', b"\\", b"{", b"[",
          b"[[[[[[[[", b"a.b.c.d.e.f", b"__proto__", b"\r\n\r\n", b"\xef\xbb\xbf"]
 
 
-def flip_bits(data, draw):
-    for _ in range(draw.choice([1, 1, 2, 8, 64])):
-        data[draw.randrange(len(data))] ^= 1 << draw.randrange(8)
+def flip_bits(data, random):
+    for _ in range(random.choice([1, 1, 2, 8, 64])):
+        data[random.randrange(len(data))] ^= 1 << random.randrange(8)
 
 
-def set_bytes(data, draw):
-    value = draw.choice([0, 0x7F, 0x80, 0xFF])
-    start = draw.randrange(len(data))
-    count = draw.choice([1, 2, 4, 8])
+def set_bytes(data, random):
+    value = random.choice([0, 0x7F, 0x80, 0xFF])
+    start = random.randrange(len(data))
+    count = random.choice([1, 2, 4, 8])
     data[start:start + count] = bytes([value]) * len(data[start:start + count])
 
 
-def zero_range(data, draw):
-    start = draw.randrange(len(data))
-    end = min(len(data), start + draw.choice([16, 256, 2000]))
+def zero_range(data, random):
+    start = random.randrange(len(data))
+    end = min(len(data), start + random.choice([16, 256, 2000]))
     data[start:end] = bytes(end - start)
 
 
-def cut(data, draw):
-    del data[draw.randrange(len(data)):]
+def cut(data, random):
+    del data[random.randrange(len(data)):]
 
 
-def remove_range(data, draw):
-    start = draw.randrange(len(data))
-    del data[start:start + draw.choice([1, 4, 64, 1024])]
+def remove_range(data, random):
+    start = random.randrange(len(data))
+    del data[start:start + random.choice([1, 4, 64, 1024])]
 
 
-def repeat_range(data, draw):
-    start = draw.randrange(len(data))
-    part = data[start:start + draw.choice([1, 4, 64, 1024])]
-    times = min(draw.choice([1, 2, 100, 100_000]), LONGEST // max(1, len(part)))
+def repeat_range(data, random):
+    start = random.randrange(len(data))
+    part = data[start:start + random.choice([1, 4, 64, 1024])]
+    times = min(random.choice([1, 2, 100, 100_000]), MAX_INSERTION // max(1, len(part)))
     data[start:start] = part * times
 
 
-def swap_ranges(data, draw):
-    one, other = sorted([draw.randrange(len(data)), draw.randrange(len(data))])
-    count = min(draw.choice([1, 8, 128]), other - one, len(data) - other)
-    data[one:one + count], data[other:other + count] = data[other:other + count], data[one:one + count]
+def swap_ranges(data, random):
+    first, second = sorted([random.randrange(len(data)), random.randrange(len(data))])
+    count = min(random.choice([1, 8, 128]), second - first, len(data) - second)
+    data[first:first + count], data[second:second + count] = data[second:second + count], data[first:first + count]
 
 
-def append_noise(data, draw):
-    data += draw.randbytes(draw.choice([1, 16, 4096]))
+def append_noise(data, random):
+    data += random.randbytes(random.choice([1, 16, 4096]))
 
 
-def set_large_number(data, draw):
+def set_large_number(data, random):
     """Sets a field of 2, 4 or 8 bytes to a number near the end of its range."""
-    size = draw.choice([2, 4, 8])
-    start = draw.randrange(len(data))
-    number = draw.choice([1 << (8 * size - 1), (1 << (8 * size)) - 1, (1 << (8 * size - 1)) - 1, 1 << (4 * size)])
-    data[start:start + size] = number.to_bytes(size, draw.choice(["big", "little"]))[:len(data) - start]
+    size = random.choice([2, 4, 8])
+    start = random.randrange(len(data))
+    number = random.choice([1 << (8 * size - 1), (1 << (8 * size)) - 1, (1 << (8 * size - 1)) - 1, 1 << (4 * size)])
+    data[start:start + size] = number.to_bytes(size, random.choice(["big", "little"]))[:len(data) - start]
 
 
-def replace_number(data, draw):
-    found = list(re.finditer(rb"-?\d+(\.\d+)?", bytes(data)))
-    if found:
-        place = draw.choice(found)
-        data[place.start():place.end()] = draw.choice(NUMBERS)
+def replace_number(data, random):
+    numbers = list(re.finditer(rb"-?\d+(\.\d+)?", bytes(data)))
+    if numbers:
+        place = random.choice(numbers)
+        data[place.start():place.end()] = random.choice(NUMBERS)
 
 
-def insert_word(data, draw):
-    start = draw.randrange(len(data))
-    data[start:start] = draw.choice(WORDS)
+def insert_word(data, random):
+    start = random.randrange(len(data))
+    data[start:start] = random.choice(WORDS)
 
 
-def repeat_line(data, draw):
+def repeat_line(data, random):
     lines = bytes(data).splitlines(keepends=True)
-    place = draw.randrange(len(lines))
-    lines[place] *= draw.choice([0, 2, 100])
+    place = random.randrange(len(lines))
+    lines[place] *= random.choice([0, 2, 100])
     data[:] = b"".join(lines)
 
 
@@ -87,12 +87,12 @@ BYTE_MUTATIONS = [flip_bits, set_bytes, zero_range, cut, remove_range, repeat_ra
 TEXT_MUTATIONS = [replace_number, replace_number, insert_word, repeat_line]
 
 
-def mutated(sample, seed, is_text):
+def mutate(sample, seed, is_text):
     """Returns the sample after one to four mutations, which depend only on the seed."""
-    draw = random.Random(seed)
+    generator = random.Random(seed)
     data = bytearray(sample)
     mutations = BYTE_MUTATIONS + TEXT_MUTATIONS * 3 if is_text else BYTE_MUTATIONS
-    for _ in range(draw.randint(1, MOST)):
+    for _ in range(generator.randint(1, MAX_MUTATIONS)):
         if data:
-            draw.choice(mutations)(data, draw)
+            generator.choice(mutations)(data, generator)
     return bytes(data)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The readers of the program: a valid file for each, and the command that reads it.
 
-A reader is a format of a file that may come from a stranger. A new reader is a row in READERS.
+A reader is one format of a file that the program reads; such a file may come from a stranger. A new reader is a row in READERS.
 """
 import dataclasses
 import gzip
@@ -94,11 +94,11 @@ def decode_stream(_bench, _folder, _path):
     return ["decode", "-", "-o", "out", *NO_PICTURES, "--set", f"frame={{width={WIDTH},height={HEIGHT}}}"]
 
 
-def explored(bench, folder, path):
+def continue_exploration(bench, folder, path):
     """Returns the command that continues an exploration, one of whose measurements is the mutated file."""
     shutil.copytree(bench / EXPLORED, folder / "out")
-    measured = sorted((folder / "out/measured").iterdir())
-    shutil.copyfile(path, measured[0])
+    measurements = sorted((folder / "out/measured").iterdir())
+    shutil.copyfile(path, measurements[0])
     return ["explore", "approximations", "scene:street", "--frames", "2", "--no-area", "-o", "out", "--quiet"]
 
 
@@ -166,14 +166,14 @@ def packets(content):
     return make
 
 
-def measured(program, folder):
+def make_measurement(program, folder):
     """Makes a measurement of an exploration, whose folder the reader copies for every case."""
     command = [program, "explore", "approximations", "scene:street", "--frames", "2", "--no-area", "-o", folder / EXPLORED, "--quiet"]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return sorted((folder / EXPLORED / "measured").iterdir())[0].read_bytes()
 
 
-def just(data):
+def constant_sample(data):
     return lambda _program, _folder: data
 
 
@@ -202,8 +202,8 @@ READERS = [
     Reader("apng", "picture.apng", simulate, encoded("-f", "apng", container="apng")),
     Reader("jpeg", "picture.jpg", simulate, picture(container="jpg")),
     Reader("bmp", "picture.bmp", simulate, picture(container="bmp")),
-    Reader("pgm", "picture.pgm", simulate, just(pgm())),
-    Reader("pgm-text", "picture.pgm", simulate, just(b"P2\n4 4\n15\n" + b"1 2 3 4\n" * 4), is_text=True),
+    Reader("pgm", "picture.pgm", simulate, constant_sample(pgm())),
+    Reader("pgm-text", "picture.pgm", simulate, constant_sample(b"P2\n4 4\n15\n" + b"1 2 3 4\n" * 4), is_text=True),
     Reader("pam", "picture.pam", simulate, picture("-pix_fmt", "rgb24", container="pam")),
     Reader("mp4", "clip.mp4", simulate, encoded("-c:v", "libx264", "-pix_fmt", "yuv420p", container="mp4")),
     Reader("mkv", "clip.mkv", simulate, encoded("-c:v", "ffv1", container="mkv")),
@@ -213,25 +213,26 @@ READERS = [
     Reader("webm", "clip.webm", simulate, encoded("-c:v", "libvpx", container="webm")),
     Reader("y4m", "clip.y4m", simulate, encoded("-pix_fmt", "yuv420p", container="y4m")),
     Reader("y4m-stream", "clip.y4m", simulate_stream, encoded("-pix_fmt", "gray", container="y4m"), is_piped=True),
-    Reader("idx", "images-idx3-ubyte", simulate, just(idx_images())),
-    Reader("idx-packed", "images-idx3-ubyte.gz", simulate, just(gzip.compress(idx_images(), mtime=0))),
-    Reader("idx-labels", "labels-idx1-ubyte", simulate_set, just(idx_labels())),
-    Reader("cifar", "batch.bin", simulate, just(b"".join(bytes([i]) + bytes(j % 251 for j in range(3072)) for i in range(3)))),
-    Reader("boxes-mot", "gt.txt", boxes, just(b"".join(b"%d,%d,5,6,20,15,1,1,1\n" % (f, t) for f in range(1, 4) for t in range(5))), is_text=True),
-    Reader("boxes-coco", "boxes.json", boxes, just(coco()), is_text=True),
-    Reader("boxes-yolo", "000002.txt", boxes, just(b"0 0.5 0.5 0.25 0.25\n1 0.1 0.2 0.1 0.1\n"), is_text=True),
-    Reader("boxes-csv", "boxes.csv", boxes, just(b"file,x0,y0,x1,y1\n000001.pgm,1,2,30,40\n\"000002.pgm\",3,4,20,20\n"), is_text=True),
-    Reader("events", "events.csv", sensor, just(events()), is_text=True),
-    Reader("events-packed", "events.csv.gz", sensor, just(gzip.compress(events(), mtime=0))),
+    Reader("idx", "images-idx3-ubyte", simulate, constant_sample(idx_images())),
+    Reader("idx-packed", "images-idx3-ubyte.gz", simulate, constant_sample(gzip.compress(idx_images(), mtime=0))),
+    Reader("idx-labels", "labels-idx1-ubyte", simulate_set, constant_sample(idx_labels())),
+    Reader("cifar", "batch.bin", simulate, constant_sample(b"".join(bytes([i]) + bytes(j % 251 for j in range(3072)) for i in range(3)))),
+    Reader("boxes-mot", "gt.txt", boxes, constant_sample(b"".join(
+        b"%d,%d,5,6,20,15,1,1,1\n" % (frame, track) for frame in range(1, 4) for track in range(5))), is_text=True),
+    Reader("boxes-coco", "boxes.json", boxes, constant_sample(coco()), is_text=True),
+    Reader("boxes-yolo", "000002.txt", boxes, constant_sample(b"0 0.5 0.5 0.25 0.25\n1 0.1 0.2 0.1 0.1\n"), is_text=True),
+    Reader("boxes-csv", "boxes.csv", boxes, constant_sample(b"file,x0,y0,x1,y1\n000001.pgm,1,2,30,40\n\"000002.pgm\",3,4,20,20\n"), is_text=True),
+    Reader("events", "events.csv", sensor, constant_sample(events()), is_text=True),
+    Reader("events-packed", "events.csv.gz", sensor, constant_sample(gzip.compress(events(), mtime=0))),
     Reader("onnx", "network.onnx", network, text_of("crates/network/tests/network/golden/lenet.onnx")),
-    Reader("npy", "picture.npy", array, just(npy())),
+    Reader("npy", "picture.npy", array, constant_sample(npy())),
     Reader("packets", "packets.bin", decode, packets("scores")),
     Reader("packets-stream", "packets.bin", decode_stream, packets("plain"), is_piped=True),
-    Reader("measurement", "measured.json", explored, measured, is_text=True),
+    Reader("measurement", "measured.json", continue_exploration, make_measurement, is_text=True),
     Reader("verilog", "decision.v", verilog, text_of("rtl/decision.v"), is_text=True, sample_answer=Answer.REFUSED),
 ]
 
 
-def samples(program, folder, chosen):
+def samples(program, folder, readers):
     """Makes a valid file for each chosen reader. Some have other files in the same folder."""
-    return {reader.name: reader.sample(program, folder) for reader in chosen}
+    return {reader.name: reader.sample(program, folder) for reader in readers}

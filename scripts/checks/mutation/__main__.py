@@ -19,67 +19,70 @@ import shutil
 import sys
 import time
 
-from design import LATER, ORGANIZATIONS, WORK, designs, recorded
-from mutants import drawn, only, pools, wanted
-from verdicts import REASONS, Journal, claimed_equal, judge, judge_longer, prove, reasons, replay
+from design import LONG_STAGE, ORGANIZATIONS, WORK, designs, record_designs
+from mutants import draw_mutants, make_pools, mutant_counts, selected_modules
+from verdicts import REASONS, Journal, find_wrongly_proven, judge_longer, judge_short, prove, reasons, replay
 
 
-def examine(organization, options, excuses, used):
+def run_organization(organization, options, waivers, used):
     """Judges the mutants of an organization, and prints the verdicts. Returns the number of survivors without a reason."""
-    began = time.monotonic()
-    all_of = recorded(organization, options.jobs, options.sample)
-    found = pools(all_of, options.seed)
-    takes = wanted(found, options.count)
+    start = time.monotonic()
+    all_designs = record_designs(organization, options.jobs, options.sample)
+    pools = make_pools(all_designs, options.seed)
+    counts = mutant_counts(pools, options.count)
     if options.modules:
-        found = only(found, options.modules)
-    print(f"{organization}: {len(all_of)} designs recorded in {time.monotonic() - began:.0f} s, {len(found)} modules with"
-          f" {sum(map(len, found.values()))} possible mutants", flush=True)
+        pools = selected_modules(pools, options.modules)
+    print(f"{organization}: {len(all_designs)} designs recorded in {time.monotonic() - start:.0f} s, {len(pools)} modules with"
+          f" {sum(map(len, pools.values()))} possible mutants", flush=True)
     if options.sample:
-        found, takes = sampled(found, takes, options.sample)
-    journal = Journal(all_of)
+        pools, counts = sample_mutants(pools, counts, options.sample)
+    journal = Journal(all_designs)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        mutants = drawn(found, takes, pool, lambda mutant: journal.ask("short", mutant, lambda it: judge(it, all_of, options.prove)))
+        def check(mutant):
+            journal.set_verdict("short", mutant, lambda it: judge_short(it, all_designs, options.prove))
+
+        mutants = draw_mutants(pools, counts, pool, check)
         survivors = [mutant for mutant in mutants if mutant.verdict in ("survived", "equivalent")]
         unknown = [mutant for mutant in survivors if mutant.verdict == "survived"]
         if options.sample:
-            unknown = shown_to_others(organization, [mutant for mutant in unknown if mutant.key() not in excuses])
+            unknown = replay_in_other_designs(organization, [mutant for mutant in unknown if mutant.key() not in waivers])
         elif options.longer:
-            list(pool.map(lambda mutant: journal.ask("long", mutant, lambda it: judge_longer(it, all_of)), unknown))
-            unknown = [mutant for mutant in unknown if mutant.key() not in excuses]
+            list(pool.map(lambda mutant: journal.set_verdict("long", mutant, lambda it: judge_longer(it, all_designs)), unknown))
+            unknown = [mutant for mutant in unknown if mutant.key() not in waivers]
         unknown = [mutant for mutant in unknown if mutant.verdict == "survived"]
         if options.prove:
             if options.longer:
-                list(pool.map(lambda mutant: journal.ask("proof", mutant, lambda it: prove(it, all_of)), unknown))
-            control_proofs(mutants, survivors, all_of, pool)
-    # A mutant that does not elaborate in another design is not a mutant.
-    mutants, survivors = ([mutant for mutant in of if mutant.verdict != "refused"] for of in (mutants, survivors))
-    open_ones = excuse(survivors, excuses, used, options.verbose)
+                list(pool.map(lambda mutant: journal.set_verdict("proof", mutant, lambda it: prove(it, all_designs)), unknown))
+            control_proofs(mutants, survivors, all_designs, pool)
+    # An edit that does not elaborate in another design makes no circuit there, so it is not counted as a mutant.
+    mutants, survivors = ([mutant for mutant in group if mutant.verdict != "refused"] for group in (mutants, survivors))
+    open_count = waive(survivors, waivers, used, options.verbose)
     if options.table:
-        print_table(found, mutants)
-    print_counts(organization, found, mutants, open_ones, time.monotonic() - began)
-    return open_ones
+        print_table(pools, mutants)
+    print_counts(organization, pools, mutants, open_count, time.monotonic() - start)
+    return open_count
 
 
-def sampled(found, takes, sample):
+def sample_mutants(pools, counts, sample):
     """Returns an evenly spread sample of the mutants of a whole run of these designs."""
-    whole = [mutant for place in found for mutant in found[place][:takes[place]]]
+    whole = [mutant for module in pools for mutant in pools[module][:counts[module]]]
     step = len(whole) / sample
-    chosen = collections.defaultdict(list)
+    selected = collections.defaultdict(list)
     for index in range(sample):
         mutant = whole[int((index + 0.5) * step)]
-        chosen[mutant.place()].append(mutant)
+        selected[mutant.place()].append(mutant)
     # A mutant that does not elaborate is replaced by another of its module.
-    found = {place: chosen[place] + [m for m in found[place] if m not in chosen[place]] for place in chosen}
-    return found, {place: len(chosen[place]) for place in chosen}
+    pools = {module: selected[module] + [m for m in pools[module] if m not in selected[module]] for module in selected}
+    return pools, {module: len(selected[module]) for module in selected}
 
 
-def shown_to_others(organization, unknown):
+def replay_in_other_designs(organization, unknown):
     """Replays the vectors of designs outside of the sample, only for mutants that survived and that these designs may kill."""
     for mutant in unknown:
-        others = [design for design in designs(organization) if not (design.starred or mutant.design)]
+        other_designs = [design for design in designs(organization) if not (design.is_in_sample or mutant.design)]
         mutant.verdict = None
-        for design in others:
-            stage = LATER if design.late else 0
+        for design in other_designs:
+            stage = LONG_STAGE if design.is_late else 0
             design.record(stage)
             if design.has(mutant.module) and replay(mutant, [design], stage):
                 break
@@ -87,48 +90,49 @@ def shown_to_others(organization, unknown):
     return unknown
 
 
-def control_proofs(mutants, survivors, all_of, pool):
+def control_proofs(mutants, survivors, all_designs, pool):
     """Runs the negative control of the proofs: a killed mutant of the same module must not be proven equal."""
     proven = {mutant.place(): mutant.proof for mutant in survivors if mutant.proof}
     killed = collections.defaultdict(list)
     for mutant in mutants:
         if mutant.verdict == "killed" and mutant.place() in proven:
             killed[mutant.place()].append(mutant)
-    for claimed in pool.map(lambda place: claimed_equal(killed[place], all_of, proven[place]), killed):
-        if claimed:
-            sys.exit(f"mutation: proven equal is what the vectors tell apart: {claimed}")
+    for wrongly_proven in pool.map(lambda place: find_wrongly_proven(killed[place], all_designs, proven[place]), killed):
+        if wrongly_proven:
+            sys.exit(f"mutation: proven equal is what the vectors tell apart: {wrongly_proven}")
 
 
-def excuse(survivors, excuses, used, verbose):
+def waive(survivors, waivers, used, verbose):
     """Prints the survivors without a reason. Returns their number."""
-    open_ones = 0
+    open_count = 0
     for mutant in survivors:
-        if mutant.verdict == "survived" and mutant.key() in excuses:
+        if mutant.verdict == "survived" and mutant.key() in waivers:
             mutant.verdict = "waived"
             used.add(mutant.key())
         if mutant.verdict == "survived":
-            open_ones += 1
+            open_count += 1
             print(f"SURVIVES {mutant}")
         elif verbose:
             print(f"{mutant.verdict}{f' ({mutant.proof})' if mutant.proof else ''} {mutant}")
-    return open_ones
+    return open_count
 
 
-def print_table(found, mutants):
+def print_table(pools, mutants):
     print(f"  {'module':28} mutants  killed  equivalent   waived")
-    for place in found:
-        of = [mutant.verdict for mutant in mutants if mutant.place() == place]
-        print(f"  {place:28} {len(of):7} {of.count('killed'):7} {of.count('equivalent'):11} {of.count('waived'):8}")
+    for place in pools:
+        verdicts = [mutant.verdict for mutant in mutants if mutant.place() == place]
+        print(f"  {place:28} {len(verdicts):7} {verdicts.count('killed'):7} {verdicts.count('equivalent'):11} {verdicts.count('waived'):8}")
 
 
-def print_counts(organization, found, mutants, open_ones, seconds):
-    count = collections.Counter(mutant.verdict for mutant in mutants)
-    alike = sum(1 for mutant in mutants if mutant.verdict == "equivalent" and mutant.proof == "same")
-    longer = sum(1 for mutant in mutants if mutant.by and mutant.by[0] > 0)
-    hangs, aborts = (sum(1 for mutant in mutants if mutant.by and mutant.by[2] == outcome) for outcome in ("hang", "abort"))
-    print(f"{organization}: {len(mutants)} mutants of {len(found)} modules: {count['killed']} killed ({longer} of them by the"
-          f" longer vectors, {hangs} by time, {aborts} by an abort of Icarus), {count['equivalent']} proven equivalent ({alike} of"
-          f" them by the same netlist), {count['waived']} waived with a reason, {open_ones} open; {seconds:.0f} s", flush=True)
+def print_counts(organization, pools, mutants, open_count, seconds):
+    verdict_counts = collections.Counter(mutant.verdict for mutant in mutants)
+    same_netlist_count = sum(1 for mutant in mutants if mutant.verdict == "equivalent" and mutant.proof == "same")
+    longer_count = sum(1 for mutant in mutants if mutant.killed_by and mutant.killed_by[0] > 0)
+    hang_count, abort_count = (sum(1 for mutant in mutants if mutant.killed_by and mutant.killed_by[2] == outcome) for outcome in ("hang", "abort"))
+    print(f"{organization}: {len(mutants)} mutants of {len(pools)} modules: {verdict_counts['killed']} killed ({longer_count} of them by the"
+          f" longer vectors, {hang_count} by time, {abort_count} by an abort of Icarus), {verdict_counts['equivalent']} proven equivalent"
+          f" ({same_netlist_count} of them by the same netlist), {verdict_counts['waived']} waived with a reason, {open_count} open;"
+          f" {seconds:.0f} s", flush=True)
 
 
 def main():
@@ -158,15 +162,15 @@ def main():
     # Hundreds of builds would displace the user's own in the cache. A sample uses the cached run time of Verilator.
     if not options.sample:
         os.environ["FOVEATE_CACHE"] = os.path.join(WORK, "cache")
-    excuses, used = reasons(), set()
-    open_ones = sum(examine(organization, options, excuses, used) for organization in organizations)
+    waivers, used = reasons(), set()
+    open_count = sum(run_organization(organization, options, waivers, used) for organization in organizations)
     unused = []
     is_whole = list(organizations) == ORGANIZATIONS and (options.seed, options.count) == (1, 320)
     if is_whole and options.prove and not (options.sample or options.modules):
-        unused = [key for key in excuses if key not in used]
-        for place, was, now in unused:
-            print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {was}\n    + {now}")
-    sys.exit(1 if open_ones or unused else 0)
+        unused = [key for key in waivers if key not in used]
+        for place, old_line, new_line in unused:
+            print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {old_line}\n    + {new_line}")
+    sys.exit(1 if open_count or unused else 0)
 
 
 if __name__ == "__main__":

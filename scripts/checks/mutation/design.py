@@ -21,13 +21,13 @@ DESIGNS = "mutation/designs.txt"
 # The last one is the logic around a raster array on AXI; the array inside has mutants of its own.
 BUS = "axi"
 ORGANIZATIONS = ["pipelined", "serial", "raster", BUS]
-AROUND = ("axi_", "packet_", "rcm_axi")
+AXI_MODULES = ("axi_", "packet_", "rcm_axi")
 # Number of rounds and seed of the vectors of each stage.
 STAGES = ((1, 1), (3, 2))
-LATER = 1
-SLOWER = 12
+LONG_STAGE = 1
+TIME_FACTOR = 12
 # The script that is called in place of Icarus.
-KEEPING = os.path.abspath("scripts/checks/keeping")
+RECORDER_FOLDER = os.path.abspath("scripts/checks/keeping")
 
 
 class Design:
@@ -35,51 +35,51 @@ class Design:
 
     def __init__(self, organization, name, options):
         # A late design is only for mutants that have survived the others; a design with a star is in the sample.
-        self.organization, self.late, self.starred, self.name = organization, name.endswith("+"), name.endswith("*"), name.rstrip("+*")
+        self.organization, self.is_late, self.is_in_sample, self.name = organization, name.endswith("+"), name.endswith("*"), name.rstrip("+*")
         self.options = options
         self.folder = os.path.join(WORK, "designs", organization, self.name)
         self.lock, self.modules, self.netlists, self.program = threading.Lock(), None, {}, None
         self.vectors, self.seconds, self.digests = {}, {}, {}
 
     def record(self, stage):
-        """Keeps the sources, the vectors of a stage, and their run time. Does this once."""
+        """Keeps the sources, the vectors of a stage, and their run time; a second call for the same stage does nothing."""
         with self.lock:
             if stage in self.seconds:
                 return
             # The long vectors of a late design are the short vectors of others.
-            rounds, seed = STAGES[0 if self.late else stage]
-            keep = os.path.join(self.folder, f"stage{stage}")
-            done_at = os.path.join(keep, "seconds")
-            made_of_at, made_of = os.path.join(keep, "made_of"), json.dumps([executable(), self.options, rounds, seed])
-            if not os.path.exists(made_of_at) or open(made_of_at).read() != made_of:
-                shutil.rmtree(keep, ignore_errors=True)
-                os.makedirs(keep)
-                self.simulate(keep, rounds, seed)
-                with open(made_of_at, "w") as out:
-                    out.write(made_of)
-            self.vectors[stage] = os.path.join(keep, "vectors.hex")
-            self.sources = keep
-            self.files = open(os.path.join(keep, "files")).read().split()
+            rounds, seed = STAGES[0 if self.is_late else stage]
+            stage_folder = os.path.join(self.folder, f"stage{stage}")
+            seconds_path = os.path.join(stage_folder, "seconds")
+            inputs_path, inputs = os.path.join(stage_folder, "made_of"), json.dumps([executable(), self.options, rounds, seed])
+            if not os.path.exists(inputs_path) or open(inputs_path).read() != inputs:
+                shutil.rmtree(stage_folder, ignore_errors=True)
+                os.makedirs(stage_folder)
+                self.simulate(stage_folder, rounds, seed)
+                with open(inputs_path, "w") as file:
+                    file.write(inputs)
+            self.vectors[stage] = os.path.join(stage_folder, "vectors.hex")
+            self.sources = stage_folder
+            self.files = open(os.path.join(stage_folder, "files")).read().split()
             self.bench = next(name for name in self.files if name.endswith("_replay.v"))
             self.top = self.bench[: -len("_replay.v")]
-            self.texts = {name: open(os.path.join(keep, name)).read() for name in self.files}
-            self.seconds[stage] = float(open(done_at).read())
+            self.texts = {name: open(os.path.join(stage_folder, name)).read() for name in self.files}
+            self.seconds[stage] = float(open(seconds_path).read())
 
-    def simulate(self, keep, rounds, seed):
+    def simulate(self, stage_folder, rounds, seed):
         """Co-simulates without a mutant, and keeps the files that are needed to repeat that."""
-        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(KEEPING, "iverilog"),
-                   FOVEATE_VVP=os.path.join(KEEPING, "vvp"))
+        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=stage_folder, FOVEATE_IVERILOG=os.path.join(RECORDER_FOLDER, "iverilog"),
+                   FOVEATE_VVP=os.path.join(RECORDER_FOLDER, "vvp"))
         command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
-                   "--replay", os.path.join(keep, "replay"), *self.options]
+                   "--replay", os.path.join(stage_folder, "replay"), *self.options]
         if "--rounds" not in self.options:
             command += ["--rounds", str(rounds)]
-        done = subprocess.run(command, env=env, capture_output=True, text=True)
-        if done.returncode != 0:
-            sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {done.stdout}{done.stderr}")
+        result = subprocess.run(command, env=env, capture_output=True, text=True)
+        if result.returncode != 0:
+            sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {result.stdout}{result.stderr}")
         # The processor time: the last line of `times` is that of vvp.
-        minutes, seconds = open(os.path.join(keep, "times")).read().split()[2].rstrip("s").split("m")
-        with open(os.path.join(keep, "seconds"), "w") as out:
-            out.write(str(60 * int(minutes) + float(seconds)))
+        minutes, seconds = open(os.path.join(stage_folder, "times")).read().split()[2].rstrip("s").split("m")
+        with open(os.path.join(stage_folder, "seconds"), "w") as file:
+            file.write(str(60 * int(minutes) + float(seconds)))
 
     def clocks(self, stage):
         """Returns a measure of the length of the vectors."""
@@ -90,8 +90,8 @@ class Design:
         scripts of the proofs, if it has any."""
         with self.lock:
             if phase not in self.digests:
-                replayed = phase == "long" or phase == "short" and not self.late
-                vectors = open(self.vectors[LATER if self.late else 0], "rb").read() if replayed else b""
+                replayed = phase == "long" or phase == "short" and not self.is_late
+                vectors = open(self.vectors[LONG_STAGE if self.is_late else 0], "rb").read() if replayed else b""
                 method = "" if phase == "long" else open(proof.__file__).read()
                 texts = json.dumps([self.texts, STAGES, method], sort_keys=True).encode()
                 self.digests[phase] = hashlib.sha256(texts + vectors).hexdigest()
@@ -112,24 +112,24 @@ class Design:
         files = [os.path.join(self.sources, name) for name in self.files]
         if module:
             mutant = os.path.join(folder, f"{module}.v")
-            with open(mutant, "w") as out:
-                out.write(text)
+            with open(mutant, "w") as file:
+                file.write(text)
             files[self.files.index(f"rtl/{module}.v")] = mutant
         path = os.path.join(folder, "program.vvp")
-        built = proof.limited(["iverilog", "-g2005", "-s", self.elaborated(), "-o", path, *files], 60)
-        if built.returncode != 0:
+        compilation = proof.run_limited(["iverilog", "-g2005", "-s", self.elaborated_module(), "-o", path, *files], 60)
+        if compilation.returncode != 0:
             return None, path
         code = re.sub(r"^P_.*\n", "", open(path).read().split("\n# The file index")[0], flags=re.M)
-        known = {}
-        code = re.sub(r"0x[0-9a-f]{6,}", lambda match: known.setdefault(match[0], str(len(known))), code)
+        address_numbers = {}
+        code = re.sub(r"0x[0-9a-f]{6,}", lambda match: address_numbers.setdefault(match[0], str(len(address_numbers))), code)
         return hashlib.sha256(code.encode()).hexdigest(), path
 
-    def elaborated(self):
+    def elaborated_module(self):
         return f"{self.top}_replay"
 
-    def alike(self, module, text):
+    def has_same_program(self, module, text):
         """Returns whether Icarus makes the same program with another text of a module."""
-        self.record(LATER if self.late else 0)
+        self.record(LONG_STAGE if self.is_late else 0)
         with self.lock:
             if not self.program:
                 self.program = self.compiled(None, None)[0]
@@ -147,8 +147,8 @@ class Design:
             return "refused"
         if code == self.program:
             return "same"
-        limit = int(max(10, SLOWER * self.seconds[stage]))
-        done = proof.limited(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], limit, cwd=os.path.dirname(program))
+        limit = int(max(10, TIME_FACTOR * self.seconds[stage]))
+        done = proof.run_limited(["vvp", "-n", program, f"+vectors={self.vectors[stage]}", "+stop"], limit, cwd=os.path.dirname(program))
         if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return "hang"
         verdicts = [line.split()[0] for line in done.stdout.splitlines() if line.startswith(("PASS ", "FAIL "))]
@@ -170,11 +170,11 @@ class Design:
         with self.lock:
             if self.modules is None:
                 paths = " ".join(os.path.join(self.sources, name) for name in self.files if name != self.bench)
-                done = subprocess.run([proof.YOSYS, "-p", f"read_verilog {paths}; hierarchy -top {self.top}{self.chparam()}; tee -o /dev/stderr ls"],
-                                      capture_output=True, text=True)
-                if done.returncode != 0:
-                    sys.exit(f"mutation: Yosys does not read {self.name}: {done.stdout[-300:]}")
-                self.modules = [line.strip() for line in done.stderr.splitlines()]
+                script = f"read_verilog {paths}; hierarchy -top {self.top}{self.chparam()}; tee -o /dev/stderr ls"
+                result = subprocess.run([proof.YOSYS, "-p", script], capture_output=True, text=True)
+                if result.returncode != 0:
+                    sys.exit(f"mutation: Yosys does not read {self.name}: {result.stdout[-300:]}")
+                self.modules = [line.strip() for line in result.stderr.splitlines()]
         return [name for name in self.modules if re.fullmatch(rf"(\$paramod(\$\w+)?\\)?{module}(\\.*)?", name)]
 
     def same(self, module, text, inside=None):
@@ -191,7 +191,7 @@ class Design:
 
     def equal(self, module, text, inside=None):
         """Returns whether the design, or the module of that name alone, is proven equal with another text of a module."""
-        return proof.equal(self, WORK, module, text, inside)
+        return proof.is_equal(self, WORK, module, text, inside)
 
 
 class BusDesign(Design):
@@ -216,21 +216,21 @@ class BusDesign(Design):
             self.seconds[stage] = ended.children_user + ended.children_system - began.children_user - began.children_system
 
     def cosim(self, stage, rtl, limit):
-        rounds, seed = STAGES[0 if self.late else stage]
+        rounds, seed = STAGES[0 if self.is_late else stage]
         command = [FOVEATE, "cosim", "--config", os.path.join(self.sources, "design.toml"), "--rtl", rtl, "--level", BUS, "--quiet",
                    "--seed", str(seed), "--rounds", str(rounds), "--replay", os.path.join(WORK, "run", f"replay{threading.get_ident()}")]
-        done = proof.limited(command, limit or 600)
-        if done.returncode in (0, 1):
-            return "fail" if done.returncode else "pass"
+        result = proof.run_limited(command, limit or 600)
+        if result.returncode in (0, 1):
+            return "fail" if result.returncode else "pass"
         # The simulation was ended, found a loop that never settles, or reached the time limit.
-        if re.search(r"ended after \d+ of \d+ clocks", done.stderr):
+        if re.search(r"ended after \d+ of \d+ clocks", result.stderr):
             return "abort"
-        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        if result.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return "hang"
         # Icarus accepts this Verilog and Verilator does not.
-        if "%Error" in done.stderr:
+        if "%Error" in result.stderr:
             return "refused"
-        raise RuntimeError(f"{self.name}: co-simulation has no result: {done.stderr[-300:]}")
+        raise RuntimeError(f"{self.name}: co-simulation has no result: {result.stderr[-300:]}")
 
     def clocks(self, stage):
         return self.seconds[stage]
@@ -243,9 +243,9 @@ class BusDesign(Design):
             return self.digests[phase]
 
     def mutable(self):
-        return {name: text for name, text in self.texts.items() if os.path.basename(name).startswith(AROUND)}
+        return {name: text for name, text in self.texts.items() if os.path.basename(name).startswith(AXI_MODULES)}
 
-    def elaborated(self):
+    def elaborated_module(self):
         return self.top
 
     def run(self, stage, module, text):
@@ -263,7 +263,7 @@ class BusDesign(Design):
         shutil.copytree(os.path.join(self.sources, "rtl"), rtl)
         with open(os.path.join(rtl, f"{module}.v"), "w") as out:
             out.write(text)
-        return self.cosim(stage, rtl, int(max(60, SLOWER * self.seconds[stage])))
+        return self.cosim(stage, rtl, int(max(60, TIME_FACTOR * self.seconds[stage])))
 
     def chparam(self):
         return ""
@@ -294,9 +294,9 @@ def designs(organization):
             yield Design(organization, words[1], options)
 
 
-def recorded(organization, jobs, sample):
+def record_designs(organization, jobs, sample):
     """Returns the designs of an organization with their vectors, the shortest first; for a sample only the designs in it."""
-    found = [design for design in designs(organization) if design.starred or not sample]
+    recorded = [design for design in designs(organization) if design.is_in_sample or not sample]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(lambda design: design.record(LATER if design.late else 0), found))
-    return sorted(found, key=lambda design: design.clocks(LATER if design.late else 0))
+        list(pool.map(lambda design: design.record(LONG_STAGE if design.is_late else 0), recorded))
+    return sorted(recorded, key=lambda design: design.clocks(LONG_STAGE if design.is_late else 0))

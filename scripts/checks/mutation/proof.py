@@ -58,7 +58,7 @@ def load(design, paths, inside):
     return [f"read_verilog {' '.join(paths)}", f"hierarchy -top {design.top}{design.chparam()}", f"hierarchy -top {inside or design.top}"]
 
 
-def limited(command, seconds, **options):
+def run_limited(command, seconds, **options):
     """Runs a command for a limited processor time in seconds, after which a signal ends it."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
@@ -68,8 +68,8 @@ def limited(command, seconds, **options):
 
 def run(command, seconds=READING, **options):
     """Returns the output of a command, if it succeeds in time."""
-    done = limited(command, seconds, **options)
-    return done.stdout if done.returncode == 0 else None
+    result = run_limited(command, seconds, **options)
+    return result.stdout if result.returncode == 0 else None
 
 
 def netlist(design, work, module=None, text=None, inside=None):
@@ -80,9 +80,9 @@ def netlist(design, work, module=None, text=None, inside=None):
     script += ["rename -top top", "autoname", f"write_rtlil {out}"]
     if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:
         return None, 0
-    found = re.search(r"found and reported (\d+) problems", open(out + ".check").read(), re.I)
+    problems = re.search(r"found and reported (\d+) problems", open(out + ".check").read(), re.I)
     cells = re.sub(r"^\s*attribute (?!\\init ).*\n|^#.*\n|^autoidx .*\n", "", open(out).read(), flags=re.M)
-    return in_order(cells), int(found.group(1))
+    return in_order(cells), int(problems.group(1))
 
 
 def in_order(text):
@@ -92,16 +92,16 @@ def in_order(text):
     return part.sub("", text) + "".join(sorted(part.findall(text)))
 
 
-def equal(design, work, module, text, inside=None):
+def is_equal(design, work, module, text, inside=None):
     """Returns whether no sequence of inputs distinguishes the design, or the module of that name, from the one with another text."""
     sides = {"gold": sources(design, work), "gate": sources(design, work, module, text)}
-    if proven(design, work, sides, inside, cut=True):
+    if are_proven_equal(design, work, sides, inside, cut=True):
         return True
     bits = [sum(size * width for size, width, *_ in memories(work, side).values()) for side in sides]
-    return 0 < max(bits) <= REGISTERS and proven(design, work, sides, inside, cut=False)
+    return 0 < max(bits) <= REGISTERS and are_proven_equal(design, work, sides, inside, cut=False)
 
 
-def proven(design, work, sides, inside, cut):
+def are_proven_equal(design, work, sides, inside, cut):
     """Returns whether ABC finds the two sides equal, with their memories cut out or as registers."""
     out = os.path.join(folder(work), "miter.aig")
     script = []
@@ -115,28 +115,28 @@ def proven(design, work, sides, inside, cut):
     if cut and memories(work, "gold") != memories(work, "gate"):
         return False
     # ABC leaves files in its working folder.
-    def ask(commands):
+    def run_abc(commands):
         return run([abc(), "-c", f"read {out}; {commands}"], PROVING, cwd=folder(work)) or ""
 
-    if "was asserted" in ask(REFUTE):
+    if "was asserted" in run_abc(REFUTE):
         return False
-    said = ask(PROVE)
-    return bool(re.search(r"UNSATISFIABLE|Property proved|Networks are equivalent", said)) and "was asserted" not in said
+    answer = run_abc(PROVE)
+    return bool(re.search(r"UNSATISFIABLE|Property proved|Networks are equivalent", answer)) and "was asserted" not in answer
 
 
 def memories(work, side):
     """Returns words, bits of a word and all other parameters of each memory with a name, as of the last `proven`."""
     path = os.path.join(folder(work), f"miter.aig.{side}")
-    found = {}
+    found_memories = {}
     for cell in re.split(r"^  cell ", open(path).read(), flags=re.M)[1:] if os.path.exists(path) else ():
         name = cell.split()[1]
         if name.startswith("\\"):
             parameters = dict(re.findall(r"^    parameter (\S+) (.*)$", cell, re.M))
-            found[name] = int(parameters["\\SIZE"]), int(parameters["\\WIDTH"]), sorted(parameters.items())
-    return found
+            found_memories[name] = int(parameters["\\SIZE"]), int(parameters["\\WIDTH"]), sorted(parameters.items())
+    return found_memories
 
 
 def abc():
     """Returns the ABC that belongs to Yosys."""
-    beside = os.path.join(os.path.dirname(shutil.which(YOSYS) or YOSYS), os.path.basename(YOSYS) + "-abc")
-    return beside if os.path.exists(beside) else "yosys-abc"
+    sibling = os.path.join(os.path.dirname(shutil.which(YOSYS) or YOSYS), os.path.basename(YOSYS) + "-abc")
+    return sibling if os.path.exists(sibling) else "yosys-abc"

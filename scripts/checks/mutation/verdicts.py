@@ -7,7 +7,7 @@ import re
 import sys
 import threading
 
-from design import LATER, WORK
+from design import LONG_STAGE, WORK
 
 REASONS = "mutation/survivors.txt"
 # After this number of the smallest designs, the mutant is tested for any effect on the netlist.
@@ -30,108 +30,108 @@ def reasons():
 class Journal:
     """The known verdicts of mutants, so that an interrupted run can continue."""
 
-    def __init__(self, all_of):
-        self.all_of, self.lock, self.path, self.found = all_of, threading.Lock(), os.path.join(WORK, "journal"), {}
+    def __init__(self, designs):
+        self.designs, self.lock, self.path, self.found = designs, threading.Lock(), os.path.join(WORK, "journal"), {}
         for line in open(self.path) if os.path.exists(self.path) else ():
             key, *verdict = json.loads(line)
             self.found[key] = verdict
 
     def key(self, mutant, phase):
-        of = [design.digest(phase) for design in containing(mutant, self.all_of)]
-        return hashlib.sha256(json.dumps([sorted(of), mutant.place(), mutant.text, phase]).encode()).hexdigest()
+        digests = [design.digest(phase) for design in containing_designs(mutant, self.designs)]
+        return hashlib.sha256(json.dumps([sorted(digests), mutant.place(), mutant.text, phase]).encode()).hexdigest()
 
-    def ask(self, phase, mutant, find):
+    def set_verdict(self, phase, mutant, find):
         """Sets the verdict of a mutant: the known one, or that of `find`."""
         key = self.key(mutant, phase)
         if key not in self.found:
             find(mutant)
             with self.lock, open(self.path, "a") as out:
-                print(json.dumps([key, mutant.verdict, mutant.by, mutant.proof]), file=out)
+                print(json.dumps([key, mutant.verdict, mutant.killed_by, mutant.proof]), file=out)
         else:
-            mutant.verdict, mutant.by, mutant.proof = self.found[key]
+            mutant.verdict, mutant.killed_by, mutant.proof = self.found[key]
 
 
 def replay(mutant, designs, stage):
-    """Replays the vectors of designs. Returns whether they decide; the verdict is then `refused` or `killed`."""
+    """Replays the vectors of designs until one decides the verdict, `refused` or `killed`. Returns whether one did."""
     for design in designs:
-        if design.name in mutant.apart:
+        if design.name in mutant.unaffected_designs:
             continue
         outcome = design.run(stage, mutant.module, mutant.text)
         if outcome == "refused":
             mutant.verdict = "refused"
         elif outcome == "same":
-            mutant.apart.add(design.name)
+            mutant.unaffected_designs.add(design.name)
         elif outcome != "pass":
-            mutant.verdict, mutant.by = "killed", (stage, design.name, outcome)
+            mutant.verdict, mutant.killed_by = "killed", (stage, design.name, outcome)
         if mutant.verdict:
             return True
     return False
 
 
-def judge(mutant, all_of, prove):
+def judge_short(mutant, designs, prove):
     """Sets the verdict of the short vectors and of the netlists: `refused`, `killed`, `equivalent` or `survived`."""
-    if mutant.pointless():
+    if mutant.is_pointless():
         mutant.verdict = "refused"
         return
-    contain = [design for design in containing(mutant, all_of) if not design.late]
-    if replay(mutant, contain[:QUICK], 0):
+    containing = [design for design in containing_designs(mutant, designs) if not design.is_late]
+    if replay(mutant, containing[:QUICK], 0):
         return
-    found = everywhere(mutant, all_of, "same") if prove else False
-    if found is not False:
-        mutant.verdict, mutant.proof = "refused" if found is None else "equivalent", "same"
+    is_same = holds_everywhere(mutant, designs, "same") if prove else False
+    if is_same is not False:
+        mutant.verdict, mutant.proof = "refused" if is_same is None else "equivalent", "same"
         return
-    if replay(mutant, contain[QUICK:], 0):
+    if replay(mutant, containing[QUICK:], 0):
         return
     # A proof of a leaf is cheap in comparison with the longer vectors of all designs around it.
-    if prove and not mutant.design and everywhere(mutant, all_of, "equal", around=False):
+    if prove and not mutant.design and holds_everywhere(mutant, designs, "equal", around=False):
         mutant.verdict, mutant.proof = "equivalent", "equal"
         return
     mutant.verdict = "survived"
 
 
-def judge_longer(mutant, all_of):
+def judge_longer(mutant, designs):
     """Sets the verdict of the longer vectors: `refused`, `killed` or `survived`."""
     mutant.verdict = None
-    if not replay(mutant, containing(mutant, all_of), LATER):
+    if not replay(mutant, containing_designs(mutant, designs), LONG_STAGE):
         mutant.verdict = "survived"
 
 
-def containing(mutant, all_of):
-    return [mutant.design] if mutant.design else [design for design in all_of if design.has(mutant.module)]
+def containing_designs(mutant, designs):
+    return [mutant.design] if mutant.design else [design for design in designs if design.has(mutant.module)]
 
 
-def everywhere(mutant, all_of, proof, around=True):
-    """Returns whether the proof holds in every design: for the module with the design's parameters, or else for the design around it,
-    with `around`. Returns None if the proof does."""
-    known = {}
-    for design in containing(mutant, all_of):
-        if design.name in mutant.apart:
+def holds_everywhere(mutant, designs, proof, around=True):
+    """Returns whether the proof holds in every design: for the module with the design's parameters, or else, with `around`,
+    for the design around it. Returns None if the proof finds that the edit is no mutant."""
+    results = {}
+    for design in containing_designs(mutant, designs):
+        if design.name in mutant.unaffected_designs:
             continue
-        if design.late and design.alike(mutant.module, mutant.text):
-            mutant.apart.add(design.name)
+        if design.is_late and design.has_same_program(mutant.module, mutant.text):
+            mutant.unaffected_designs.add(design.name)
             continue
         variants = design.variants(mutant.module)
         for name in variants:
-            if name not in known:
-                known[name] = getattr(design, proof)(mutant.module, mutant.text, name)
-            if known[name] is None:
+            if name not in results:
+                results[name] = getattr(design, proof)(mutant.module, mutant.text, name)
+            if results[name] is None:
                 return None
-            if not (known[name] or around and design.top not in variants):
+            if not (results[name] or around and design.top not in variants):
                 return False
-        if not all(known[name] for name in variants) and not getattr(design, proof)(mutant.module, mutant.text):
+        if not all(results[name] for name in variants) and not getattr(design, proof)(mutant.module, mutant.text):
             return False
     return True
 
 
-def prove(mutant, all_of):
-    if everywhere(mutant, all_of, "equal"):
+def prove(mutant, designs):
+    if holds_everywhere(mutant, designs, "equal"):
         mutant.verdict, mutant.proof = "equivalent", "equal"
 
 
-def claimed_equal(killed, all_of, proof):
-    """Returns the last of these mutants that is a circuit, if the proof holds for it."""
+def find_wrongly_proven(killed, designs, proof):
+    """Returns a killed mutant for which the proof holds, which is an error of the proof: only the last of them that is a circuit is tried."""
     for mutant in reversed(killed):
         # Simulation kills a net without a single driver. Synthesis chooses a value for it, so that a proof has no meaning.
-        if everywhere(mutant, all_of, "same") is not None:
-            return mutant if everywhere(mutant, all_of, proof) else None
+        if holds_everywhere(mutant, designs, "same") is not None:
+            return mutant if holds_everywhere(mutant, designs, proof) else None
     return None

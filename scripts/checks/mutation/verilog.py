@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Verilog as a stream of tokens: brackets, statements, literals, declared names. Just enough of the language for `edits`."""
+"""Verilog as a stream of tokens: brackets, statements, literals, declared names. Only as much of the language as `edits` needs."""
 import re
 
 TOKEN = re.compile(r"""
@@ -28,17 +28,17 @@ def tokens(text):
 
 def partners(stream):
     """Returns for each bracket the index of its partner."""
-    stack, other = [], {}
+    stack, partner_of = [], {}
     for index, token in enumerate(stream):
         if token.text in OPENS and token.kind == "op":
             stack.append(index)
         elif token.text in CLOSES and token.kind == "op":
-            other[index] = stack.pop()
-            other[other[index]] = index
-    return other
+            partner_of[index] = stack.pop()
+            partner_of[partner_of[index]] = index
+    return partner_of
 
 
-def statements(stream, other):
+def statements(stream, partner_of):
     """Returns for each token the index of the first token of its statement, and its depth in brackets."""
     first, start, depth, depths = [], 0, 0, []
     for index, token in enumerate(stream):
@@ -47,8 +47,8 @@ def statements(stream, other):
         before = stream[index - 1] if index else None
         if before is not None and depth == 0 and (
             before.text in (";", "begin", "else", "end", "generate", "endgenerate", "endcase")
-            or before.text == ")" and stream[other[index - 1] - 1].text in ("if", "for", "case")
-            or before.text == ")" and stream[other[index - 1] - 1].text == "@"
+            or before.text == ")" and stream[partner_of[index - 1] - 1].text in ("if", "for", "case")
+            or before.text == ")" and stream[partner_of[index - 1] - 1].text == "@"
             or before.kind == "word" and index > 2 and stream[index - 2].text == ":" and stream[index - 3].text == "begin"
             or before.text == ":" and stream[index - 2].text != "begin" and "?" not in (t.text for t in stream[start:index])
         ):
@@ -75,27 +75,27 @@ def literals(token):
     return [f"{width}'{base}{show.format(other)}" for other in sorted(values)]
 
 
-def declared(stream, other):
+def declared(stream, partner_of):
     """Returns names and the texts of their ranges; names with the same range can replace each other."""
-    found, index = {}, 0
+    declarations, index = {}, 0
     while index < len(stream):
         token = stream[index]
         if token.kind == "word" and token.text in DECLARES - {"genvar", "integer"}:
-            at, size = index + 1, ""
-            while stream[at].text in ("wire", "reg", "signed"):
-                at += 1
-            if stream[at].text == "[":
-                size = "".join(t.text for t in stream[at:other[at] + 1])
-                at = other[at] + 1
+            position, range_text = index + 1, ""
+            while stream[position].text in ("wire", "reg", "signed"):
+                position += 1
+            if stream[position].text == "[":
+                range_text = "".join(t.text for t in stream[position:partner_of[position] + 1])
+                position = partner_of[position] + 1
             kind = "constant" if token.text in ("localparam", "parameter") else "signal"
-            while at < len(stream) and stream[at].kind == "word" and stream[at].text not in KEYWORDS:
-                memory = stream[at + 1].text == "["
-                found[stream[at].text] = ("memory" if memory else kind, size)
+            while position < len(stream) and stream[position].kind == "word" and stream[position].text not in KEYWORDS:
+                memory = stream[position + 1].text == "["
+                declarations[stream[position].text] = ("memory" if memory else kind, range_text)
                 # Other names of a list without initial values.
-                at += 1
-                if stream[at].text == "," and stream[at + 1].text not in DECLARES:
-                    at += 1
+                position += 1
+                if stream[position].text == "," and stream[position + 1].text not in DECLARES:
+                    position += 1
                 else:
                     break
         index += 1
-    return found
+    return declarations

@@ -9,18 +9,18 @@ sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 from circles import Crate, paths  # noqa: E402
 
 
-class Circles(unittest.TestCase):
+class CircleTests(unittest.TestCase):
     def circles(self, expected, **texts):
         modules = {tuple(name.split("__")) if name != "lib" else (): text for name, text in texts.items()}
-        found = Crate(modules).circles()
-        self.assertEqual(sorted(sorted("::".join(module) for module in circle) for circle in found), expected)
+        circles = Crate(modules).circles()
+        self.assertEqual(sorted(sorted("::".join(module) for module in circle) for circle in circles), expected)
 
     def test_a_circle_is_found(self):
         self.circles([["a", "b"]], a="use crate::b::B;", b="fn f() { crate::a::g() }")
         self.circles([["a", "b", "c"]], a="use crate::{b, d};", b="use super::c::C;", c="use crate::a::{self, A};", d="")
         self.circles([["a", "b"], ["c", "d"]], a="use crate::b;", b="use crate::a;", c="use crate::d;", d="use crate::c;")
 
-    def test_what_is_passed_on_counts_for_its_file(self):
+    def test_a_reexport_counts_for_the_file_that_defines_the_item(self):
         lib = "mod a; mod b; pub use a::A; pub use b::{B, other as Other};"
         self.circles([["a", "b"]], lib=lib, a="use crate::B;", b="use crate::A;")
         self.circles([], lib=lib, a="use crate::B;", b="use std::fmt;")

@@ -15,7 +15,7 @@ def names(choice, file):
     return re.findall(r'^        \w+ = "([\w-]+)"', body, re.MULTILINE)
 
 
-class Lists(unittest.TestCase):
+class ListTests(unittest.TestCase):
     def check(self, choice, file, listing, default=None):
         known = [name for name in names(choice, file) if name != default]
         self.assertGreater(len(known), 1, choice)

@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "mutation"))
 import proof  # noqa: E402
 import verdicts  # noqa: E402
 from edits import edits  # noqa: E402
-from mutants import Mutant, drawn, only, wanted  # noqa: E402
+from mutants import Mutant, draw_mutants, mutant_counts, selected_modules  # noqa: E402
 from verilog import declared, literals, partners, statements, tokens  # noqa: E402
 
 MODULE = """\
@@ -23,13 +23,13 @@ endmodule
 """
 
 
-def first(_):
+def first_choice(_):
     return SimpleNamespace(choice=lambda names: names[0])
 
 
-def made(text):
+def edit_set(text):
     """Returns (operator, text, replacement) of every edit."""
-    return {(operator, text[start:end], replacement) for operator, start, end, replacement in edits(text, False, first)}
+    return {(operator, text[start:end], replacement) for operator, start, end, replacement in edits(text, False, first_choice)}
 
 
 class Reading(unittest.TestCase):
@@ -66,7 +66,7 @@ class Reading(unittest.TestCase):
 
 class Edits(unittest.TestCase):
     def test_every_operator_of_mutation_is_there(self):
-        found = made(MODULE)
+        found_edits = edit_set(MODULE)
         for edit in [
             ("operator", "!=", "=="),
             ("operator", "+", "-"),
@@ -77,42 +77,42 @@ class Edits(unittest.TestCase):
             ("name", "step_i", "count_q"),
             ("range", "", "-1"),
         ]:
-            self.assertIn(edit, found)
+            self.assertIn(edit, found_edits)
 
     def test_parameters_clocks_and_comments_are_left_alone(self):
-        for operator, was, now in made(MODULE):
-            self.assertNotIn("clk_i", (was, now), operator)
-            self.assertNotIn(was, ("4", "9"), operator)
+        for operator, original, replacement in edit_set(MODULE):
+            self.assertNotIn("clk_i", (original, replacement), operator)
+            self.assertNotIn(original, ("4", "9"), operator)
 
     def test_limits_are_left_alone(self):
         limit = "    generate if (WIDTH < 7) begin : g_width WIDTH_must_be_7_or_more u_refused (); end endgenerate\n"
-        self.assertEqual(made(MODULE.replace("    always", limit + "    always")), made(MODULE))
+        self.assertEqual(edit_set(MODULE.replace("    always", limit + "    always")), edit_set(MODULE))
         loose = limit.replace("_must_", "_may_")
-        self.assertNotEqual(made(MODULE.replace("    always", loose + "    always")), made(MODULE))
+        self.assertNotEqual(edit_set(MODULE.replace("    always", loose + "    always")), edit_set(MODULE))
 
     def test_an_edit_changes_its_line_only(self):
-        operator, start, end, replacement = next(edit for edit in edits(MODULE, False, first) if edit[0] == "drop")
+        operator, start, end, replacement = next(edit for edit in edits(MODULE, False, first_choice) if edit[0] == "drop")
         mutant = Mutant("counter", None, MODULE, operator, start, end, replacement)
         self.assertEqual(mutant.line, 4)
-        self.assertEqual(mutant.now, "if (step_i != 4'd0) count_q <= count_q;")
+        self.assertEqual(mutant.new_line, "if (step_i != 4'd0) count_q <= count_q;")
         changed = [pair for pair in zip(MODULE.splitlines(), mutant.text.splitlines(), strict=True) if pair[0] != pair[1]]
         self.assertEqual(len(changed), 1)
-        self.assertEqual(mutant.key(), ("counter", mutant.was, mutant.now))
+        self.assertEqual(mutant.key(), ("counter", mutant.old_line, mutant.new_line))
 
 
 class Drawing(unittest.TestCase):
     def test_every_module_gets_four_and_large_ones_more(self):
-        takes = wanted({"small": [0] * 3, "middle": [0] * 50, "large": [0] * 400}, 60)
-        self.assertEqual(sum(takes.values()), 60)
-        self.assertEqual(takes["small"], 3)
-        self.assertGreater(takes["large"], takes["middle"])
+        counts = mutant_counts({"small": [0] * 3, "middle": [0] * 50, "large": [0] * 400}, 60)
+        self.assertEqual(sum(counts.values()), 60)
+        self.assertEqual(counts["small"], 3)
+        self.assertGreater(counts["large"], counts["middle"])
 
     def test_modules_are_named_with_or_without_their_design_or_by_a_pattern(self):
         pools = dict.fromkeys(["serial_lane", "serial_group", "rcm@deep", "rcm@plain", "rpu@deep"])
-        self.assertEqual(list(only(pools, ["rcm", "serial_lane"])), ["serial_lane", "rcm@deep", "rcm@plain"])
-        self.assertEqual(list(only(pools, ["*@deep"])), ["rcm@deep", "rpu@deep"])
+        self.assertEqual(list(selected_modules(pools, ["rcm", "serial_lane"])), ["serial_lane", "rcm@deep", "rcm@plain"])
+        self.assertEqual(list(selected_modules(pools, ["*@deep"])), ["rcm@deep", "rpu@deep"])
         with self.assertRaisesRegex(SystemExit, "no module is called serial_lanes"):
-            only(pools, ["rcm", "serial_lanes"])
+            selected_modules(pools, ["rcm", "serial_lanes"])
 
     def test_a_refused_mutant_is_replaced_by_the_next(self):
         pool = [SimpleNamespace(number=number, verdict=None, place=lambda: "leaf") for number in range(5)]
@@ -120,8 +120,8 @@ class Drawing(unittest.TestCase):
         def check(mutant):
             mutant.verdict = "refused" if mutant.number < 2 else "killed"
 
-        kept = drawn({"leaf": pool}, {"leaf": 2}, SimpleNamespace(map=map), check)
-        self.assertEqual([mutant.number for mutant in kept], [2, 3])
+        accepted = draw_mutants({"leaf": pool}, {"leaf": 2}, SimpleNamespace(map=map), check)
+        self.assertEqual([mutant.number for mutant in accepted], [2, 3])
 
 
 class Netlists(unittest.TestCase):
@@ -140,8 +140,8 @@ class Netlists(unittest.TestCase):
         one, zero = "  attribute \\init 1'1\n", "  attribute \\init 1'0\n"
         a, b = self.WIRE.format("a"), self.WIRE.format("b")
         self.assertNotEqual(self.text(one, a, zero, b), self.text(zero, a, one, b))
-        ways = [[self.CELL.format("x", one), self.CELL.format("y", other)] for one, other in ("ab", "ba")]
-        self.assertNotEqual(*(self.text(*way) for way in ways))
+        orders = [[self.CELL.format("x", one), self.CELL.format("y", other)] for one, other in ("ab", "ba")]
+        self.assertNotEqual(*(self.text(*way) for way in orders))
 
 
 class Proofs(unittest.TestCase):
@@ -161,14 +161,14 @@ module delay (input wire clk_i, input wire we_i, input wire [1:0] at_i, input wi
 endmodule
 """
 
-    def equal(self, was, now):
-        self.assertIn(was, self.DELAY)
+    def equal(self, original, replacement):
+        self.assertIn(original, self.DELAY)
         with tempfile.TemporaryDirectory() as work:
             os.mkdir(os.path.join(work, "rtl"))
             with open(os.path.join(work, "rtl", "delay.v"), "w") as out:
                 out.write(self.DELAY)
             design = SimpleNamespace(files=["rtl/delay.v"], bench=None, sources=work, top="delay", chparam=lambda: "")
-            return proof.equal(design, work, "delay", self.DELAY.replace(was, now))
+            return proof.is_equal(design, work, "delay", self.DELAY.replace(original, replacement))
 
     def test_another_form_of_the_same_is_equal(self):
         self.assertTrue(self.equal("bit_q && more_q", "more_q"))
@@ -191,15 +191,15 @@ class Reasons(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
             file.write(text)
             file.flush()
-            before, verdicts.REASONS = verdicts.REASONS, file.name
+            previous, verdicts.REASONS = verdicts.REASONS, file.name
             try:
                 return verdicts.reasons()
             finally:
-                verdicts.REASONS = before
+                verdicts.REASONS = previous
 
     def test_a_paragraph_is_a_place_two_lines_and_a_reason(self):
-        found = self.read("# why\n\nleaf\n- a = b;\n+ a = c;\nb and c\nare equal\n")
-        self.assertEqual(found, {("leaf", "a = b;", "a = c;"): "b and c are equal"})
+        reasons = self.read("# why\n\nleaf\n- a = b;\n+ a = c;\nb and c\nare equal\n")
+        self.assertEqual(reasons, {("leaf", "a = b;", "a = c;"): "b and c are equal"})
 
     def test_an_excuse_without_a_reason_is_refused(self):
         with self.assertRaises(SystemExit):
@@ -212,11 +212,11 @@ class Reasons(unittest.TestCase):
 class ControlOfProofs(unittest.TestCase):
     def claimed(self, *mutants):
         """Returns the claim about mutants with these answers to the proofs `same` and `equal`."""
-        design = SimpleNamespace(name="d", late=False, top="top", has=lambda module: True, variants=lambda module: ["leaf"],
+        design = SimpleNamespace(name="d", is_late=False, top="top", has=lambda module: True, variants=lambda module: ["leaf"],
                                  same=lambda module, text, inside=None: text[0], equal=lambda module, text, inside=None: text[1])
-        killed = [SimpleNamespace(module="leaf", design=None, apart=set(), text=answers) for answers in mutants]
-        found = verdicts.claimed_equal(killed, [design], "equal")
-        return found and found.text
+        killed = [SimpleNamespace(module="leaf", design=None, unaffected_designs=set(), text=answers) for answers in mutants]
+        mutant = verdicts.find_wrongly_proven(killed, [design], "equal")
+        return mutant and mutant.text
 
     def test_a_killed_mutant_that_is_proven_equal_is_found(self):
         self.assertEqual(self.claimed((False, True)), (False, True))

@@ -6,12 +6,12 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 
-from variants import open_tests  # noqa: E402
+from variants import variant_tests  # noqa: E402
 
 
 class Variants(unittest.TestCase):
     def lines(self, text, expected):
-        self.assertEqual(open_tests(text), expected, text)
+        self.assertEqual(variant_tests(text), expected, text)
 
     def test_comparisons_are_found(self):
         self.lines("let a = 1;\nif design.organization() == Organization::Raster {}", [2])

@@ -13,38 +13,38 @@ CHANGELOG = "# Changelog\n\n## [1.2.3] - 2026-11-25\n### Added\n- A thing.\n\n##
 
 
 def manifest(**package):
-    own = {"path": "crates/frame", "version": "=1.2.3"}
-    return {"workspace": {"package": {"version": "1.2.3", "repository": "https://here", **package}, "dependencies": {"foveate-frame": own}}}
+    dependency = {"path": "crates/frame", "version": "=1.2.3"}
+    return {"workspace": {"package": {"version": "1.2.3", "repository": "https://here", **package}, "dependencies": {"foveate-frame": dependency}}}
 
 
 def pyproject(**project):
     return {"project": {"dynamic": ["version"], **project}}
 
 
-class Versions(unittest.TestCase):
-    def found(self, given=None, project=None, citation=CITATION, changelog=CHANGELOG):
-        return list(versions.disagreements(given or manifest(), project or pyproject(), citation, changelog))
+class VersionTests(unittest.TestCase):
+    def disagreements(self, manifest_table=None, project=None, citation=CITATION, changelog=CHANGELOG):
+        return list(versions.disagreements(manifest_table or manifest(), project or pyproject(), citation, changelog))
 
-    def lacks(self, given=None, citation=CITATION, changelog=CHANGELOG, tag=None):
-        return list(versions.missing(given or manifest(), citation, changelog, tag))
+    def release_problems(self, manifest_table=None, citation=CITATION, changelog=CHANGELOG, tag=None):
+        return list(versions.release_problems(manifest_table or manifest(), citation, changelog, tag))
 
     def test_nothing_where_all_agree(self):
-        self.assertEqual(self.found(), [])
-        self.assertEqual(self.found(changelog="## [Unreleased]\n- A thing.\n"), [])
-        self.assertEqual(self.lacks(tag="v1.2.3"), [])
+        self.assertEqual(self.disagreements(), [])
+        self.assertEqual(self.disagreements(changelog="## [Unreleased]\n- A thing.\n"), [])
+        self.assertEqual(self.release_problems(tag="v1.2.3"), [])
 
     def test_every_place_is_looked_at(self):
         older = manifest()
         older["workspace"]["dependencies"]["foveate-frame"]["version"] = "1.2.3"
         for changed, word in [
-            ({"given": older}, 'foveate-frame is of version 1.2.3; it has to be "=1.2.3"'),
+            ({"manifest_table": older}, 'foveate-frame is of version 1.2.3; it has to be "=1.2.3"'),
             ({"project": pyproject(dynamic=[])}, "pyproject.toml"),
             ({"citation": CITATION.replace("1.2.3", "1.2.4")}, "CITATION.cff: version is 1.2.4"),
             # This is not the version of the format.
             ({"citation": "cff-version: 1.2.3\n"}, "CITATION.cff: version is None"),
             ({"changelog": CHANGELOG.replace("1.2.3", "1.3.0")}, "the newest section is [1.3.0]"),
         ]:
-            (one,) = self.found(**changed)
+            (one,) = self.disagreements(**changed)
             self.assertIn(word, one)
 
     def test_a_release_lacks_what_is_not_there(self):
@@ -53,10 +53,10 @@ class Versions(unittest.TestCase):
             ({"changelog": CHANGELOG.replace(" - 2026-11-25", "")}, "is of None"),
             ({"changelog": CHANGELOG.replace("- A thing.", "")}, "says nothing"),
             ({"citation": CITATION.replace("11-25", "11-24")}, "date-released is 2026-11-24; the changelog says 2026-11-25"),
-            ({"given": manifest(repository=None)}, "no repository"),
+            ({"manifest_table": manifest(repository=None)}, "no repository"),
             ({"tag": "1.2.3"}, "it has to be v1.2.3"),
         ]:
-            (one,) = self.lacks(**changed)
+            (one,) = self.release_problems(**changed)
             self.assertIn(word, one)
 
     def test_a_crate_without_licences_or_with_a_link_to_elsewhere_is_unfit(self):
@@ -64,15 +64,15 @@ class Versions(unittest.TestCase):
             folder = pathlib.Path(project, "crates/frame")
             folder.mkdir(parents=True)
             (folder / "Cargo.toml").write_text('[package]\nname = "foveate-frame"\ndescription = "A frame"\n')
-            self.assertEqual(len(list(versions.unfit(folder))), 2)
+            self.assertEqual(len(list(versions.missing_files(folder))), 2)
             for name in versions.LICENSES:
                 (pathlib.Path(project) / name).write_text("")
                 (folder / name).symlink_to(f"../../{name}")
-            self.assertEqual(list(versions.unfit(folder)), [])
+            self.assertEqual(list(versions.missing_files(folder)), [])
             secret = pathlib.Path(elsewhere, "secret")
             secret.write_text("")
             (folder / "data").symlink_to(secret)
-            (one,) = versions.unfit(folder)
+            (one,) = versions.missing_files(folder)
             self.assertIn("leads out of the project", one)
 
 
