@@ -22,10 +22,10 @@ DESIGNS = {
 }
 
 
-def rows(program, name, settings):
+def area_rows(program, name, settings):
     """Yields the areas of the parts of a core and of the whole core; a LUT may hold two shift registers."""
-    made = subprocess.run([program, "estimate", "--json", "--quiet", *FRAME, *settings], check=True, capture_output=True, text=True)
-    report = json.loads(made.stdout)
+    run = subprocess.run([program, "estimate", "--json", "--quiet", *FRAME, *settings], check=True, capture_output=True, text=True)
+    report = json.loads(run.stdout)
     bus = report["bus"]
     parts = [("array (rcm)", report["rcm"])] + [(part["name"], part["area"]) for part in bus["parts"]]
     for part, area in [*parts, ("whole (rcm_axi)", bus["whole"])]:
@@ -42,11 +42,11 @@ def rows(program, name, settings):
 def main():
     os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
     program = os.environ.get("FOVEATE") or subprocess.run(["scripts/checks/foveate.sh"], check=True, capture_output=True, text=True).stdout.strip()
-    found = [row for name, settings in DESIGNS.items() for row in rows(program, name, settings)]
+    rows = [row for name, settings in DESIGNS.items() for row in area_rows(program, name, settings)]
     with open(TABLE, "w", newline="", encoding="utf-8") as file:
-        table = csv.DictWriter(file, list(found[0]), lineterminator="\n")
+        table = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         table.writeheader()
-        table.writerows(found)
+        table.writerows(rows)
     print(open(TABLE, encoding="utf-8").read(), end="")
     return 0
 

@@ -4,7 +4,7 @@
 
     bench_networks.py FOLDER [NAME...] [--inputs INPUT...] [--frames N] [--rounds N] [--threads N...] [--tract PROGRAM]
 
-FOLDER holds ONNX files, as scripts/figures/networks.py makes them. The programs take turns, and the best of the rounds counts: other work on the
+FOLDER contains ONNX files, as scripts/figures/networks.py makes them. The programs take turns, and the best of the rounds counts: other work on the
 machine only makes a time longer. Needs `foveate` on the path (or its path in FOVEATE), and onnxruntime. PROGRAM is what
 `cargo build --release --manifest-path scripts/figures/tract_dense/Cargo.toml` makes; tract computes on one thread.
 """
@@ -61,31 +61,31 @@ def tract_time(program, path, shape):
     return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
-def row(path, clip, threads, options):
+def table_row(path, clip, threads, options):
     """Measures a network on a clip. Returns a row of the table."""
     runner = session(path, threads)
     shape = shape_of(runner)
     size = shape[3], shape[2]
-    theirs, tract, dense, exact = [], [], [], []
+    onnxruntime_times, tract_times, dense_times, exact_times = [], [], [], []
     for _ in range(options.rounds):
-        theirs.append(dense_time(runner, shape))
+        onnxruntime_times.append(dense_time(runner, shape))
         if options.tract and threads == 1:
-            tract.append(tract_time(options.tract, path, shape))
-        dense.append(infer(path, clip, size, "dense", threads, options)["seconds_per_frame"])
-        exact.append(infer(path, clip, size, "exact", threads, options))
-    masks = min(run["overhead_seconds_per_frame"] for run in exact)
-    found = exact[0]
-    exact = [run["seconds_per_frame"] for run in exact]
-    shown = [f"{1e3 * min(times):.1f} ms" if times else "" for times in (theirs, tract, dense, exact, [masks])]
+            tract_times.append(tract_time(options.tract, path, shape))
+        dense_times.append(infer(path, clip, size, "dense", threads, options)["seconds_per_frame"])
+        exact_times.append(infer(path, clip, size, "exact", threads, options))
+    mask_time = min(run["overhead_seconds_per_frame"] for run in exact_times)
+    first_run = exact_times[0]
+    exact_times = [run["seconds_per_frame"] for run in exact_times]
+    time_cells = [f"{1e3 * min(times):.1f} ms" if times else "" for times in (onnxruntime_times, tract_times, dense_times, exact_times, [mask_time])]
     if not options.tract:
-        del shown[1]
-    ratios = [f"{min(theirs) / min(times):.2f}x" for times in (dense, exact)]
+        del time_cells[1]
+    ratios = [f"{min(onnxruntime_times) / min(times):.2f}x" for times in (dense_times, exact_times)]
     # The share of computed blocks, and the time in relation to it.
-    blocks = found["macs"]["scheduled"] / found["macs"]["whole"]
-    shares = [f"{100 * found['changed_share']:.1f} %", f"{100 * blocks:.0f} %", f"{100 * min(exact) / min(dense):.0f} %"]
+    blocks = first_run["macs"]["scheduled"] / first_run["macs"]["whole"]
+    shares = [f"{100 * first_run['changed_share']:.1f} %", f"{100 * blocks:.0f} %", f"{100 * min(exact_times) / min(dense_times):.0f} %"]
     name = os.path.splitext(os.path.basename(path))[0]
     label = os.path.basename(clip).rsplit(".", 1)[0]
-    return [name, f"{size[0]}x{size[1]}", label, str(threads), *shown, *ratios, *shares]
+    return [name, f"{size[0]}x{size[1]}", label, str(threads), *time_cells, *ratios, *shares]
 
 
 def networks(folder, names):
@@ -112,8 +112,8 @@ def main():
     options = parser.parse_args()
     try:
         paths = networks(options.folder, options.names)
-    except ValueError as problem:
-        raise SystemExit(f"bench_networks: {problem}") from None
+    except ValueError as error:
+        raise SystemExit(f"bench_networks: {error}") from None
     print(f"onnxruntime {onnxruntime.__version__}, {options.frames} frames\n")
     programs = ["onnxruntime", *(["tract"] if options.tract else []), "dense", "exact", "masks"]
     heads = ["network", "size", "clip", "threads", *programs, "dense / onnxruntime", "exact / onnxruntime", "changed", "blocks", "time"]
@@ -122,7 +122,7 @@ def main():
     for path in paths:
         for clip in options.inputs:
             for threads in options.threads:
-                print("| " + " | ".join(row(path, clip, threads, options)) + " |", flush=True)
+                print("| " + " | ".join(table_row(path, clip, threads, options)) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Measures Camera.step beside the engine without Python, and beside a numpy + OpenCV pipeline in the same process.
+"""Measures Camera.step against the engine without Python, and against a numpy + OpenCV pipeline in the same process.
 
     scripts/figures/bench_python.py THROUGHPUT ANCHOR [ROUNDS]
 
@@ -27,8 +27,8 @@ SECONDS = 0.8
 
 def seconds_per_frame(step, frames):
     """Returns the mean of the faster half of the frames, as cv_pipeline.py and the engine's example compute it."""
-    times, began, number = [], time.perf_counter(), 0
-    while time.perf_counter() - began < SECONDS or number < 5:
+    times, first_start, number = [], time.perf_counter(), 0
+    while time.perf_counter() - first_start < SECONDS or number < 5:
         frame = frames[number % len(frames)]
         start = time.perf_counter()
         step(frame)
@@ -38,7 +38,7 @@ def seconds_per_frame(step, frames):
     return sum(times) / len(times)
 
 
-def reading(camera):
+def step_with_results(camera):
     """Runs a step, and reads its decisions, scores and screen."""
 
     def step(frame):
@@ -63,16 +63,16 @@ def main():
             clip = pathlib.Path(folder) / f"{size}.npy"
             subprocess.run([sys.executable, anchor / "make_clip.py", clip, width, height, str(count)], check=True, stdout=subprocess.DEVNULL)
             frames = np.load(clip)
-            found = {"engine": [], "step": [], "read": [], "opencv": []}
+            times = {"engine": [], "step": [], "read": [], "opencv": []}
             for _ in range(rounds):
-                words = [throughput, clip, "--side", str(side), "--features", "edge", "--seconds", str(SECONDS)]
-                alone = json.loads(subprocess.run(words, check=True, capture_output=True).stdout)
-                found["engine"].append(frames[0].size / alone["mpixel_s"] / 1e6)
+                command = [throughput, clip, "--side", str(side), "--features", "edge", "--seconds", str(SECONDS)]
+                engine_run = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+                times["engine"].append(frames[0].size / engine_run["mpixel_s"] / 1e6)
                 design = {"region": {"size": side, "neighborhood": "shared"}}
-                found["step"].append(seconds_per_frame(fv.Camera(design).step, frames))
-                found["read"].append(seconds_per_frame(reading(fv.Camera(design)), frames))
-                found["opencv"].append(seconds_per_frame(pipeline.RCM(side, "edge").step, frames))
-            best = {name: min(values) for name, values in found.items()}
+                times["step"].append(seconds_per_frame(fv.Camera(design).step, frames))
+                times["read"].append(seconds_per_frame(step_with_results(fv.Camera(design)), frames))
+                times["opencv"].append(seconds_per_frame(pipeline.RCM(side, "edge").step, frames))
+            best = {name: min(values) for name, values in times.items()}
             print(
                 f"| {size} | {side} | {1e3 * best['engine']:.3f} | {1e3 * best['step']:.3f} | {best['engine'] / best['step']:.2f}x"
                 f" | {1e3 * best['read']:.3f} | {1e3 * best['opencv']:.3f} | {best['opencv'] / best['step']:.1f}x |",

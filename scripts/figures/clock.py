@@ -43,7 +43,7 @@ def designs():
             yield f"raster {feature} median {pipelining}", "bare", keys, "rpu"
 
 
-def place(foveate, preset, keys, level, seeds):
+def place_and_route(foveate, preset, keys, level, seeds):
     """Returns the report of the command about a design."""
     command = [foveate, "estimate", "--place-and-route", DEVICE, "--seeds", str(seeds), "--level", level, "--preset", preset]
     command += [word for key in keys for word in ("--set", key)]
@@ -53,13 +53,13 @@ def place(foveate, preset, keys, level, seeds):
     return json.loads(run.stdout)["devices"][0]["placed"]
 
 
-def row(name, placed):
+def table_row(name, placement):
     """Returns a line of the table, and the error of the estimate as a share of the reached clock."""
-    fmax, estimate, path = placed["fmax"], placed["estimate"], placed["critical"]
+    fmax, estimate, critical_path = placement["fmax"], placement["estimate"], placement["critical"]
     error = estimate["mhz"] / fmax["median_mhz"] - 1
-    cells = [name, *(f"{placed[key]['used']:,}" for key in ("logic", "ff", "block_ram"))]
+    cells = [name, *(f"{placement[key]['used']:,}" for key in ("logic", "ff", "block_ram"))]
     cells += [f"{fmax[key]:.1f}" for key in ("min_mhz", "median_mhz", "max_mhz")]
-    cells += [f"{path['from']['module']} to {path['to']['module']}"]
+    cells += [f"{critical_path['from']['module']} to {critical_path['to']['module']}"]
     return "| " + " | ".join([*cells, f"{estimate['mhz']:.1f}", f"{100 * error:+.0f}%"]) + " |", error
 
 
@@ -80,11 +80,11 @@ def main():
     for name, preset, keys, level in known:
         if options.designs and name not in options.designs:
             continue
-        line, error = row(name, place(foveate, preset, keys, level, options.seeds))
+        line, error = table_row(name, place_and_route(foveate, preset, keys, level, options.seeds))
         print(line, flush=True)
         errors.append(error)
-    within = sum(abs(error) <= 0.25 for error in errors)
-    print(f"\n{len(errors)} designs; {within} within 25%; median error {100 * statistics.median(errors):+.0f}%, "
+    within_count = sum(abs(error) <= 0.25 for error in errors)
+    print(f"\n{len(errors)} designs; {within_count} within 25%; median error {100 * statistics.median(errors):+.0f}%, "
           f"largest {100 * max(errors, key=abs):+.0f}%.")
 
 

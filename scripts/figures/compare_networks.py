@@ -33,7 +33,7 @@ def program():
     return os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(ROOT, "target")), "release", "examples", "outputs")
 
 
-def widened(model):
+def widen(model):
     """Returns a network with 32-bit values in place of 16-bit ones."""
     for value in [*model.graph.input, *model.graph.output, *model.graph.value_info]:
         if value.type.tensor_type.elem_type == TensorProto.FLOAT16:
@@ -48,18 +48,18 @@ def widened(model):
     return model
 
 
-def apart(theirs, ours):
+def largest_difference(reference_outputs, outputs):
     """Returns the largest difference of any output, as a share of that output's largest value."""
-    found, start = 0.0, 0
-    for value in theirs:
-        part = ours[start:start + value.size]
+    difference, start = 0.0, 0
+    for value in reference_outputs:
+        output = outputs[start:start + value.size]
         start += value.size
         value = value.astype(np.float32).ravel()
         largest = max(float(np.abs(value).max()), 0.01)
-        found = max(found, float(np.abs(value - part).max()) / largest)
-    if start != ours.size:
-        raise ValueError(f"onnxruntime makes {start} values, we {ours.size}")
-    return found
+        difference = max(difference, float(np.abs(value - output).max()) / largest)
+    if start != outputs.size:
+        raise ValueError(f"onnxruntime makes {start} values, we {outputs.size}")
+    return difference
 
 
 def run(model, picture):
@@ -78,31 +78,31 @@ def run(model, picture):
     return outputs, best
 
 
-def row(path, size, highest, outputs):
+def table_row(path, size, highest, outputs):
     """Returns the row of a network, and whether there is an error other than the difference."""
     model = onnx.load(path)
     constants = {tensor.name for tensor in model.graph.initializer}
-    given = next(value for value in model.graph.input if value.name not in constants)
-    is_half = given.type.tensor_type.elem_type == TensorProto.FLOAT16
-    lengths = [dim.dim_value for dim in given.type.tensor_type.shape.dim]
+    input_value = next(value for value in model.graph.input if value.name not in constants)
+    is_half = input_value.type.tensor_type.elem_type == TensorProto.FLOAT16
+    lengths = [dim.dim_value for dim in input_value.type.tensor_type.shape.dim]
     width, height = map(int, size.split("x")) if size else (lengths[3] or 640, lengths[2] or 360)
     channels = lengths[1]
     picture = np.random.default_rng(1).random((1, channels, height, width), dtype=np.float32) * np.float32(highest)
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.join(folder, name) for name in ("picture", "outputs")]
         picture.tofile(files[0])
-        done = subprocess.run([outputs, path, f"{width}x{height}", *files], capture_output=True, text=True)
-        if done.returncode:
-            return [done.stderr.strip().removeprefix("Error: ")[:200], "", "", "", "", ""], 0.0, False
-        ours = np.fromfile(files[1], "<f4")
-    said = dict(line.split(" ", 1) for line in done.stdout.splitlines())
-    wide = widened(onnx.load(path)).SerializeToString() if is_half else path
-    theirs, best = run(wide, picture)
-    found = apart(theirs, ours)
-    shown = f"{found:.1e}" + (f" (in 16 bits {apart(run(path, picture)[0], ours):.1e})" if is_half else "")
-    exact = "same" if said["Exact"] == said["Compare"] == "same" else said["Exact"] + "; " + said["Compare"]
-    times = [f"{1e3 * best:.1f} ms", f"{float(said['time']):.1f} ms", f"{1e5 * best / float(said['time']):.0f} %"]
-    return ["read", shown, exact, *times], found, exact == "same"
+        result = subprocess.run([outputs, path, f"{width}x{height}", *files], capture_output=True, text=True)
+        if result.returncode:
+            return [result.stderr.strip().removeprefix("Error: ")[:200], "", "", "", "", ""], 0.0, False
+        own_outputs = np.fromfile(files[1], "<f4")
+    properties = dict(line.split(" ", 1) for line in result.stdout.splitlines())
+    wide_model = widen(onnx.load(path)).SerializeToString() if is_half else path
+    reference_outputs, best = run(wide_model, picture)
+    difference = largest_difference(reference_outputs, own_outputs)
+    difference_text = f"{difference:.1e}" + (f" (in 16 bits {largest_difference(run(path, picture)[0], own_outputs):.1e})" if is_half else "")
+    exact = "same" if properties["Exact"] == properties["Compare"] == "same" else properties["Exact"] + "; " + properties["Compare"]
+    times = [f"{1e3 * best:.1f} ms", f"{float(properties['time']):.1f} ms", f"{1e5 * best / float(properties['time']):.0f} %"]
+    return ["read", difference_text, exact, *times], difference, exact == "same"
 
 
 def main():
@@ -116,8 +116,8 @@ def main():
     print(f"onnxruntime {onnxruntime.__version__}\n")
     print("| network | | difference | exact, compare | onnxruntime | dense | speed |\n| --- | --- | ---: | --- | ---: | ---: | ---: |")
     for path in options.files:
-        cells, found, is_same = row(path, options.size, options.highest, outputs)
-        is_right &= is_same and found <= options.limit
+        cells, difference, is_same = table_row(path, options.size, options.highest, outputs)
+        is_right &= is_same and difference <= options.limit
         print("| " + " | ".join([os.path.splitext(os.path.basename(path))[0], *cells]) + " |", flush=True)
     sys.exit(not is_right)
 

@@ -7,7 +7,7 @@
 Needs cargo and SCALE-Sim: `pip install scalesim==3.0.0 'numpy<2.4'`, best in a virtual environment whose Python runs this script. (SCALE-Sim 3.0.0
 fails with NumPy 2.4.) It steps through every address, so all layers take a quarter of an hour. SCALE-Sim knows no padding, so the inputs of
 the layers are padded here. A layer with groups stands here as one of them. SCALE-Sim rounds up how often a kernel that strides fits into the
-input; --crop takes off what no kernel sees, so that there is nothing to round.
+input; --crop removes the inputs at the ends that no kernel covers, so that there is nothing to round.
 """
 import argparse
 import contextlib
@@ -79,12 +79,12 @@ RandomNumberGeneratorSeed = 40
 """
 
 
-def theirs(layer, rows, columns, dataflow):
+def scalesim_cycles(layer, rows, columns, dataflow):
     """Returns SCALE-Sim's number of the last cycle; for a depthwise layer the sum over its channels, each of which is a run."""
     with tempfile.TemporaryDirectory() as folder:
         config, layout, topology = (os.path.join(folder, name) for name in ("scale.cfg", "layout.csv", "topology.csv"))
         settings = CONFIG.format(rows=rows, columns=columns, dataflow=dataflow)
-        for path, text in ((config, settings), (layout, "Layer name,\n"), (topology, listed([layer]))):
+        for path, text in ((config, settings), (layout, "Layer name,\n"), (topology, topology_text([layer]))):
             with open(path, "w") as file:
                 file.write(text)
         with open(os.devnull, "w") as nothing, contextlib.redirect_stdout(nothing):
@@ -96,26 +96,28 @@ def theirs(layer, rows, columns, dataflow):
     return sum(int(run["Total Cycles"]) for run in runs)
 
 
-def ours(layers, rows, columns, dataflow):
+def model_cycles(layers, rows, columns, dataflow):
     """Returns the model's cycles by layer, counted as SCALE-Sim counts them."""
     with tempfile.TemporaryDirectory() as folder:
         topology = os.path.join(folder, "topology.csv")
         with open(topology, "w") as file:
-            file.write(listed(layers))
+            file.write(topology_text(layers))
         command = ["cargo", "run", "--quiet", "--locked", "-p", "foveate-accelerator", "--example", "cycles", "--"]
         run = subprocess.run([*command, dataflow, str(rows), str(columns), topology], cwd=ROOT, check=True, capture_output=True, text=True)
     return {name: int(cycles) for name, cycles in csv.reader(run.stdout.splitlines())}
 
 
-def listed(layers):
+def topology_text(layers):
     """Writes a topology in the format of SCALE-Sim."""
     return "\n".join([TOPOLOGY, *(", ".join(map(str, layer)) + "," for layer in layers)]) + "\n"
 
 
-def cropped(layer):
+def crop(layer):
     """Returns a layer without the inputs at its ends that no kernel covers."""
-    name, height, width, down, across, channels, filters, stride = layer
-    return (name, height - (height - down) % stride, width - (width - across) % stride, down, across, channels, filters, stride)
+    name, height, width, kernel_height, kernel_width, channels, filters, stride = layer
+    height -= (height - kernel_height) % stride
+    width -= (width - kernel_width) % stride
+    return (name, height, width, kernel_height, kernel_width, channels, filters, stride)
 
 
 def main():
@@ -129,14 +131,14 @@ def main():
     if not layers:
         parser.error(f"no layer of that name; there are {', '.join(layer[0] for layer in LAYERS)}")
     if options.crop:
-        layers = [cropped(layer) for layer in layers]
+        layers = [crop(layer) for layer in layers]
     columns = [f"{dataflow} SCALE-Sim | {dataflow} model | ratio" for dataflow in options.dataflows]
     print("\n".join([f"| array | layer | {' | '.join(columns)} |", f"| --- | --- |{' ---: |' * 3 * len(columns)}"]))
     for array in options.arrays:
         rows, columns = map(int, array.split("x"))
-        models = {dataflow: ours(layers, rows, columns, dataflow) for dataflow in options.dataflows}
+        models = {dataflow: model_cycles(layers, rows, columns, dataflow) for dataflow in options.dataflows}
         for layer in layers:
-            pairs = [(theirs(layer, rows, columns, dataflow), models[dataflow][layer[0]]) for dataflow in options.dataflows]
+            pairs = [(scalesim_cycles(layer, rows, columns, dataflow), models[dataflow][layer[0]]) for dataflow in options.dataflows]
             cells = " | ".join(f"{cycles:,} | {model:,} | {model / cycles:.4f}" for cycles, model in pairs)
             print(f"| {array} | {layer[0]} | {cells} |", flush=True)
 

@@ -23,27 +23,27 @@ SMALLEST = 6000
 MUST_BE_REFUSED = ("cut", "cut and closed", "2,000 zeros")
 
 
-def replaced(data: bytes, at: int, stretch: bytes) -> bytes:
-    return data[:at] + stretch + data[at + len(stretch) :]
+def replace_bytes(data: bytes, start: int, replacement: bytes) -> bytes:
+    return data[:start] + replacement + data[start + len(replacement) :]
 
 
-def damages(chance: random.Random, data: bytes) -> dict[str, bytes]:
+def damaged_copies(generator: random.Random, data: bytes) -> dict[str, bytes]:
     """Returns copies of a picture with each kind of damage to its coded pixels."""
     first = data.rfind(b"\xff\xda", 0, data.find(b"\xff\xda") + 2) + 20
 
     def place(room: int) -> int:
-        return chance.randrange(first, max(first + 1, len(data) - 2 - room))
+        return generator.randrange(first, max(first + 1, len(data) - 2 - room))
 
     bit = place(0)
     return {
-        "cut": data[: chance.randrange(2, len(data) - 2)],
+        "cut": data[: generator.randrange(2, len(data) - 2)],
         "cut and closed": data[: place(40)] + b"\xff\xd9",
-        "2,000 zeros": replaced(data, at := place(2000), bytes(min(2000, len(data) - 2 - at))),
-        "64 zeros": replaced(data, place(64), bytes(64)),
-        "64 random bytes": replaced(data, place(64), chance.randbytes(64)),
-        "64 bytes missing": data[: (at := place(64))] + data[at + 64 :],
-        "64 bytes more": data[: (at := place(0))] + chance.randbytes(64) + data[at:],
-        "one bit": replaced(data, bit, bytes([data[bit] ^ 1 << chance.randrange(8)])),
+        "2,000 zeros": replace_bytes(data, start := place(2000), bytes(min(2000, len(data) - 2 - start))),
+        "64 zeros": replace_bytes(data, place(64), bytes(64)),
+        "64 random bytes": replace_bytes(data, place(64), generator.randbytes(64)),
+        "64 bytes missing": data[: (start := place(64))] + data[start + 64 :],
+        "64 bytes more": data[: (start := place(0))] + generator.randbytes(64) + data[start:],
+        "one bit": replace_bytes(data, bit, bytes([data[bit] ^ 1 << generator.randrange(8)])),
     }
 
 
@@ -54,10 +54,10 @@ def reader(command: str, folder: Path) -> Callable[[bytes], bool]:
 
     def reads(data: bytes) -> bool:
         path.write_bytes(data)
-        done = subprocess.run(call, capture_output=True, text=True)
-        if done.returncode not in (0, 2):
-            sys.exit(f"exit code {done.returncode}: {done.stderr}")
-        return done.returncode == 0
+        result = subprocess.run(call, capture_output=True, text=True)
+        if result.returncode not in (0, 2):
+            sys.exit(f"exit code {result.returncode}: {result.stderr}")
+        return result.returncode == 0
 
     return reads
 
@@ -68,9 +68,9 @@ def main() -> None:
     parser.add_argument("--each", type=int, default=4, help="how often a picture is damaged in each way")
     parser.add_argument("--command", default="target/release/foveate")
     args = parser.parse_args()
-    chance = random.Random(1)
-    found = sorted(path for path in args.folder.rglob("*.jpg") if path.stat().st_size >= SMALLEST)
-    pictures = chance.sample(found, min(PICTURES, len(found)))
+    generator = random.Random(1)
+    candidates = sorted(path for path in args.folder.rglob("*.jpg") if path.stat().st_size >= SMALLEST)
+    pictures = generator.sample(candidates, min(PICTURES, len(candidates)))
     if not pictures:
         sys.exit(f"{args.folder} has no JPEG of {SMALLEST} bytes or more")
     counts: dict[str, list[int]] = {}
@@ -81,7 +81,7 @@ def main() -> None:
             if not reads(data):
                 sys.exit(f"{path} is whole, but is refused")
             for _ in range(args.each):
-                for name, damaged in damages(chance, data).items():
+                for name, damaged in damaged_copies(generator, data).items():
                     count = counts.setdefault(name, [0, 0])
                     count[0] += 1
                     count[1] += not reads(damaged)

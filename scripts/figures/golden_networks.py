@@ -20,7 +20,7 @@ from torch import nn
 from torch.nn import functional
 
 
-class Zoo(nn.Module):
+class Branches(nn.Module):
     """Branches of one input, each of which is an output."""
 
     def __init__(self, *branches):
@@ -31,7 +31,7 @@ class Zoo(nn.Module):
         return tuple(branch(x) for branch in self.branches)
 
 
-class Of(nn.Module):
+class Function(nn.Module):
     """A function as a module."""
 
     def __init__(self, function):
@@ -62,14 +62,14 @@ def inverted():
 
 
 def convolutions():
-    return Zoo(
+    return Branches(
         nn.Conv2d(2, 13, 3, padding=1), nn.Conv2d(2, 4, (3, 5), stride=(2, 1), padding=(0, 2)), nn.Conv2d(2, 6, 3, dilation=(2, 3)),
         nn.Conv2d(2, 8, 3, stride=3, padding=2, groups=2), nn.Conv2d(2, 2, (1, 7), padding=(0, 3), groups=2),
         nn.Sequential(nn.ZeroPad2d((2, 0, 1, 3)), nn.Conv2d(2, 5, 4, stride=2)))
 
 
 def pools():
-    return Zoo(
+    return Branches(
         nn.MaxPool2d(3, 2, 1), nn.MaxPool2d(2, 3, ceil_mode=True), nn.AvgPool2d(3, 2, 1), nn.AvgPool2d(3, 1, 1, count_include_pad=False),
         nn.AdaptiveAvgPool2d(1), nn.AdaptiveMaxPool2d(1))
 
@@ -77,24 +77,25 @@ def pools():
 def activations():
     scaled = (nn.ReLU(), nn.LeakyReLU(0.2), nn.ELU(0.7), nn.Sigmoid(), nn.Tanh(), nn.SiLU(), nn.GELU(), nn.Softplus(), nn.Hardsigmoid(),
               nn.Hardswish(), nn.ReLU6(), nn.Mish(), nn.Softmax(1))
-    return Zoo(*(nn.Sequential(nn.Conv2d(1, 3, 1), layer) for layer in scaled))
+    return Branches(*(nn.Sequential(nn.Conv2d(1, 3, 1), layer) for layer in scaled))
 
 
 def resizes():
-    return Zoo(
+    return Branches(
         nn.Upsample(scale_factor=2, mode="nearest"), nn.Upsample(scale_factor=2, mode="bilinear", align_corners=False),
         nn.Upsample(scale_factor=2, mode="bilinear", align_corners=True), nn.Upsample(size=(9, 20), mode="nearest"))
 
 
 def shapes():
-    return Zoo(
-        Of(lambda x: torch.cat([x[:, :2], x[:, 2:] * 2], 1)), Of(lambda x: x.permute(0, 2, 3, 1)), Of(lambda x: x[:, :, 1:-1, ::2]),
-        Of(lambda x: functional.pad(x, (1, 2, 0, 1), value=0.5)),
-        Of(lambda x: x.mean((2, 3))), Of(lambda x: (x - x.mean((2, 3), keepdim=True)).abs().sqrt()), Of(lambda x: x.chunk(2, 1)[1].flatten(2)))
+    return Branches(
+        Function(lambda x: torch.cat([x[:, :2], x[:, 2:] * 2], 1)), Function(lambda x: x.permute(0, 2, 3, 1)), Function(lambda x: x[:, :, 1:-1, ::2]),
+        Function(lambda x: functional.pad(x, (1, 2, 0, 1), value=0.5)),
+        Function(lambda x: x.mean((2, 3))), Function(lambda x: (x - x.mean((2, 3), keepdim=True)).abs().sqrt()),
+        Function(lambda x: x.chunk(2, 1)[1].flatten(2)))
 
 
 def transposed():
-    return Zoo(
+    return Branches(
         nn.ConvTranspose2d(4, 6, 3, 2, 1, output_padding=1), nn.ConvTranspose2d(4, 5, 2, 2),
         nn.ConvTranspose2d(4, 4, (3, 5), (3, 1), (1, 0), dilation=(1, 2)),
         nn.ConvTranspose2d(4, 6, 3, 2, groups=2), nn.ConvTranspose2d(4, 4, 4, 2, 1, groups=4),
@@ -102,22 +103,23 @@ def transposed():
 
 
 def norms():
-    return Zoo(
+    return Branches(
         nn.InstanceNorm2d(4, affine=True), nn.GroupNorm(2, 4), nn.LayerNorm([4, 6, 7]),
-        Of(lambda x: functional.layer_norm(x.permute(0, 2, 3, 1), (4,)).permute(0, 3, 1, 2)), Of(lambda x: functional.normalize(x, dim=1)),
-        Of(lambda x: x.log_softmax(1)))
+        Function(lambda x: functional.layer_norm(x.permute(0, 2, 3, 1), (4,)).permute(0, 3, 1, 2)),
+        Function(lambda x: functional.normalize(x, dim=1)),
+        Function(lambda x: x.log_softmax(1)))
 
 
 def moves():
-    return Zoo(
-        nn.ChannelShuffle(2), nn.PixelShuffle(2), Of(lambda x: functional.pixel_unshuffle(x[:, :, :6, :6], 2)),
-        nn.ReflectionPad2d((2, 1, 0, 3)), nn.ReplicationPad2d((1, 2, 3, 0)), Of(lambda x: functional.pad(x, (0, 0, 0, 0, 1, 2), value=0.25)),
+    return Branches(
+        nn.ChannelShuffle(2), nn.PixelShuffle(2), Function(lambda x: functional.pixel_unshuffle(x[:, :, :6, :6], 2)),
+        nn.ReflectionPad2d((2, 1, 0, 3)), nn.ReplicationPad2d((1, 2, 3, 0)), Function(lambda x: functional.pad(x, (0, 0, 0, 0, 1, 2), value=0.25)),
         nn.Upsample(scale_factor=2, mode="bicubic"), nn.Upsample(size=(5, 9), mode="bicubic", align_corners=True),
-        Of(lambda x: x.flip(3)), Of(lambda x: x[:, 2]), Of(lambda x: x.mean(2, keepdim=True).expand(1, 4, 6, 7)),
-        Of(lambda x: x.amax((1, 3)) + x.sum((1, 3))),
-        Of(lambda x: torch.where(x > 0.1, x, x * 0.5 - 1)), Of(lambda x: x.argmax(1).float()),
-        Of(lambda x: x.flatten(2).max(2).values + x.flatten(2).norm(dim=2)),
-        Of(lambda x: torch.cat([x, torch.full((1, 1, 6, 7), 0.5)], 1)))
+        Function(lambda x: x.flip(3)), Function(lambda x: x[:, 2]), Function(lambda x: x.mean(2, keepdim=True).expand(1, 4, 6, 7)),
+        Function(lambda x: x.amax((1, 3)) + x.sum((1, 3))),
+        Function(lambda x: torch.where(x > 0.1, x, x * 0.5 - 1)), Function(lambda x: x.argmax(1).float()),
+        Function(lambda x: x.flatten(2).max(2).values + x.flatten(2).norm(dim=2)),
+        Function(lambda x: torch.cat([x, torch.full((1, 1, 6, 7), 0.5)], 1)))
 
 
 class Attention(nn.Module):
@@ -130,8 +132,8 @@ class Attention(nn.Module):
 
     def forward(self, x):
         tokens = torch.cat([self.token, x.flatten(2).transpose(1, 2)], 1)
-        seen = self.norm(tokens)
-        tokens = tokens + self.attention(seen, seen, seen, need_weights=False)[0]
+        normalized = self.norm(tokens)
+        tokens = tokens + self.attention(normalized, normalized, normalized, need_weights=False)[0]
         return self.linear(tokens[:, 0]), tokens[:, 1:].transpose(1, 2).reshape(1, 8, 6, 7)
 
 
@@ -209,15 +211,15 @@ def main():
         base = os.path.join(folder, name)
         export(network, picture, base + ".onnx")
         with torch.no_grad():
-            found = network(picture)
-        found = [value.numpy() for value in (found if isinstance(found, tuple) else (found,))]
+            outputs = network(picture)
+        outputs = [value.numpy() for value in (outputs if isinstance(outputs, tuple) else (outputs,))]
         session = onnxruntime.InferenceSession(base + ".onnx", providers=["CPUExecutionProvider"])
-        theirs = session.run(None, {"picture": picture.numpy()})
-        apart = max(float(np.abs(a - b).max()) for a, b in zip(found, theirs, strict=True))
-        print(f"{name}: {len(found)} outputs, torch and onnxruntime differ by at most {apart:.1e}")
-        if apart > 1e-6 * max(1, *(float(np.abs(value).max()) for value in found)):
+        onnxruntime_outputs = session.run(None, {"picture": picture.numpy()})
+        difference = max(float(np.abs(a - b).max()) for a, b in zip(outputs, onnxruntime_outputs, strict=True))
+        print(f"{name}: {len(outputs)} outputs, torch and onnxruntime differ by at most {difference:.1e}")
+        if difference > 1e-6 * max(1, *(float(np.abs(value).max()) for value in outputs)):
             raise SystemExit("golden_networks: that is too much for rounding")
-        for ending, values in ("input", [picture.numpy()]), ("output", found):
+        for ending, values in ("input", [picture.numpy()]), ("output", outputs):
             with open(f"{base}.{ending}", "wb") as file:
                 file.write(b"".join(np.ascontiguousarray(value, "<f4").tobytes() for value in values))
 

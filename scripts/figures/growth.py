@@ -22,9 +22,9 @@ import time
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 SCENES = [f"scene:{name}" for name in "street zero max checkerboard hot-pixels ramps flicker fade shake random".split()]
-READING = ["--max-frames", "2", "--no-area"]
+INPUT_OPTIONS = ["--max-frames", "2", "--no-area"]
 # Number of designs that measure a clip together.
-TOGETHER = 16
+DESIGNS_PER_UNIT = 16
 COLUMNS = [
     "units",
     "plan, s",
@@ -36,12 +36,12 @@ COLUMNS = [
     "Snakemake, 2 jobs, s",
 ]
 # Snakemake takes too long with more jobs to be timed here.
-MOST_JOBS = 1000
+MAX_UNITS = 1000
 
 
 def space(units):
     """Returns a space of designs with this number of units over all clips: levels of the feature, then counts, then levels of the change."""
-    designs = units // len(SCENES) * TOGETHER
+    designs = units // len(SCENES) * DESIGNS_PER_UNIT
     levels = min(designs, 160)
     counts = min(designs // levels, 50)
     changes = designs // levels // counts
@@ -56,16 +56,16 @@ temporal.level = {list(range(4, 4 + changes))}
 """
 
 
-def seconds(command, runs=3, **more):
+def seconds(command, runs=3, **options):
     """Returns the shortest time of a command, and its output."""
     best = float("inf")
     for _ in range(runs):
         start = time.perf_counter()
-        done = subprocess.run(command, capture_output=True, text=True, **more)
+        result = subprocess.run(command, capture_output=True, text=True, **options)
         best = min(best, time.perf_counter() - start)
-        if done.returncode != 0:
-            sys.exit(f"{command}: {done.stderr[-2000:] or done.stdout[-2000:]}")
-    return best, done.stdout
+        if result.returncode != 0:
+            sys.exit(f"{command}: {result.stderr[-2000:] or result.stdout[-2000:]}")
+    return best, result.stdout
 
 
 def snakemake(foveate, units, folder):
@@ -78,19 +78,19 @@ def snakemake(foveate, units, folder):
     command = ["snakemake", "--snakefile", SOURCES / "workflow/Snakefile", "--configfile", "config.json", "--cores", "2"]
     seconds([*command, "out/plan.jsonl"], 1, cwd=folder)
     planning, _ = seconds([*command, "--dry-run", "--quiet"], 1, cwd=folder)
-    working = f"{seconds(command, 1, cwd=folder)[0]:.0f}" if units <= MOST_JOBS else "-"
+    working = f"{seconds(command, 1, cwd=folder)[0]:.0f}" if units <= MAX_UNITS else "-"
     return f"{planning:.1f}", working
 
 
 def measure(foveate, units, folder):
     (folder / "space.toml").write_text(space(units))
     explore = [foveate, "explore", "space.toml"]
-    everything = [*explore, *SCENES, "-o", "alone", *READING, "--quiet"]
+    everything = [*explore, *SCENES, "-o", "alone", *INPUT_OPTIONS, "--quiet"]
     planning, plan = seconds([*everything, "--plan"], cwd=folder)
     lines = plan.splitlines()
     assert len(lines) == units, f"{len(lines)} units are planned"
     last = json.loads(lines[-1])
-    by_line, by_name = ([*explore, *last["inputs"], "-o", "one", *READING, "--quiet", "--only", unit] for unit in (lines[-1], last["unit"]))
+    by_line, by_name = ([*explore, *last["inputs"], "-o", "one", *INPUT_OPTIONS, "--quiet", "--only", unit] for unit in (lines[-1], last["unit"]))
     # The first run measures; the others find the results in the cache.
     unit_by_line, _ = seconds(by_line, cwd=folder)
     unit_by_name, _ = seconds(by_name, cwd=folder)

@@ -5,7 +5,7 @@
     networks.py FOLDER [NAME...] [--size WIDTHxHEIGHT] [--int8]
 
 --int8 also writes forms of 8-bit integers, by scripts/figures/quantize.py: NAME-qoperator.onnx and NAME-qdq.onnx. Needs torch, torchvision, onnx and
-onnxscript; --int8 needs onnxruntime. The weights are random: they serve for masks, counts and time, not for what the network says.
+onnxscript; --int8 needs onnxruntime. The weights are random, so the networks serve to measure masks, counts and time. Their outputs mean nothing.
 """
 import argparse
 import os
@@ -50,7 +50,7 @@ class Detector(nn.Module):
         return shaped(self.heads[0](fine)), shaped(self.heads[1](coarse))
 
 
-def of_torchvision(name):
+def torchvision_network(name):
     import torchvision
     return getattr(torchvision.models, name)(weights=None)
 
@@ -60,10 +60,10 @@ NETWORKS = {
     "lenet5": (lenet, 1, 28, 28),
     "denoiser": (denoiser, 1, 640, 360),
     "detector": (Detector, 3, 640, 384),
-    "mobilenet_v2": (lambda: of_torchvision("mobilenet_v2"), 3, 224, 224),
-    "resnet18": (lambda: of_torchvision("resnet18"), 3, 224, 224),
-    "resnet50": (lambda: of_torchvision("resnet50"), 3, 224, 224),
-    "vgg16": (lambda: of_torchvision("vgg16"), 3, 224, 224),
+    "mobilenet_v2": (lambda: torchvision_network("mobilenet_v2"), 3, 224, 224),
+    "resnet18": (lambda: torchvision_network("resnet18"), 3, 224, 224),
+    "resnet50": (lambda: torchvision_network("resnet50"), 3, 224, 224),
+    "vgg16": (lambda: torchvision_network("vgg16"), 3, 224, 224),
 }
 
 

@@ -30,8 +30,8 @@ class Pictures(quantization.CalibrationDataReader):
         random = np.random.default_rng(1)
         _, channels, height, width = shape
 
-        def picture(at):
-            side = 1 << at % 4
+        def picture(number):
+            side = 1 << number % 4
             blocks = random.random((1, channels, -(-height // side), -(-width // side)), dtype=np.float32)
             fine = blocks.repeat(side, 2).repeat(side, 3)[:, :, :height, :width]
             return {name: fine * random.random(dtype=np.float32)}

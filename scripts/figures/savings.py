@@ -5,9 +5,10 @@
     savings.py FOLDER [NAME...] [--clips CLIP...] [--frames N] [--tune GOAL]
     savings.py FOLDER [NAME...] [--clips CLIP...] [--frames N] --accelerators ACCELERATOR...
 
-FOLDER holds ONNX files, as scripts/figures/networks.py makes them. Of each network and clip, over the second half of the frames: the share of regions
-that changed, and the shares of the MACs that were needed in the modes exact, compare and with --tune, which has not seen these frames, with the
-error that it costs. With --accelerators: what a frame costs on each, whole, and the share that is left in the mode exact.
+FOLDER contains ONNX files, as scripts/figures/networks.py makes them. A row has the figures of a network and a clip over the second half of the
+frames: the share of regions that changed, and the shares of the MACs that were needed in the modes exact and compare and with --tune, whose search
+did not use these frames, and the error with --tune. With --accelerators, a row has the cost of a whole frame on an accelerator, and the share of it
+that is left in the mode exact.
 
 Runs two at a time. Needs onnx, and `foveate` on the path (or its path in FOVEATE).
 """
@@ -41,30 +42,30 @@ def label(clip):
 def infer(path, clip, size, frames, options):
     """Returns the summary of a run."""
     width, height = size
-    fit = ["--set", f"frame={{width={width},height={height}}}"] if clip.startswith("scene:") else ["--resize", f"{width}x{height}"]
+    input_options = ["--set", f"frame={{width={width},height={height}}}"] if clip.startswith("scene:") else ["--resize", f"{width}x{height}"]
     if min(size) < 64:
-        fit += ["--set", "region.size=4"]
+        input_options += ["--set", "region.size=4"]
     with tempfile.TemporaryDirectory() as folder:
         command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet",
-                   "--max-frames", str(frames), *fit, *options]
-        done = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ, RAYON_NUM_THREADS="1"))
-        if done.returncode != 0:
-            raise SystemExit(f"savings: {' '.join(command)}: {done.stderr.strip()}")
+                   "--max-frames", str(frames), *input_options, *options]
+        result = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ, RAYON_NUM_THREADS="1"))
+        if result.returncode != 0:
+            raise SystemExit(f"savings: {' '.join(command)}: {result.stderr.strip()}")
         with open(os.path.join(folder, "out", "frames.csv"), newline="") as table:
-            return json.loads(done.stdout), list(csv.DictReader(table))
+            return json.loads(result.stdout), list(csv.DictReader(table))
 
 
-def needed(rows, frames):
+def needed_share(rows, frames):
     """Returns the share of the MACs over the counted frames of the second half, whose first frame is computed whole with --tune."""
-    counted = [row for row in rows if int(row["frame"]) > frames // 2]
-    return sum(float(row["macs_needed"]) for row in counted) / sum(float(row["macs_dense"]) for row in counted)
+    counted_rows = [row for row in rows if int(row["frame"]) > frames // 2]
+    return sum(float(row["macs_needed"]) for row in counted_rows) / sum(float(row["macs_dense"]) for row in counted_rows)
 
 
-def row(path, clip, options):
+def table_row(path, clip, options):
     """Returns a row of the table."""
     size = size_of(path)
     runs = [infer(path, clip, size, options.frames, mode) for mode in (*MODES, ["--tune", options.tune])]
-    shares = [f"{100 * needed(rows, options.frames):.1f} %" for _, rows in runs]
+    shares = [f"{100 * needed_share(rows, options.frames):.1f} %" for _, rows in runs]
     tuned = runs[-1][0]
     error = tuned["error"]
     cells = [os.path.basename(path).removesuffix(".onnx"), f"{size[0]}x{size[1]}", label(clip),
@@ -73,15 +74,15 @@ def row(path, clip, options):
     return f"| {' | '.join(cells)} |"
 
 
-def row_of_accelerator(path, clip, name, options):
+def accelerator_row(path, clip, name, options):
     """Returns a row of the table of an accelerator."""
     size = size_of(path)
-    found, _ = infer(path, clip, size, options.frames, ["--accelerator", name])
-    whole, masked = (found["accelerator"][key] for key in ("whole", "masked"))
-    cells = [os.path.basename(path).removesuffix(".onnx"), label(clip), name, f"{100 * found['macs']['needed'] / found['macs']['dense']:.1f} %"]
+    summary, _ = infer(path, clip, size, options.frames, ["--accelerator", name])
+    whole, masked = (summary["accelerator"][key] for key in ("whole", "masked"))
+    cells = [os.path.basename(path).removesuffix(".onnx"), label(clip), name, f"{100 * summary['macs']['needed'] / summary['macs']['dense']:.1f} %"]
     for key, scale in (("seconds", 1e3), ("energy_mj", 1), ("dram_accesses", 1e-6)):
-        of_whole = scale * whole[key]
-        cells += [f"{of_whole:,.0f}" if of_whole >= 100 else f"{of_whole:.3g}", f"{100 * masked[key] / whole[key]:.1f} %"]
+        whole_cost = scale * whole[key]
+        cells += [f"{whole_cost:,.0f}" if whole_cost >= 100 else f"{whole_cost:.3g}", f"{100 * masked[key] / whole[key]:.1f} %"]
     return f"| {' | '.join(cells)} |"
 
 
@@ -107,9 +108,9 @@ def main():
         jobs = []
         for path, clip in ((path, clip) for path in paths for clip in options.clips):
             if options.accelerators:
-                jobs += [pool.submit(row_of_accelerator, path, clip, name, options) for name in options.accelerators]
+                jobs += [pool.submit(accelerator_row, path, clip, name, options) for name in options.accelerators]
             else:
-                jobs.append(pool.submit(row, path, clip, options))
+                jobs.append(pool.submit(table_row, path, clip, options))
         for job in jobs:
             print(job.result(), flush=True)
 

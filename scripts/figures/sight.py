@@ -32,7 +32,7 @@ NETWORKS = {
 PEDESTRIANS = "classes=0,height=80"
 
 
-def means(blocks, *more):
+def mean_camera(blocks, *more):
     return ["--preset", "fovea", "--set", f"periphery.blocks={blocks}", *more]
 
 
@@ -40,19 +40,19 @@ def means(blocks, *more):
 CAMERAS = {
     "paper": ["--preset", "paper"],
     "hold": ["--preset", "steady"],
-    "mean 1": means(1),
-    "fovea (mean 2)": means(2),
-    "fovea; median": means(2, "--set", 'denoise.filter="median3x3"'),
-    "mean 4": means(4),
-    "mean 4; level 2; temporal.level 4": means(4, "--set", "periphery.level=2", "--set", "temporal.level=4"),
-    "fovea; level 8": means(2, "--set", "periphery.level=8"),
-    "fovea; level 16": means(2, "--set", "periphery.level=16"),
-    "fovea; level 32": means(2, "--set", "periphery.level=32"),
+    "mean 1": mean_camera(1),
+    "fovea (mean 2)": mean_camera(2),
+    "fovea; median": mean_camera(2, "--set", 'denoise.filter="median3x3"'),
+    "mean 4": mean_camera(4),
+    "mean 4; level 2; temporal.level 4": mean_camera(4, "--set", "periphery.level=2", "--set", "temporal.level=4"),
+    "fovea; level 8": mean_camera(2, "--set", "periphery.level=8"),
+    "fovea; level 16": mean_camera(2, "--set", "periphery.level=16"),
+    "fovea; level 32": mean_camera(2, "--set", "periphery.level=32"),
 }
 # The standard deviations of the noise, in grey levels.
 NOISE = [1, 2, 4]
 # The number of frames over which MACs are counted.
-FIRST = 24
+MAC_FRAMES = 24
 COLUMNS = ["network", "clip", "camera", "frames", "every", "sent_percent", "psnr_db", "macs_percent", "agreement_percent", "agreement_low",
            "agreement_high", "found", "kept_percent", "precision_percent", "objects", "ap50_whole", "ap50_seen",
            *(f"noise{level}_{figure}" for level in NOISE for figure in ["agreement", "kept", "precision"])]
@@ -63,10 +63,10 @@ def foveate(network, clip, *more):
     path, (options, _) = network
     with tempfile.TemporaryDirectory() as folder:
         command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet", *options, *more]
-        done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        raise SystemExit(f"sight: {' '.join(command)}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
+        result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise SystemExit(f"sight: {' '.join(command)}: {result.stderr.strip()}")
+    return json.loads(result.stdout)
 
 
 def run(network, clip, camera, every, noise):
@@ -77,39 +77,40 @@ def run(network, clip, camera, every, noise):
     return foveate(network, clip, "--whole-frames", "--every", str(every), "--noise", noise, *detect, *boxes, *camera)
 
 
-def length(clip):
+def frame_count(clip):
     """Returns the number of frames of a clip."""
     if os.path.isdir(clip):
         return sum(name.endswith((".jpg", ".png")) for name in os.listdir(clip))
     command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-count_packets"]
     command += ["-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", clip]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        raise SystemExit(f"sight: {' '.join(command)}: {done.stderr.strip()}")
-    return int(done.stdout.strip().strip(","))
+    result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise SystemExit(f"sight: {' '.join(command)}: {result.stderr.strip()}")
+    return int(result.stdout.strip().strip(","))
 
 
-def row(network, clip, camera, summary, noise, macs):
+def table_row(network, clip, camera, summary, noise, macs):
     """Returns a row of the table."""
     sight = summary["sight"]
-    found, truth = sight["detections"], sight["truth"]
+    detections, truth = sight["detections"], sight["truth"]
 
-    def shown(value, digits=1):
+    def number_text(value, digits=1):
         return "" if value is None else f"{value:.{digits}f}"
 
     def percent(value):
-        return shown(100 * value)
+        return number_text(100 * value)
 
-    def known(value):
+    def percent_or_empty(value):
         return "" if value is None else percent(value)
 
     return dict(zip(COLUMNS, [
         network, os.path.basename(clip.rstrip("/")).rsplit(".", 1)[0], camera, summary["counted_frames"], summary["every"],
-        shown(100 * sight["sent_share"], 2), shown(sight["picture_psnr"]), percent(macs["needed"] / macs["dense"]), percent(sight["agreement"]),
-        *map(known, sight["intervals"]["agreement"] or [None] * 2),
-        *([found["all"]["whole"], percent(found["kept_share"]), percent(found["precision"])] if found else [""] * 3),
+        number_text(100 * sight["sent_share"], 2), number_text(sight["picture_psnr"]),
+        percent(macs["needed"] / macs["dense"]), percent(sight["agreement"]),
+        *map(percent_or_empty, sight["intervals"]["agreement"] or [None] * 2),
+        *([detections["all"]["whole"], percent(detections["kept_share"]), percent(detections["precision"])] if detections else [""] * 3),
         *([truth["objects"], percent(truth["whole_ap50"]), percent(truth["seen_ap50"])] if truth else [""] * 3),
-        *(known(level[figure]) for level in noise for figure in ["agreement", "kept_share", "precision"])], strict=True))
+        *(percent_or_empty(level[figure]) for level in noise for figure in ["agreement", "kept_share", "precision"])], strict=True))
 
 
 def main():
@@ -126,13 +127,13 @@ def main():
             continue
         network = (os.path.join(arguments.networks, name), options)
         for clip in arguments.clips:
-            every, noise = max(length(clip) // arguments.frames, 1), []
+            every, noise = max(frame_count(clip) // arguments.frames, 1), []
             for camera, settings in CAMERAS.items():
                 # Whole frames, also those with noise, are the same for every camera.
                 summary = run(network, clip, settings, every, "0" if noise else ",".join(map(str, NOISE)))
                 noise = noise or summary["sight"]["noise"]
-                macs = foveate(network, clip, "--max-frames", str(FIRST), *settings)["macs"]
-                table.writerow(row(name.rsplit(".", 1)[0], clip, camera, summary, noise, macs))
+                macs = foveate(network, clip, "--max-frames", str(MAC_FRAMES), *settings)["macs"]
+                table.writerow(table_row(name.rsplit(".", 1)[0], clip, camera, summary, noise, macs))
                 sys.stdout.flush()
 
 

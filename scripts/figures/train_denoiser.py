@@ -5,7 +5,7 @@
     train_denoiser.py FILE.onnx
 
 Needs `foveate` on the path (or its path in FOVEATE), torch, onnx, onnxscript, numpy and Pillow. It takes about two minutes on two cores.
-The network sees a noisy frame of any size, with pixels from 0 to 1, and gives the frame without noise.
+The input of the network is a noisy frame of any size, with pixels from 0 to 1. Its output is the frame without noise.
 """
 import glob
 import os
@@ -52,13 +52,13 @@ def frames(scene, count=40):
 
 def patches(clips):
     """Returns a batch of random patches."""
-    picks = []
+    crops = []
     for _ in range(BATCH):
         clip = clips[int(torch.randint(len(clips), ()))]
         frame = clip[int(torch.randint(len(clip), ()))]
         y, x = (int(torch.randint(size - PATCH + 1, ())) for size in frame.shape[1:])
-        picks.append(frame[:, y:y + PATCH, x:x + PATCH])
-    return torch.stack(picks)
+        crops.append(frame[:, y:y + PATCH, x:x + PATCH])
+    return torch.stack(crops)
 
 
 def psnr(a, b):

@@ -36,13 +36,13 @@ def estimate(size: int, feature: str, denoise: str, reference: str, irrelevant: 
         keys.append("periphery.blocks=2")
     foveate = os.environ.get("FOVEATE", "foveate")
     command = [foveate, "estimate", "--preset", "raster", "--json", "--quiet"]
-    done = subprocess.run(command + [part for key in keys for part in ("--set", key)], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"web_hardware: {' '.join(keys)}: {done.stderr.strip()}")
-    told = json.loads(done.stdout)
-    array, clock = told["rcm"], told["speed"]
+    result = subprocess.run(command + [part for key in keys for part in ("--set", key)], capture_output=True, text=True)
+    if result.returncode:
+        sys.exit(f"web_hardware: {' '.join(keys)}: {result.stderr.strip()}")
+    report = json.loads(result.stdout)
+    array, clock = report["rcm"], report["speed"]
     row = [array["lut_total_packed"], array["ff"], array["bram18"] / 2, round(clock["clock_mhz"]), round(clock["frames_per_second"])]
-    return told["tool"]["version"].split(" (")[0], row
+    return report["tool"]["version"].split(" (")[0], row
 
 
 def main() -> None:

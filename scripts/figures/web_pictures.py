@@ -20,7 +20,7 @@ IMAGES = Path(__file__).parents[2] / "docs/images"
 COLOURS = 160
 
 
-def steps(page, count):
+def step_frames(page, count):
     """Steps a number of frames."""
     for number in range(count):
         page.click("#step")
@@ -36,24 +36,24 @@ def save(name, data):
     print(f"docs/images/{name}: {(IMAGES / name).stat().st_size} bytes")
 
 
-def overview(page):
+def save_overview(page):
     """Takes a picture of the three screens and the controls."""
-    steps(page, 60)
+    step_frames(page, 60)
     save("live.png", page.screenshot(clip={"x": 0, "y": 0, "width": 1280, "height": 880}))
 
 
-def slider(page):
+def save_large_regions(page):
     """Takes a picture with larger regions, which change the screen and the bytes."""
     page.fill("[data-key='region.size'] input[type=number]", "32")
     page.keyboard.press("Tab")
-    steps(page, 60)
+    step_frames(page, 60)
     page.focus("[data-key='region.size'] input[type=range]")
     save("live-regions.png", page.screenshot(clip={"x": 0, "y": 0, "width": 1280, "height": 880}))
 
 
-def region(page):
+def save_explanation(page):
     """Takes a picture of the explanation of a sent region."""
-    steps(page, 60)
+    step_frames(page, 60)
     active = page.evaluate("[...foveate.camera.regions].flatMap((byte, region) => byte === 3 ? [region] : [])")
     columns = page.evaluate("foveate.camera.facts.columns")
     row, column = divmod(active[len(active) * 2 // 3], columns)
@@ -70,7 +70,7 @@ def main():
     address = Path(sys.argv[1]).resolve().as_uri()
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"])
-        for make, fragment, scheme in ((overview, "", "light"), (slider, "", "dark"), (region, "#preset=paper", "light")):
+        for make, fragment, scheme in ((save_overview, "", "light"), (save_large_regions, "", "dark"), (save_explanation, "#preset=paper", "light")):
             size = {"width": 1280, "height": 900}
             page = browser.new_page(viewport=size, color_scheme=scheme, reduced_motion="reduce")
             page.goto(address + fragment)
