@@ -5,18 +5,18 @@ from pathlib import Path
 
 
 def names(clips):
-    """Every clip by a name that is fit for a folder: that of its file, with a number where it is there already."""
-    found = {}
+    """Returns the clips by their names, which are fit for folders: the name of the file, with a number if another clip has it."""
+    clip_of = {}
     for clip in clips:
-        own = re.sub(r"[^\w.-]", "_", clip.removeprefix("scene:") if clip.startswith("scene:") else Path(clip).stem)
-        name, number = own, 1
-        while name in found:
+        base_name = re.sub(r"[^\w.-]", "_", clip.removeprefix("scene:") if clip.startswith("scene:") else Path(clip).stem)
+        name, number = base_name, 1
+        while name in clip_of:
             number += 1
-            name = f"{own}-{number}"
-        found[name] = clip
-    return found
+            name = f"{base_name}-{number}"
+        clip_of[name] = clip
+    return clip_of
 
 
 def files(inputs):
-    """Those that are files or folders. Others are scenes, patterns, or names of spaces and accelerators."""
+    """Returns the inputs that are files or folders. The others are scenes, patterns, or names of spaces and accelerators."""
     return [path for path in inputs if path and Path(path).exists()]

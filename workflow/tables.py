@@ -13,13 +13,13 @@ from pathlib import Path
 
 
 def rows(out, study, *folders):
-    """The comments of all, the columns once, and the rows of all."""
+    """Writes the rows of a study: the comments of all folders, the columns once, and the rows of all folders."""
     comments, columns, lines = [], None, []
     for folder in folders:
         text = (Path(folder) / f"{study}.csv").read_text().splitlines(keepends=True)
-        own = [line for line in text if line.startswith("#")]
-        comments += own[1:] if comments else own
-        head, *more = text[len(own):]
+        folder_comments = [line for line in text if line.startswith("#")]
+        comments += folder_comments[1:] if comments else folder_comments
+        head, *more = text[len(folder_comments):]
         if columns not in (None, head):
             sys.exit(f"tables: `{folder}` has other columns than the folders before it: {head.strip()}")
         columns = head
@@ -28,21 +28,21 @@ def rows(out, study, *folders):
 
 
 def totals(out, *folders):
-    """What `inference.json` says of the whole clip. Times depend on the machine, so they stay in the folders."""
-    found = []
+    """Writes a row for each clip, with the totals in its `inference.json`. Times depend on the machine, so they stay in the folders."""
+    summaries = []
     for folder in folders:
         summary = json.loads((Path(folder) / "inference.json").read_text())
-        found.append({"clip": Path(folder).name, **dict(scalars(summary))})
-    columns = list(dict.fromkeys(column for row in found for column in row))
+        summaries.append({"clip": Path(folder).name, **dict(scalars(summary))})
+    columns = list(dict.fromkeys(column for row in summaries for column in row))
     text = io.StringIO()
     table = csv.DictWriter(text, columns, lineterminator="\n")
     table.writeheader()
-    table.writerows(found)
+    table.writerows(summaries)
     write(out, text.getvalue())
 
 
 def scalars(value, name=""):
-    """Numbers and texts by their names, those of objects as `object.name`; no lists, and no times."""
+    """Yields the names and values of all numbers and texts; a name inside an object is `object.name`. Lists and times are left out."""
     if isinstance(value, dict):
         for key, inner in value.items():
             yield from scalars(inner, f"{name}.{key}" if name else key)
@@ -51,7 +51,7 @@ def scalars(value, name=""):
 
 
 def write(out, text):
-    """The whole file or nothing."""
+    """Writes a file, which appears whole or not at all."""
     Path(f"{out}.partial").write_text(text)
     os.replace(f"{out}.partial", out)
 

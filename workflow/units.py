@@ -6,12 +6,12 @@ from pathlib import Path
 
 
 def read(plan):
-    """The units by their names, each with the line that describes it."""
-    return parsed(plan, Path(plan).stat().st_mtime_ns)
+    """Returns the units by their names, each with the line that describes it."""
+    return parse_plan(plan, Path(plan).stat().st_mtime_ns)
 
 
 @functools.lru_cache(maxsize=1)
-def parsed(plan, _changed):
-    # Snakemake asks for it once for every unit.
-    found = [{**json.loads(line), "line": line} for line in Path(plan).read_text().splitlines()]
-    return {unit["unit"]: unit for unit in found}
+def parse_plan(plan, _modification_time):
+    # Snakemake reads the plan once for every unit, so the last one is cached until its file changes.
+    units = [{**json.loads(line), "line": line} for line in Path(plan).read_text().splitlines()]
+    return {unit["unit"]: unit for unit in units}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A core on AXI between the sources, sinks and masters of cocotbext-axi, which are not ours."""
+"""A core on AXI between the sources, sinks and masters of cocotbext-axi, an independent model of the bus."""
 
 import json
 import os
@@ -12,18 +12,18 @@ from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiStreamBus, AxiStreamFram
 
 # The properties of the core, from the runner: frame size, bits, pixels per clock, clocks of a line, registers.
 CORE = json.loads(Path(os.environ["FOVEATE_CORE"]).read_text())
-# The folder where each test leaves the frames that a receiver must see, and the packets that left.
+# The folder in which each test writes the frames that the array must receive, and the packets that the core sent.
 OUT = Path(os.environ["FOVEATE_OUT"])
 WIDTH, HEIGHT, BITS, LANES = (CORE[key] for key in ("width", "height", "bits", "lanes"))
 WORDS = -(-WIDTH // LANES)
 REGISTERS = CORE["registers"]
 
 
-def paused(percent, seed):
-    """Yields without end whether there is a pause at a clock."""
-    chance = random.Random(seed)
+def pause_pattern(percent, seed):
+    """Yields, for each clock, whether there is a pause."""
+    generator = random.Random(seed)
     while True:
-        yield chance.randrange(100) < percent
+        yield generator.randrange(100) < percent
 
 
 class Bench:
@@ -33,7 +33,7 @@ class Bench:
         self.dut = dut
         self.folder = OUT / name
         self.random = random.Random(name)
-        self.expected = []  # the frames that the array must see
+        self.expected = []  # the frames that the array must receive, after all repairs
         reset = {"reset": dut.aresetn, "reset_active_level": False}
         video = AxiStreamBus.from_prefix(dut, "s_axis_video")
         # A "byte" of the source is a word of the video.
@@ -60,12 +60,12 @@ class Bench:
 
     def pace(self, gaps, stalls):
         """Makes source and sink pause at random, in percent of the clocks."""
-        self.video.set_pause_generator(paused(gaps, 1))
-        self.packets.set_pause_generator(paused(stalls, 2))
+        self.video.set_pause_generator(pause_pattern(gaps, 1))
+        self.packets.set_pause_generator(pause_pattern(stalls, 2))
 
     def send(self, pixels, first=False):
         """Sends a line of any length; `first` says that it begins a frame."""
-        self.send_words(words(pixels), [first] + [False] * (len(words(pixels)) - 1))
+        self.send_words(pixel_words(pixels), [first] + [False] * (len(pixel_words(pixels)) - 1))
 
     def send_words(self, line, starts):
         frame = AxiStreamFrame(tdata=list(line), tuser=[int(start) for start in starts])
@@ -84,7 +84,7 @@ class Bench:
             await ClockCycles(self.dut.aclk, 50)
             quiet = 0 if self.dut.m_axis_packets_tvalid.value else quiet + 50
 
-    def keep(self):
+    def write_files(self):
         """Writes the packets that came and the frames that must be seen, for `foveate decode` and `foveate simulate`."""
         frames = self.folder / "frames"
         frames.mkdir(parents=True)
@@ -101,35 +101,35 @@ class Bench:
         return packets
 
 
-def words(pixels):
+def pixel_words(pixels):
     """Returns the words of a line, each with its left pixel in the lowest bits."""
-    groups = [pixels[at : at + LANES] for at in range(0, len(pixels), LANES)]
+    groups = [pixels[start : start + LANES] for start in range(0, len(pixels), LANES)]
     return [sum(pixel << (BITS * place) for place, pixel in enumerate(group)) for group in groups]
 
 
-def clip(count, seed):
+def make_frames(count, seed):
     """Makes frames in which a block of noise moves; every third is all noise."""
-    chance = random.Random(seed)
+    generator = random.Random(seed)
     grey = 2**BITS - 1
-    tiles = [[chance.randrange(grey) for _ in range(WIDTH // 4 + 1)] for _ in range(HEIGHT // 4 + 1)]
+    tiles = [[generator.randrange(grey) for _ in range(WIDTH // 4 + 1)] for _ in range(HEIGHT // 4 + 1)]
     frames = []
     for number in range(count):
         left, top = number * 5 % (WIDTH - 16), number * 3 % (HEIGHT - 16)
 
         def pixel(x, y, all_noise=number % 3 == 2, left=left, top=top):
             inside = left <= x < left + 16 and top <= y < top + 16
-            return chance.randint(0, grey) if inside or all_noise else tiles[y // 4][x // 4]
+            return generator.randint(0, grey) if inside or all_noise else tiles[y // 4][x // 4]
 
         frames.append([[pixel(x, y) for x in range(WIDTH)] for y in range(HEIGHT)])
     return frames
 
 
-def cut(row, count):
+def cut_line(row, count):
     """Cuts a line after some words. Returns its words and the line that the core makes of it, filled with its last pixel."""
-    kept = row[: count * LANES]
-    return kept, kept + [kept[-1]] * (len(row) - len(kept))
+    pixels = row[: count * LANES]
+    return pixels, pixels + [pixels[-1]] * (len(row) - len(pixels))
 
 
-def short(frame, lines):
+def repeat_last_line(frame, lines):
     """Returns the frame that the core makes if only some lines come: it repeats the last one."""
     return frame[:lines] + [frame[lines - 1]] * (len(frame) - lines)
