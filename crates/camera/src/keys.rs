@@ -122,6 +122,11 @@ fn refuse_unknown_in(
     }
 }
 
+/// Returns true if a table of this name is a part of a camera.
+pub(crate) fn is_camera_section(name: &str) -> bool {
+    section_names(&CAMERA_KEYS.iter().collect::<Vec<_>>()).any(|section| section == name)
+}
+
 fn section_names(known: &[&ConfigKey]) -> impl Iterator<Item = &'static str> {
     known.iter().filter_map(|(key, _)| key.split_once('.')).map(|(section, _)| section)
 }

@@ -19,11 +19,6 @@ pub trait TomlConfig: Serialize + Sized {
     /// # Errors
     /// Returns an error if a value is of the wrong type. [`read_table`] names the key.
     fn from_table(table: Table) -> Result<Self, ConfigError>;
-
-    /// Returns the configuration at `bits` bits per pixel, scaled by the rules of
-    /// [`CameraConfig::scaled_to_depth`].
-    #[must_use]
-    fn scaled_to_depth(&self, bits: u32) -> Self;
 }
 
 /// Reads a configuration and applies `overrides`, by the rules of [`CameraConfig::from_toml_with`].
@@ -38,8 +33,8 @@ pub fn read<C: TomlConfig, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result
     if let (Some(own), Some(other)) = (written_depth(&written), written_depth(&table))
         && own != other
     {
-        let scaled = from_checked_table::<C>(written)?.scaled_to_depth(other);
-        table = Table::try_from(scaled).map_err(|e| ConfigError::Syntax(e.to_string()))?;
+        keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &written)?;
+        table = scaled_table(written, other)?;
         apply_overrides(&mut table, overrides)?;
     }
     from_checked_table(table)
@@ -83,6 +78,16 @@ impl CameraConfig {
     }
 }
 
+/// Returns the table of a configuration with the tables of its camera scaled to `bits` bits per
+/// pixel, by the rules of [`CameraConfig::scaled_to_depth`].
+fn scaled_table(table: Table, bits: u32) -> Result<Table, ConfigError> {
+    let (camera, mut scaled): (Table, Table) =
+        table.into_iter().partition(|(section, _)| keys::is_camera_section(section));
+    let camera = CameraConfig::from_table(camera)?.scaled_to_depth(bits);
+    scaled.extend(Table::try_from(camera).map_err(|e| ConfigError::Syntax(e.to_string()))?);
+    Ok(scaled)
+}
+
 /// Refuses unknown keys of a table, and reads the configuration from it.
 fn from_checked_table<C: TomlConfig>(table: Table) -> Result<C, ConfigError> {
     keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &table)?;
@@ -115,10 +120,6 @@ impl TomlConfig for CameraConfig {
 
     fn from_table(table: Table) -> Result<Self, ConfigError> {
         read_table(Self::keys(), table)
-    }
-
-    fn scaled_to_depth(&self, bits: u32) -> Self {
-        Self::scaled_to_depth(self, bits)
     }
 }
 

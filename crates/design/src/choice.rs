@@ -75,30 +75,12 @@ choice! {
 }
 choice! {
     /// The source of the thresholds of a core.
+    #[derive(Default)]
     ThresholdSource {
         /// Input ports.
+        #[default]
         Runtime = "runtime",
         /// Constants in the core.
         Constant = "constant",
-    }
-}
-
-impl InterfaceKind {
-    /// Returns the value of the key in a complete configuration: `None` for the default.
-    pub(crate) fn non_default(self) -> Option<Self> {
-        match self {
-            Self::Ports => None,
-            Self::Axi => Some(self),
-        }
-    }
-}
-
-impl Pipelining {
-    /// Returns the value of the key in a complete configuration: `None` for the default.
-    pub(crate) fn non_default(self) -> Option<Self> {
-        match self {
-            Self::Plain => None,
-            Self::Deep => Some(self),
-        }
     }
 }

@@ -43,18 +43,15 @@ impl Design {
         &self.camera
     }
 
-    /// Returns the configuration that describes this design. Every key of the camera that applies
-    /// is filled in. Keys of `[hardware]` are left out where another organization has them, and
-    /// `memory`, `pipelining`, `forward`, `interface` and `sync` may be left out while they have
-    /// their defaults. [`Design::complete_config`] fills in two of them.
+    /// Returns the configuration that describes this design. Every key that applies is filled in,
+    /// except `hardware.memory`, which is left out if the design follows its rule.
     #[must_use]
     pub fn config(&self) -> DesignConfig {
         let hardware = HardwareConfig {
-            // A default is left out, so that the fingerprint of a design is the same as before the
-            // key existed.
-            sync: self.has_frame_sync.then_some(true),
+            organization: self.hardware.organization_config(),
+            pipelining: self.pipelining(),
+            sync: self.has_frame_sync,
             thresholds: self.threshold_source,
-            ..self.hardware.config()
         };
         DesignConfig { camera: self.camera.config().clone(), hardware }
     }
@@ -110,21 +107,6 @@ impl Design {
     #[must_use]
     pub fn has_frame_sync(&self) -> bool {
         self.has_frame_sync
-    }
-
-    /// Returns the configuration of the design, in which `pipelining`, and `forward` of a raster
-    /// core, are filled in although they have their defaults. `memory`, `interface` and `sync` are
-    /// still left out where they have their defaults.
-    #[must_use]
-    pub fn complete_config(&self) -> DesignConfig {
-        let mut config = self.config();
-        let hardware = &mut config.hardware;
-        hardware.pipelining = Some(self.pipelining());
-        hardware.forward = match self.hardware {
-            Hardware::Pipelined(_) | Hardware::Serial(_) => None,
-            Hardware::Raster(_) => Some(self.has_forwarding()),
-        };
-        config
     }
 
     /// Returns the source of the thresholds.

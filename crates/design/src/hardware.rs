@@ -4,7 +4,7 @@
 use crate::pipelined::PipelinedHardware;
 use crate::raster::RasterHardware;
 use crate::serial::SerialHardware;
-use crate::{HardwareConfig, InterfaceKind, Organization, Pipelining};
+use crate::{InterfaceKind, Organization, OrganizationConfig, Pipelining};
 
 /// The hardware that computes a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,12 +56,12 @@ impl Hardware {
         }
     }
 
-    /// Returns the table `[hardware]`, without the keys that every organization has.
-    pub(crate) fn config(&self) -> HardwareConfig {
+    /// Returns the organization with the keys that only it has.
+    pub(crate) fn organization_config(&self) -> OrganizationConfig {
         match self {
-            Self::Pipelined(own) => own.config(),
-            Self::Serial(own) => own.config(),
-            Self::Raster(own) => own.config(),
+            Self::Pipelined(_) => OrganizationConfig::Pipelined,
+            Self::Serial(own) => OrganizationConfig::Serial(own.config()),
+            Self::Raster(own) => OrganizationConfig::Raster(own.config()),
         }
     }
 }

@@ -24,6 +24,15 @@ pub(crate) const HARDWARE_KEYS: &[ConfigKey] = &[
     ("hardware.thresholds", Names(ThresholdSource::NAMES)),
 ];
 
+/// Returns the keys of `[hardware]` that only this organization has.
+pub(crate) fn own_keys(organization: Organization) -> &'static [&'static str] {
+    match organization {
+        Organization::Pipelined => &[],
+        Organization::Serial => &["fold", "feed", "memory"],
+        Organization::Raster => &["pixels_per_clock", "store", "forward", "interface"],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::DesignConfig;

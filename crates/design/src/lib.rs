@@ -12,6 +12,7 @@ mod config;
 mod design;
 mod fingerprint;
 mod hardware;
+mod hardware_config;
 mod hardware_view;
 mod interface;
 mod keys;
@@ -30,7 +31,7 @@ pub use choice::{
     FrameStoreKind, InterfaceKind, LaneMemoryKind, Organization, Pipelining, PixelFeed,
     ThresholdSource,
 };
-pub use config::{DesignConfig, HardwareConfig};
+pub use config::DesignConfig;
 pub use design::Design;
 pub use foveate_camera::{
     Camera, CameraConfig, ConfigError, DECISION_BITS, Decimal, DecisionConfig, DenoiseConfig,
@@ -41,6 +42,7 @@ pub use foveate_camera::{
     index_bits, mad_score_max,
 };
 pub use hardware::Hardware;
+pub use hardware_config::{HardwareConfig, OrganizationConfig, RasterConfig, SerialConfig};
 pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};
 pub use interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 pub use pipelined::{PipelinedHardware, PipelinedTiming};

@@ -5,9 +5,7 @@
 //! defines these properties.
 
 use crate::rules::{ArrayUnit, OrganizationRules};
-use crate::{
-    CoreInterface, Design, DesignTiming, Hardware, HardwareConfig, Organization, PixelFeed, Port,
-};
+use crate::{CoreInterface, Design, DesignTiming, Hardware, Organization, Port};
 
 impl Organization {
     /// Returns the name of one unit of the array, such as "RPU".
@@ -17,16 +15,6 @@ impl Organization {
             Self::Pipelined => "RPU",
             Self::Serial => "lane",
             Self::Raster => "core",
-        }
-    }
-
-    /// Returns the values that `hardware.feed` may have, the default first. The list is empty if
-    /// the key is refused.
-    #[must_use]
-    pub fn feeds(self) -> &'static [PixelFeed] {
-        match self {
-            Self::Serial => PixelFeed::ALL,
-            Self::Pipelined | Self::Raster => &[],
         }
     }
 
@@ -92,27 +80,5 @@ impl Design {
             Hardware::Serial(own) => Box::new(self.with_hardware(own)),
             Hardware::Raster(own) => Box::new(self.with_hardware(own)),
         }
-    }
-}
-
-impl HardwareConfig {
-    /// Returns a short description of the hardware, such as "serial, raster feed, fold 4".
-    #[must_use]
-    pub fn description(&self) -> String {
-        let mut words = vec![self.organization.name().to_owned()];
-        let default = self.organization.feeds().first().copied();
-        words.extend(self.feed.or(default).map(|feed| format!("{feed} feed")));
-        words.extend(self.organization.has_folding().then(|| format!("fold {}", self.fold)));
-        words.extend(self.memory.map(|memory| format!("{memory} memory")));
-        words.extend(self.pixels_per_clock.map(|pixels| {
-            let plural = if pixels == 1 { "" } else { "s" };
-            format!("{pixels} pixel{plural} per clock")
-        }));
-        words.extend(self.pipelining.map(|pipelining| format!("{pipelining} pipelining")));
-        words.extend(self.store.map(|store| format!("{store} store")));
-        words.extend((self.forward == Some(false)).then(|| "no forwarding".to_owned()));
-        words.extend(self.interface.map(|bus| format!("interface {bus}")));
-        words.extend((self.sync == Some(true)).then(|| "frame sync".to_owned()));
-        words.join(", ")
     }
 }

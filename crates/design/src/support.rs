@@ -11,7 +11,7 @@ use Organization::{Pipelined, Raster, Serial};
 /// Refuses the parts of a camera, and the keys that every organization has, that the organization
 /// does not support.
 pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Result<(), ConfigError> {
-    let organization = hardware.organization;
+    let organization = hardware.organization.kind();
     let quoted = |name: &str| format!("\"{name}\"");
     for (index, feature) in camera.features().iter().enumerate() {
         let (key, kind) = (format!("spatial[{index}].feature"), feature.kind());
@@ -29,7 +29,7 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
     refuse_unless(organization, "hardware.thresholds", quoted(thresholds.name()), |one| {
         supports_thresholds(one, thresholds)
     })?;
-    let sync = hardware.sync.unwrap_or_default();
+    let sync = hardware.sync;
     refuse_unless(organization, "hardware.sync", sync.to_string(), |one| supports_sync(one, sync))
 }
 
@@ -117,7 +117,7 @@ mod tests {
             for &reference in ReferencePolicy::ALL {
                 for &irrelevant in IrrelevantRendering::ALL {
                     let mut config = DesignConfig::default();
-                    config.hardware.organization = organization;
+                    config.hardware.organization = organization.into();
                     config.camera.temporal.reference = reference;
                     config.camera.render.irrelevant = irrelevant;
                     let entries = FeatureKind::ALL.iter().copied().map(SpatialConfig::new);

@@ -41,7 +41,7 @@ fn defaults() -> Result<Value, ConfigError> {
     let design = DesignConfig::default().validate()?;
     let mut shown = CameraConfig::default();
     shown.render.irrelevant = IrrelevantRendering::Mean;
-    let mut defaults = json!(design.complete_config());
+    let mut defaults = json!(design.config());
     defaults["periphery"] = json!(shown.validate()?.config().periphery);
     Ok(defaults)
 }

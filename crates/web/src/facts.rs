@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 /// Returns every key with its value, the sizes that follow, and the possible values of each key
 /// while the others stay.
 pub(crate) fn camera_facts(design: &Design) -> Value {
-    let config = design.complete_config();
+    let config = design.config();
     let features = design.features().iter().map(|feature| feature.kind().name());
     json!({
         "toml": config.to_toml(),

@@ -203,7 +203,7 @@ fn agreement_lines(network: &FittedNetwork, design: &FittedDesign) -> Vec<String
 
 /// Returns the number of RPUs or lanes, with their name.
 fn unit_count_text(design: &FittedDesign) -> String {
-    let name = design.config.hardware.organization.unit_name();
+    let name = design.config.hardware.organization.kind().unit_name();
     let plural = if design.silicon.units == 1 { "" } else { "s" };
     format!("{} {name}{plural}", design.silicon.units)
 }

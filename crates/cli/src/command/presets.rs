@@ -27,7 +27,7 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
         // The file has every key except the size of the frame, which simulations take from their
         // input. A preset for frames of one size has that size, too.
         let own = Preset::find(name)?.config()?;
-        let mut config = own.validate()?.complete_config();
+        let mut config = own.validate()?.config();
         (config.camera.frame.width, config.camera.frame.height) =
             (own.camera.frame.width, own.camera.frame.height);
         return if args.json {

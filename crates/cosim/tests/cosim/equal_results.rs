@@ -10,8 +10,8 @@ use crate::common::{feature, in_parallel, in_turn};
 use foveate_cosim::{CosimJob, CosimLevel, Recording, Simulator, Stimulus};
 use foveate_design::{
     Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, IrrelevantRendering,
-    Neighborhood, Organization, Payload, Pipelining, PixelFeed, PortRole, ReferencePolicy,
-    RegionAction,
+    Neighborhood, Organization, OrganizationConfig, Payload, Pipelining, PixelFeed, PortRole,
+    ReferencePolicy, RegionAction, SerialConfig,
 };
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
@@ -230,22 +230,25 @@ fn compare_organizations(
     frames: &[Frame],
     what: &str,
 ) -> Result<(), String> {
-    let design = |organization, feed, fold| {
+    let serial = |feed, fold| {
+        OrganizationConfig::Serial(SerialConfig { feed: Some(feed), fold, memory: None })
+    };
+    let design = |organization| {
         let mut config = config.clone();
         config.hardware.organization = organization;
-        (config.hardware.feed, config.hardware.fold) = (feed, fold);
         (config.camera.frame.width, config.camera.frame.height) =
             (Some(frames[0].width()), Some(frames[0].height()));
         config.validate().unwrap()
     };
-    let expected = functional_results(&design(Organization::Pipelined, None, 1), frames);
+    let expected = functional_results(&design(OrganizationConfig::Pipelined), frames);
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
-    for (organization, feed, fold) in [
-        (Organization::Pipelined, None, 1),
-        (Organization::Serial, Some(PixelFeed::Parallel), 1),
-        (Organization::Serial, Some(PixelFeed::Raster), 2),
+    for organization in [
+        OrganizationConfig::Pipelined,
+        serial(PixelFeed::Parallel, 1),
+        serial(PixelFeed::Raster, 2),
     ] {
-        let design = design(organization, feed, fold);
+        let design = design(organization);
+        let hardware = design.config().hardware.description();
         let level = CosimLevel::Rcm { columns: design.columns(), rows: design.rows() };
         let frames = frames.to_vec();
         let stimulus = Stimulus { level, seed: 1, rounds: 0, frames, sufficient_clocks: None };
@@ -257,9 +260,9 @@ fn compare_organizations(
         let report = job.run_on(&recording, &toolchain, &cache, &mut |_| {});
         let report = report.map_err(|error| format!("{what}: {error}"))?;
         if !report.passed() {
-            return Err(format!("{what}, {organization}: {report}"));
+            return Err(format!("{what}, {hardware}: {report}"));
         }
-        let got = match organization {
+        let got = match design.organization() {
             Organization::Pipelined => {
                 pipelined_results(&design, &recording, stimulus.frames.len())
             }
@@ -267,7 +270,7 @@ fn compare_organizations(
             Organization::Raster => raster_results(&design, &recording),
         };
         if got != expected {
-            return Err(format!("{what}: {organization} {feed:?} is not what the contract says"));
+            return Err(format!("{what}: {hardware} is not what the contract says"));
         }
     }
     Ok(())
@@ -341,8 +344,7 @@ fn the_vectors_of_a_raster_core_have_the_functional_results() {
         let (width, height) = (wide * 5 * side - 1, 4 * side - 2);
         let frames = hard_cases(width, height, config.camera.frame.pixel_bits);
         (config.camera.frame.width, config.camera.frame.height) = (Some(width), Some(height));
-        config.hardware.organization = Organization::Raster;
-        config.hardware.pixels_per_clock = Some(wide);
+        config.hardware.make_raster().pixels_per_clock = Some(wide);
         let design = config.validate().unwrap();
         let stimulus = Stimulus {
             level: CosimLevel::Full,
@@ -369,8 +371,8 @@ fn the_vectors_of_a_raster_core_have_the_functional_results_with_every_store() {
         (config.camera.frame.width, config.camera.frame.height) =
             (Some(5 * side - 1), Some(4 * side - 2));
         config.camera.temporal.reference = ReferencePolicy::Previous;
-        config.hardware.organization = Organization::Raster;
-        config.hardware.pipelining = Some(in_turn(Pipelining::ALL, turn));
+        config.hardware.organization = Organization::Raster.into();
+        config.hardware.pipelining = in_turn(Pipelining::ALL, turn);
         // Summaries need forwarding.
         let may_keep = config.camera.render.irrelevant != IrrelevantRendering::Mean;
         let stores = [
@@ -379,8 +381,8 @@ fn the_vectors_of_a_raster_core_have_the_functional_results_with_every_store() {
             (FrameStoreKind::External, false),
         ];
         for (store, forward) in stores.into_iter().filter(|&(_, forward)| forward || may_keep) {
-            config.hardware.store = Some(store);
-            config.hardware.forward = Some(forward);
+            config.hardware.make_raster().store = Some(store);
+            config.hardware.make_raster().forward = Some(forward);
             let design = config.validate().unwrap();
             let stimulus = Stimulus {
                 level: CosimLevel::Full,

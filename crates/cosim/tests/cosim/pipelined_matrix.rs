@@ -83,7 +83,7 @@ fn matrix() -> Vec<DesignConfig> {
                         config.camera.temporal.reference = reference;
                         set_irrelevant_in_turn(&mut config.camera, turn / 2);
                         config.camera.render.payload = in_turn(Payload::ALL, turn / 3);
-                        config.hardware.pipelining = Some(pipelining_in_turn(turn));
+                        config.hardware.pipelining = pipelining_in_turn(turn);
                         configs.push(config);
                     }
                 }
@@ -139,7 +139,7 @@ fn summaries_agree() {
             config.camera.render.payload = if raw { Payload::Raw } else { Payload::Denoised };
             config.camera.periphery.blocks = Some(blocks);
             config.camera.periphery.level = [None, Some(0)][turn / 2 % 2];
-            config.hardware.pipelining = Some(pipelining);
+            config.hardware.pipelining = pipelining;
             configs.push(config);
         }
     }
@@ -232,7 +232,7 @@ fn designs_outside_the_matrix_agree() {
         configs.push(config);
     }
     for (turn, config) in configs.iter_mut().enumerate() {
-        config.hardware.pipelining = Some(pipelining_in_turn(turn));
+        config.hardware.pipelining = pipelining_in_turn(turn);
     }
     check_all(&configs);
 }

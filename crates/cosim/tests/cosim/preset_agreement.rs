@@ -28,7 +28,7 @@ fn every_preset_agrees_at_rpu_level_in_both_simulators() {
             // Every organization takes four regions side by side. Icarus is slow, and every round
             // plays all sequences. So Icarus plays only the street for organizations with many
             // clocks per frame.
-            let (rows, rounds) = match (simulator, config.hardware.organization) {
+            let (rows, rounds) = match (simulator, config.hardware.organization.kind()) {
                 (Simulator::Verilator, _) => (3, Stimulus::default().rounds),
                 (Simulator::Iverilog, Organization::Pipelined) => (1, 1),
                 (Simulator::Iverilog, _) => (1, 0),

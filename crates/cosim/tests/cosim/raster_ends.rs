@@ -9,7 +9,7 @@ use crate::common::{check_agreement, design, directed_stimulus, feature, has_sim
 use foveate_cosim::{CosimLevel, Recording, Simulator, Stimulus};
 use foveate_design::{
     CameraConfig, Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering,
-    Organization, Payload, Pipelining, PortRole, ReferencePolicy,
+    Payload, Pipelining, PortRole, ReferencePolicy,
 };
 use foveate_frame::Frame;
 
@@ -22,8 +22,7 @@ fn designs() -> Vec<Design> {
             spatial: vec![feature(kind, 0)],
             ..CameraConfig::default()
         });
-        config.hardware.organization = Organization::Raster;
-        config.hardware.pixels_per_clock = Some(pixels);
+        config.hardware.make_raster().pixels_per_clock = Some(pixels);
         config.camera.region.size = size;
         config.camera.denoise.filter = DenoiseFilter::None;
         config.camera.spatial[0].min_score = Some(Decimal::from_whole(1));
@@ -37,12 +36,12 @@ fn designs() -> Vec<Design> {
             config.camera.temporal.reference = ReferencePolicy::LastSent;
         }),
         of(FeatureKind::Variance, (8, 4), (8, 4), &|config| {
-            config.hardware.pipelining = Some(Pipelining::Deep);
+            config.hardware.pipelining = Pipelining::Deep;
             config.camera.temporal.reference = ReferencePolicy::LastSent;
             config.camera.render.payload = Payload::Raw;
         }),
         of(FeatureKind::Edge, (2, 2), (16, 1), &|config| {
-            config.hardware.pipelining = Some(Pipelining::Deep);
+            config.hardware.pipelining = Pipelining::Deep;
         }),
         of(FeatureKind::Mad, (4, 4), (16, 2), &|_| {}),
         of(FeatureKind::Edge, (4, 1), (4, 4), &|config| {

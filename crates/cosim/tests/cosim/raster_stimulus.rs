@@ -18,7 +18,7 @@ fn config(last: FeatureKind) -> DesignConfig {
     let features = [feature(FeatureKind::Edge, 0), feature(last, 1)];
     let mut config =
         DesignConfig::from(CameraConfig { spatial: features.to_vec(), ..CameraConfig::default() });
-    config.hardware.organization = Organization::Raster;
+    config.hardware.organization = Organization::Raster.into();
     config.camera.region.size = 4;
     config.camera.temporal.reference = ReferencePolicy::LastSent;
     config
@@ -28,7 +28,7 @@ fn config(last: FeatureKind) -> DesignConfig {
 /// pass, and one whose frames wait for the pixels of the frame before.
 fn designs() -> [Design; 3] {
     let mut wide = config(FeatureKind::Variance);
-    wide.hardware.pixels_per_clock = Some(2);
+    wide.hardware.make_raster().pixels_per_clock = Some(2);
     wide.camera.region.neighborhood = Neighborhood::Shared;
     let mut small = config(FeatureKind::Corner);
     small.camera.denoise.filter = DenoiseFilter::None;

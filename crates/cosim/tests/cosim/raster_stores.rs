@@ -12,7 +12,7 @@ use crate::common::{
 use foveate_cosim::{CosimLevel, Recording, Simulator};
 use foveate_design::{
     CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, Neighborhood,
-    Organization, Payload, Pipelining, PortRole, RasterTiming, ThresholdSource,
+    Payload, Pipelining, PortRole, RasterTiming, ThresholdSource,
 };
 use foveate_toolchain::testing::takes_whole_lists;
 
@@ -20,8 +20,7 @@ use foveate_toolchain::testing::takes_whole_lists;
 fn config(kinds: &[FeatureKind]) -> DesignConfig {
     let spatial = kinds.iter().map(|&kind| feature(kind, 1)).collect();
     let mut config = DesignConfig::from(CameraConfig { spatial, ..CameraConfig::default() });
-    config.hardware.organization = Organization::Raster;
-    config.hardware.store = Some(FrameStoreKind::External);
+    config.hardware.make_raster().store = Some(FrameStoreKind::External);
     config.camera.region.size = 4;
     config
 }
@@ -31,10 +30,10 @@ fn config(kinds: &[FeatureKind]) -> DesignConfig {
 fn external_store_designs() -> [Design; 3] {
     let plain = config(&[FeatureKind::Edge, FeatureKind::Variance]);
     let mut deep = config(&[FeatureKind::Corner]);
-    deep.hardware.pipelining = Some(Pipelining::Deep);
-    deep.hardware.pixels_per_clock = Some(2);
+    deep.hardware.pipelining = Pipelining::Deep;
+    deep.hardware.make_raster().pixels_per_clock = Some(2);
     deep.camera.region.neighborhood = Neighborhood::Shared;
-    deep.hardware.forward = Some(false);
+    deep.hardware.make_raster().forward = Some(false);
     let mut pass = config(&[FeatureKind::Mad]);
     pass.camera.denoise.filter = DenoiseFilter::None;
     [design(&plain, (4, 3)), design(&deep, (8, 2)), design(&pass, (4, 3))]
@@ -158,7 +157,7 @@ fn wrong_references_change_temporal_counts() {
     let [design, ..] = external_store_designs();
     let (recording, inside) = (record(&design, 1), {
         let mut config = design.config();
-        config.hardware.store = Some(FrameStoreKind::Block);
+        config.hardware.make_raster().store = Some(FrameStoreKind::Block);
         record(&config.validate().unwrap(), 1)
     });
     // The sequences of both recordings are equal up to the first one with a faulty store.
@@ -184,8 +183,8 @@ fn wrong_references_change_temporal_counts() {
 #[test]
 fn without_forwarding_there_are_no_forward_columns() {
     let mut config = config(&[FeatureKind::Edge]);
-    config.hardware.store = Some(FrameStoreKind::SinglePort);
-    config.hardware.forward = Some(false);
+    config.hardware.make_raster().store = Some(FrameStoreKind::SinglePort);
+    config.hardware.make_raster().forward = Some(false);
     let design = design(&config, (4, 3));
     let recording = record(&design, 1);
     let layouts = [recording.inputs(), recording.outputs()];
@@ -214,11 +213,12 @@ fn matrix(store: FrameStoreKind, forward: bool) -> Vec<Design> {
         for pipelining in [Pipelining::Plain, Pipelining::Deep] {
             let turn = designs.len();
             let mut config = config(kinds);
-            config.hardware.store = Some(store);
-            config.hardware.forward = Some(forward);
-            config.hardware.pipelining = Some(pipelining);
+            config.hardware.make_raster().store = Some(store);
+            config.hardware.make_raster().forward = Some(forward);
+            config.hardware.pipelining = pipelining;
             let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4), (4, 4)][turn % 5];
-            (config.camera.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
+            (config.camera.region.size, config.hardware.make_raster().pixels_per_clock) =
+                (size, Some(pixels));
             config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2);
             config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
             config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
@@ -251,7 +251,7 @@ fn check_all(store: FrameStoreKind, forward: bool) {
     let failures = in_parallel(&designs, |design| {
         // Icarus has unknown values, but is slow for wide words. It simulates words of one pixel,
         // plain and deep.
-        let is_narrow = design.config().hardware.pixels_per_clock == Some(1);
+        let is_narrow = design.as_raster().unwrap().pixels_per_clock() == 1;
         let simulator = if is_narrow { Simulator::Iverilog } else { Simulator::Verilator };
         let folder = output.path().join(design.fingerprint());
         let what =

@@ -28,8 +28,8 @@ struct SerialCase {
 const COMPILED_FROM: u64 = 1000;
 
 impl SerialCase {
-    fn lane_case(config: DesignConfig) -> Self {
-        let fold = config.hardware.fold;
+    fn lane_case(mut config: DesignConfig) -> Self {
+        let fold = config.hardware.make_serial().fold;
         Self { config, grid: (fold, 1), level: CosimLevel::Rpu }
     }
 
@@ -93,8 +93,9 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.temporal.reference = reference;
                     config.camera.region.size = [4, 5, 4, 8][turn / 3 % 4];
-                    config.hardware.fold = [1, 2, 1, 3][turn % 4];
-                    config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn / 2 + turn / 8));
+                    config.hardware.make_serial().fold = [1, 2, 1, 3][turn % 4];
+                    config.hardware.make_serial().feed =
+                        Some(in_turn(PixelFeed::ALL, turn / 2 + turn / 8));
                     cases.push(SerialCase::lane_case(config));
                 }
             }
@@ -132,8 +133,8 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
                 let kinds = sets[turn % sets.len()];
                 let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
                 let mut config = with_keys_in_turn(serial_config(&features), turn);
-                config.hardware.feed = Some(feed);
-                config.hardware.fold = fold;
+                config.hardware.make_serial().feed = Some(feed);
+                config.hardware.make_serial().fold = fold;
                 config.camera.region.neighborhood = neighborhood;
                 config.camera.region.size = [4, 5, 4, 4, 5][turn % 5];
                 config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2);
@@ -162,8 +163,8 @@ fn depths_sizes_memories_and_constants_agree() {
         config.camera.region.size = 4;
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 2);
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn);
-        config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn / 3));
-        config.hardware.fold = 1 + u32::try_from(turn % 2).unwrap();
+        config.hardware.make_serial().feed = Some(in_turn(PixelFeed::ALL, turn / 3));
+        config.hardware.make_serial().fold = 1 + u32::try_from(turn % 2).unwrap();
         cases.push(SerialCase::array_case(config, (2, 1)));
     }
     // The memory is distributed up to 128 LUTs, so it is block memory for the larger regions and
@@ -175,8 +176,8 @@ fn depths_sizes_memories_and_constants_agree() {
         let mut config =
             with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
-        config.hardware.fold = fold;
-        config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn));
+        config.hardware.make_serial().fold = fold;
+        config.hardware.make_serial().feed = Some(in_turn(PixelFeed::ALL, turn));
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn + 1);
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2 + turn);
@@ -191,7 +192,7 @@ fn depths_sizes_memories_and_constants_agree() {
         let mut config = with_keys_in_turn(serial_config(&[feature(kind, 3)]), turn);
         config.hardware.thresholds = ThresholdSource::Constant;
         config.camera.region.size = [4, 5][turn % 2];
-        config.hardware.fold = [1, 2][turn / 2];
+        config.hardware.make_serial().fold = [1, 2][turn / 2];
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn);
         config.camera.temporal.reference = ReferencePolicy::ALL[turn / 2];
         cases.push(SerialCase::array_case(config, (2, 2)));
@@ -214,10 +215,10 @@ fn deep_arrays_agree() {
                     let kinds = sets[turn % sets.len()];
                     let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
                     let mut config = with_keys_in_turn(serial_config(&features), turn);
-                    config.hardware.pipelining = Some(Pipelining::Deep);
-                    config.hardware.memory = Some(memory);
-                    config.hardware.feed = Some(feed);
-                    config.hardware.fold = [2, 1, 3][turn % 3];
+                    config.hardware.pipelining = Pipelining::Deep;
+                    config.hardware.make_serial().memory = Some(memory);
+                    config.hardware.make_serial().feed = Some(feed);
+                    config.hardware.make_serial().fold = [2, 1, 3][turn % 3];
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
                     config.camera.region.size = [4, 5, 4][turn / 2 % 3];
@@ -266,10 +267,10 @@ fn summaries_agree() {
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn % 3);
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
         config.hardware.thresholds = ThresholdSource::ALL[turn / 6];
-        config.hardware.feed = Some(in_turn(PixelFeed::ALL, turn));
-        config.hardware.memory = Some(memory);
-        config.hardware.pipelining = Some(pipelining);
-        config.hardware.fold = fold;
+        config.hardware.make_serial().feed = Some(in_turn(PixelFeed::ALL, turn));
+        config.hardware.make_serial().memory = Some(memory);
+        config.hardware.pipelining = pipelining;
+        config.hardware.make_serial().fold = fold;
         cases.push(SerialCase::array_case(config, (3, 2)));
     }
     check_all(&cases);
@@ -293,13 +294,13 @@ fn a_configured_memory_kind_agrees() {
                         with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
-                    config.hardware.feed = Some(feed);
-                    config.hardware.fold = fold;
+                    config.hardware.make_serial().feed = Some(feed);
+                    config.hardware.make_serial().fold = fold;
                     config.camera.region.size = size;
                     config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 4 + turn);
                     let ruled = design(&config, (5, 2)).as_serial().unwrap().lane_memory().kind;
                     assert_ne!(ruled, memory, "the rule would choose it, too");
-                    config.hardware.memory = Some(memory);
+                    config.hardware.make_serial().memory = Some(memory);
                     cases.push(SerialCase::array_case(config, (5, 2)));
                 }
             }

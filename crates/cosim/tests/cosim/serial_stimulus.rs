@@ -35,8 +35,8 @@ fn config_with_every_feature() -> DesignConfig {
 /// slots empty.
 fn designs() -> [Design; 2] {
     let mut raster = config_with_every_feature();
-    raster.hardware.feed = Some(PixelFeed::Raster);
-    raster.hardware.fold = 4;
+    raster.hardware.make_serial().feed = Some(PixelFeed::Raster);
+    raster.hardware.make_serial().fold = 4;
     raster.camera.region.neighborhood = Neighborhood::Shared;
     [config_with_every_feature(), raster].map(|config| design(&config, GRID))
 }
@@ -316,7 +316,7 @@ fn port_names(layout: &RecordLayout) -> Vec<&str> {
 #[test]
 fn frames_of_the_caller_are_streamed_lane_by_lane() {
     let mut config = config_with_every_feature();
-    config.hardware.fold = 2;
+    config.hardware.make_serial().fold = 2;
     let design = design(&config, (3, 1));
     let frame = Frame::from_fn(12, 4, 8, |x, y| u16::try_from(x * 4 + y).unwrap()).unwrap();
     let frames = vec![frame.clone(), frame];

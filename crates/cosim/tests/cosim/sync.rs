@@ -192,7 +192,7 @@ fn without_sync_the_vectors_have_no_damaged_sequences() {
     for keys in DESIGNS {
         let with = design(keys);
         let mut config = with.config();
-        config.hardware.sync = None;
+        config.hardware.sync = false;
         let without = config.validate().unwrap();
         let record = |design: &Design| {
             directed_stimulus(CosimLevel::Full, 1).record(design, &mut |_, _| {}).unwrap()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The properties of a raster core, and the frames and keys that it supports.
 
-use crate::{FrameStoreKind, HardwareConfig, InterfaceKind, Organization, Pipelining};
+use crate::{FrameStoreKind, InterfaceKind, Organization, Pipelining, RasterConfig};
 use foveate_camera::{
     Camera, ConfigError, IrrelevantRendering, Periphery, ReferencePolicy, check_range,
 };
@@ -32,14 +32,18 @@ pub struct RasterHardware {
 
 impl RasterHardware {
     /// Returns the properties, or an error if a key or a size is not valid.
-    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        let &HardwareConfig { pixels_per_clock, pipelining, store, forward, interface, .. } = asked;
+    pub(crate) fn validate(
+        own: &RasterConfig,
+        pipelining: Pipelining,
+        camera: &Camera,
+    ) -> Result<Self, ConfigError> {
+        let &RasterConfig { pixels_per_clock, store, forward, interface } = own;
         let pixels = pixels_per_clock.unwrap_or(WORD_PIXELS[0]);
-        check_word(asked, pixels, camera.region_size())?;
-        check_interface(asked)?;
-        check_reference(asked, camera.temporal().reference)?;
+        check_word(pixels, camera.region_size())?;
+        check_interface(own)?;
+        check_reference(own, camera.temporal().reference)?;
         if let Some(periphery) = camera.periphery() {
-            check_summaries(asked, pixels, periphery)?;
+            check_summaries(own, pixels, periphery)?;
         }
         let why = " for organization = \"raster\"; use a narrower frame, or \"serial\"";
         check_range("frame.width", camera.width(), 1..=MAX_WIDTH, why)?;
@@ -51,7 +55,7 @@ impl RasterHardware {
                  {pixels} pixels; use frames of at least {} pixels, or smaller regions",
                 (columns - 1) * size + 1
             );
-            return Err(asked.organization.combination_error(
+            return Err(Organization::Raster.combination_error(
                 "frame.width",
                 camera.width().to_string(),
                 &remedy,
@@ -59,30 +63,26 @@ impl RasterHardware {
         }
         Ok(Self {
             pixels_per_clock: pixels,
-            pipelining: pipelining.unwrap_or_default(),
+            pipelining,
             store: store.unwrap_or_default(),
             has_forwarding: forward.unwrap_or(true),
             interface_kind: interface.unwrap_or_default(),
         })
     }
 
-    /// Returns the table `[hardware]`. `forward` and `interface` are left out while they have their
-    /// defaults, so that the fingerprint of a design is the same as before the keys existed.
-    pub(crate) fn config(&self) -> HardwareConfig {
-        HardwareConfig {
-            organization: Organization::Raster,
+    /// Returns the keys that only this organization has.
+    pub(crate) fn config(&self) -> RasterConfig {
+        RasterConfig {
             pixels_per_clock: Some(self.pixels_per_clock),
-            pipelining: Some(self.pipelining),
             store: Some(self.store),
-            forward: (!self.has_forwarding).then_some(false),
-            interface: self.interface_kind.non_default(),
-            ..HardwareConfig::default()
+            forward: Some(self.has_forwarding),
+            interface: Some(self.interface_kind),
         }
     }
 }
 
 /// Refuses a number of pixels per word that does not divide the rows of a region.
-fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), ConfigError> {
+fn check_word(pixels: u32, size: u32) -> Result<(), ConfigError> {
     let key = "hardware.pixels_per_clock";
     if !WORD_PIXELS.contains(&pixels) {
         return Err(ConfigError::Range {
@@ -95,13 +95,13 @@ fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), Conf
         return Ok(());
     }
     let remedy = format!("it must divide region.size = {}; use fewer pixels", size);
-    Err(asked.organization.combination_error(key, pixels.to_string(), &remedy))
+    Err(Organization::Raster.combination_error(key, pixels.to_string(), &remedy))
 }
 
 /// Refuses the AXI interface without forwarding, because its packets carry pixels.
-fn check_interface(asked: &HardwareConfig) -> Result<(), ConfigError> {
-    match asked.interface.unwrap_or_default() {
-        InterfaceKind::Axi if asked.forward == Some(false) => Err(ConfigError::Combination {
+fn check_interface(own: &RasterConfig) -> Result<(), ConfigError> {
+    match own.interface.unwrap_or_default() {
+        InterfaceKind::Axi if own.forward == Some(false) => Err(ConfigError::Combination {
             key: "hardware.forward".to_owned(),
             value: false.to_string(),
             with: format!("interface = \"{}\"", InterfaceKind::Axi),
@@ -114,7 +114,7 @@ fn check_interface(asked: &HardwareConfig) -> Result<(), ConfigError> {
 }
 
 /// Refuses a frame store that cannot store the reference.
-fn check_reference(asked: &HardwareConfig, reference: ReferencePolicy) -> Result<(), ConfigError> {
+fn check_reference(own: &RasterConfig, reference: ReferencePolicy) -> Result<(), ConfigError> {
     match reference {
         // The scored pixels are written to the store in any case. They are the reference of the
         // next frame.
@@ -129,12 +129,12 @@ fn check_reference(asked: &HardwareConfig, reference: ReferencePolicy) -> Result
             remedy: remedy.to_owned(),
         })
     };
-    if asked.forward == Some(false) {
+    if own.forward == Some(false) {
         let remedy = "its references are the pixels that leave; leave the key out, or use \
                       reference = \"previous\"";
         return clash("hardware.forward", false.to_string(), remedy);
     }
-    match asked.store.unwrap_or_default() {
+    match own.store.unwrap_or_default() {
         FrameStoreKind::Block | FrameStoreKind::Ultra => Ok(()),
         store @ (FrameStoreKind::SinglePort | FrameStoreKind::External) => {
             let remedy = "it also writes regions that leave while others come, for which such a \
@@ -147,14 +147,14 @@ fn check_reference(asked: &HardwareConfig, reference: ReferencePolicy) -> Result
 /// Refuses words that span two blocks, and summaries without forwarding, because the screen shows
 /// only what has left the core.
 fn check_summaries(
-    asked: &HardwareConfig,
+    own: &RasterConfig,
     pixels: u32,
     periphery: &Periphery,
 ) -> Result<(), ConfigError> {
     let clash = |key: &str, value: String, with: String, remedy: String| {
         Err(ConfigError::Combination { key: key.to_owned(), value, with, remedy })
     };
-    if asked.forward == Some(false) {
+    if own.forward == Some(false) {
         let with = format!("render.irrelevant = \"{}\"", IrrelevantRendering::Mean);
         let remedy = "what the screen shows is what has left; leave the key out, or show something \
                       else";

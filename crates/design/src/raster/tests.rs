@@ -8,8 +8,8 @@ mod summaries;
 
 use super::*;
 use crate::{
-    ArrayStructure, Design, DesignConfig, FrameStoreKind, OutputQualifier, Pipelining,
-    PortDirection, PortRole,
+    ArrayStructure, Design, DesignConfig, FrameStoreKind, InterfaceKind, OrganizationConfig,
+    OutputQualifier, Pipelining, PortDirection, PortRole, RasterConfig,
 };
 
 fn config(overrides: &[&str]) -> DesignConfig {
@@ -21,7 +21,8 @@ fn design(overrides: &[&str]) -> Design {
 }
 
 fn refusal(overrides: &[&str]) -> String {
-    config(overrides).validate().unwrap_err().to_string()
+    let config = DesignConfig::from_toml_with("[hardware]\norganization = \"raster\"\n", overrides);
+    config.and_then(|config| config.validate()).unwrap_err().to_string()
 }
 
 #[test]
@@ -204,11 +205,14 @@ fn only_small_frames_of_last_sent_wait() {
 fn keys_are_filled_in_and_only_here() {
     let plain = design(&[]);
     let hardware = plain.config().hardware;
-    assert_eq!(
-        (hardware.pixels_per_clock, hardware.pipelining, hardware.store),
-        (Some(1), Some(Pipelining::Plain), Some(FrameStoreKind::Block))
-    );
-    assert_eq!((hardware.feed, hardware.memory, hardware.fold), (None, None, 1));
+    let own = RasterConfig {
+        pixels_per_clock: Some(1),
+        store: Some(FrameStoreKind::Block),
+        forward: Some(true),
+        interface: Some(InterfaceKind::Ports),
+    };
+    assert_eq!(hardware.organization, OrganizationConfig::Raster(own));
+    assert_eq!(hardware.pipelining, Pipelining::Plain);
     assert_eq!(hardware.description(), "raster, 1 pixel per clock, plain pipelining, block store");
     let named = design(&["hardware.pixels_per_clock=1", "hardware.store=block"]);
     assert_eq!(named.fingerprint(), plain.fingerprint());

@@ -3,7 +3,7 @@
 //! cheapest.
 
 use super::{SerialPhase, SerialTiming};
-use crate::{Design, Hardware, SerialDesign};
+use crate::{Design, Hardware, OrganizationConfig, SerialDesign};
 use foveate_camera::ConfigError;
 
 impl Design {
@@ -14,7 +14,13 @@ impl Design {
     /// folding.
     pub fn with_fold(&self, fold: u32) -> Result<Self, ConfigError> {
         let mut config = self.config();
-        config.hardware.fold = fold;
+        match (&mut config.hardware.organization, fold) {
+            (OrganizationConfig::Serial(own), _) => own.fold = fold,
+            (OrganizationConfig::Pipelined | OrganizationConfig::Raster(_), 1) => {}
+            (OrganizationConfig::Pipelined | OrganizationConfig::Raster(_), _) => {
+                return Err(self.organization().folding_error(fold.to_string()));
+            }
+        }
         config.validate()
     }
 

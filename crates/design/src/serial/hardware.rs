@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The properties of a serial array, and the configurations that it supports.
 
-use crate::{HardwareConfig, LaneMemoryKind, Organization, Pipelining, PixelFeed};
+use crate::{LaneMemoryKind, Organization, Pipelining, PixelFeed, SerialConfig};
 use foveate_camera::{Camera, ConfigError, check_range};
 
 /// Smallest side of a region in pixels.
@@ -22,12 +22,16 @@ pub struct SerialHardware {
 
 impl SerialHardware {
     /// Returns the properties, or an error if a key or a size is not valid.
-    pub(crate) fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        let &HardwareConfig { fold, feed, memory, pipelining, .. } = asked;
+    pub(crate) fn validate(
+        own: &SerialConfig,
+        pipelining: Pipelining,
+        camera: &Camera,
+    ) -> Result<Self, ConfigError> {
+        let &SerialConfig { fold, feed, memory } = own;
         let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");
-            return Err(asked.organization.combination_error(
+            return Err(Organization::Serial.combination_error(
                 "region.size",
                 size.to_string(),
                 &remedy,
@@ -35,24 +39,12 @@ impl SerialHardware {
         }
         let why = format!(" (the frame has {regions} regions); fold = {regions} makes one lane");
         check_range("hardware.fold", fold, 1..=regions, &why)?;
-        Ok(Self {
-            fold,
-            feed: feed.unwrap_or_default(),
-            memory,
-            pipelining: pipelining.unwrap_or_default(),
-        })
+        Ok(Self { fold, feed: feed.unwrap_or_default(), memory, pipelining })
     }
 
-    /// Returns the table `[hardware]`. `pipelining` is left out while it has its default, so that
-    /// the fingerprint of a design is the same as before the key existed.
-    pub(crate) fn config(&self) -> HardwareConfig {
-        HardwareConfig {
-            organization: Organization::Serial,
-            fold: self.fold,
-            feed: Some(self.feed),
-            memory: self.memory,
-            pipelining: self.pipelining.non_default(),
-            ..HardwareConfig::default()
-        }
+    /// Returns the keys that only this organization has. `memory` is left out if the configuration
+    /// does not choose it.
+    pub(crate) fn config(&self) -> SerialConfig {
+        SerialConfig { fold: self.fold, feed: Some(self.feed), memory: self.memory }
     }
 }

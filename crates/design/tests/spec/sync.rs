@@ -63,11 +63,11 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
 }
 
 #[test]
-fn a_design_without_it_is_what_it_was() {
+fn designs_are_without_it_by_default() {
     for organization in ORGANIZATIONS {
         let (plain, off) = (design(organization), design(&format!("{organization},sync=false")));
         assert_eq!(plain, off);
-        assert!(!off.config().to_toml().contains("sync"), "{organization}");
+        assert!(off.config().to_toml().contains("sync = false\n"), "{organization}");
         let with = design(&format!("{organization},sync=true"));
         assert_ne!(with.fingerprint(), plain.fingerprint());
         assert!(with.config().to_toml().contains("sync = true\n"));

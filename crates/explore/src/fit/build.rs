@@ -5,7 +5,8 @@
 use foveate_camera::IrrelevantRendering;
 use foveate_design::{
     CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, HardwareConfig, LaneMemoryKind,
-    Neighborhood, Organization, PixelFeed, ReferencePolicy,
+    Neighborhood, Organization, OrganizationConfig, PixelFeed, RasterConfig, ReferencePolicy,
+    SerialConfig,
 };
 use foveate_estimate::{FpgaDevice, FrameRate};
 
@@ -314,14 +315,14 @@ fn possible_designs(
         Organization::Serial => arrays.clone(),
         Organization::Pipelined if is_fast => Vec::new(),
         Organization::Pipelined => {
-            let array = possible_design(look, asked, organization, &HardwareConfig::default());
+            let array = possible_design(look, asked, OrganizationConfig::Pipelined);
             array.into_iter().collect()
         }
         Organization::Raster => {
             let core = |pixels| {
                 let pixels_per_clock = Some(pixels);
-                let own = HardwareConfig { pixels_per_clock, ..HardwareConfig::default() };
-                possible_design(look, asked, organization, &own)
+                let own = RasterConfig { pixels_per_clock, ..RasterConfig::default() };
+                possible_design(look, asked, OrganizationConfig::Raster(own))
             };
             let cores = [1, 2, 4].into_iter().filter_map(core).collect();
             fewest_pixels_per_clock(cores, bounds).into_iter().collect()
@@ -330,15 +331,15 @@ fn possible_designs(
     Organization::ALL.iter().flat_map(|&organization| of(organization)).collect()
 }
 
-/// Returns a design of that organization; `None` if it is not valid.
+/// Returns a design of that organization with the thresholds and `sync` of the task; `None` if it is
+/// not valid.
 fn possible_design(
     look: &CameraConfig,
     asked: &HardwareConfig,
-    organization: Organization,
-    own: &HardwareConfig,
+    organization: OrganizationConfig,
 ) -> Option<Design> {
-    let (thresholds, sync, interface) = (asked.thresholds, asked.sync, asked.interface);
-    let hardware = HardwareConfig { organization, thresholds, sync, interface, ..*own };
+    let &HardwareConfig { thresholds, sync, .. } = asked;
+    let hardware = HardwareConfig { organization, thresholds, sync, ..HardwareConfig::default() };
     DesignConfig { camera: look.clone(), hardware }.validate().ok()
 }
 
@@ -350,9 +351,8 @@ fn serial_arrays(
 ) -> (Vec<Design>, bool) {
     let (mut found, mut is_fast) = (Vec::new(), false);
     let fed = |&feed| {
-        let (feed, memory) = (Some(feed), bounds.memory);
-        let own = HardwareConfig { feed, memory, ..HardwareConfig::default() };
-        possible_design(look, asked, Organization::Serial, &own)
+        let own = SerialConfig { fold: 1, feed: Some(feed), memory: bounds.memory };
+        possible_design(look, asked, OrganizationConfig::Serial(own))
     };
     for single in PixelFeed::ALL.iter().filter_map(fed) {
         let (folds, enough) = folded_arrays(&single, bounds);

@@ -33,7 +33,7 @@ mod target;
 
 use std::path::PathBuf;
 
-use foveate_design::{DesignConfig, HardwareConfig};
+use foveate_design::{DesignConfig, HardwareConfig, OrganizationConfig};
 use foveate_footage::InputOptions;
 
 use crate::cost::Synthesizer;
@@ -88,7 +88,11 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResu
     // The hardware settings of the task do not affect what the camera computes, so they are
     // dropped. `thresholds` and `sync` stay, because every candidate design takes them over;
     // `memory` goes to `build`.
-    let HardwareConfig { thresholds, sync, memory, .. } = request.task.hardware;
+    let HardwareConfig { ref organization, thresholds, sync, .. } = request.task.hardware;
+    let memory = match organization {
+        OrganizationConfig::Serial(own) => own.memory,
+        OrganizationConfig::Pipelined | OrganizationConfig::Raster(_) => None,
+    };
     let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
     let task = DesignConfig { hardware, ..request.task.clone() };
     let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };

@@ -33,7 +33,7 @@ pub(super) fn slower_designs(design: &Design, speed: &FrameRate, min_fps: f64) -
         }
         Hardware::Raster(own) => {
             let mut config = design.config();
-            config.hardware.pixels_per_clock = Some(own.pixels_per_clock / 2);
+            config.hardware.make_raster().pixels_per_clock = Some(own.pixels_per_clock / 2);
             let half = config.validate().ok();
             half.filter(|half| half.timing().clocks_per_frame() <= most).into_iter().collect()
         }

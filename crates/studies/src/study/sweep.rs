@@ -51,7 +51,7 @@ pub(super) fn region_size_key(config: &DesignConfig) -> SweptKey {
         other.camera.region.size = size;
         if size != config.camera.region.size {
             // Fewer regions may not fill the lanes; the fold does not change any result.
-            other.hardware.fold = 1;
+            other.hardware.unfold();
         }
         (u64::from(size), other)
     };

@@ -63,15 +63,18 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
 }
 
 /// Returns the rows of the design in each organization with each feature, without and with
-/// denoising.
+/// denoising. The keys that only one organization has are those of the design in its own
+/// organization, and have their defaults in the others.
 fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
     let mut list = Vec::new();
     for &organization in Organization::ALL {
         for &filter in DenoiseFilter::ALL {
             for &kind in FeatureKind::ALL {
                 let mut config = with_feature(base, kind, filter);
-                config.hardware.organization = organization;
-                config.hardware.fold = 1;
+                if organization != base.hardware.organization.kind() {
+                    config.hardware.organization = organization.into();
+                }
+                config.hardware.unfold();
                 let median = match filter {
                     DenoiseFilter::None => "",
                     DenoiseFilter::Median3x3 => " median",
@@ -105,9 +108,8 @@ fn folded_row(
 ) -> Result<PlannedRow, CliError> {
     let feature = FeatureKind::default();
     let mut config = with_feature(base, feature, DenoiseFilter::Median3x3);
-    config.hardware.organization = Organization::Serial;
-    config.hardware.feed = Some(PixelFeed::Raster);
-    config.hardware.fold = 1;
+    let serial = config.hardware.make_serial();
+    (serial.feed, serial.fold) = (Some(PixelFeed::Raster), 1);
     let synthesize = |design: &Design| {
         let report = flow.estimate(design, false)?;
         let clock_mhz = given.or(report.clock.as_ref().map(|clock| clock.mhz));

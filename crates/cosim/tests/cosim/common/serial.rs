@@ -7,18 +7,20 @@ use foveate_design::{CameraConfig, DesignConfig, Organization, SpatialConfig};
 pub(crate) fn serial_config(features: &[SpatialConfig]) -> DesignConfig {
     let mut config =
         DesignConfig::from(CameraConfig { spatial: features.to_vec(), ..CameraConfig::default() });
-    config.hardware.organization = Organization::Serial;
+    config.hardware.organization = Organization::Serial.into();
     config
 }
 
 /// Returns the name of a serial configuration and its grid.
 pub(crate) fn serial_config_name(config: &DesignConfig, grid: (u32, u32)) -> String {
+    let mut hardware = config.hardware.clone();
+    let own = hardware.make_serial();
     format!(
         "{} {:?} {:?} fold {} of {}x{}",
         super::config_name(config),
-        config.hardware.feed,
-        config.hardware.memory,
-        config.hardware.fold,
+        own.feed,
+        own.memory,
+        own.fold,
         grid.0,
         grid.1,
     )

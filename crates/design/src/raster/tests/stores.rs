@@ -56,11 +56,11 @@ fn only_a_raster_core_has_the_keys() {
 }
 
 #[test]
-fn forwarding_is_the_default_and_changes_no_fingerprint() {
+fn forwarding_is_the_default() {
     let plain = design(&[]);
     let named = design(&["hardware.forward=true"]);
     assert_eq!((named.fingerprint(), named.config()), (plain.fingerprint(), plain.config()));
-    assert!(plain.has_forwarding() && !plain.config().to_toml().contains("forward"));
+    assert!(plain.has_forwarding() && plain.config().to_toml().contains("forward = true"));
     let alone = design(&["hardware.forward=false", "hardware.store=external"]);
     assert!(
         !alone.has_forwarding() && alone.as_raster().unwrap().store() == FrameStoreKind::External

@@ -54,12 +54,10 @@ pub(crate) struct PlantedMisreading {
 impl RasterParameters {
     pub(crate) fn design(&self) -> Design {
         let mut config = self.base.design().config();
-        config.hardware.organization = Organization::Raster;
-        config.hardware.pixels_per_clock = Some(self.word_pixels as u32);
-        config.hardware.pipelining =
-            Some(if self.deep { Pipelining::Deep } else { Pipelining::Plain });
-        config.hardware.store = Some(self.store);
-        config.hardware.forward = Some(self.forward);
+        config.hardware.make_raster().pixels_per_clock = Some(self.word_pixels as u32);
+        config.hardware.pipelining = if self.deep { Pipelining::Deep } else { Pipelining::Plain };
+        config.hardware.make_raster().store = Some(self.store);
+        config.hardware.make_raster().forward = Some(self.forward);
         config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
     }
 

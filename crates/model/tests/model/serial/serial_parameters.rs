@@ -29,10 +29,9 @@ pub(crate) enum ExpectedPhase {
 impl SerialParameters {
     pub(crate) fn design(&self) -> Design {
         let mut config = self.base.design().config();
-        config.hardware.organization = Organization::Serial;
-        config.hardware.feed =
+        config.hardware.make_serial().feed =
             Some(if self.raster { PixelFeed::Raster } else { PixelFeed::Parallel });
-        config.hardware.fold = self.fold as u32;
+        config.hardware.make_serial().fold = self.fold as u32;
         config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
     }
 

@@ -198,7 +198,7 @@ fn without_sync_a_lost_beat_leaves_the_array_out_of_step() {
     for more in DESIGNS {
         let with_sync = design(more);
         let mut config = with_sync.config();
-        config.hardware.sync = None;
+        config.hardware.sync = false;
         let without_sync = config.validate().unwrap();
         let (beats, width) = beat_shape(&with_sync);
         let mut marks: Vec<bool> = (0..4 * beats).map(|at| at % beats == 0).collect();
