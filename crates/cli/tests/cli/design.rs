@@ -211,7 +211,7 @@ fn every_preset_has_every_key_and_the_right_size() {
         ("hardware.forward", "false"),
         ("hardware.pixels_per_clock", "2"),
         ("hardware.feed", "'raster'"),
-        ("hardware.fold", "1"),
+        ("hardware.fold", "2"),
         ("hardware.thresholds", "'constant'"),
         ("hardware.organization", "'pipelined'"),
     ];
