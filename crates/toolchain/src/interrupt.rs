@@ -17,30 +17,51 @@ pub(crate) const POLL_STEP: Duration = Duration::from_millis(50);
 
 /// A request to stop. Clones share it.
 #[derive(Clone, Default)]
-pub struct Interrupt(Arc<AtomicBool>);
+pub struct Interrupt {
+    /// The flag of the user's request.
+    flag: Arc<AtomicBool>,
+    /// The flag that stops a part of the work alone.
+    part: Option<Arc<AtomicBool>>,
+}
 
 impl Interrupt {
     /// Makes an interrupt from this flag.
     #[must_use]
     pub fn from_flag(flag: Arc<AtomicBool>) -> Self {
-        Self(flag)
+        Self { flag, part: None }
+    }
+
+    /// Returns an interrupt for a part of the work: this one stops it, too, and
+    /// [`Interrupt::stop_part`] stops the part alone.
+    #[must_use]
+    pub fn of_part(&self) -> Self {
+        Self { flag: Arc::clone(&self.flag), part: Some(Arc::default()) }
+    }
+
+    /// Stops the part of the work that has this interrupt or a clone of it. An interrupt that is
+    /// not one of a part is unchanged.
+    pub fn stop_part(&self) {
+        if let Some(part) = &self.part {
+            part.store(true, Ordering::Relaxed);
+        }
     }
 
     /// Returns whether the work must stop.
     #[must_use]
     pub fn is_set(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        let is_set = |flag: &Arc<AtomicBool>| flag.load(Ordering::Relaxed);
+        is_set(&self.flag) || self.part.as_ref().is_some_and(is_set)
     }
 
-    /// Returns the flag itself.
+    /// Returns the flag of the user's request.
     #[must_use]
     pub fn flag(&self) -> Arc<AtomicBool> {
-        Arc::clone(&self.0)
+        Arc::clone(&self.flag)
     }
 
-    /// Returns whether the interrupt is set now or within some milliseconds.
+    /// Returns whether the user's request comes now or within some milliseconds.
     pub(crate) fn is_set_soon(&self) -> bool {
-        flag_is_set_soon(&self.0)
+        flag_is_set_soon(&self.flag)
     }
 }
 
@@ -180,5 +201,22 @@ impl<'a> GracePeriod<'a> {
     pub(crate) fn is_over(&mut self) -> bool {
         self.interrupt.is_set()
             && self.first_noticed.get_or_insert_with(Instant::now).elapsed() >= self.grace
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_stops_alone_and_with_the_whole_work() {
+        let whole = Interrupt::default();
+        let (one, other) = (whole.of_part(), whole.of_part());
+        one.clone().stop_part();
+        assert_eq!([&whole, &one, &other].map(Interrupt::is_set), [false, true, false]);
+        whole.stop_part();
+        assert!(!whole.is_set(), "it is no part");
+        whole.flag().store(true, Ordering::Relaxed);
+        assert!(other.is_set());
     }
 }
