@@ -13,6 +13,7 @@ use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
 use foveate_footage::boxes::BoxError;
 use foveate_inference::InferenceError;
+use foveate_playback::{InputError, PlaybackError};
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError as Tool;
@@ -118,6 +119,27 @@ impl Raise for FootageError {
     }
 }
 
+impl Raise for InputError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Footage(error) => error.raise(),
+            Self::Boxes(BoxError::Missing { .. }) => PyFileNotFoundError::new_err(self.to_string()),
+            Self::RefusedFrame(error) => error.raise(),
+            _ => behind(&self),
+        }
+    }
+}
+
+impl Raise for PlaybackError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Input(error) => error.raise(),
+            Self::Tool(error) => error.raise(),
+            Self::Interrupted => PyKeyboardInterrupt::new_err(()),
+        }
+    }
+}
+
 impl Raise for StagingError {
     fn raise(self) -> PyErr {
         match self {
@@ -131,8 +153,7 @@ impl Raise for StagingError {
 impl Raise for SimulatorError {
     fn raise(self) -> PyErr {
         match self {
-            Self::Cancelled => PyKeyboardInterrupt::new_err(()),
-            Self::Footage(error) => error.raise(),
+            Self::Playback(error) => error.raise(),
             Self::Output(error) => error.raise(),
             Self::Tool(error) => error.raise(),
             Self::NoSuchRegion { .. } | Self::NoSuchFrame { .. } => {
@@ -146,8 +167,7 @@ impl Raise for SimulatorError {
 impl Raise for ExploreError {
     fn raise(self) -> PyErr {
         match self {
-            Self::Cancelled => PyKeyboardInterrupt::new_err(()),
-            Self::Footage(error) => error.raise(),
+            Self::Playback(error) => error.raise(),
             _ => behind(&self),
         }
     }
@@ -156,9 +176,7 @@ impl Raise for ExploreError {
 impl Raise for InferenceError {
     fn raise(self) -> PyErr {
         match self {
-            Self::Cancelled => PyKeyboardInterrupt::new_err(()),
-            Self::Footage(error) => error.raise(),
-            Self::Boxes(BoxError::Missing { .. }) => PyFileNotFoundError::new_err(self.to_string()),
+            Self::Playback(error) => error.raise(),
             Self::Output(error) => error.raise(),
             _ => behind(&self),
         }

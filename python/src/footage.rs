@@ -6,11 +6,9 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{
-    ClipPlan, FrameSource, InputOptions, SourceKind, open, plan, skipped_in_words,
-};
+use foveate_footage::{ClipPlan, InputOptions, plan, skipped_in_words};
 use foveate_frame::{ByteFrame, FramePixels};
-use foveate_simulator::SimulatorError;
+use foveate_playback::{ClipPlayer, PlaybackError, PlayedFrame};
 use numpy::ndarray::Axis;
 use numpy::{
     Element, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayMethods, PyUntypedArrayMethods,
@@ -72,16 +70,14 @@ pub(crate) struct Run {
 }
 
 struct State {
-    source: Box<dyn FrameSource>,
+    player: ClipPlayer,
     engine: Engine,
-    number: u64,
-    ended: bool,
 }
 
 /// A frame, its outcome, and the screen after it.
 struct Step {
     taken: Taken,
-    frame: ByteFrame,
+    frame: PlayedFrame,
     screen: ByteFrame,
 }
 
@@ -111,8 +107,8 @@ impl Run {
     fn problem(&self, py: Python<'_>) -> Option<String> {
         py.detach(|| {
             let state = self.state();
-            let problem = state.source.problem()?;
-            Some(format!("{}: {problem}", state.source.inputs().join(", ")))
+            let problem = state.player.problem()?;
+            Some(format!("{}: {problem}", state.player.inputs().join(", ")))
         })
     }
 
@@ -133,7 +129,7 @@ impl Run {
             return Ok(None);
         };
         let array = |raster: &ByteFrame| Screen::of(py, &self.design, raster.borrowed_pixels());
-        Ok(Some(Outcome::of_run(py, taken, array(&frame), array(&screen))))
+        Ok(Some(Outcome::of_run(py, taken, array(&frame.frame), array(&screen))))
     }
 
     fn __repr__(&self) -> String {
@@ -143,31 +139,18 @@ impl Run {
 }
 
 impl State {
-    fn next(
-        &mut self,
-        design: Arc<foveate_design::Design>,
-    ) -> Result<Option<Step>, SimulatorError> {
-        if self.ended {
-            return Ok(None);
-        }
-        let next = self.source.next_frame();
-        self.ended = !matches!(next, Ok(Some(_)));
-        let Some(current) = next? else { return Ok(None) };
-        if self.source.kind() == SourceKind::Set {
-            self.engine.reset();
-        }
-        self.engine.step_byte_frame(&current.frame)?;
+    fn next(&mut self, design: Arc<foveate_design::Design>) -> Result<Option<Step>, PlaybackError> {
+        let Some(frame) = self.player.next().transpose()? else { return Ok(None) };
+        let result = frame.show_to(&mut self.engine)?.clone();
         let taken = Taken {
-            result: self.engine.outcome().clone(),
-            number: self.number,
-            time_us: current.time_us,
-            name: Some(current.name),
-            label: current.label,
+            result,
+            number: frame.number,
+            time_us: frame.time_us,
+            name: Some(frame.name.clone()),
+            label: frame.label.clone(),
             design,
         };
-        self.number += 1;
-        let (width, height, bits) =
-            (current.frame.width(), current.frame.height(), current.frame.bits());
+        let (width, height, bits) = (frame.frame.width(), frame.frame.height(), frame.frame.bits());
         let screen = match self.engine.rendered() {
             FramePixels::Bytes(pixels) => {
                 ByteFrame::from_bytes(width, height, bits, pixels.to_vec())?
@@ -176,7 +159,7 @@ impl State {
                 ByteFrame::from_words(width, height, bits, pixels.to_vec())?
             }
         };
-        Ok(Some(Step { taken, frame: current.frame, screen }))
+        Ok(Some(Step { taken, frame, screen }))
     }
 }
 
@@ -241,11 +224,11 @@ pub(crate) fn simulate(
                 clips.len()
             )));
         }
-        let source = open(&inputs, &config.camera, &options).map_err(raise)?;
-        let (width, height) = source.size();
+        let player = ClipPlayer::open(&inputs, &config.camera, &options).map_err(raise)?;
+        let (width, height) = player.size();
         let design = config.validate_for_frames(width, height).map_err(raise)?;
-        let (total, engine) = (source.frames(), Engine::new(&design));
-        let state = State { source, engine, number: 0, ended: false };
+        let (total, engine) = (player.frames(), Engine::new(&design));
+        let state = State { player, engine };
         Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })
     })?
 }

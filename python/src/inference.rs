@@ -3,16 +3,15 @@
 
 use std::num::NonZeroU32;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
-use foveate_footage::{RunHooks, RunProgress, source_from_memory};
+use foveate_footage::source_from_memory;
 use foveate_frame::ByteFrame;
 use foveate_inference::{
-    Computation, Inference, InferenceError, InferenceOptions, NOISE_LEVELS, PixelMapping,
-    RecordOptions, VisionOptions, parse_detector, parse_framing, parse_goal, parse_mode,
-    parse_noise, read_accelerator,
+    Computation, Inference, InferenceOptions, NOISE_LEVELS, PixelMapping, RecordOptions,
+    VisionOptions, parse_detector, parse_framing, parse_goal, parse_mode, parse_noise,
+    read_accelerator,
 };
+use foveate_playback::PlaybackError;
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -25,18 +24,7 @@ use crate::footage::{paths, warn_of_skipped};
 use crate::frame::Grey;
 use crate::options::input_options;
 use crate::study::json;
-use crate::work::interruptible;
-
-/// Stops an inference when the flag is set.
-struct Flag(Arc<AtomicBool>);
-
-impl RunHooks for Flag {
-    fn progress(&mut self, _progress: RunProgress) {}
-
-    fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
+use crate::work::{CancelFlag, interruptible};
 
 /// Returns the choices of a run by their names on the command line. They are removed from `options`, which keeps the options
 /// of inputs.
@@ -218,14 +206,14 @@ pub(crate) fn infer(
             Shown::Paths(paths) => {
                 Inference::new(&config, &network, viewing, (&paths, &boxes), &input)
             }
-            Shown::Frames(frames) => {
-                source_from_memory("array", frames, &input).map_err(InferenceError::from).and_then(
-                    |source| Inference::from_source(&config, &network, viewing, (source, &boxes)),
-                )
-            }
+            Shown::Frames(frames) => source_from_memory("array", frames, &input)
+                .map_err(|error| PlaybackError::from(error).into())
+                .and_then(|source| {
+                    Inference::from_player(&config, &network, viewing, (source, &boxes))
+                }),
         }
         .map_err(raise)?;
-        inference.run(&output, &chosen, &mut Flag(cancel)).map_err(raise)
+        inference.run(&output, &chosen, &CancelFlag(cancel)).map_err(raise)
     })??;
     json(&summary)
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Questions about a design over footage: why a region was sent, and how far the design is from the ideal camera.
 
-use std::sync::atomic::Ordering;
-
 use foveate_explore::compare;
-use foveate_footage::open;
+use foveate_playback::ClipPlayer;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -12,7 +10,7 @@ use crate::config;
 use crate::error::{raise, value_error};
 use crate::footage::{paths, warn_of_skipped};
 use crate::options::input_options;
-use crate::work::{at_once, interruptible};
+use crate::work::{CancelFlag, at_once, interruptible};
 
 /// Returns a value as JSON, from which Python makes its own value.
 pub(crate) fn json(value: &impl serde::Serialize) -> PyResult<String> {
@@ -34,8 +32,8 @@ pub(crate) fn explain(
     warn_of_skipped(py, &inputs, &options)?;
     let config = config::read(camera, None)?;
     let explanation = at_once(py, move || {
-        let source = open(&inputs, &config.camera, &options).map_err(raise)?;
-        foveate_simulator::explain_region(&config, source, frame, region).map_err(raise)
+        let player = ClipPlayer::open(&inputs, &config.camera, &options).map_err(raise)?;
+        foveate_simulator::explain_region(&config, player, frame, region).map_err(raise)
     })??;
     Ok((json(&explanation)?, explanation.to_string()))
 }
@@ -56,8 +54,7 @@ pub(crate) fn fidelity(
     let ideal =
         ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;
     let compared = interruptible(py, |cancel| {
-        let go_on = || !cancel.load(Ordering::Relaxed);
-        compare(&inputs, &options, &config.camera, &ideal.camera, &go_on)
+        compare(&inputs, &options, &config.camera, &ideal.camera, &CancelFlag(cancel))
     })?
     .map_err(raise)?;
     Ok((json(&compared.figures)?, compared.problem))

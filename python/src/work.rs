@@ -6,12 +6,24 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use foveate_playback::{RunHooks, RunProgress};
 use pyo3::prelude::*;
 
 /// The interval at which Python is asked for signals.
 const PATIENCE: Duration = Duration::from_millis(20);
 /// The time for which work that was told to stop is waited for.
 const GRACE: Duration = Duration::from_millis(200);
+
+/// Stops a run when the flag is set.
+pub(crate) struct CancelFlag(pub(crate) Arc<AtomicBool>);
+
+impl RunHooks for CancelFlag {
+    fn progress(&self, _progress: &RunProgress<'_>) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
 
 /// Runs `work` without side effects on a thread of its own, without holding the interpreter. If a signal raises an
 /// exception, returns it at once; the result of the unfinished work is dropped.

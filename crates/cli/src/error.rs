@@ -12,6 +12,7 @@ use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
 use foveate_inference::InferenceError;
 use foveate_link::LinkError;
+use foveate_playback::PlaybackError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
@@ -35,6 +36,8 @@ pub(crate) enum CliError {
     Emit(#[from] EmitError),
     #[error(transparent)]
     Estimate(#[from] EstimateError),
+    #[error(transparent)]
+    Playback(#[from] PlaybackError),
     #[error(transparent)]
     Simulator(Box<SimulatorError>),
     #[error(transparent)]
@@ -89,6 +92,7 @@ impl CliError {
             Self::Tool(error) => tool_code(error),
             Self::Cosim(error) => cosim_code(error),
             Self::Estimate(error) => estimate_code(error),
+            Self::Playback(error) => playback_code(error),
             Self::Simulator(error) => simulator_code(error),
             Self::Study(error) => study_code(error),
             Self::Explore(error) => explore_code(error),
@@ -137,8 +141,7 @@ fn estimate_code(error: &EstimateError) -> u8 {
 
 fn simulator_code(error: &SimulatorError) -> u8 {
     match error {
-        SimulatorError::Cancelled => interrupt::exit_code(),
-        SimulatorError::Footage(error) => footage_code(error),
+        SimulatorError::Playback(error) => playback_code(error),
         SimulatorError::Tool(error) | SimulatorError::NoVideo(error) => tool_code(error),
         SimulatorError::VideoOutput { .. } => TOOL_CODE,
         _ => INPUT_CODE,
@@ -147,16 +150,14 @@ fn simulator_code(error: &SimulatorError) -> u8 {
 
 fn study_code(error: &StudyError) -> u8 {
     match error {
-        StudyError::Cancelled => interrupt::exit_code(),
-        StudyError::Footage(error) => footage_code(error),
+        StudyError::Playback(error) => playback_code(error),
         _ => INPUT_CODE,
     }
 }
 
 fn explore_code(error: &ExploreError) -> u8 {
     match error {
-        ExploreError::Cancelled => interrupt::exit_code(),
-        ExploreError::Footage(error) => footage_code(error),
+        ExploreError::Playback(error) => playback_code(error),
         ExploreError::Estimate(error) => estimate_code(error),
         _ => INPUT_CODE,
     }
@@ -164,16 +165,14 @@ fn explore_code(error: &ExploreError) -> u8 {
 
 fn inference_code(error: &InferenceError) -> u8 {
     match error {
-        InferenceError::Cancelled => interrupt::exit_code(),
-        InferenceError::Footage(error) => footage_code(error),
+        InferenceError::Playback(error) => playback_code(error),
         _ => INPUT_CODE,
     }
 }
 
 fn link_code(error: &LinkError) -> u8 {
     match error {
-        LinkError::Cancelled => interrupt::exit_code(),
-        LinkError::Footage(error) => footage_code(error),
+        LinkError::Playback(error) => playback_code(error),
         LinkError::Tool(error) => tool_code(error),
         LinkError::NoEncoder { .. } | LinkError::LostFrames { .. } => TOOL_CODE,
         _ => INPUT_CODE,
@@ -197,22 +196,22 @@ fn board_code(error: &BoardError) -> u8 {
 
 fn view_code(error: &ViewError) -> u8 {
     match error {
-        ViewError::Footage(error) => footage_code(error),
+        ViewError::Playback(error) => playback_code(error),
         _ => INPUT_CODE,
     }
 }
 
-fn footage_code(error: &FootageError) -> u8 {
+fn playback_code(error: &PlaybackError) -> u8 {
     match error {
-        FootageError::Tool(error) => tool_code(error),
-        FootageError::Interrupted => interrupt::exit_code(),
-        _ => INPUT_CODE,
+        PlaybackError::Input(_) => INPUT_CODE,
+        PlaybackError::Tool(error) => tool_code(error),
+        PlaybackError::Interrupted => interrupt::exit_code(),
     }
 }
 
 impl From<FootageError> for CliError {
     fn from(error: FootageError) -> Self {
-        SimulatorError::Footage(error).into()
+        PlaybackError::from(error).into()
     }
 }
 

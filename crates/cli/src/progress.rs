@@ -2,20 +2,22 @@
 //! Progress on standard error: a bar on a terminal, or a line now and then in a log.
 
 mod logger;
-mod stage;
+mod run_terminal;
 mod stage_text;
+
+pub(crate) use run_terminal::RunTerminal;
 
 use std::fmt::Write;
 use std::io::IsTerminal as _;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use foveate_playback::{ProgressStage, RunProgress, StageAmount};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use terminal_size::Width;
 
 use crate::notice::printable;
 use logger::ProgressLogger;
-use stage::{ProgressStage, StageAmount, StageUnit, lock_stage};
 use stage_text::terminal_line;
 
 /// The template of the line for a source of unknown length.
@@ -53,22 +55,12 @@ impl Progress {
 
     /// Reports work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
     pub(crate) fn report_work(&self, what: &str) {
-        self.enter(StageUnit::Uncounted, what, StageAmount::default());
+        self.report(&RunProgress::work(what));
     }
 
-    /// Reports that `done` of `all` steps are done, such as `designs over clips`. If there are no
-    /// steps, this is the same as [`Progress::report_work`].
+    /// Reports that `done` of `all` steps are done, such as `designs over clips`.
     pub(crate) fn report_steps(&self, what: &str, done: u64, all: u64) {
-        if all == 0 {
-            return self.report_work(what);
-        }
-        self.enter(StageUnit::Steps, what, StageAmount::new(done, Some(all)));
-    }
-
-    /// Reports that `done` frames are done, of `all` if the total is known. `note` is shown beside
-    /// the count.
-    pub(crate) fn report_frames(&self, done: u64, all: Option<u64>, note: &str) {
-        self.enter(StageUnit::Frames, note, StageAmount::new(done, all));
+        self.report(&RunProgress::steps(what, done, all));
     }
 
     /// Clears the line of the terminal, and shows nothing from then on. This comes before results
@@ -78,13 +70,16 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
-    fn enter(&self, counted: StageUnit, what: &str, amount: StageAmount) {
-        let what = &*printable(what);
+    /// Reports progress.
+    pub(crate) fn report(&self, progress: &RunProgress<'_>) {
+        let label = printable(&progress.label);
+        let progress = RunProgress { label, ..*progress };
+        let amount = StageAmount::new(progress.done, progress.total);
         // The lock is not held while the bar is updated, because the bar takes it when it draws.
         let before = {
             let mut stage = lock_stage(&self.stage);
             let before = stage.unit.map(|_| stage.amount.total.is_some());
-            stage.enter(counted, what, amount, Instant::now());
+            stage.enter(&progress, Instant::now());
             before
         };
         // The bar takes its words from the stage. The template is set first, or a plain bar would
@@ -131,6 +126,11 @@ fn text_columns(columns: usize, template: &str) -> usize {
     // A line that fills all columns would be followed by an empty one.
     let columns = columns.saturating_sub(1);
     columns.saturating_sub(if template == BAR_TEMPLATE { 1 + columns / 4 } else { 2 })
+}
+
+/// Locks the stage. Its value is valid even if a thread panicked while it held the lock.
+fn lock_stage(stage: &Mutex<ProgressStage>) -> MutexGuard<'_, ProgressStage> {
+    stage.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Drop for Progress {

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
 use foveate_fidelity::FidelityFigures;
-use foveate_footage::{ComparedInput, InputOptions, open};
+use foveate_footage::InputOptions;
+use foveate_playback::{ClipPlayer, RunClips, RunHooks, RunMonitor};
 
 use crate::ExploreError;
 use crate::measure::{CameraMeasurement, MeasuredClip};
@@ -20,31 +21,25 @@ pub struct CameraComparison {
     pub problem: Option<String>,
 }
 
-/// Compares the camera `config` with the ideal camera of `ideal`. `go_on` is called after every
-/// frame; if it returns `false`, the comparison stops.
+/// Compares the camera `config` with the ideal camera of `ideal`.
 ///
 /// # Errors
-/// Fails if the clip cannot be read, if a configuration is not valid for its frames, or if `go_on`
-/// returns `false`.
+/// Fails if the clip cannot be read, if a configuration is not valid for its frames, or if `hooks`
+/// cancels.
 pub fn compare(
     inputs: &[PathBuf],
     input: &InputOptions,
     config: &CameraConfig,
     ideal: &CameraConfig,
-    go_on: &(dyn Fn() -> bool + Sync),
+    hooks: &dyn RunHooks,
 ) -> Result<CameraComparison, ExploreError> {
-    let (width, height) = open(inputs, config, input)?.size();
+    let player = ClipPlayer::open(inputs, ideal, input)?;
+    let (width, height) = player.size();
     let camera = config.validate_for_frames(width, height)?;
-    let subject = ComparedInput { name: String::new(), inputs: inputs.to_vec() };
-    let whole = 0..u64::MAX;
-    let clip = MeasuredClip {
-        subject: &subject,
-        input,
-        ideal,
-        parts: std::slice::from_ref(&whole),
-        boxes: None,
-        go_on,
-    };
+    let monitor = &RunMonitor::of_frames(hooks, player.frames());
+    let clips = &RunClips::from_player(player, &[])?;
+    let parts = std::slice::from_ref(&(0..u64::MAX));
+    let clip = MeasuredClip { clips, clip: 0, ideal, parts, monitor };
     let measured = clip.measure(&[camera])?.pop().and_then(|mut parts| parts.pop());
     let CameraMeasurement { tally, problem, .. } =
         measured.expect("one camera and one part are measured");

@@ -8,11 +8,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{Area, EstimateJob, FrameRate, estimate};
+use foveate_playback::{PlaybackError, RunHooks};
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::{ExploreError, ExploreHooks, ExploreProgress};
+use crate::ExploreError;
+use crate::progress::synthesis_progress;
 
 /// The area of a design, as Yosys estimates it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,7 +81,7 @@ impl Synthesizer {
     pub(crate) fn synthesize_designs<'a>(
         &self,
         designs: impl Iterator<Item = &'a Design>,
-        hooks: &dyn ExploreHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<SynthesisResults, ExploreError> {
         let mut jobs = BTreeMap::new();
         let keys = designs.map(|design| {
@@ -91,16 +93,16 @@ impl Synthesizer {
         });
         let keys = keys.collect();
         let (done, all) = (AtomicUsize::new(0), jobs.len());
-        let jobs = jobs.into_par_iter().filter(|_| !hooks.cancelled());
+        let jobs = jobs.into_par_iter().filter(|_| !hooks.is_cancelled());
         let areas = jobs.map(|(key, job)| {
             let area = self.synthesize_job(&job);
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            hooks.progress(ExploreProgress::Synthesizing { done, all });
+            hooks.progress(&synthesis_progress(done, all));
             (key, area)
         });
         let by_rtl = areas.collect();
-        if hooks.cancelled() {
-            Err(ExploreError::Cancelled)
+        if hooks.is_cancelled() {
+            Err(PlaybackError::Interrupted.into())
         } else {
             Ok(SynthesisResults { keys, by_rtl })
         }

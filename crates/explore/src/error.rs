@@ -4,14 +4,12 @@
 use std::path::PathBuf;
 
 use foveate_design::ConfigError;
-use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
-use foveate_footage::FootageError;
-use foveate_footage::boxes::BoxError;
 use foveate_ideal::IdealError;
 use foveate_inference::InferenceError;
 use foveate_pictures::page::PageError;
+use foveate_playback::PlaybackError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -41,26 +39,9 @@ pub enum ExploreError {
         /// The reason why the point cannot be built.
         reason: String,
     },
-    /// The clips have different sizes.
-    #[error(
-        "`{first}` has {first_size} pixels, but `{other}` has {other_size}; give all clips one size with --resize"
-    )]
-    DifferentSizes {
-        /// The name of a clip.
-        first: String,
-        /// The size of this clip.
-        first_size: String,
-        /// The name of another clip.
-        other: String,
-        /// The size of the other clip.
-        other_size: String,
-    },
     /// A network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
     Inference(Box<InferenceError>),
-    /// The ground-truth boxes cannot be read, or do not fit the clips.
-    #[error(transparent)]
-    Boxes(#[from] BoxError),
     /// There are no objects, so no share of them can be sent.
     #[error(
         "no object is to be counted in the {half} half of the clips, so --min-recall says nothing; check --boxes, \
@@ -69,24 +50,6 @@ pub enum ExploreError {
     NoObjects {
         /// The half of the clips: `first` or `second`.
         half: &'static str,
-    },
-    /// An input can be read only once.
-    #[error(
-        "`{input}` can be read only once, but this command reads its inputs several times; record it to a file first"
-    )]
-    ReadOnce {
-        /// The input as the user named it.
-        input: String,
-    },
-    /// A clip has too few frames.
-    #[error("`{clip}` has {frames} frames; at least {least} are needed")]
-    TooFewFrames {
-        /// The name of the clip.
-        clip: String,
-        /// The number of frames of the clip.
-        frames: u64,
-        /// The least number of frames that is enough.
-        least: u64,
     },
     /// The folder exists and is not an exploration.
     #[error("`{}` exists but is not the folder of an exploration (it has no exploration.json); name another folder", path.display())]
@@ -120,15 +83,12 @@ pub enum ExploreError {
         /// The error of the system.
         source: std::io::Error,
     },
-    /// An input cannot be read.
+    /// The clips cannot be played, or the user stopped the exploration; finished results are kept.
     #[error(transparent)]
-    Footage(Box<FootageError>),
+    Playback(#[from] PlaybackError),
     /// A configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
-    /// The engine refused a frame.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
     /// The ideal camera refused a frame.
     #[error(transparent)]
     Ideal(#[from] IdealError),
@@ -144,18 +104,6 @@ pub enum ExploreError {
     /// The page cannot be written, which is a fault of the program.
     #[error(transparent)]
     Page(#[from] PageError),
-    /// The user stopped the exploration; finished results are kept.
-    #[error("interrupted")]
-    Cancelled,
-}
-
-impl From<FootageError> for ExploreError {
-    fn from(error: FootageError) -> Self {
-        match error {
-            FootageError::Interrupted => Self::Cancelled,
-            error => Self::Footage(Box::new(error)),
-        }
-    }
 }
 
 impl ExploreError {

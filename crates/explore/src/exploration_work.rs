@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 
 use foveate_camera::Camera;
+use foveate_playback::RunHooks;
 
 use crate::footage::ExplorationFootage;
-use crate::{DesignPoint, ExploreError, ExploreHooks, ExploreRequest, RefusedCombination};
+use crate::{DesignPoint, ExploreError, ExploreRequest, RefusedCombination};
 
 /// The clips, the points, and the cameras to measure.
 ///
@@ -29,10 +30,11 @@ impl<'a> ExplorationWork<'a> {
     pub(crate) fn new(
         request: &ExploreRequest<'a>,
         some: Option<&[usize]>,
-        hooks: &'a dyn ExploreHooks,
+        hooks: &'a dyn RunHooks,
     ) -> Result<Self, ExploreError> {
         let space = request.space;
-        let footage = ExplorationFootage::new(request.inputs, request.input, &space.ideal, hooks)?;
+        let footage =
+            ExplorationFootage::new((request.inputs, &[]), request.input, &space.ideal, hooks)?;
         let (width, height) = footage.size;
         let (points, refused) = space.points_of_combinations(some, width, height);
         if points.is_empty() {

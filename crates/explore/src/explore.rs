@@ -6,6 +6,7 @@ use std::path::Path;
 
 use foveate_design::Design;
 use foveate_files::tables::Table;
+use foveate_playback::RunHooks;
 
 use crate::cost::SynthesisResult;
 use crate::exploration_work::ExplorationWork;
@@ -15,7 +16,7 @@ use crate::objective::mark_fronts;
 use crate::row::DesignRow;
 use crate::store::MeasurementStore;
 use crate::table::{error_cells, point_cells};
-use crate::{ClipRow, Exploration, ExploreError, ExploreHooks, ExploreRequest, Synthesizer};
+use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, Synthesizer};
 
 /// The names of the tables and of the page.
 const POINTS: &str = "points.csv";
@@ -34,7 +35,7 @@ const TABLES: [&str; 5] = [POINTS, POINTS_PARQUET, PARETO, CLIPS, REPORT];
 pub fn explore(
     request: &ExploreRequest<'_>,
     output: &Path,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
     // The files of designs are not known before the clips have been opened.
@@ -77,7 +78,7 @@ pub fn explore(
     let exploration = Exploration {
         format_version: 4,
         program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
-        clips: footage.subjects.iter().zip(&measured).map(of_clip).collect(),
+        clips: footage.clips.clips().iter().zip(&measured).map(of_clip).collect(),
         size: footage.size,
         ideal: space.ideal.to_toml(),
         clock_mhz: space.clock_mhz,
@@ -85,7 +86,8 @@ pub fn explore(
         rows,
         refused,
         problems: footage
-            .subjects
+            .clips
+            .clips()
             .iter()
             .zip(&measured)
             .filter_map(problem)
@@ -101,7 +103,7 @@ pub fn explore(
 fn synthesize_all(
     synthesizer: Option<&Synthesizer>,
     designs: &[Design],
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<(Vec<Option<SynthesisResult>>, Vec<String>), ExploreError> {
     let Some(synthesizer) = synthesizer else { return Ok((vec![None; designs.len()], Vec::new())) };
     let areas = synthesizer.synthesize_designs(designs.iter(), hooks)?;

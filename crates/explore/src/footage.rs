@@ -3,22 +3,18 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_fidelity::{ErrorTally, FidelityFigures};
-use foveate_footage::boxes::{BoxFile, ClipToLabel, assign_boxes};
-use foveate_footage::{
-    ComparedInput, FrameSource, InputOptions, SourceFrame, input_without_secrets, is_read_once,
-    open, subjects,
-};
-use foveate_frame::Rect;
+use foveate_footage::InputOptions;
+use foveate_playback::{ClipReading, RunClips, RunHooks, RunMonitor, RunProgress};
 
-use crate::measure::{self, CameraMeasurement};
+use crate::ExploreError;
+use crate::measure::{CameraMeasurement, MeasuredClip};
 use crate::objects::ObjectCounts;
+use crate::progress::measuring_progress;
 use crate::store::{MeasurementStore, clip_identity, measurement_key};
-use crate::{ExploreError, ExploreHooks, ExploreProgress};
 
 /// The number of designs that see a clip together. More designs share the work of decoding and of
 /// the ideal camera; fewer designs lose less if the run is interrupted.
@@ -39,75 +35,37 @@ impl MeasurementCount {
         self.done.fetch_add(more, Ordering::Relaxed);
     }
 
-    fn progress(&self) -> ExploreProgress {
-        ExploreProgress::Measuring { done_pairs: self.done.load(Ordering::Relaxed), all: self.all }
+    fn progress(&self) -> RunProgress<'static> {
+        measuring_progress(self.done.load(Ordering::Relaxed), self.all)
     }
 }
 
-/// The clips of a run, which have one size.
+/// The clips of a run, which have one size, and the ideal camera that others are compared with.
 pub(crate) struct ExplorationFootage<'a> {
-    pub(crate) subjects: Vec<ComparedInput>,
+    pub(crate) clips: RunClips,
     /// The width and height of all frames in pixels.
     pub(crate) size: (u32, u32),
-    input: &'a InputOptions,
     ideal: &'a CameraConfig,
-    hooks: &'a dyn ExploreHooks,
-    /// The ground-truth boxes of every clip; empty without ground truth.
-    pub(crate) boxes: Vec<Arc<BoxFile>>,
+    pub(crate) hooks: &'a dyn RunHooks,
 }
 
 impl<'a> ExplorationFootage<'a> {
-    /// Opens the inputs. Scenes get the frame size of the ideal camera, and all frames get its bits
-    /// per pixel.
+    /// Opens the inputs, with the boxes of objects if there are any. Scenes get the frame size of
+    /// the ideal camera, and all frames get its bits per pixel.
     pub(crate) fn new(
-        inputs: &[PathBuf],
-        input: &'a InputOptions,
+        (inputs, boxes): (&[PathBuf], &[PathBuf]),
+        input: &InputOptions,
         ideal: &'a CameraConfig,
-        hooks: &'a dyn ExploreHooks,
+        hooks: &'a dyn RunHooks,
     ) -> Result<Self, ExploreError> {
-        if let Some(once) = inputs.iter().find(|input| is_read_once(input)) {
-            return Err(ExploreError::ReadOnce { input: input_without_secrets(once) });
-        }
-        let subjects = subjects(inputs, input)?;
-        let mut first: Option<(&str, (u32, u32))> = None;
-        for subject in &subjects {
-            let size = open(&subject.inputs, ideal, input)?.size();
-            let (name, expected) = *first.get_or_insert((&subject.name, size));
-            if size != expected {
-                let text = |(width, height)| format!("{width}x{height}");
-                return Err(ExploreError::DifferentSizes {
-                    first: name.to_owned(),
-                    first_size: text(expected),
-                    other: subject.name.clone(),
-                    other_size: text(size),
-                });
-            }
-        }
-        let size = first.map_or((0, 0), |(_, size)| size);
-        Ok(Self { subjects, size, input, ideal, hooks, boxes: Vec::new() })
+        let clips = RunClips::new(inputs, boxes, ideal, input)?;
+        let size = clips.common_format(ClipReading::Repeated)?.size;
+        Ok(Self { clips, size, ideal, hooks })
     }
 
-    /// Reads the boxes of every clip from these files, if there are any.
-    pub(crate) fn with_boxes(mut self, files: &[PathBuf]) -> Result<Self, ExploreError> {
-        if !files.is_empty() {
-            let clips = self.subjects.iter();
-            let clips = clips.map(|clip| ClipToLabel { name: &clip.name, input: &clip.inputs[0] });
-            self.boxes = assign_boxes(files, &clips.collect::<Vec<_>>())?;
-        }
-        Ok(self)
-    }
-
-    /// Returns the objects in a frame of a clip, which is given by its number; `None` if the boxes
-    /// have no entry for the frame.
-    pub(crate) fn objects(
-        &self,
-        clip: usize,
-        frame: &SourceFrame,
-        source: &dyn FrameSource,
-    ) -> Result<Option<Vec<Rect>>, ExploreError> {
-        let Some(boxes) = self.boxes.get(clip) else { return Ok(None) };
-        let origin = source.origin().expect("an input knows where its frames are from");
-        Ok(boxes.object_rects(frame, &origin, self.input.crop)?)
+    /// Returns the same clips with another ideal camera for the same frames.
+    pub(crate) fn with_ideal(self, ideal: &'a CameraConfig) -> Self {
+        Self { ideal, ..self }
     }
 
     /// Returns the measurement of every clip and camera over the whole clip.
@@ -116,8 +74,8 @@ impl<'a> ExplorationFootage<'a> {
         cameras: &[Camera],
         store: &MeasurementStore,
     ) -> Result<Vec<Vec<CameraMeasurement>>, ExploreError> {
-        let count = MeasurementCount::from_total(self.subjects.len() * cameras.len());
-        let clips = 0..self.subjects.len();
+        let count = MeasurementCount::from_total(self.clips.clips().len() * cameras.len());
+        let clips = 0..self.clips.clips().len();
         clips.map(|clip| self.measure_clip(clip, cameras, store, &count)).collect()
     }
 
@@ -138,7 +96,7 @@ impl<'a> ExplorationFootage<'a> {
         for some in missing.chunks(CAMERAS_PER_UNIT) {
             let together: Vec<Camera> = some.iter().map(|&index| cameras[index].clone()).collect();
             let whole = std::slice::from_ref(&(0..u64::MAX));
-            let measured = self.measure_parts(clip, &together, whole, &|| count.progress())?;
+            let measured = self.measure_parts(clip, &together, whole, &|_| count.progress())?;
             for (&index, mut parts) in some.iter().zip(measured) {
                 let Some(measured) = parts.pop() else { continue };
                 // A clip that ended early may be complete the next time.
@@ -155,7 +113,7 @@ impl<'a> ExplorationFootage<'a> {
     /// Returns the names of the measurements of some cameras over one clip, which is given by its
     /// number.
     pub(crate) fn measurement_keys(&self, clip: usize, cameras: &[Camera]) -> Vec<String> {
-        let clip = clip_identity(&self.subjects[clip], self.input);
+        let clip = clip_identity(&self.clips.clips()[clip], self.clips.options());
         let ideal = self.ideal.to_toml();
         cameras.iter().map(|camera| measurement_key(&clip, &ideal, camera.config())).collect()
     }
@@ -163,23 +121,6 @@ impl<'a> ExplorationFootage<'a> {
     /// Returns the number of bits per pixel.
     pub(crate) fn pixel_bits(&self) -> u32 {
         self.ideal.frame.pixel_bits
-    }
-
-    /// Reports progress.
-    ///
-    /// # Errors
-    /// Fails if the work is to stop.
-    pub(crate) fn report_progress(&self, progress: ExploreProgress) -> Result<(), ExploreError> {
-        self.hooks.progress(progress);
-        if self.hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(()) }
-    }
-
-    /// Opens a clip from its beginning.
-    pub(crate) fn open(
-        &self,
-        subject: &ComparedInput,
-    ) -> Result<Box<dyn FrameSource>, ExploreError> {
-        Ok(open(&subject.inputs, self.ideal, self.input)?)
     }
 
     /// Returns the figures of every camera over the first halves of all clips, and the counts of
@@ -196,10 +137,10 @@ impl<'a> ExplorationFootage<'a> {
         for some in cameras.chunks(CAMERAS_PER_UNIT) {
             let mut sums: Vec<Option<(ErrorTally, ObjectCounts)>> = vec![None; some.len()];
             let done = before + found.len();
-            let tell = || ExploreProgress::Measuring { done_pairs: done, all };
+            let stage = |_| measuring_progress(done, all);
             for (clip, &(half, _)) in halves.iter().enumerate() {
                 let measured =
-                    self.measure_parts(clip, some, std::slice::from_ref(&(0..half)), &tell)?;
+                    self.measure_parts(clip, some, std::slice::from_ref(&(0..half)), &stage)?;
                 for (sum, part) in sums.iter_mut().zip(measured.into_iter().flatten()) {
                     match sum {
                         Some((tally, objects)) => {
@@ -218,20 +159,16 @@ impl<'a> ExplorationFootage<'a> {
     }
 
     /// Measures cameras on parts of one clip, which is given by its number, without the store.
+    /// `stage` is reported after every frame.
     pub(crate) fn measure_parts(
         &self,
         clip: usize,
         cameras: &[Camera],
         parts: &[Range<u64>],
-        tell: &(dyn Fn() -> ExploreProgress + Sync),
+        stage: &(dyn Fn(u64) -> RunProgress<'static> + Sync),
     ) -> Result<Vec<Vec<CameraMeasurement>>, ExploreError> {
-        let go_on = || {
-            self.hooks.progress(tell());
-            !self.hooks.cancelled()
-        };
-        let boxes = self.boxes.get(clip).map(AsRef::as_ref);
-        let (subject, input, ideal) = (&self.subjects[clip], self.input, self.ideal);
-        measure::MeasuredClip { subject, input, ideal, parts, boxes, go_on: &go_on }
-            .measure(cameras)
+        let monitor = &RunMonitor::of_stage(self.hooks, stage);
+        let (clips, ideal) = (&self.clips, self.ideal);
+        MeasuredClip { clips, clip, ideal, parts, monitor }.measure(cameras)
     }
 }

@@ -7,11 +7,10 @@
 //! [`plan_units`] and [`measure_unit`] distribute the measurements over machines. The ideal camera
 //! is the whole-frame floating-point camera of [`foveate_ideal`], and the figures are those of
 //! [`foveate_fidelity`]. The library never prints: progress and cancellation go through
-//! [`ExploreHooks`].
+//! [`foveate_playback::RunHooks`].
 
 mod compare;
 mod cost;
-mod depths;
 mod error;
 mod exploration;
 mod exploration_work;
@@ -25,6 +24,7 @@ mod method;
 mod objective;
 mod objects;
 mod point;
+mod progress;
 mod report;
 mod request;
 mod row;
@@ -50,41 +50,3 @@ pub use request::ExploreRequest;
 pub use row::{DesignRow, FrontMembership};
 pub use space::{BUILT_IN_SPACES, BuiltInSpace, DesignSpace};
 pub use unit::{WorkUnit, measure_unit, plan_units};
-
-/// Progress of an exploration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ExploreProgress {
-    /// Clips are read to find their lengths.
-    Reading {
-        /// The number of frames that are read.
-        frames: u64,
-    },
-    /// Designs run over clips.
-    Measuring {
-        /// The number of pairs of a clip and a design that are done.
-        done_pairs: usize,
-        /// The number of all pairs.
-        all: usize,
-    },
-    /// A network runs behind cameras.
-    RunningNetwork {
-        /// The number of cameras that the network was run behind.
-        cameras: usize,
-    },
-    /// Yosys synthesizes designs.
-    Synthesizing {
-        /// The number of distinct RTLs that are done.
-        done: usize,
-        /// The number of all distinct RTLs.
-        all: usize,
-    },
-}
-
-/// Callbacks of an exploration. Several threads call them.
-pub trait ExploreHooks: Sync {
-    /// Reports progress.
-    fn progress(&self, progress: ExploreProgress);
-
-    /// Returns whether to stop. Finished results are kept.
-    fn cancelled(&self) -> bool;
-}

@@ -11,6 +11,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use foveate_footage::input_without_secrets;
+use foveate_playback::RunHooks;
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 use serde::{Deserialize, Serialize};
@@ -19,7 +20,7 @@ use crate::exploration_work::ExplorationWork;
 use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
 use crate::footage::{CAMERAS_PER_UNIT, MeasurementCount};
 use crate::store::{KEY_DIGITS, MeasurementStore};
-use crate::{ExploreError, ExploreHooks, ExploreRequest};
+use crate::{ExploreError, ExploreRequest};
 
 /// A unit of work.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,7 +62,7 @@ struct PlannedUnit {
 pub fn plan_units(
     request: &ExploreRequest<'_>,
     output: &Path,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<Vec<WorkUnit>, ExploreError> {
     check_folder(output)?;
     let work = ExplorationWork::new(request, None, hooks)?;
@@ -78,7 +79,7 @@ pub fn measure_unit(
     request: &ExploreRequest<'_>,
     unit: &str,
     output: &Path,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<WorkUnit, ExploreError> {
     let line: Option<WorkUnit> = serde_json::from_str(unit).ok();
     let (name, some) = match &line {
@@ -114,7 +115,7 @@ fn planned_units<'a>(
     work: &'a ExplorationWork<'_>,
     output: &'a Path,
 ) -> impl Iterator<Item = PlannedUnit> + 'a {
-    let clips = work.footage.subjects.iter().enumerate();
+    let clips = work.footage.clips.clips().iter().enumerate();
     let points = work.first_point_of_cameras();
     clips.flat_map(move |(clip, subject)| {
         let points = points.clone();

@@ -2,10 +2,9 @@
 //! Footage: video, images, data sets and synthetic scenes, as frames one at a time.
 //!
 //! [`open`] turns an input (video, files, folders, globs, `scene:NAME`) into a [`FrameSource`] of
-//! frames of the design's depth; [`plan`](fn@plan) decides whether inputs are one clip or many;
-//! [`read_ahead`] reads on a separate thread. [`boxes`] reads the positions of objects in the
-//! frames. Memory does not grow with the number of frames. This crate does not know what happens to
-//! the frames.
+//! frames of the design's depth; [`plan`](fn@plan) decides whether inputs are one clip or many.
+//! [`boxes`] reads the positions of objects in the frames. Memory does not grow with the number of
+//! frames. This crate does not know what happens to the frames.
 
 mod address;
 mod advice;
@@ -13,7 +12,6 @@ pub mod boxes;
 mod compared_input;
 mod error;
 mod extension;
-mod hooks;
 mod input;
 mod limits;
 mod natural_order;
@@ -31,7 +29,6 @@ pub use address::{input_without_secrets, text_without_secrets};
 pub use advice::{input_warnings, skipped_in_words, skipped_inputs};
 pub use compared_input::{ComparedInput, subjects};
 pub use error::FootageError;
-pub use hooks::{RunHooks, RunProgress, SilentHooks};
 pub use input::{SkipReason, SkippedInput, is_camera, is_read_once, open};
 pub use limits::{CropRect, MAX_SIDE};
 pub use natural_order::natural_order;
@@ -40,7 +37,6 @@ pub use picture::{decode, read};
 pub use plan::{BatchClip, ClipPlan, plan};
 pub use rate::FrameRate;
 pub use source::memory_source::source_from_memory;
-pub use source::read_ahead::{ReadAheadFrames, read_ahead};
 pub use source::selection::{FrameSelection, parse_time};
 pub use source::set_form::{IdxFile, SetFiles, SetForm, SetLabels};
 pub use source::{FrameOrigin, FrameSource, SourceFrame, SourceKind};

@@ -4,7 +4,6 @@
 pub(crate) mod feed;
 pub(crate) mod file_feeds;
 pub(crate) mod memory_source;
-pub(crate) mod read_ahead;
 pub(crate) mod scaling;
 pub(crate) mod selection;
 pub(crate) mod set_form;

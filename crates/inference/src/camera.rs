@@ -2,13 +2,13 @@
 //! The camera in front of the network: it renders the frames of a design and marks where each
 //! differs from the one before.
 
-use crate::InferenceError;
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_footage::{SourceFrame, SourceKind};
+use foveate_footage::SourceKind;
 use foveate_frame::Rect;
 use foveate_network::Mask;
 use foveate_network::vision::{FrameFormat, FrameInput, VisionNetwork};
+use foveate_playback::{PlaybackError, PlayedFrame};
 
 /// A design's engine and the receiver's screen behind it.
 pub(crate) struct ReceiverCamera {
@@ -122,17 +122,14 @@ impl ReceiverCamera {
     }
 
     /// Shows the design another frame, which the network does not see.
-    pub(crate) fn skip_frame(&mut self, frame: &SourceFrame) -> Result<(), InferenceError> {
-        if self.black_picture.is_some() {
-            self.engine.reset();
-        }
-        self.engine.step_byte_frame(&frame.frame)?;
-        let outcome = self.engine.outcome();
+    pub(crate) fn skip_frame(&mut self, frame: &PlayedFrame) -> Result<(), PlaybackError> {
+        let outcome = frame.show_to(&mut self.engine)?;
         let active = outcome.active.iter().filter(|&&active| active).count();
+        let actions = &self.engine.outcome().actions;
+        let values = self.engine.camera().values_sent_per_frame(actions);
         self.since_last_received.active_regions += active as u64;
         self.since_last_received.sent.frames += 1;
-        self.since_last_received.sent.values +=
-            self.engine.camera().values_sent_per_frame(&outcome.actions);
+        self.since_last_received.sent.values += values;
         self.frames += 1;
         Ok(())
     }
@@ -141,9 +138,9 @@ impl ReceiverCamera {
     /// objects if they are known.
     pub(crate) fn receive_frame<'a>(
         &'a mut self,
-        frame: &'a SourceFrame,
+        frame: &'a PlayedFrame,
         objects: Option<Vec<Rect>>,
-    ) -> Result<ReceivedFrame<'a>, InferenceError> {
+    ) -> Result<ReceivedFrame<'a>, PlaybackError> {
         if let Some(black) = &self.black_picture {
             self.picture.clone_from(black);
         }

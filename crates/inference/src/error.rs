@@ -6,14 +6,12 @@ use std::path::PathBuf;
 
 use foveate_accelerator::AcceleratorError;
 use foveate_design::ConfigError;
-use foveate_engine::EngineError;
 use foveate_files::npy::NpyError;
-use foveate_footage::FootageError;
-use foveate_footage::boxes::BoxError;
 use foveate_network::NetworkError;
 use foveate_network::vision::VisionError;
 use foveate_pictures::chart::ChartError;
 use foveate_pictures::page::PageError;
+use foveate_playback::PlaybackError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -44,18 +42,12 @@ pub enum InferenceError {
         /// The message: the chosen value, and the values that exist.
         problem: String,
     },
-    /// An input cannot be read.
+    /// The clips cannot be played, or the user stopped the run before there was a result.
     #[error(transparent)]
-    Footage(FootageError),
-    /// The ground-truth boxes cannot be read, or do not fit the clips.
-    #[error(transparent)]
-    Boxes(#[from] BoxError),
+    Playback(#[from] PlaybackError),
     /// The configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
-    /// The engine refused a frame.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
@@ -116,39 +108,4 @@ pub enum InferenceError {
         /// The clips in words.
         clips: &'static str,
     },
-    /// The clips have different sizes.
-    #[error(
-        "all clips of a run must have one size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; give --resize, or --crop",
-        first_size.0, first_size.1, other_size.0, other_size.1
-    )]
-    DifferentSizes {
-        /// The name of the first clip.
-        first: String,
-        /// The width and height of the first clip in pixels.
-        first_size: (u32, u32),
-        /// The name of the first clip that differs.
-        other: String,
-        /// The width and height of the clip that differs, in pixels.
-        other_size: (u32, u32),
-    },
-    /// One of several inputs cannot be opened a second time.
-    #[error(
-        "`{input}` can be read only once, so it must be the only input; record it to a file, or give it on its own"
-    )]
-    ReadOnce {
-        /// The input as the user named it.
-        input: String,
-    },
-    /// The user stopped the run before there was a result.
-    #[error("interrupted; nothing was written")]
-    Cancelled,
-}
-
-impl From<FootageError> for InferenceError {
-    fn from(error: FootageError) -> Self {
-        match error {
-            FootageError::Interrupted => Self::Cancelled,
-            error => Self::Footage(error),
-        }
-    }
 }

@@ -4,7 +4,7 @@
 
 use crate::camera::CameraSetup;
 use crate::charts::{ChartWithIds, charts};
-use crate::clips::{ClipPlayback, RunClips};
+use crate::clip_playback::ClipPlayback;
 use crate::cost::NodeCosts;
 use crate::frame::counted_frames;
 use crate::kept_clips::KeptClips;
@@ -20,7 +20,10 @@ use crate::whole_frames::WholeFrameComparison;
 use crate::{Computation, InferenceError, VisionNetwork, VisionOptions};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Design, DesignConfig};
-use foveate_footage::{FrameSource, InputOptions, RunHooks};
+use foveate_footage::InputOptions;
+use foveate_playback::{
+    ClipPlayer, ClipReading, CommonFormat, PlaybackError, RunClips, RunHooks, RunMonitor,
+};
 use foveate_staging::{FolderKind, StagedFolder};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
@@ -57,6 +60,8 @@ pub struct Inference {
     viewing: VisionOptions,
     path: PathBuf,
     clips: RunClips,
+    /// The number of frames of all clips, if it is known.
+    frames: Option<u64>,
 }
 
 impl Inference {
@@ -75,20 +80,22 @@ impl Inference {
         (inputs, boxes): (&[PathBuf], &[PathBuf]),
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
-        Self::from_clips(config, network, viewing, RunClips::new(inputs, boxes, config, input)?)
+        let clips = RunClips::new(inputs, boxes, &config.camera, input)?;
+        Self::from_clips(config, network, viewing, clips)
     }
 
     /// Creates a run over one clip or data set that is already open.
     ///
     /// # Errors
     /// Fails like [`Inference::new`], but not on inputs.
-    pub fn from_source(
+    pub fn from_player(
         config: &DesignConfig,
         network: &Path,
         viewing: VisionOptions,
-        (source, boxes): (Box<dyn FrameSource>, &[PathBuf]),
+        (player, boxes): (impl Into<ClipPlayer>, &[PathBuf]),
     ) -> Result<Self, InferenceError> {
-        Self::from_clips(config, network, viewing, RunClips::from_source(source, boxes, config)?)
+        let clips = RunClips::from_player(player.into(), boxes)?;
+        Self::from_clips(config, network, viewing, clips)
     }
 
     fn from_clips(
@@ -97,10 +104,10 @@ impl Inference {
         viewing: VisionOptions,
         clips: RunClips,
     ) -> Result<Self, InferenceError> {
-        let (width, height) = clips.size;
-        let witness = VisionNetwork::read(network, clips.size, &viewing)?;
-        let design = config.validate_for_frames(width, height)?;
-        Ok(Self { design, witness, viewing, path: network.to_owned(), clips })
+        let CommonFormat { size, frames } = clips.common_format(ClipReading::Once)?;
+        let witness = VisionNetwork::read(network, size, &viewing)?;
+        let design = config.validate_for_frames(size.0, size.1)?;
+        Ok(Self { design, witness, viewing, path: network.to_owned(), clips, frames })
     }
 
     /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when
@@ -112,7 +119,7 @@ impl Inference {
         self,
         output: &Path,
         options: &InferenceOptions,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<InferenceSummary, InferenceError> {
         let staging = StagedFolder::new(output, INFERENCE_FOLDER, options.overwrite)?;
         let summary = self.write_files(&staging, options, hooks).map_err(|error| match error {
@@ -128,9 +135,9 @@ impl Inference {
         self,
         staging: &StagedFolder,
         options: &InferenceOptions,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<InferenceSummary, InferenceError> {
-        let Self { design, witness, viewing, path, mut clips } = self;
+        let Self { design, witness, viewing, path, clips, frames } = self;
         let network = witness.network();
         let accelerator = options.accelerator.as_ref();
         let costs =
@@ -140,8 +147,8 @@ impl Inference {
             outputs: OutputRecorder::new(staging, network, options.record)?,
             details: LayerFrameTable::new(staging)?,
         };
-        let (all, inputs) = (clips.count(), clips.inputs());
-        let with_truth = clips.has_boxes();
+        let (all, inputs) = (clips.clips().len(), clips.inputs());
+        let with_truth = clips.boxes(0).is_some();
         let judge = options
             .with_whole_frames
             .then(|| WholeFrameComparison::new(&witness, &design, &options.noise, with_truth));
@@ -150,11 +157,11 @@ impl Inference {
             witness: &witness,
             with_originals: options.with_whole_frames,
         };
-        let mut showing = ClipPlayback {
+        let playback = ClipPlayback {
             setup: shown,
-            clips: &mut clips,
+            clips: &clips,
             every: options.frame_interval,
-            frames_done: 0,
+            monitor: RunMonitor::of_frames(hooks, frames),
         };
         let run = |way, reference| {
             let beside = RunComparisons { with_whole_computation: reference, whole_frames: judge };
@@ -163,15 +170,15 @@ impl Inference {
         let (run, problem, tuning) = match options.computation {
             Computation::Mode(mode) => {
                 let mut run = run(ExecutorMode::Mode(mode), options.with_whole_computation);
-                showing.play_clips(0..all, hooks, &mut run)?;
+                playback.play_clips(0..all, &mut run)?;
                 let problem = missing_frames_reason(run.problems(), all, run.clip_count());
                 (run, problem, None)
             }
             Computation::Tuned(goal) => {
                 let mut album = KeptClips::default();
                 let tuned_on = all.div_ceil(2);
-                if !showing.play_clips(0..tuned_on, hooks, &mut album)? {
-                    return Err(InferenceError::Cancelled);
+                if !playback.play_clips(0..tuned_on, &mut album)? {
+                    return Err(PlaybackError::Interrupted.into());
                 }
                 let (parts, rest) = album.tuning_parts(all)?;
                 let TunedLimits { limits, tuning } =
@@ -180,7 +187,7 @@ impl Inference {
                 if let Some(rest) = rest {
                     run.run_part(rest)?;
                 }
-                let is_whole = showing.play_clips(tuned_on..all, hooks, &mut run)?;
+                let is_whole = playback.play_clips(tuned_on..all, &mut run)?;
                 match (run.has_counted_frames(), is_whole) {
                     (true, _) => {}
                     (false, true) => {
@@ -188,7 +195,7 @@ impl Inference {
                             clips: "clips that it reports",
                         });
                     }
-                    (false, false) => return Err(InferenceError::Cancelled),
+                    (false, false) => return Err(PlaybackError::Interrupted.into()),
                 }
                 let problems = [album.problems(), run.problems()].concat();
                 let problem =

@@ -3,7 +3,7 @@
 
 use crate::InferenceError;
 use crate::camera::{KeptFrame, ReceivedFrame};
-use crate::clips::FrameConsumer;
+use crate::clip_playback::FrameConsumer;
 
 /// The most bytes of frames that are kept in memory.
 const MAX_KEPT_BYTES: usize = 4 << 30;

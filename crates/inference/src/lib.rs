@@ -9,7 +9,7 @@
 mod arrays;
 mod camera;
 mod charts;
-mod clips;
+mod clip_playback;
 mod closeness;
 mod computation;
 mod cost;

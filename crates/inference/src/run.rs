@@ -2,7 +2,7 @@
 //! A run in progress: the figures of every frame, and their sums.
 
 use crate::camera::ReceivedFrame;
-use crate::clips::FrameConsumer;
+use crate::clip_playback::FrameConsumer;
 use crate::cost::NodeCosts;
 use crate::frame::{FrameFigures, LayerFigures, counted_frames, mean_of_frames};
 use crate::kept_clips::ClipPart;

@@ -14,8 +14,8 @@ use crate::macs::{Macs, macs_of_layers};
 use crate::positions::PositionCounts;
 use crate::runner::{ExecutorMode, NetworkRunner};
 use crate::summary::{TuningSummary, TuningTrial};
-use foveate_footage::{RunHooks, RunProgress};
 use foveate_network::{ExecutionMode, Executor, Network};
+use foveate_playback::{PlaybackError, RunHooks, RunProgress};
 use std::borrow::Cow;
 
 /// The exponents of 2 of the multiples that all nodes get together.
@@ -48,7 +48,7 @@ struct Tuner<'a> {
     runs: u64,
     /// The number of frames before the first run.
     frames_before: u64,
-    hooks: &'a mut dyn RunHooks,
+    hooks: &'a dyn RunHooks,
 }
 
 /// Tunes on parts of clips. The first frame of a part does not count, unless there is a black
@@ -58,7 +58,7 @@ pub(crate) fn tune(
     goal: TuningGoal,
     parts: &[ClipPart<'_>],
     before: u64,
-    hooks: &mut dyn RunHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<TunedLimits, InferenceError> {
     let (right, scales) = whole_outputs(network, parts);
     let mut tuner =
@@ -156,7 +156,7 @@ impl Tuner<'_> {
         for (number, ((part, is_first, kept), right)) in (1..).zip(frames.zip(&self.whole_outputs))
         {
             if self.hooks.is_cancelled() {
-                return Err(InferenceError::Cancelled);
+                return Err(PlaybackError::Interrupted.into());
             }
             if is_first {
                 closeness.next_clip();
@@ -177,7 +177,7 @@ impl Tuner<'_> {
                 ));
             }
             let done = self.frames_before + self.runs * self.whole_outputs.len() as u64 + number;
-            self.hooks.progress(RunProgress { done, total: None });
+            self.hooks.progress(&RunProgress::frames(done, None, ""));
         }
         self.runs += 1;
         Ok(LimitTrial { limits, closeness, macs: macs_of_layers(self.network, &sums) })

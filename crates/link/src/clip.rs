@@ -8,8 +8,9 @@ use std::path::Path;
 use foveate_design::{Design, DesignConfig, RegionAction};
 use foveate_engine::Engine;
 use foveate_fidelity::FrameSimilarity;
-use foveate_footage::{ComparedInput, FootageError, InputOptions, SourceKind, open};
+use foveate_footage::SourceKind;
 use foveate_frame::FramePixels;
+use foveate_playback::{PlayedFrame, RunClips, RunMonitor};
 use foveate_simulator::{PixelCamera, PixelEventOptions};
 
 use crate::encoder::scratch_error;
@@ -48,29 +49,29 @@ impl ComparedCamera {
         Self { engine: Engine::new(design), likeness }
     }
 
-    fn step(&mut self, frame: &[u8], width: u32) -> Result<&[RegionAction], LinkError> {
-        self.engine.step_u8(frame, width as usize)?;
-        if let FramePixels::Bytes(screen) = self.engine.rendered() {
-            self.likeness.add(screen, frame)?;
+    fn step(&mut self, frame: &PlayedFrame) -> Result<&[RegionAction], LinkError> {
+        frame.show_to(&mut self.engine)?;
+        let pixels = (self.engine.rendered(), frame.frame.borrowed_pixels());
+        if let (FramePixels::Bytes(screen), FramePixels::Bytes(input)) = pixels {
+            self.likeness.add(screen, input)?;
         }
         Ok(&self.engine.outcome().actions)
     }
 }
 
-/// Reads a clip, and writes its frames to a file in `folder`. `tick` is called for each frame, and
-/// returns whether to stop.
+/// Reads a clip, which is given by its number, and writes its frames to a file in `folder`.
 pub(crate) fn read_clip(
-    subject: &ComparedInput,
+    (clips, number): (&RunClips, usize),
     config: &DesignConfig,
-    input: &InputOptions,
     folder: &Path,
-    tick: &dyn Fn() -> bool,
+    monitor: &RunMonitor<'_>,
 ) -> Result<ClipResults, LinkError> {
-    let mut source = open(&subject.inputs, &config.camera, input)?;
-    if source.kind() == SourceKind::Set {
-        return Err(LinkError::DataSet { name: subject.name.clone() });
+    let clip = clips.clips()[number].name.clone();
+    let mut player = clips.open(number)?;
+    if player.kind() == SourceKind::Set {
+        return Err(LinkError::DataSet { name: clip });
     }
-    let (width, height) = source.size();
+    let (width, height) = player.size();
     let design = config.validate_for_frames(width, height)?;
     if !design.has_forwarding() {
         return Err(LinkError::NoPixels);
@@ -88,37 +89,30 @@ pub(crate) fn read_clip(
         others.push((ComparedCamera::new(&swept.design), 0, swept));
     }
     let (mut times_us, mut sent) = (Vec::new(), Vec::new());
-    while let Some(current) = source.next_frame()? {
-        if tick() {
-            return Err(LinkError::Cancelled);
-        }
+    for current in monitor.watch(&mut player) {
+        let current = current?;
         let FramePixels::Bytes(frame) = current.frame.borrowed_pixels() else {
             return Err(LinkError::UnsupportedDepth { bits: current.frame.bits() });
         };
         file.write_all(frame).map_err(scratch_error("write", &path))?;
         let mut events = vec![0; height as usize];
         pixels.step(&current.frame.to_frame()?, |event| events[event.y as usize] += 1);
-        sent.push(SentCounts::from_actions(&design, camera.step(frame, width)?, events));
+        sent.push(SentCounts::from_actions(&design, camera.step(&current)?, events));
         for (other, pixels, _) in &mut others {
             // Only thresholds differ from the design, so the regions are the same.
-            *pixels += design.values_sent_per_frame(other.step(frame, width)?);
+            *pixels += design.values_sent_per_frame(other.step(&current)?);
         }
         times_us.push(current.time_us);
-        source.recycle(current);
     }
     file.flush().map_err(scratch_error("write", &path))?;
-    let inputs = source.inputs().to_vec();
-    if times_us.is_empty() {
-        return Err(FootageError::NoFrames { inputs: inputs.join(", ") }.into());
-    }
     let measured = |(watch, pixels, swept): (ComparedCamera, u64, SweptDesign)| {
         let quality = Quality::from_likeness(&watch.likeness);
         SweptResult { swept, pixels, quality }
     };
-    let (clip, frames) = (subject.name.clone(), times_us.len() as u64);
+    let frames = times_us.len() as u64;
     Ok(ClipResults {
-        inputs,
-        problem: source.problem(),
+        inputs: player.inputs().to_vec(),
+        problem: player.problem().map(str::to_owned),
         times_us,
         sent,
         quality: Quality::from_likeness(&camera.likeness),

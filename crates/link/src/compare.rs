@@ -2,12 +2,11 @@
 //! The comparison: every clip goes through the cameras, and then through the codecs at equal
 //! quality.
 
-use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{ComparedInput, InputOptions, subjects};
-use foveate_simulator::{BatchHooks, BatchProgress};
+use foveate_footage::InputOptions;
+use foveate_playback::{RunClips, RunHooks, RunMonitor};
 use foveate_staging::{FolderKind, ScratchFolder, StagedFolder};
 use foveate_toolchain::{Tool, Toolchain};
 
@@ -52,22 +51,17 @@ pub fn compare(
     tools: &Toolchain,
     output: &Path,
     overwrite: bool,
-    hooks: &dyn BatchHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<LinkReport, LinkError> {
     let staging = StagedFolder::new(output, LINK_FOLDER, overwrite)?;
-    let subjects = subjects(request.inputs, request.input)?;
+    let footage = RunClips::new(request.inputs, &[], &request.config.camera, request.input)?;
     let ffmpeg = tools.find(Tool::Ffmpeg)?.banner;
     check_encoders(tools, request.codecs)?;
-    let (frames, all) = (Cell::new(0), subjects.len());
+    let monitor = RunMonitor::of_clips(hooks, footage.clips().len());
     let mut clips = Vec::new();
-    for subject in &subjects {
-        let done = clips.len();
-        let tick = || {
-            frames.set(frames.get() + 1);
-            hooks.progress(BatchProgress { clips: done, total_clips: all, frames: frames.get() });
-            hooks.is_cancelled()
-        };
-        clips.push(compare_clip(request, tools, subject, &tick)?);
+    for number in 0..footage.clips().len() {
+        clips.push(compare_clip(request, tools, (&footage, number), &monitor)?);
+        monitor.add_clip();
     }
     let report = LinkReport {
         format_version: FORMAT_VERSION,
@@ -86,14 +80,15 @@ pub fn compare(
 fn compare_clip(
     request: &LinkRequest<'_>,
     tools: &Toolchain,
-    subject: &ComparedInput,
-    tick: &dyn Fn() -> bool,
+    (clips, number): (&RunClips, usize),
+    monitor: &RunMonitor<'_>,
 ) -> Result<ClipReport, LinkError> {
+    let name = &clips.clips()[number].name;
     let place = std::env::temp_dir();
     let folder = ScratchFolder::new().map_err(scratch_error("make a folder in", &place))?;
-    let seen = read_clip(subject, request.config, request.input, folder.path(), tick)?;
-    let timeline = Timeline::new(&subject.name, &seen.times_us, seen.design.height())?;
-    let cameras = SenderCameras::new(&subject.name, &seen.design, &timeline, request.clock_hz)?;
+    let seen = read_clip((clips, number), request.config, folder.path(), monitor)?;
+    let timeline = Timeline::new(name, &seen.times_us, seen.design.height())?;
+    let cameras = SenderCameras::new(name, &seen.design, &timeline, request.clock_hz)?;
     let figures = |units: Vec<LinkUnit>| {
         LinkFigures::from_units(units, &timeline, request.link_bits_per_second)
     };
@@ -102,7 +97,7 @@ fn compare_clip(
         seen.swept.iter().map(|measured| region_point(&seen, measured, &timeline)).collect();
     for &codec in request.codecs {
         let mut encoder =
-            ClipEncoder::new(tools, &seen.grey_footage, (codec, request.preset), tick);
+            ClipEncoder::new(tools, &seen.grey_footage, (codec, request.preset), monitor);
         for equal in EqualFigure::ALL {
             let (quantizer, found) = equal.search(&mut encoder, codec, seen.quality)?;
             let encoded = encoder.encode_with(quantizer)?;
@@ -123,7 +118,7 @@ fn compare_clip(
         );
     }
     Ok(ClipReport {
-        name: subject.name.clone(),
+        name: name.clone(),
         inputs: seen.inputs,
         problem: seen.problem,
         design: seen.design.fingerprint(),

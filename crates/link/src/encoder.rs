@@ -8,6 +8,7 @@ use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use foveate_fidelity::FrameSimilarity;
+use foveate_playback::RunMonitor;
 use foveate_toolchain::{Invocation, ProgramReader, Tool, ToolError, Toolchain};
 
 use crate::{Codec, EncoderPreset, LinkError, Quality};
@@ -49,28 +50,27 @@ pub struct ClipEncoder<'a> {
     /// The path of the stream, next to the footage.
     stream: PathBuf,
     known: BTreeMap<u32, EncodedClip>,
-    /// A callback for every decoded frame, which returns whether to stop.
-    tick: &'a dyn Fn() -> bool,
+    /// The monitor of the run, which counts every decoded frame.
+    monitor: &'a RunMonitor<'a>,
 }
 
 impl<'a> ClipEncoder<'a> {
-    /// Creates an encoder that has encoded nothing. `tick` is called for every decoded frame, and
-    /// returns whether to stop.
+    /// Creates an encoder that has encoded nothing. `monitor` counts every decoded frame.
     #[must_use]
     pub fn new(
         tools: &'a Toolchain,
         footage: &'a GreyFootage,
         (codec, effort): (Codec, EncoderPreset),
-        tick: &'a dyn Fn() -> bool,
+        monitor: &'a RunMonitor<'a>,
     ) -> Self {
         let stream = footage.path.with_extension(codec.format());
-        Self { tools, footage, codec, effort, stream, known: BTreeMap::new(), tick }
+        Self { tools, footage, codec, effort, stream, known: BTreeMap::new(), monitor }
     }
 
     /// Returns the clip after encoding with this quantizer.
     ///
     /// # Errors
-    /// Fails if ffmpeg fails or loses frames, or if `tick` says to stop.
+    /// Fails if ffmpeg fails or loses frames, or if the run is to stop.
     pub fn encode_with(&mut self, quantizer: u32) -> Result<&EncodedClip, LinkError> {
         if !self.known.contains_key(&quantizer) {
             let encoded = self.encode(quantizer)?;
@@ -92,9 +92,7 @@ impl<'a> ClipEncoder<'a> {
     }
 
     fn encode(&self, quantizer: u32) -> Result<EncodedClip, LinkError> {
-        if (self.tick)() {
-            return Err(LinkError::Cancelled);
-        }
+        self.monitor.check()?;
         let size = format!("{}x{}", self.footage.width, self.footage.height);
         let encode = self
             .tools
@@ -165,9 +163,8 @@ impl<'a> ClipEncoder<'a> {
         let mut pixels = [0, 1].map(|_| vec![0; width as usize * height as usize]);
         let [seen, expected] = &mut pixels;
         while decoder.read_exact(seen).is_ok() && likeness.frames() < self.footage.frames {
-            if (self.tick)() {
-                return Err(LinkError::Cancelled);
-            }
+            self.monitor.add_frame();
+            self.monitor.check()?;
             original.read_exact(expected).map_err(scratch_error("read", path))?;
             likeness.add(seen, expected)?;
         }

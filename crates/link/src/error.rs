@@ -5,11 +5,10 @@ use std::io;
 use std::path::PathBuf;
 
 use foveate_design::ConfigError;
-use foveate_engine::EngineError;
 use foveate_fidelity::FidelityError;
-use foveate_footage::FootageError;
 use foveate_frame::FrameError;
 use foveate_pictures::chart::ChartError;
+use foveate_playback::PlaybackError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
@@ -19,15 +18,12 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LinkError {
-    /// An input cannot be read.
+    /// The clips cannot be played, or the user stopped the comparison.
     #[error(transparent)]
-    Footage(FootageError),
+    Playback(#[from] PlaybackError),
     /// The configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
-    /// The engine refused a frame.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
     /// A frame has another size than the camera.
     #[error(transparent)]
     Frame(#[from] FrameError),
@@ -163,22 +159,10 @@ pub enum LinkError {
         /// The message of ffmpeg.
         message: String,
     },
-    /// The user stopped the comparison.
-    #[error("interrupted; nothing was written")]
-    Cancelled,
 }
 
 impl From<ToolError> for LinkError {
     fn from(error: ToolError) -> Self {
-        if error.is_interrupted() { Self::Cancelled } else { Self::Tool(error) }
-    }
-}
-
-impl From<FootageError> for LinkError {
-    fn from(error: FootageError) -> Self {
-        match error {
-            FootageError::Interrupted => Self::Cancelled,
-            error => Self::Footage(error),
-        }
+        if error.is_interrupted() { PlaybackError::Interrupted.into() } else { Self::Tool(error) }
     }
 }

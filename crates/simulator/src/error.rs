@@ -5,11 +5,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use foveate_design::ConfigError;
-use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
 use foveate_packets::PacketError;
+use foveate_playback::PlaybackError;
 use foveate_staging::{StagedFolder, StagingError};
 use foveate_toolchain::ToolError;
 use thiserror::Error;
@@ -18,9 +18,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SimulatorError {
-    /// The footage cannot be opened or read.
+    /// The clip cannot be played, or the user stopped the run before its first frame was done.
     #[error(transparent)]
-    Footage(FootageError),
+    Playback(#[from] PlaybackError),
     /// No clip of a batch has a result.
     #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
     NoClip {
@@ -117,9 +117,6 @@ pub enum SimulatorError {
         /// The number of rows of regions.
         rows: u32,
     },
-    /// The user stopped the run before its first frame was done.
-    #[error("interrupted before the first frame was done; nothing was written")]
-    Cancelled,
     /// The stream cannot be read as a stream of packets.
     #[error(transparent)]
     Packets(#[from] PacketError),
@@ -142,9 +139,6 @@ pub enum SimulatorError {
     /// The configuration is not valid.
     #[error(transparent)]
     Design(#[from] ConfigError),
-    /// The engine refused a frame.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
     /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
@@ -155,10 +149,7 @@ pub enum SimulatorError {
 
 impl From<FootageError> for SimulatorError {
     fn from(error: FootageError) -> Self {
-        match error {
-            FootageError::Interrupted => Self::Cancelled,
-            error => Self::Footage(error),
-        }
+        PlaybackError::from(error).into()
     }
 }
 

@@ -7,7 +7,7 @@
 //! [`run_batch`] does so for many clips. A [`PacketRecording`] is a stream of packets that becomes
 //! such a folder. A [`PacketStream`] is a stream of packets whose frames are used as they arrive.
 //! Memory does not grow with the number of frames. The library never prints: progress and
-//! cancellation go through [`RunHooks`].
+//! cancellation go through [`foveate_playback::RunHooks`].
 
 mod batch;
 mod error;
@@ -18,11 +18,10 @@ mod recording;
 mod simulation;
 mod stream;
 
-pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
+pub use batch::{BatchSummary, ClipSummary, run_batch};
 pub use error::SimulatorError;
 pub use explanation::explain_region;
 pub use foveate_engine::MAX_THREADS;
-pub use foveate_footage::{RunHooks, RunProgress, SilentHooks};
 pub use foveate_model::explanation::RegionExplanation;
 pub use foveate_packets::{RegisterCommand, RegisterPacket, StreamLoss};
 pub use output::{

@@ -9,6 +9,7 @@ use std::path::Path;
 use foveate_design::{Design, DesignConfig};
 use foveate_footage::{SetForm, SourceFrame};
 use foveate_packets::{PacketError, StreamLoss};
+use foveate_playback::{PlaybackError, RunHooks, RunProgress};
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
 
@@ -16,7 +17,7 @@ use crate::losses::LossTable;
 use crate::output::{INTERRUPTED, RunRecorder};
 use crate::simulation::{SIMULATION_FOLDER, disk_full_problem};
 use crate::stream::{PacketStream, ShownFrame, StreamItem};
-use crate::{RunHooks, RunOptions, RunProgress, RunSummary, SimulatorError};
+use crate::{RunOptions, RunSummary, SimulatorError};
 
 /// The number of bytes that are read at once.
 const CHUNK: usize = 1 << 16;
@@ -53,7 +54,7 @@ impl PacketRecording<'_> {
         self,
         output: &Path,
         options: &RunOptions,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<DecodedRecording, SimulatorError> {
         check_outputs(options)?;
         let staging = StagedFolder::new(output, SIMULATION_FOLDER, options.overwrite)?;
@@ -68,7 +69,7 @@ impl PacketRecording<'_> {
         self,
         folder: &Path,
         options: &RunOptions,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<DecodedRecording, SimulatorError> {
         let mut writer = RecordingWriter {
             folder,
@@ -119,7 +120,7 @@ impl PacketRecording<'_> {
         let RecordingWriter { losses, recorder, .. } = writer;
         let Some(recorder) = recorder else {
             let none = PacketError::NoFrame { stream: self.name.to_owned(), bytes };
-            return Err(if is_cancelled { SimulatorError::Cancelled } else { none.into() });
+            return Err(if is_cancelled { PlaybackError::Interrupted.into() } else { none.into() });
         };
         let problem = match (is_cancelled, losses.count()) {
             _ if is_full.is_some() => is_full,
@@ -171,7 +172,7 @@ impl RecordingWriter<'_> {
     fn write_received(
         &mut self,
         stream: &mut PacketStream,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
         is_cancelled: bool,
     ) -> Result<bool, SimulatorError> {
         loop {
@@ -193,7 +194,7 @@ impl RecordingWriter<'_> {
                     if let Some(design) = stream.design() {
                         self.write_frame(*frame, design, stream.has_scores())?;
                     }
-                    hooks.progress(RunProgress { done: self.frames(), total: None });
+                    hooks.progress(&RunProgress::frames(self.frames(), None, ""));
                     if !is_cancelled && hooks.is_cancelled() {
                         return Ok(false);
                     }

@@ -5,40 +5,42 @@ use std::path::Path;
 
 use foveate_design::{Design, DesignConfig};
 use foveate_engine::Engine;
+use foveate_footage::SourceKind;
+use foveate_playback::{ClipPlayer, PlaybackError, RunHooks, RunMonitor};
 use foveate_staging::{FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, INTERRUPTED, RunRecorder};
 use crate::{RunOptions, RunSummary, SimulatorError};
-use foveate_footage::{FootageError, FrameSource, RunHooks, RunProgress, SourceKind, read_ahead};
 
 /// A design and the frames that it takes.
 pub struct Simulation {
     design: Design,
-    source: Box<dyn FrameSource>,
+    player: ClipPlayer,
 }
 
 impl Simulation {
-    /// Fits the configuration to the frame size of the source.
+    /// Fits the configuration to the frame size of the clip.
     ///
     /// # Errors
     /// Fails if the configuration gives another size, or is not a valid design.
     pub fn new(
         config: &DesignConfig,
-        source: Box<dyn FrameSource>,
+        player: impl Into<ClipPlayer>,
     ) -> Result<Self, SimulatorError> {
-        let (width, height) = source.size();
-        Ok(Self { design: config.validate_for_frames(width, height)?, source })
+        let player = player.into();
+        let (width, height) = player.size();
+        Ok(Self { design: config.validate_for_frames(width, height)?, player })
     }
 
-    /// Returns the design, with the frame size of the source.
+    /// Returns the design, with the frame size of the clip.
     #[must_use]
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// Runs to the end of the source, or until `hooks` cancels. The folder `output` appears when
+    /// Runs to the end of the clip, or until `hooks` cancels. The folder `output` appears when
     /// everything is written. An error leaves no folder. The results so far are kept, with
-    /// `complete: false` in the summary, if the source ends early (such as a truncated video), on
+    /// `complete: false` in the summary, if the clip ends early (such as a truncated video), on
     /// an interrupt, and if the disk is full.
     ///
     /// # Errors
@@ -47,13 +49,13 @@ impl Simulation {
         mut self,
         output: &Path,
         options: &RunOptions,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<RunSummary, SimulatorError> {
-        if options.pixel_events.is_wanted() && self.source.kind() == SourceKind::Set {
+        if options.pixel_events.is_wanted() && self.player.kind() == SourceKind::Set {
             return Err(SimulatorError::PixelEventsOfSet);
         }
-        if options.data_set && self.source.kind() == SourceKind::Clip {
-            return Err(SimulatorError::NotASet { inputs: self.source.inputs().join(", ") });
+        if options.data_set && self.player.kind() == SourceKind::Clip {
+            return Err(SimulatorError::NotASet { inputs: self.player.inputs().join(", ") });
         }
         let staging = StagedFolder::new(output, SIMULATION_FOLDER, options.overwrite)?;
         let written = self.write_files(&staging, options, hooks);
@@ -67,34 +69,22 @@ impl Simulation {
         &mut self,
         staging: &StagedFolder,
         options: &RunOptions,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<RunSummary, SimulatorError> {
         let folder = staging.folder();
         let mut recorder = RunRecorder::create(
             folder,
             &self.design,
-            &self.source.form(),
+            self.player.form(),
             options,
             true,
             &hooks.interrupt(),
         )?;
-        let end = match self.run_frames(&mut recorder, hooks) {
-            // The interrupt ended the wait for a frame.
-            Err(SimulatorError::Cancelled) => Ok(RunEnd::Cancelled),
-            end => end,
-        };
-        let problem = match (end, recorder.frames()) {
-            (Ok(RunEnd::Cancelled), 0) => return Err(SimulatorError::Cancelled),
-            (Ok(RunEnd::EndOfSource), 0) => {
-                let inputs = self.source.inputs().join(", ");
-                return Err(FootageError::NoFrames { inputs }.into());
+        let problem = match (self.run_frames(&mut recorder, hooks), recorder.frames()) {
+            (Ok(()), _) => self.player.problem().map(str::to_owned),
+            (Err(SimulatorError::Playback(PlaybackError::Interrupted)), 1..) => {
+                Some(INTERRUPTED.to_owned())
             }
-            (Ok(RunEnd::Cancelled), _) => Some(INTERRUPTED.to_owned()),
-            // An interrupt may have stopped ffmpeg, too.
-            (Ok(RunEnd::EndOfSource), _) => self
-                .source
-                .problem()
-                .map(|problem| if hooks.is_cancelled() { INTERRUPTED.to_owned() } else { problem }),
             (Err(SimulatorError::VideoOutput { .. }), 1..) if hooks.is_cancelled() => {
                 Some(INTERRUPTED.to_owned())
             }
@@ -103,40 +93,24 @@ impl Simulation {
             }
             (Err(error), _) => return Err(error),
         };
-        recorder.finish(folder, self.source.inputs(), problem)
+        recorder.finish(folder, self.player.inputs(), problem)
     }
 
-    /// Gives every frame to the engine, while the following frames are read.
+    /// Shows every frame to the engine.
     fn run_frames(
         &mut self,
         recorder: &mut RunRecorder,
-        hooks: &mut dyn RunHooks,
-    ) -> Result<RunEnd, SimulatorError> {
+        hooks: &dyn RunHooks,
+    ) -> Result<(), SimulatorError> {
         let mut engine = Engine::new(&self.design);
-        let (total, kind) = (self.source.frames(), self.source.kind());
-        read_ahead(self.source.as_mut(), |frames| {
-            while let Some((current, _)) = frames.next()? {
-                if hooks.is_cancelled() {
-                    return Ok(RunEnd::Cancelled);
-                }
-                if kind == SourceKind::Set {
-                    engine.reset();
-                }
-                engine.step_byte_frame(&current.frame)?;
-                let first = kind == SourceKind::Set || recorder.frames() == 0;
-                recorder.push(&current, &engine, first)?;
-                frames.recycle(current);
-                hooks.progress(RunProgress { done: recorder.frames(), total });
-            }
-            Ok(RunEnd::EndOfSource)
-        })
+        let monitor = RunMonitor::of_frames(hooks, self.player.frames());
+        for frame in monitor.watch(&mut self.player) {
+            let frame = frame?;
+            frame.show_to(&mut engine)?;
+            recorder.push(&frame, &engine, frame.is_first())?;
+        }
+        Ok(())
     }
-}
-
-/// The reason why no more frames come.
-enum RunEnd {
-    EndOfSource,
-    Cancelled,
 }
 
 /// Returns the problem in the summary of a run that found no disk space for one of its files in

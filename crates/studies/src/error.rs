@@ -4,10 +4,8 @@
 use std::path::PathBuf;
 
 use foveate_design::ConfigError;
-use foveate_engine::EngineError;
-use foveate_footage::FootageError;
-use foveate_footage::boxes::BoxError;
 use foveate_pictures::chart::ChartError;
+use foveate_playback::PlaybackError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -15,15 +13,12 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// An input cannot be read.
+    /// The clips cannot be played, or the user stopped the study.
     #[error(transparent)]
-    Footage(Box<FootageError>),
+    Playback(#[from] PlaybackError),
     /// A point of the study is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
-    /// The engine refused a frame.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
@@ -80,9 +75,6 @@ pub enum StudyError {
         "the study `recall` needs ground-truth boxes of objects; name their file or folder with --boxes"
     )]
     NoBoxes,
-    /// The ground-truth boxes cannot be read, or do not fit the clips.
-    #[error(transparent)]
-    Boxes(#[from] BoxError),
     /// There are no objects to count.
     #[error(
         "no object is to be counted in any frame after the first of `{clips}`; check --boxes, and take more \
@@ -95,16 +87,4 @@ pub enum StudyError {
     /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// The user stopped the study.
-    #[error("interrupted; nothing was written")]
-    Cancelled,
-}
-
-impl From<FootageError> for StudyError {
-    fn from(error: FootageError) -> Self {
-        match error {
-            FootageError::Interrupted => Self::Cancelled,
-            error => Self::Footage(Box::new(error)),
-        }
-    }
 }

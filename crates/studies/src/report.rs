@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{InputOptions, subjects};
-use foveate_simulator::BatchHooks;
+use foveate_footage::InputOptions;
+use foveate_playback::{RunClips, RunHooks, RunMonitor};
 use foveate_staging::{FolderKind, StagedFolder};
 use serde::Serialize;
 
@@ -73,13 +73,16 @@ pub fn analyze(
     request: &StudyRequest<'_>,
     output: &Path,
     overwrite: bool,
-    hooks: &dyn BatchHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<StudyReport, StudyError> {
     let study = request.study;
     let staging = StagedFolder::new(output, STUDY_FOLDER, overwrite)?;
-    let subjects = subjects(request.inputs, request.input)?;
-    let input = InputOptions { numbered: study == Study::Recall, ..request.input.clone() };
-    let watcher = StudyRunner { subjects: &subjects, config: request.config, input: &input, hooks };
+    // Only this study counts objects.
+    let boxes = if study == Study::Recall { request.boxes } else { &[] };
+    let camera = &request.config.camera;
+    let clips = RunClips::new(request.inputs, boxes, camera, request.input)?;
+    let monitor = RunMonitor::of_clips(hooks, clips.clips().len());
+    let watcher = StudyRunner { clips: &clips, config: request.config, monitor };
     let findings = run_study(&watcher, request)?;
     let mut files = vec![format!("{}.csv", study.name())];
     staging.write(&files[0], findings.table.csv(&findings.notes).as_bytes())?;
@@ -115,7 +118,7 @@ fn run_study(
         Study::Size => sweep::run_size(watcher),
         Study::Threshold => sweep::run_threshold(watcher),
         Study::Sensor => sensor::run(watcher, request.sensor_events, request.sensor_start_us),
-        Study::Recall => recall::run(watcher, request.boxes),
+        Study::Recall => recall::run(watcher),
     }
 }
 

@@ -6,7 +6,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use foveate_design::ConfigError;
-use foveate_footage::FootageError;
+use foveate_playback::PlaybackError;
 use thiserror::Error;
 
 /// An error of a stream, or of frames, that cannot be shown.
@@ -51,7 +51,7 @@ pub enum ViewError {
     },
     /// The frames cannot be read.
     #[error(transparent)]
-    Footage(#[from] FootageError),
+    Playback(#[from] PlaybackError),
     /// The configuration is not valid.
     #[error(transparent)]
     Config(#[from] ConfigError),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The frames of an input, for a page that asks for one after the other. A clip waits for the page:
-//! a frame is read when it is asked for, and none is lost. A camera does not wait: the page gets
+//! a frame is taken when it is asked for, and none is lost. A camera does not wait: the page gets
 //! the newest frame.
 
 use std::path::Path;
@@ -8,8 +8,9 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{FootageError, FrameSource, InputOptions, is_camera, is_read_once, open};
-use foveate_frame::{ByteFrame, FramePixels};
+use foveate_footage::{InputOptions, is_camera, is_read_once};
+use foveate_frame::FramePixels;
+use foveate_playback::{ClipPlayer, PlaybackError, PlayedFrame};
 use serde_json::json;
 
 /// The status of the input.
@@ -33,12 +34,11 @@ impl InputStatus {
 }
 
 /// A frame for the page.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct NumberedFrame {
     /// The number of the frame, which goes on when a clip begins again.
     number: u64,
-    time_us: u64,
-    frame: ByteFrame,
+    shown: PlayedFrame,
 }
 
 #[derive(Debug)]
@@ -118,9 +118,9 @@ impl FramePlayer {
     pub(crate) fn open(
         inputs: Vec<String>,
         options: InputOptions,
-    ) -> Result<(Self, Box<dyn FrameSource>), FootageError> {
-        let source = open(&inputs, &byte_camera(), &options)?;
-        let name = format!("`{}`", source.inputs().join(", "));
+    ) -> Result<(Self, ClipPlayer), PlaybackError> {
+        let clip = ClipPlayer::open(&inputs, &byte_camera(), &options)?;
+        let name = format!("`{}`", clip.inputs().join(", "));
         let state = PlayerState::new(name.clone());
         let player = Self {
             kind: FrameDelivery::for_inputs(&inputs),
@@ -130,22 +130,21 @@ impl FramePlayer {
             state: Mutex::new(state),
             changed: Condvar::new(),
         };
-        Ok((player, source))
+        Ok((player, clip))
     }
 
     /// Reads frames until the player ends.
-    pub(crate) fn run(&self, source: Box<dyn FrameSource>) {
-        let mut source = Some(source);
+    pub(crate) fn run(&self, clip: ClipPlayer) {
+        let mut first = Some(clip);
         loop {
-            let opened = match source.take() {
-                Some(source) => Ok(source),
-                None => open(&self.inputs, &byte_camera(), &self.options),
+            let opened = match first.take() {
+                Some(clip) => Ok(clip),
+                None => ClipPlayer::open(&self.inputs, &byte_camera(), &self.options),
             };
-            let (status, problem) =
-                match opened.and_then(|mut source| self.read_frames(&mut *source)) {
-                    Ok(problem) => (InputStatus::Ended, problem),
-                    Err(error) => (InputStatus::Failed, Some(error.to_string())),
-                };
+            let (status, problem) = match opened.and_then(|clip| self.read_frames(clip)) {
+                Ok(problem) => (InputStatus::Ended, problem),
+                Err(error) => (InputStatus::Failed, Some(error.to_string())),
+            };
             let mut state = self.lock();
             if !state.restart_requested {
                 state.messages.extend(problem.clone());
@@ -163,12 +162,12 @@ impl FramePlayer {
         }
     }
 
-    /// Reads the frames of a source until it ends, must begin again, or the player ends. Returns
-    /// the reason if the source has ended too early.
-    fn read_frames(&self, source: &mut dyn FrameSource) -> Result<Option<String>, FootageError> {
+    /// Reads the frames of a clip until it ends, must begin again, or the player ends. Returns the
+    /// reason if the clip has ended too early.
+    fn read_frames(&self, mut clip: ClipPlayer) -> Result<Option<String>, PlaybackError> {
         loop {
             let mut state = self.lock();
-            // A frame is read when it is asked for.
+            // A frame is taken when it is asked for.
             while self.must_wait(&state) && !Self::is_stopped(&state) {
                 state = self.wait(state);
             }
@@ -176,14 +175,14 @@ impl FramePlayer {
                 return Ok(None);
             }
             drop(state);
-            let Some(read) = source.next_frame()? else { return Ok(source.problem()) };
+            let Some(shown) = clip.next().transpose()? else {
+                return Ok(clip.problem().map(str::to_owned));
+            };
             let mut state = self.lock();
             if Self::is_stopped(&state) {
                 return Ok(None);
             }
-            let numbered =
-                NumberedFrame { number: state.next, time_us: read.time_us, frame: read.frame };
-            state.newest = Some(numbered);
+            state.newest = Some(NumberedFrame { number: state.next, shown });
             state.next += 1;
             self.changed.notify_all();
         }
@@ -227,13 +226,13 @@ impl FramePlayer {
             "text": state.text,
             "live": self.kind == FrameDelivery::Camera,
             "number": newest.map(|newest| newest.number),
-            "t_us": newest.map(|newest| newest.time_us),
-            "width": newest.map(|newest| newest.frame.width()),
-            "height": newest.map(|newest| newest.frame.height()),
+            "t_us": newest.map(|newest| newest.shown.time_us),
+            "width": newest.map(|newest| newest.shown.frame.width()),
+            "height": newest.map(|newest| newest.shown.frame.height()),
         });
         let text = text.to_string();
         let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
-        let pixels = match newest.map(|newest| newest.frame.borrowed_pixels()) {
+        let pixels = match newest.map(|newest| newest.shown.frame.borrowed_pixels()) {
             Some(FramePixels::Bytes(pixels)) => pixels,
             // The source reads frames as bytes.
             Some(FramePixels::Words(_)) | None => &[],

@@ -2,9 +2,9 @@
 //! The frames of the inputs, for commands that hold all of them in memory.
 
 use foveate_design::Design;
-use foveate_footage::{InputOptions, open};
+use foveate_footage::InputOptions;
 use foveate_frame::Frame;
-use foveate_simulator::SimulatorError;
+use foveate_playback::{ClipPlayer, PlaybackError};
 
 use super::{DesignArgs, warn_about_inputs};
 use crate::error::CliError;
@@ -26,13 +26,10 @@ impl DesignArgs {
         let options = InputOptions { frames, interrupt, ..InputOptions::default() };
         warn_about_inputs(inputs, &options);
         // The inputs are opened only once, because standard input and cameras cannot be read again.
-        let mut source = open(inputs, &config.camera, &options)?;
-        let (width, height) = source.size();
+        let player = ClipPlayer::open(inputs, &config.camera, &options)?;
+        let (width, height) = player.size();
         let design = config.validate_for_frames(width, height)?;
-        let mut frames = Vec::new();
-        while let Some(next) = source.next_frame()? {
-            frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);
-        }
-        Ok((design, frames))
+        let frames = player.map(|played| Ok(played?.frame.to_frame()?));
+        Ok((design, frames.collect::<Result<_, PlaybackError>>()?))
     }
 }

@@ -5,10 +5,10 @@ use foveate_footage::ImageRelation;
 use foveate_staging::StagedFolder;
 use foveate_studies::{STUDY_FOLDER, Study, StudyReport, StudyRequest, analyze};
 
-use super::simulate::ClipTerminal;
 use crate::args::{AnalyzeArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
+use crate::progress::RunTerminal;
 
 pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     if !args.boxes.is_empty() && args.study.0 != Study::Recall {
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
         boxes: &args.boxes,
     };
     warn_about_inputs(&args.inputs, &input);
-    let hooks = ClipTerminal::new(args.quiet)?;
+    let hooks = RunTerminal::new(args.quiet)?;
     let report = analyze(&request, &args.output, args.force, &hooks);
     hooks.progress.finish();
     let report = report?;

@@ -8,9 +8,10 @@ use foveate_simulator::{DecodedRecording, PacketRecording, RunOptions, SIMULATIO
 use foveate_staging::StagedFolder;
 use foveate_toolchain::{InterruptibleReader, open_interruptibly, standard_input};
 
-use super::simulate::{ClipTerminal, text};
+use super::simulate::text;
 use crate::args::DecodeArgs;
 use crate::error::CliError;
+use crate::progress::RunTerminal;
 use crate::{interrupt, notice, output};
 
 pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
@@ -19,9 +20,9 @@ pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
     let name = args.stream.display().to_string();
     let mut stream = open(&args.stream)?;
     let options = RunOptions { overwrite: args.force, ..args.view.options() };
-    let mut hooks = ClipTerminal::new(args.quiet)?;
+    let hooks = RunTerminal::new(args.quiet)?;
     let recording = PacketRecording { config: &config, stream: &mut stream, name: &name };
-    let decoded = recording.decode(&args.output, &options, &mut hooks);
+    let decoded = recording.decode(&args.output, &options, &hooks);
     hooks.progress.finish();
     let DecodedRecording { summary, losses, loss_count } = decoded?;
     for loss in &losses {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate explain`: why a region was sent or dropped.
 
-use foveate_footage::{ImageRelation, open};
+use foveate_footage::ImageRelation;
+use foveate_playback::ClipPlayer;
 use foveate_simulator::explain_region;
 
 use crate::args::{ExplainArgs, warn_about_inputs};
@@ -11,9 +12,9 @@ use crate::output;
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let config = args.design.config()?;
     let options = args.input.options(ImageRelation::Clip);
-    let source = open(&args.inputs, &config.camera, &options)?;
+    let player = ClipPlayer::open(&args.inputs, &config.camera, &options)?;
     warn_about_inputs(&args.inputs, &options);
-    let explanation = explain_region(&config, source, args.frame, args.region)?;
+    let explanation = explain_region(&config, player, args.frame, args.region)?;
     if args.json {
         output::print_json(&explanation)
     } else {

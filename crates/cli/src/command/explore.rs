@@ -5,20 +5,17 @@ mod table;
 mod units;
 
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_explore::{
-    BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreHooks, ExploreProgress,
-    ExploreRequest, Synthesizer, check_folder, explore,
+    BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreRequest, check_folder, explore,
 };
 use foveate_footage::ImageRelation;
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_playback::PlaybackError;
 
 use crate::args::{ExploreArgs, warn_about_inputs};
 use crate::error::CliError;
-use crate::progress::Progress as Shown;
-use crate::{interrupt, output};
+use crate::output;
+use crate::progress::RunTerminal;
 
 pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     if args.list {
@@ -39,7 +36,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     let Some(folder) = output.filter(|_| !args.print) else { return output::print_text(&text) };
     let input = args.input.options(ImageRelation::Clip);
     warn_about_inputs(&args.inputs, &input);
-    let terminal = ExploreTerminal::new(args.quiet)?;
+    let terminal = RunTerminal::new(args.quiet)?;
     let mut request =
         ExploreRequest { space: &space, inputs: &args.inputs, input: &input, synthesizer: None };
     if args.plan {
@@ -53,7 +50,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     let found = explore(&request, folder, &terminal);
     terminal.progress.finish();
     let found = match found {
-        Err(ExploreError::Cancelled) => {
+        Err(ExploreError::Playback(PlaybackError::Interrupted)) => {
             return Err(CliError::Interrupted { path: folder.to_owned() });
         }
         other => other?,
@@ -103,48 +100,4 @@ fn read_space(file: &Path) -> Result<String, CliError> {
 
 fn file_error(file: &Path, error: &ExploreError) -> CliError {
     CliError::Usage(format!("{}: {error}", file.display()))
-}
-
-/// The progress of the command on the terminal, and the flag that Ctrl-C sets.
-pub(super) struct ExploreTerminal {
-    pub(super) progress: Shown,
-    interrupted: Arc<AtomicBool>,
-}
-
-impl ExploreTerminal {
-    pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        Ok(Self { progress: Shown::new(quiet), interrupted: interrupt::stop_flag()? })
-    }
-
-    /// Returns the tools of this machine. The same Ctrl-C stops them.
-    pub(super) fn synthesizer(&self) -> Result<Synthesizer, CliError> {
-        let toolchain = Toolchain::system().with_cancel_flag(Arc::clone(&self.interrupted));
-        // A missing Yosys is reported before hours of measurements.
-        toolchain.find(foveate_toolchain::Tool::Yosys)?;
-        Ok(Synthesizer { toolchain, cache: Cache::from_env()? })
-    }
-}
-
-impl ExploreHooks for ExploreTerminal {
-    fn progress(&self, progress: ExploreProgress) {
-        let (what, done, all) = match progress {
-            ExploreProgress::Reading { frames } => {
-                return self.progress.report_frames(frames, None, "reading the clips");
-            }
-            ExploreProgress::RunningNetwork { cameras } => {
-                return self
-                    .progress
-                    .report_work(&format!("the network looks at cameras, {cameras} so far"));
-            }
-            ExploreProgress::Measuring { done_pairs: done, all } => {
-                ("designs over clips", done, all)
-            }
-            ExploreProgress::Synthesizing { done, all } => ("synthesizing with Yosys", done, all),
-        };
-        self.progress.report_steps(what, done as u64, all as u64);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
-    }
 }

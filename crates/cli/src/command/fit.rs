@@ -10,13 +10,14 @@ use foveate_explore::{
 };
 use foveate_footage::ImageRelation;
 use foveate_inference::NoiseAgreement;
+use foveate_playback::PlaybackError;
 use foveate_staging::{check_file, write_file};
 
-use super::explore::ExploreTerminal;
 use crate::agreement_text::{grey_levels, interval_text, noise_text};
 use crate::args::{FitArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
+use crate::progress::RunTerminal;
 
 pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     if let Some(file) = &args.output {
@@ -25,7 +26,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     let task = args.design.config()?;
     let input = args.input.options(ImageRelation::Clip);
     warn_about_inputs(&args.inputs, &input);
-    let terminal = ExploreTerminal::new(args.quiet)?;
+    let terminal = RunTerminal::new(args.quiet)?;
     let synthesizer = terminal.synthesizer()?;
     let viewing = args.network.viewing.viewing();
     let network = args.network.goal(&viewing);
@@ -44,7 +45,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     let found = fit(&request, &terminal);
     terminal.progress.finish();
     let found = match found {
-        Err(ExploreError::Cancelled) => {
+        Err(ExploreError::Playback(PlaybackError::Interrupted)) => {
             return Err(CliError::Stopped { done: "some of the designs".to_owned() });
         }
         other => other?,

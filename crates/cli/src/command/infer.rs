@@ -15,10 +15,10 @@ use foveate_inference::{
 use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
-use super::simulate::ClipTerminal;
 use crate::agreement_text::{grey_levels, interval_text, noise_text};
 use crate::args::{InferArgs, warn_about_inputs};
 use crate::error::CliError;
+use crate::progress::RunTerminal;
 use crate::{notice, output};
 
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
@@ -49,8 +49,8 @@ fn run_clips(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), 
         command: command_words(words),
         overwrite: args.force,
     };
-    let mut hooks = ClipTerminal::new(args.quiet)?;
-    let summary = inference.run(folder, &options, &mut hooks);
+    let hooks = RunTerminal::new(args.quiet)?;
+    let summary = inference.run(folder, &options, &hooks);
     hooks.progress.finish();
     let summary = summary?;
     summary.warnings.iter().for_each(|warning| notice::print_warning(warning));

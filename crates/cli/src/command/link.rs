@@ -5,9 +5,9 @@ use foveate_footage::ImageRelation;
 use foveate_link::{LINK_FOLDER, LinkRequest, compare};
 use foveate_staging::StagedFolder;
 
-use super::simulate::ClipTerminal;
 use crate::args::{LinkArgs, warn_about_inputs};
 use crate::error::CliError;
+use crate::progress::RunTerminal;
 use crate::{interrupt, output};
 
 pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
         clock_hz: args.clock.map(|clock| clock.0),
     };
     warn_about_inputs(&args.inputs, &input);
-    let hooks = ClipTerminal::new(args.quiet)?;
+    let hooks = RunTerminal::new(args.quiet)?;
     let report = compare(&request, &interrupt::toolchain()?, &args.output, args.force, &hooks);
     hooks.progress.finish();
     let report = report?;

@@ -2,22 +2,20 @@
 //! `foveate simulate`: video or images in; arrays, tables, pictures and video out.
 
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{ClipPlan, ImageRelation, InputOptions, open, plan};
+use foveate_footage::{ClipPlan, ImageRelation, InputOptions, plan};
+use foveate_playback::ClipPlayer;
 use foveate_simulator::{
-    BandwidthComparison, BatchHooks, BatchProgress, BatchSummary, CameraTraffic, DataSetPaths,
-    RunHooks, RunOptions, RunProgress, RunSummary, SIMULATION_FOLDER, Simulation, run_batch,
+    BandwidthComparison, BatchSummary, CameraTraffic, DataSetPaths, RunOptions, RunSummary,
+    SIMULATION_FOLDER, Simulation, run_batch,
 };
 use foveate_staging::StagedFolder;
-use foveate_toolchain::Interrupt;
 
 use crate::args::{SimulateArgs, warn_about_inputs};
 use crate::error::CliError;
-use crate::progress::Progress as Shown;
-use crate::{interrupt, output};
+use crate::output;
+use crate::progress::RunTerminal;
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     run_job(&SimulationJob {
@@ -48,12 +46,12 @@ pub(super) fn run_job(job: &SimulationJob<'_>) -> Result<(), CliError> {
     StagedFolder::check(folder, SIMULATION_FOLDER, options.overwrite)?;
     let plan = plan(inputs, input)?;
     warn_about_inputs(inputs, input);
-    let mut hooks = ClipTerminal::new(*quiet)?;
+    let hooks = RunTerminal::new(*quiet)?;
     match plan {
         ClipPlan::One => {
-            let source = open(inputs, &config.camera, input)?;
-            let simulation = Simulation::new(config, source)?;
-            let summary = simulation.run(folder, options, &mut hooks);
+            let player = ClipPlayer::open(inputs, &config.camera, input)?;
+            let simulation = Simulation::new(config, player)?;
+            let summary = simulation.run(folder, options, &hooks);
             hooks.progress.finish();
             let summary = summary?;
             print_summary(job, &summary, || text(folder, &summary))?;
@@ -80,57 +78,6 @@ fn print_summary(
         (true, _) => output::print_json(summary),
         (false, true) => Ok(()),
         (false, false) => output::print_text(&text()),
-    }
-}
-
-/// The progress of the command on the terminal, and the flag that Ctrl-C sets.
-pub(super) struct ClipTerminal {
-    pub(super) progress: Shown,
-    interrupted: Arc<AtomicBool>,
-}
-
-impl ClipTerminal {
-    pub(super) fn new(quiet: bool) -> Result<Self, CliError> {
-        Ok(Self { progress: Shown::new(quiet), interrupted: interrupt::stop_flag()? })
-    }
-
-    /// Fails if there is a result that is not complete. The error sets the exit code.
-    pub(super) fn check_complete(
-        &self,
-        folder: &Path,
-        problem: Option<String>,
-    ) -> Result<(), CliError> {
-        let Some(problem) = problem else { return Ok(()) };
-        if self.interrupted.load(Ordering::Relaxed) {
-            return Err(CliError::Interrupted { path: folder.to_owned() });
-        }
-        let place = folder.display();
-        Err(CliError::Failed(format!("`{place}` is not complete: {problem}")))
-    }
-}
-
-impl RunHooks for ClipTerminal {
-    fn progress(&mut self, progress: RunProgress) {
-        self.progress.report_frames(progress.done, progress.total, "");
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
-    }
-
-    fn interrupt(&self) -> Interrupt {
-        interrupt::stop_request()
-    }
-}
-
-impl BatchHooks for ClipTerminal {
-    fn progress(&self, progress: BatchProgress) {
-        let clips = format!("{}/{} clips", progress.clips, progress.total_clips);
-        self.progress.report_frames(progress.frames, None, &clips);
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
     }
 }
 

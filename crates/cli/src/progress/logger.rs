@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::stage::{ProgressStage, lock_stage};
+use foveate_playback::ProgressStage;
+
+use super::lock_stage;
 use super::stage_text::log_line;
 use crate::notice;
 

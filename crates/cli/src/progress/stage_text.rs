@@ -3,10 +3,9 @@
 
 use std::time::{Duration, Instant};
 
+use foveate_playback::{ProgressStage, ProgressUnit, RemainingTime, StageAmount};
 use indicatif::{HumanCount, HumanDuration};
 use textwrap::core::display_width;
-
-use super::stage::{ProgressStage, RemainingTime, StageAmount, StageUnit};
 
 /// Returns the state of a command for a log; `None` until the command has reported a stage. `start`
 /// is the time at which the command began.
@@ -23,9 +22,9 @@ pub(super) fn log_line(stage: &ProgressStage, start: Instant, now: Instant) -> O
     let amount = all.map_or(done.to_string(), |all| format!("{done} of {all}"));
     let note = if what.is_empty() { String::new() } else { format!(" ({what})") };
     Some(match counted {
-        StageUnit::Uncounted => format!("{what}, {elapsed} so far"),
-        StageUnit::Steps => format!("{what}: {amount} {after}"),
-        StageUnit::Frames => format!("{amount} frames {after}{note}"),
+        ProgressUnit::Uncounted => format!("{what}, {elapsed} so far"),
+        ProgressUnit::Steps => format!("{what}: {amount} {after}"),
+        ProgressUnit::Frames => format!("{amount} frames {after}{note}"),
     })
 }
 
@@ -48,9 +47,9 @@ pub(super) fn terminal_line(
     let StageAmount { done, total: all } = stage.amount;
     let amount = all.map_or(done.to_string(), |all| format!("{done}/{all}"));
     let (before, unit, note) = match counted {
-        StageUnit::Uncounted => (stage.label.clone(), String::new(), ""),
-        StageUnit::Steps => (format!("{} {amount}", stage.label), amount.clone(), ""),
-        StageUnit::Frames => (format!("{amount} frames"), amount.clone(), &*stage.label),
+        ProgressUnit::Uncounted => (stage.label.clone(), String::new(), ""),
+        ProgressUnit::Steps => (format!("{} {amount}", stage.label), amount.clone(), ""),
+        ProgressUnit::Frames => (format!("{amount} frames"), amount.clone(), &*stage.label),
     };
     let details = |parts: &[Option<&String>]| -> String {
         let parts: Vec<&str> = parts.iter().flatten().map(|part| part.as_str()).collect();
@@ -85,10 +84,10 @@ fn truncated(text: &str, columns: usize) -> String {
 }
 
 /// Returns a rate per second, per minute or per hour: the first of these that is at least 1.
-fn rate_text(rate: f64, counted: StageUnit) -> String {
+fn rate_text(rate: f64, counted: ProgressUnit) -> String {
     let unit = match counted {
-        StageUnit::Uncounted | StageUnit::Steps => "",
-        StageUnit::Frames => " frames",
+        ProgressUnit::Uncounted | ProgressUnit::Steps => "",
+        ProgressUnit::Frames => " frames",
     };
     let (count, time) = match rate {
         rate if rate >= 1.0 => (rate, "s"),
@@ -106,21 +105,27 @@ fn rate_text(rate: f64, counted: StageUnit) -> String {
 
 #[cfg(test)]
 mod tests {
+    use foveate_playback::RunProgress;
+
     use super::*;
 
     const SECOND: Duration = Duration::from_secs(1);
 
     /// Returns a stage at 66 seconds after its start, when `first` was done.
     fn stage(
-        counted: StageUnit,
+        counted: ProgressUnit,
         what: &str,
         first: u64,
         amount: StageAmount,
     ) -> (ProgressStage, Instant) {
         let start = Instant::now();
         let mut stage = ProgressStage::new(start);
-        stage.enter(counted, what, StageAmount::new(first, amount.total), start);
-        stage.enter(counted, what, amount, start + 66 * SECOND);
+        let report = |done| {
+            let StageAmount { total, .. } = amount;
+            RunProgress { unit: counted, label: what.into(), done, total }
+        };
+        stage.enter(&report(first), start);
+        stage.enter(&report(amount.done), start + 66 * SECOND);
         (stage, start)
     }
 
@@ -134,22 +139,22 @@ mod tests {
             let (stage, start) = stage(counted, what, first, amount);
             log_line(&stage, start, start + 66 * SECOND).unwrap()
         };
-        let work = told(StageUnit::Uncounted, "compiling", 0, StageAmount::default());
+        let work = told(ProgressUnit::Uncounted, "compiling", 0, StageAmount::default());
         assert_eq!(work, "compiling, 66 seconds so far");
-        let none = told(StageUnit::Steps, "designs", 12, amount(12, 40));
+        let none = told(ProgressUnit::Steps, "designs", 12, amount(12, 40));
         assert_eq!(none, "designs: 12 of 40 after 66 seconds");
-        let some = told(StageUnit::Steps, "designs", 0, amount(12, 40));
+        let some = told(ProgressUnit::Steps, "designs", 0, amount(12, 40));
         assert_eq!(some, "designs: 12 of 40 after 66 seconds, 11/min, about 3 minutes left");
         assert_eq!(
-            told(StageUnit::Frames, "1/2 clips", 6, amount(12, 40)),
+            told(ProgressUnit::Frames, "1/2 clips", 6, amount(12, 40)),
             "12 of 40 frames after 66 seconds, 5.5 frames/min, about 5 minutes left (1/2 clips)"
         );
         assert_eq!(
-            told(StageUnit::Frames, "1/2 clips", 0, StageAmount::new(647, None)),
+            told(ProgressUnit::Frames, "1/2 clips", 0, StageAmount::new(647, None)),
             "647 frames after 66 seconds, 9.8 frames/s (1/2 clips)"
         );
-        assert_eq!(told(StageUnit::Frames, "", 0, amount(0, 0)), "0 frames after 66 seconds");
-        let most = told(StageUnit::Steps, "designs", 0, amount(12, u64::MAX));
+        assert_eq!(told(ProgressUnit::Frames, "", 0, amount(0, 0)), "0 frames after 66 seconds");
+        let most = told(ProgressUnit::Steps, "designs", 0, amount(12, u64::MAX));
         assert!(most.ends_with("after 66 seconds, 11/min, more than 7 days left"), "{most}");
         let start = Instant::now();
         assert_eq!(log_line(&ProgressStage::new(start), start, start), None);
@@ -161,7 +166,7 @@ mod tests {
             let (stage, start) = stage(counted, what, 0, amount);
             terminal_line(&stage, 66 * SECOND, start + 66 * SECOND, columns)
         };
-        let frames = |columns| told(StageUnit::Frames, "1/2 clips", amount(647, 1000), columns);
+        let frames = |columns| told(ProgressUnit::Frames, "1/2 clips", amount(647, 1000), columns);
         assert_eq!(frames(80), "647/1000 frames [66s, 9.8 frames/s, 36s left] 1/2 clips");
         assert_eq!(frames(54), "647/1000 frames [66s, 9.8 frames/s, 36s left]");
         assert_eq!(frames(44), "647/1000 frames [9.8 frames/s, 36s left]");
@@ -171,19 +176,22 @@ mod tests {
         assert_eq!(frames(10), "647/1000");
         assert_eq!(frames(5), "647/1");
         assert_eq!(frames(0), "");
-        let stream = |columns| told(StageUnit::Frames, "", StageAmount::new(647, None), columns);
+        let stream = |columns| told(ProgressUnit::Frames, "", StageAmount::new(647, None), columns);
         assert_eq!(stream(40), "647 frames [66s, 9.8 frames/s]");
         assert_eq!(stream(20), "647 [9.8 frames/s]");
-        let steps = |columns| told(StageUnit::Steps, "synthesizing", amount(12, 40), columns);
+        let steps = |columns| told(ProgressUnit::Steps, "synthesizing", amount(12, 40), columns);
         assert_eq!(steps(80), "synthesizing 12/40 [66s, 11/min, 3m left]");
         assert_eq!(steps(20), "12/40 [3m left]");
         let work = |columns| {
-            told(StageUnit::Uncounted, "placing and routing", StageAmount::default(), columns)
+            told(ProgressUnit::Uncounted, "placing and routing", StageAmount::default(), columns)
         };
         assert_eq!((&*work(40), &*work(19)), ("placing and routing [66s]", "placing and routing"));
         assert_eq!(work(7), "placing");
-        assert_eq!(told(StageUnit::Frames, "", amount(0, 0), 40), "0 frames [66s]");
-        assert_eq!(told(StageUnit::Frames, "", amount(1, 1), 40), "1/1 frames [66s, 55 frames/h]");
+        assert_eq!(told(ProgressUnit::Frames, "", amount(0, 0), 40), "0 frames [66s]");
+        assert_eq!(
+            told(ProgressUnit::Frames, "", amount(1, 1), 40),
+            "1/1 frames [66s, 55 frames/h]"
+        );
     }
 
     #[test]
@@ -199,9 +207,9 @@ mod tests {
             (1234.5, "1,235 frames/s"),
             (0.0, "0.0 frames/h"),
         ] {
-            assert_eq!(rate_text(rate, StageUnit::Frames), told);
+            assert_eq!(rate_text(rate, ProgressUnit::Frames), told);
         }
-        assert_eq!(rate_text(2.0, StageUnit::Steps), "2.0/s");
-        assert_eq!(rate_text(f64::INFINITY, StageUnit::Steps), "18,446,744,073,709,551,615/s");
+        assert_eq!(rate_text(2.0, ProgressUnit::Steps), "2.0/s");
+        assert_eq!(rate_text(f64::INFINITY, ProgressUnit::Steps), "18,446,744,073,709,551,615/s");
     }
 }

@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 type Imports = BTreeMap<String, BTreeSet<String>>;
 
@@ -88,4 +88,25 @@ fn the_crates_of_the_camera_cannot_see_hardware() {
         reached.extend(more);
     }
     assert!(!reached.contains("design"), "{reached:?}");
+}
+
+/// Returns the files of a folder of sources, with those of its folders.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = entries.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] });
+    files.collect()
+}
+
+/// Frames are taken from a source in one place, `playback`, so that every command reads ahead,
+/// gives memory back, resets cameras and stops in the same way.
+#[test]
+fn only_the_playback_takes_frames_from_a_source() {
+    let python = crates().join("../python");
+    let folders = manifests().into_keys().map(|name| crates().join(name)).chain([python]);
+    let own = ["footage", "playback"].map(|name| crates().join(name).join("src"));
+    let files = folders.map(|folder| folder.join("src")).filter(|folder| !own.contains(folder));
+    for file in files.flat_map(|folder| sources(&folder)) {
+        let text = fs::read_to_string(&file).unwrap_or_default();
+        assert!(!text.contains(".next_frame()"), "{} takes frames itself", file.display());
+    }
 }

@@ -9,6 +9,7 @@ use foveate_design::{
     SerialConfig,
 };
 use foveate_estimate::{FpgaDevice, FrameRate};
+use foveate_playback::RunHooks;
 
 use super::FitRequest;
 use super::constraints::{ConstraintCheck, all_met, total_excess};
@@ -16,9 +17,9 @@ use super::network::CostObjective;
 use super::plan::{expected_cost, max_clocks, slower_designs};
 use super::rough_cost::rough_cost;
 use super::search::{CameraSearch, ExaminedCamera};
+use crate::ExploreError;
 use crate::cost::{DesignArea, SynthesisResult};
 use crate::row::{bytes_per_frame, count_to_f64};
-use crate::{ExploreError, ExploreHooks};
 
 /// The number of nearest cameras that are built if no camera meets the limits.
 const MAX_NEAREST_CAMERAS: usize = 6;
@@ -90,7 +91,7 @@ pub(super) fn build_designs(
     search: &CameraSearch<'_>,
     request: &FitRequest<'_>,
     memory: Option<LaneMemoryKind>,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<SynthesizedDesigns, ExploreError> {
     let holding: Vec<&ExaminedCamera> = search.all().filter(|look| look.meets_limits()).collect();
     let looks = match request.network.map(|goal| goal.cheapest) {
@@ -141,7 +142,7 @@ pub(super) fn build_designs(
 fn add_slower_designs(
     candidates: &mut Vec<SynthesizedDesign>,
     request: &FitRequest<'_>,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<(), ExploreError> {
     let Some(min_fps) = request.constraints.min_fps else { return Ok(()) };
     let most = request.max_designs.min(candidates.len() + MAX_SLOWER_DESIGNS);
@@ -240,7 +241,7 @@ fn synthesize_in_batches(
     bounds: BuildBounds,
     most: usize,
     request: &FitRequest<'_>,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<(Vec<SynthesizedDesign>, usize), ExploreError> {
     let mut designs: Vec<(&ExaminedCamera, Design)> = Vec::new();
     for look in looks {
@@ -279,7 +280,7 @@ fn sort_by_rough_cost(designs: &mut Vec<(&ExaminedCamera, Design)>) {
 fn synthesize(
     designs: &[(&ExaminedCamera, Design)],
     request: &FitRequest<'_>,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<Vec<SynthesizedDesign>, ExploreError> {
     let designs_alone = designs.iter().map(|(_, design)| design);
     let found = request.synthesizer.synthesize_designs(designs_alone, hooks)?.into_results()?;

@@ -21,11 +21,9 @@ mod agreement;
 mod build;
 mod constraints;
 mod descent;
-mod halves;
 mod network;
 mod plan;
 mod reasons;
-mod receiver;
 mod report;
 mod rough_cost;
 mod search;
@@ -35,13 +33,14 @@ use std::path::PathBuf;
 
 use foveate_design::{DesignConfig, HardwareConfig, OrganizationConfig};
 use foveate_footage::InputOptions;
+use foveate_playback::{ClipHalves, RunHooks, RunMonitor};
 
+use crate::ExploreError;
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
-use crate::{ExploreError, ExploreHooks};
+use crate::progress::reading_progress;
 use build::build_designs;
 use descent::{Descent, KnownAgreements};
-use halves::{ClipHalves, count_halves};
 use network::{ClipPart, NetworkAgreement};
 use search::CameraSearch;
 
@@ -49,6 +48,9 @@ pub use agreement::AgreementEstimate;
 pub use constraints::{ConstraintCheck, Constraints};
 pub use network::{CostObjective, FittedNetwork, NetworkGoal};
 pub use report::{ActivityTarget, FitResult, FittedDesign};
+
+/// The least number of frames of a clip: each half needs a first frame, and one that can change.
+const MIN_FRAMES: u64 = 4;
 
 /// The request of a fit.
 #[derive(Clone, Debug)]
@@ -84,7 +86,7 @@ pub struct FitRequest<'a> {
 /// # Errors
 /// Fails if an input cannot be read or is too short to be halved, if Yosys is missing or fails, or
 /// if `hooks` cancels.
-pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResult, ExploreError> {
+pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, ExploreError> {
     // The hardware settings of the task do not affect what the camera computes, so they are
     // dropped. `thresholds` and `sync` stay, because every candidate design takes them over;
     // `memory` goes to `build`.
@@ -95,20 +97,14 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn ExploreHooks) -> Result<FitResu
     };
     let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
     let task = DesignConfig { hardware, ..request.task.clone() };
-    let input = InputOptions { numbered: !request.boxes.is_empty(), ..request.input.clone() };
-    let request = &FitRequest { task: &task, input: &input, ..request.clone() };
-    let (lengths, boxes, (task, target)) = {
-        let footage =
-            ExplorationFootage::new(request.inputs, request.input, &request.task.camera, hooks)?;
-        let footage = footage.with_boxes(request.boxes)?;
-        let least =
-            if request.network.is_some() { ClipPart::MIN_FRAMES } else { halves::MIN_FRAMES };
-        let lengths = count_halves(&footage, least, hooks)?;
-        let aimed = target::task_for_target(request, &footage, &lengths)?;
-        (lengths, footage.boxes, aimed)
-    };
-    let mut footage = ExplorationFootage::new(request.inputs, request.input, &task, hooks)?;
-    footage.boxes = boxes;
+    let request = &FitRequest { task: &task, ..request.clone() };
+    let (inputs, camera) = ((request.inputs, request.boxes), &request.task.camera);
+    let footage = ExplorationFootage::new(inputs, request.input, camera, hooks)?;
+    let least = if request.network.is_some() { ClipPart::MIN_FRAMES } else { MIN_FRAMES };
+    let monitor = RunMonitor::of_stage(hooks, &reading_progress);
+    let lengths = ClipHalves::count(&footage.clips, least, &monitor)?;
+    let (task, target) = target::task_for_target(request, &footage, &lengths)?;
+    let footage = footage.with_ideal(&task);
     let mut search = CameraSearch::new(request.constraints, &footage, &lengths, &task)?;
     let jury =
         request.network.map(|goal| NetworkAgreement::new(goal, &footage, &lengths, search.task()));

@@ -14,16 +14,15 @@ use foveate_inference::{
     ConfidenceIntervals, FrameOutcome, InferenceError, NOISE_LEVELS, NoiseAgreement,
     NoiseComparison, OutputAgreement, VisionNetwork, VisionOptions, frame_format_of, has_class_map,
 };
+use foveate_playback::{ClipHalves, FrameDepths, RunMonitor};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::agreement::AgreementEstimate;
-use super::halves::ClipHalves;
-use super::receiver::ClipReceiver;
-use crate::depths::FrameDepths;
+use crate::ExploreError;
 use crate::footage::ExplorationFootage;
+use crate::progress::network_progress;
 use crate::row::count_to_f64;
-use crate::{ExploreError, ExploreProgress};
 
 /// The goal of a fit with a network: the network must agree, behind the camera, with its outputs
 /// for whole frames.
@@ -139,15 +138,18 @@ impl<'a> NetworkAgreement<'a> {
         let most = (goal.frames / clips).max(1);
         let mut samples = [const { Vec::new() }; 3];
         let mut noise = NoiseComparison::new(&NOISE_LEVELS, camera.pixel_max());
+        let stage = |_| network_progress(0);
+        let monitor = RunMonitor::of_stage(footage.hooks, &stage);
+        monitor.report();
         for (clip, &frames) in halves.frames.iter().enumerate() {
             let parts = [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut];
             let wanted = parts.map(|part| (part, spread_evenly(part.frames(frames), most)));
             let mut looking = witness.start_run(frame_format_of(&camera));
-            let mut source = footage.open(&footage.subjects[clip])?;
+            let mut player = footage.clips.open(clip)?.limited_to(frames.1);
             let mut found = [const { Vec::new() }; 3];
-            for number in 0..frames.1 {
-                footage.report_progress(ExploreProgress::RunningNetwork { cameras: 0 })?;
-                let Some(current) = source.next_frame()? else { break };
+            for current in monitor.watch(&mut player) {
+                let current = current?;
+                let number = current.number;
                 for (found, (part, wanted)) in found.iter_mut().zip(&wanted) {
                     if wanted.contains(&number) {
                         let whole = looking.outcome(current.frame.borrowed_pixels());
@@ -165,7 +167,6 @@ impl<'a> NetworkAgreement<'a> {
                         });
                     }
                 }
-                source.recycle(current);
             }
             samples.iter_mut().zip(found).for_each(|(part, found)| part.push(found));
         }
@@ -180,22 +181,21 @@ impl<'a> NetworkAgreement<'a> {
         asked: usize,
     ) -> Result<Vec<f64>, ExploreError> {
         let (mut values, mut frames) = (vec![0; cameras.len()], 0);
-        for (subject, &(half, _)) in self.footage.subjects.iter().zip(&self.halves.frames) {
+        let stage = |_| network_progress(asked);
+        let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
+        for (clip, &(half, _)) in self.halves.frames.iter().enumerate() {
             let mut engines: Vec<Engine> = cameras.iter().map(Engine::new).collect();
-            let mut source = self.footage.open(subject)?;
-            for _ in 0..half {
-                self.footage.report_progress(ExploreProgress::RunningNetwork { cameras: asked })?;
-                let Some(current) = source.next_frame()? else { break };
+            let mut player = self.footage.clips.open(clip)?.limited_to(half);
+            for current in monitor.watch(&mut player) {
+                let current = current?;
                 let depths = cameras.iter().map(|camera| camera.pixel_bits());
-                let (shown, kind) =
-                    (FrameDepths::from_frame(&current.frame, depths)?, source.kind());
+                let shown = FrameDepths::from_frame(&current, depths)?;
                 engines.par_iter_mut().zip(&mut values).try_for_each(|(engine, values)| {
-                    shown.step_engine(engine, kind)?;
+                    shown.show_to(engine)?;
                     *values += engine.camera().values_sent_per_frame(&engine.outcome().actions);
                     Ok::<_, ExploreError>(())
                 })?;
                 frames += 1;
-                source.recycle(current);
             }
         }
         let bytes = |(camera, values): (&Camera, &u64)| {
@@ -243,12 +243,21 @@ impl<'a> NetworkAgreement<'a> {
         let mut frames: Vec<OutputAgreement> =
             samples.iter().flatten().map(|sample| sample.best_agreement.clone()).collect();
         let mut looked = 0;
+        let stage = |_| network_progress(asked);
+        let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
         for (clip, own) in samples.iter().enumerate() {
+            let Some(last) = own.last() else { continue };
             let mut looking = self.witness.start_run(frame_format_of(camera));
-            let mut receiver = ClipReceiver::new(self.footage, clip, camera)?;
-            for sample in own {
-                let Some(screen) = receiver.screen_after(sample.number, asked)? else { break };
-                frames[looked] = self.witness.compare(&sample.findings, &looking.outcome(screen));
+            let mut engine = Engine::new(camera);
+            let mut player = self.footage.clips.open(clip)?.limited_to(last.number + 1);
+            let mut samples = own.iter().peekable();
+            for current in monitor.watch(&mut player) {
+                let current = current?;
+                FrameDepths::from_frame(&current, [camera.pixel_bits()])?.show_to(&mut engine)?;
+                let sample = samples.next_if(|sample| sample.number == current.number);
+                let Some(sample) = sample else { continue };
+                let screen = looking.outcome(engine.rendered());
+                frames[looked] = self.witness.compare(&sample.findings, &screen);
                 looked += 1;
                 let share = frames.iter().sum::<OutputAgreement>().share();
                 if least.is_some_and(|least| share < least) {

@@ -4,11 +4,11 @@
 use foveate_design::DesignConfig;
 use foveate_estimate::FrameRate;
 use foveate_fidelity::FidelityFigures;
+use foveate_playback::ClipHalves;
 use serde::Serialize;
 
 use super::build::SynthesizedDesigns;
 use super::constraints::{ConstraintCheck, all_met};
-use super::halves::ClipHalves;
 use super::network::FittedNetwork;
 use super::search::CameraSearch;
 use super::{FitRequest, frames_of_halves, reasons};

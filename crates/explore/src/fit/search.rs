@@ -8,13 +8,13 @@ use foveate_camera::{
     ScoreUnit, SpatialConfig,
 };
 use foveate_fidelity::FidelityFigures;
+use foveate_playback::ClipHalves;
 
 use super::constraints::{ConstraintCheck, Constraints, all_met, total_excess};
-use super::halves::ClipHalves;
 use crate::ExploreError;
-use crate::ExploreProgress;
 use crate::footage::ExplorationFootage;
 use crate::objects::ObjectCounts;
+use crate::progress::measuring_progress;
 use crate::row::sum_tallies;
 
 /// The sides of regions that are tried besides the task's.
@@ -214,10 +214,10 @@ impl<'a> CameraSearch<'a> {
         let camera = look.config.validate()?;
         let mut measured = Vec::new();
         for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
-            let tell = || ExploreProgress::Measuring { done_pairs: 0, all: 1 };
+            let stage = |_| measuring_progress(0, 1);
             let cameras = std::slice::from_ref(&camera);
             let mut parts =
-                self.footage.measure_parts(clip, cameras, &[0..half, half..all], &tell)?;
+                self.footage.measure_parts(clip, cameras, &[0..half, half..all], &stage)?;
             measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
         }
         let all: Vec<_> = measured.iter().collect();

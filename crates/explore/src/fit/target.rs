@@ -7,9 +7,9 @@
 
 use foveate_camera::{CameraConfig, Decimal, Neighborhood};
 use foveate_design::DesignConfig;
+use foveate_playback::ClipHalves;
 
 use super::FitRequest;
-use super::halves::ClipHalves;
 use super::report::ActivityTarget;
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
@@ -114,20 +114,11 @@ mod tests {
     use std::path::PathBuf;
 
     use foveate_footage::InputOptions;
+    use foveate_playback::SilentHooks;
     use foveate_toolchain::{Cache, Toolchain};
 
     use super::*;
-    use crate::{Constraints, ExploreHooks, ExploreProgress, Synthesizer};
-
-    struct SilentHooks;
-
-    impl ExploreHooks for SilentHooks {
-        fn progress(&self, _: ExploreProgress) {}
-
-        fn cancelled(&self) -> bool {
-            false
-        }
-    }
+    use crate::{Constraints, Synthesizer};
 
     #[test]
     fn thresholds_meet_the_wanted_share() {
@@ -148,7 +139,7 @@ mod tests {
                 max_designs: 1,
             };
             let footage = ExplorationFootage::new(
-                request.inputs,
+                (request.inputs, &[]),
                 request.input,
                 &request.task.camera,
                 &SilentHooks,

@@ -4,15 +4,15 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    DesignSpace, Exploration, ExploreError, ExploreHooks, ExploreProgress, ExploreRequest,
-    Synthesizer, explore,
+    DesignSpace, Exploration, ExploreError, ExploreRequest, Synthesizer, explore,
 };
 use foveate_footage::InputOptions;
+use foveate_playback::PlaybackError;
+use foveate_playback::testing::RecordingHooks;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -22,33 +22,11 @@ pub(crate) const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nfra
      temporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [8, 6, 3]\nregion.size = [16]\n\
      temporal.reference = ['previous']\ntemporal.min_count = [5, 10]\nhardware.organization = ['serial']\n";
 
-/// Counts frames, and cancels after some of them.
-pub(crate) struct CountingHooks {
-    pub(crate) frames: AtomicUsize,
-    most: usize,
-}
-
-impl CountingHooks {
-    pub(crate) fn new(most: usize) -> Self {
-        Self { frames: AtomicUsize::new(0), most }
-    }
-}
-
-impl ExploreHooks for CountingHooks {
-    fn progress(&self, _: ExploreProgress) {
-        self.frames.fetch_add(1, Ordering::Relaxed);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.frames.load(Ordering::Relaxed) > self.most
-    }
-}
-
 pub(crate) fn run(
     text: &str,
     inputs: &[&str],
     output: &Path,
-    hooks: &CountingHooks,
+    hooks: &RecordingHooks,
 ) -> Result<Exploration, ExploreError> {
     let space = DesignSpace::from_toml(text).unwrap();
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
@@ -69,8 +47,7 @@ fn every_figure_is_in_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let found =
-        run(SPACE, &["scene:street", "scene:shake"], &output, &CountingHooks::new(usize::MAX))
-            .unwrap();
+        run(SPACE, &["scene:street", "scene:shake"], &output, &RecordingHooks::new()).unwrap();
     // The start also has 8 bits and a count of 5, and a serial array computes the same as the
     // start.
     assert_eq!(found.rows.len(), 7);
@@ -121,7 +98,7 @@ fn a_point_has_the_clock_of_its_netlist() {
         let tools = &synthesizer;
         let request =
             ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
-        let found = explore(&request, &output, &CountingHooks::new(usize::MAX)).unwrap();
+        let found = explore(&request, &output, &RecordingHooks::new()).unwrap();
         let points = lines(&output.join("points.csv"));
         let at = points[0].split(',').position(|column| column == "clock_mhz").unwrap();
         for (row, line) in found.rows.iter().zip(&points[1..]) {
@@ -158,8 +135,7 @@ fn a_core_on_axi_is_counted_as_a_whole() {
     let tools = &synthesizer;
     let request =
         ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
-    let found =
-        explore(&request, &folder.path().join("out"), &CountingHooks::new(usize::MAX)).unwrap();
+    let found = explore(&request, &folder.path().join("out"), &RecordingHooks::new()).unwrap();
     let design = found.rows[0].config.validate().unwrap();
     let job = EstimateJob::for_design(&design, Top::Rcm);
     let report = estimate(&tools.toolchain, &tools.cache, &job).unwrap();
@@ -189,7 +165,7 @@ fn strings_are_plain_in_every_table() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let space = "[design]\nframe.width = 48\nframe.height = 32\n[vary]\nhardware.organization = ['pipelined', 'serial']\n";
-    let found = run(space, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
+    let found = run(space, &["scene:street"], &output, &RecordingHooks::new()).unwrap();
     let expected = ["pipelined", "serial"];
     for table in ["points.csv", "pareto.csv"] {
         let lines = lines(&output.join(table));
@@ -209,15 +185,15 @@ fn strings_are_plain_in_every_table() {
 fn a_rerun_does_only_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let whole = run(SPACE, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
-    let again = CountingHooks::new(0);
+    let whole = run(SPACE, &["scene:street"], &output, &RecordingHooks::new()).unwrap();
+    let again = RecordingHooks::cancelling_after(1);
     let same = run(SPACE, &["scene:street"], &output, &again).unwrap();
-    assert_eq!(again.frames.load(Ordering::Relaxed), 0);
+    assert_eq!(again.reports().len(), 0);
     assert_eq!(serde_json::to_string(&same).unwrap(), serde_json::to_string(&whole).unwrap());
     let larger = SPACE.replace("[8, 6, 3]", "[8, 7, 6, 3]");
-    let more = CountingHooks::new(usize::MAX);
+    let more = RecordingHooks::new();
     assert_eq!(run(&larger, &["scene:street"], &output, &more).unwrap().rows.len(), 8);
-    assert_eq!(more.frames.load(Ordering::Relaxed), 12);
+    assert_eq!(more.reports().len(), 12);
 }
 
 #[test]
@@ -225,16 +201,19 @@ fn an_interrupted_run_keeps_what_is_finished() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     // The run is stopped after all frames of the first clip and some of the second.
-    let stopped = run(SPACE, &["scene:street", "scene:fade"], &output, &CountingHooks::new(15));
-    assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
+    let stopped =
+        run(SPACE, &["scene:street", "scene:fade"], &output, &RecordingHooks::cancelling_after(16));
+    assert!(
+        matches!(stopped, Err(ExploreError::Playback(PlaybackError::Interrupted))),
+        "{stopped:?}"
+    );
     assert_eq!(fs::read_dir(output.join("measured")).unwrap().count(), 6);
-    let rest = CountingHooks::new(usize::MAX);
+    let rest = RecordingHooks::new();
     let whole = run(SPACE, &["scene:street", "scene:fade"], &output, &rest).unwrap();
-    assert_eq!((whole.rows.len(), rest.frames.load(Ordering::Relaxed)), (7, 12));
+    assert_eq!((whole.rows.len(), rest.reports().len()), (7, 12));
     let fresh = folder.path().join("fresh");
     let at_once =
-        run(SPACE, &["scene:street", "scene:fade"], &fresh, &CountingHooks::new(usize::MAX))
-            .unwrap();
+        run(SPACE, &["scene:street", "scene:fade"], &fresh, &RecordingHooks::new()).unwrap();
     let figures =
         |found: &Exploration| found.rows.iter().map(|row| row.figures.clone()).collect::<Vec<_>>();
     assert_eq!(figures(&whole), figures(&at_once));
@@ -244,11 +223,11 @@ fn an_interrupted_run_keeps_what_is_finished() {
 fn a_damaged_result_is_done_again() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let whole = run(SPACE, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
+    let whole = run(SPACE, &["scene:street"], &output, &RecordingHooks::new()).unwrap();
     for file in fs::read_dir(output.join("measured")).unwrap() {
         fs::write(file.unwrap().path(), "{").unwrap();
     }
-    let again = run(SPACE, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
+    let again = run(SPACE, &["scene:street"], &output, &RecordingHooks::new()).unwrap();
     assert_eq!(whole.rows[3].figures, again.rows[3].figures);
 }
 
@@ -258,7 +237,7 @@ fn what_cannot_be_explored_is_refused_before_work() {
     let taken = folder.path().join("taken");
     fs::create_dir(&taken).unwrap();
     fs::write(taken.join("mine.txt"), "mine").unwrap();
-    let never = CountingHooks::new(0);
+    let never = RecordingHooks::cancelling_after(1);
     let occupied = run(SPACE, &["scene:street"], &taken, &never).unwrap_err();
     assert!(matches!(occupied, ExploreError::OtherFolder { .. }), "{occupied}");
     let none = "[vary]\nregion.size = [1]\n";
@@ -275,7 +254,7 @@ fn a_camera_of_any_depth_sees_about_as_much() {
     let folder = tempfile::tempdir().unwrap();
     let space = "[design]\nframe.width = 128\nframe.height = 96\ntemporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [16, 12, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1]\n";
     let output = folder.path().join("out");
-    let found = run(space, &["scene:street"], &output, &CountingHooks::new(usize::MAX)).unwrap();
+    let found = run(space, &["scene:street"], &output, &RecordingHooks::new()).unwrap();
     let active =
         |bits: &str| found.rows.iter().find(|row| row.settings[0] == bits).unwrap().figures.active;
     for row in &found.rows {

@@ -8,39 +8,21 @@ use foveate_emit::Top;
 use foveate_engine::Engine;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    ConstraintCheck, Constraints, CostObjective, ExploreError, ExploreHooks, ExploreProgress,
-    FitRequest, FitResult, NetworkGoal, Synthesizer, fit,
+    ConstraintCheck, Constraints, CostObjective, ExploreError, FitRequest, FitResult, NetworkGoal,
+    Synthesizer, fit,
 };
 use foveate_footage::{InputOptions, open};
 use foveate_inference::{Framing, PixelMapping, VisionOptions};
+use foveate_playback::testing::RecordingHooks;
+use foveate_playback::{InputError, PlaybackError, RunHooks, SilentHooks};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
-
-struct QuietHooks;
-
-impl ExploreHooks for QuietHooks {
-    fn progress(&self, _: ExploreProgress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
-
-struct CancelledHooks;
-
-impl ExploreHooks for CancelledHooks {
-    fn progress(&self, _: ExploreProgress) {}
-
-    fn cancelled(&self) -> bool {
-        true
-    }
-}
 
 fn run(
     frames: u32,
     constraints: &Constraints,
     most: usize,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<FitResult, ExploreError> {
     run_with(&[], frames, constraints, Some(1_000_000), most, hooks)
 }
@@ -51,7 +33,7 @@ fn run_with(
     constraints: &Constraints,
     clock_hz: Option<u64>,
     most: usize,
-    hooks: &dyn ExploreHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<FitResult, ExploreError> {
     let task = "[frame]\nwidth = 32\nheight = 24\n[temporal]\nreference = \"last-sent\"\n";
     fit(
@@ -108,7 +90,7 @@ fn fit_to_denoiser(
         },
         max_designs: 1,
     };
-    fit(&request, &QuietHooks).unwrap()
+    fit(&request, &SilentHooks).unwrap()
 }
 
 /// The denoiser's outputs behind the camera must be near those of whole frames, with as few bytes
@@ -183,7 +165,7 @@ fn the_design_holds_what_was_asked_and_is_one() {
         max_lut: Some(200),
         ..Constraints::default()
     };
-    let found = run(8, &constraints, 2, &QuietHooks).unwrap();
+    let found = run(8, &constraints, 2, &SilentHooks).unwrap();
     assert_eq!(found.frames, (4, 4));
     assert!(found.feasible && found.binding.is_empty(), "{:?}", found.design.fitted_held);
     let design = &found.design;
@@ -209,7 +191,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     }
     let min_fps = 2000.0;
     let constraints = Constraints { min_fps: Some(min_fps), ..Constraints::default() };
-    let found = run_with(&[], 8, &constraints, None, 1, &QuietHooks).unwrap();
+    let found = run_with(&[], 8, &constraints, None, 1, &SilentHooks).unwrap();
     let design = &found.design;
     let chosen = design.config.validate().unwrap();
     let tools = (Toolchain::system(), Cache::from_env().unwrap());
@@ -223,7 +205,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     assert_eq!(design.speed.unwrap().clock_mhz, clock.mhz);
 
     let impossible = Constraints { min_fps: Some(1e8), ..Constraints::default() };
-    let found = run_with(&[], 8, &impossible, None, 1, &QuietHooks).unwrap();
+    let found = run_with(&[], 8, &impossible, None, 1, &SilentHooks).unwrap();
     assert!(!found.feasible && found.binding == ["min-fps"], "{:?}", found.binding);
 }
 
@@ -238,7 +220,7 @@ fn where_nothing_holds_it_says_what_binds() {
         max_lut: Some(1),
         ..Constraints::default()
     };
-    let found = run(8, &constraints, 1, &QuietHooks).unwrap();
+    let found = run(8, &constraints, 1, &SilentHooks).unwrap();
     assert!(!found.feasible);
     assert_eq!(found.binding, ["max-lut"]);
     let broken: Vec<_> = found.design.fitted_held.iter().filter(|held| !held.holds).collect();
@@ -247,10 +229,15 @@ fn where_nothing_holds_it_says_what_binds() {
 
 #[test]
 fn a_clip_must_have_halves_and_a_run_can_be_stopped() {
-    let short = run(3, &Constraints::default(), 1, &QuietHooks).unwrap_err();
-    assert!(matches!(short, ExploreError::TooFewFrames { frames: 3, .. }), "{short}");
-    let stopped = run(8, &Constraints::default(), 1, &CancelledHooks).unwrap_err();
-    assert!(matches!(stopped, ExploreError::Cancelled), "{stopped}");
+    let short = run(3, &Constraints::default(), 1, &SilentHooks).unwrap_err();
+    let ExploreError::Playback(short) = short else { panic!("{short}") };
+    assert!(
+        matches!(short.as_input(), Some(InputError::TooFewFrames { frames: 3, .. })),
+        "{short}"
+    );
+    let stopped =
+        run(8, &Constraints::default(), 1, &RecordingHooks::cancelling_after(0)).unwrap_err();
+    assert!(matches!(stopped, ExploreError::Playback(PlaybackError::Interrupted)), "{stopped}");
 }
 
 /// Two objects in every frame: squares of 8 pixels in the lower corners, which are sometimes sent.
@@ -295,7 +282,7 @@ fn objects_are_counted_and_bind_where_they_are_lost() {
         std::fs::write(&boxes[0], text).unwrap();
         let (max_flips, min_recall) = (Some(0.0), Some(share));
         let constraints = Constraints { max_flips, min_recall, ..Constraints::default() };
-        run_with(&boxes, 8, &constraints, Some(1_000_000), 1, &QuietHooks)
+        run_with(&boxes, 8, &constraints, Some(1_000_000), 1, &SilentHooks)
     };
     let found = fitted(rows(1..=8), 0.01).unwrap();
     let recall = |held: &[ConstraintCheck]| {

@@ -4,14 +4,15 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 use foveate_explore::{
     DesignSpace, ExploreError, ExploreRequest, WorkUnit, measure_unit, plan_units,
 };
 use foveate_footage::InputOptions;
+use foveate_playback::PlaybackError;
+use foveate_playback::testing::RecordingHooks;
 
-use crate::explore::{CountingHooks, SPACE, run};
+use crate::explore::{SPACE, run};
 
 const CLIPS: [&str; 2] = ["scene:street", "scene:shake"];
 
@@ -33,10 +34,8 @@ fn with_request<T>(space: &str, inputs: &[&str], then: impl FnOnce(&ExploreReque
 }
 
 fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<WorkUnit> {
-    with_request(space, inputs, |request| {
-        plan_units(request, output, &CountingHooks::new(usize::MAX))
-    })
-    .unwrap()
+    with_request(space, inputs, |request| plan_units(request, output, &RecordingHooks::new()))
+        .unwrap()
 }
 
 fn measure_only(
@@ -44,7 +43,7 @@ fn measure_only(
     inputs: &[&str],
     unit: &str,
     output: &Path,
-    watch: &CountingHooks,
+    watch: &RecordingHooks,
 ) -> Result<WorkUnit, ExploreError> {
     with_request(space, inputs, |request| measure_unit(request, unit, output, watch))
 }
@@ -87,7 +86,7 @@ fn a_plan_has_every_clip_and_design_once_and_writes_nothing() {
 fn units_in_any_order_are_the_whole_run_byte_for_byte() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, apart) = (folder.path().join("whole"), folder.path().join("apart"));
-    let never_ends = || CountingHooks::new(usize::MAX);
+    let never_ends = || RecordingHooks::new();
     run(&large_space(), &CLIPS, &whole, &never_ends()).unwrap();
     for unit in units(&large_space(), &CLIPS, &apart).iter().rev() {
         let inputs: Vec<&str> = unit.inputs.iter().map(String::as_str).collect();
@@ -100,7 +99,7 @@ fn units_in_any_order_are_the_whole_run_byte_for_byte() {
     }
     let collecting = never_ends();
     run(&large_space(), &CLIPS, &apart, &collecting).unwrap();
-    assert_eq!(collecting.frames.load(Ordering::Relaxed), 0, "nothing is measured again");
+    assert_eq!(collecting.reports().len(), 0, "nothing is measured again");
     for below in ["", "measured", "designs"] {
         let (whole, apart) = (files(&whole.join(below)), files(&apart.join(below)));
         assert!(whole.len() > 5 && whole == apart, "{below}");
@@ -113,18 +112,16 @@ fn a_unit_is_done_by_many_at_once_and_again() {
     let output = folder.path().join("out");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
     std::thread::scope(|scope| {
-        let work = || {
-            measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(usize::MAX))
-                .unwrap()
-        };
+        let work =
+            || measure_only(SPACE, &CLIPS, &unit.name, &output, &RecordingHooks::new()).unwrap();
         let all: Vec<_> = (0..8).map(|_| scope.spawn(work)).collect();
         all.into_iter().for_each(|one| drop(one.join().unwrap()));
     });
     let measured = files(&output.join("measured"));
     assert_eq!((measured.len(), files(&output.join("units")).len()), (unit.combinations.len(), 1));
-    let again = CountingHooks::new(0);
+    let again = RecordingHooks::cancelling_after(1);
     measure_only(SPACE, &CLIPS, &unit.name, &output, &again).unwrap();
-    assert_eq!(again.frames.load(Ordering::Relaxed), 0);
+    assert_eq!(again.reports().len(), 0);
     assert_eq!(files(&output.join("measured")), measured);
 }
 
@@ -133,8 +130,12 @@ fn a_stopped_unit_is_not_done() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
-    let stopped = measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(3));
-    assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
+    let stopped =
+        measure_only(SPACE, &CLIPS, &unit.name, &output, &RecordingHooks::cancelling_after(4));
+    assert!(
+        matches!(stopped, Err(ExploreError::Playback(PlaybackError::Interrupted))),
+        "{stopped:?}"
+    );
     assert!(files(&output.join("measured")).is_empty() && !output.join("units").exists());
 }
 
@@ -153,7 +154,8 @@ fn a_unit_of_another_plan_is_refused() {
         [(other.as_str(), &unit.name), (&other, &line), (SPACE, &beyond), (SPACE, &"{}".to_owned())]
     {
         let refused =
-            measure_only(space, &CLIPS, which, &output, &CountingHooks::new(0)).unwrap_err();
+            measure_only(space, &CLIPS, which, &output, &RecordingHooks::cancelling_after(1))
+                .unwrap_err();
         assert!(matches!(refused, ExploreError::NoUnit { .. }), "{refused}");
         assert!(refused.to_string().contains("plan again"), "{refused}");
     }
@@ -172,9 +174,11 @@ fn a_folder_of_something_else_is_refused_also_by_a_plan() {
     fs::create_dir(output.join("units")).unwrap();
     assert_eq!(units(SPACE, &CLIPS, &output)[0], unit);
     fs::write(output.join("notes.txt"), "mine").unwrap();
-    let planned =
-        with_request(SPACE, &CLIPS, |request| plan_units(request, &output, &CountingHooks::new(0)));
-    let done = measure_only(SPACE, &CLIPS, &unit.name, &output, &CountingHooks::new(0));
+    let planned = with_request(SPACE, &CLIPS, |request| {
+        plan_units(request, &output, &RecordingHooks::cancelling_after(1))
+    });
+    let done =
+        measure_only(SPACE, &CLIPS, &unit.name, &output, &RecordingHooks::cancelling_after(1));
     for error in [planned.unwrap_err(), done.unwrap_err()] {
         assert!(matches!(error, ExploreError::OtherFolder { .. }), "{error}");
     }

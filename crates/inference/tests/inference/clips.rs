@@ -3,9 +3,9 @@
 //! of all clips.
 
 use crate::common::{RunSetup, TableRow, is_counted, is_near, number, rows, text};
-use foveate_footage::{RunHooks, RunProgress};
 use foveate_inference::{Computation, TuningGoal};
 use foveate_network::ExecutionMode;
+use foveate_playback::testing::RecordingHooks;
 
 /// Returns the bytes of an array after its header.
 fn values(folder: &std::path::Path) -> Vec<u8> {
@@ -99,23 +99,6 @@ fn limits_of_some_clips_are_reported_on_the_others() {
     assert!(error.starts_with("no frame of the clips that it tunes on counts"), "{error}");
 }
 
-/// Cancels after some frames.
-struct CancelAfter {
-    after: u64,
-    done: u64,
-}
-
-impl RunHooks for CancelAfter {
-    fn progress(&mut self, progress: RunProgress) {
-        assert_eq!(progress.total, Some(12), "frames of all clips");
-        self.done = progress.done;
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.done >= self.after
-    }
-}
-
 /// An interrupted run keeps the frames that were done, and says which clip stopped and how many
 /// clips were never begun.
 #[test]
@@ -128,8 +111,11 @@ fn an_interrupted_run_keeps_the_clips_before() {
         (6, 2, "`shake`: it was interrupted; clips that were not begun: 1"),
         (10, 3, "`fade`: it was interrupted"),
     ] {
-        let summary =
-            run.write_with_hooks(dir.path(), &mut CancelAfter { after, done: 0 }).unwrap();
+        let hooks = RecordingHooks::cancelling_after(usize::try_from(after).unwrap());
+        let summary = run.write_with_hooks(dir.path(), &hooks).unwrap();
+        // The total is that of all clips.
+        let reports = hooks.reports();
+        assert!((1..).zip(reports.iter()).all(|(n, one)| (one.done, one.total) == (n, Some(12))));
         assert_eq!(summary.problem.as_deref(), Some(problem), "{after}");
         assert_eq!((summary.frames, summary.clips.len()), (after, clips), "{after}");
         let frames = rows(dir.path(), "frames.parquet");
@@ -140,7 +126,7 @@ fn an_interrupted_run_keeps_the_clips_before() {
                 == after * summary.layers.len() as u64
         );
     }
-    let nothing =
-        run.write_with_hooks(dir.path(), &mut CancelAfter { after: 0, done: 0 }).unwrap_err();
+    let hooks = RecordingHooks::cancelling_after(0);
+    let nothing = run.write_with_hooks(dir.path(), &hooks).unwrap_err();
     assert_eq!(nothing.to_string(), "interrupted; nothing was written");
 }

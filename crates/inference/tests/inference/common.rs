@@ -7,12 +7,13 @@ use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{InputOptions, RunHooks, SilentHooks};
+use foveate_footage::InputOptions;
 use foveate_inference::{
     Computation, Detector, Framing, Inference, InferenceError, InferenceOptions, InferenceSummary,
     PixelMapping, RecordOptions, VisionOptions, read_accelerator,
 };
 use foveate_network::ExecutionMode;
+use foveate_playback::{RunHooks, SilentHooks};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
@@ -60,13 +61,13 @@ impl Default for RunSetup<'_> {
 impl RunSetup<'_> {
     /// Writes the folder `out` in `folder`. Frames have 64x48 pixels.
     pub(crate) fn write(&self, folder: &Path) -> Result<InferenceSummary, InferenceError> {
-        self.write_with_hooks(folder, &mut SilentHooks)
+        self.write_with_hooks(folder, &SilentHooks)
     }
 
     pub(crate) fn write_with_hooks(
         &self,
         folder: &Path,
-        hooks: &mut dyn RunHooks,
+        hooks: &dyn RunHooks,
     ) -> Result<InferenceSummary, InferenceError> {
         let mut config = DesignConfig::from_toml(self.camera).unwrap();
         (config.camera.frame.width, config.camera.frame.height) = (Some(64), Some(48));

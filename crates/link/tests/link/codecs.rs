@@ -7,6 +7,8 @@ use std::path::Path;
 use std::process::Command;
 
 use foveate_link::{ClipEncoder, Codec, EncoderPreset, GreyFootage, check_encoders};
+use foveate_playback::testing::RecordingHooks;
+use foveate_playback::{RunMonitor, SilentHooks};
 use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::testing::{MockHost, require_tools};
 use foveate_toolchain::{ProgramOutput, Tool, Toolchain};
@@ -51,9 +53,9 @@ fn bytes_are_those_of_the_stream_and_pictures_as_good_as_ffmpeg_says() {
         let folder = tempfile::tempdir().unwrap();
         let footage = footage(folder.path(), size);
         for codec in Codec::ALL {
-            let go_on = || false;
+            let monitor = RunMonitor::of_frames(&SilentHooks, None);
             let mut encoder =
-                ClipEncoder::new(&tools, &footage, (codec, EncoderPreset::Veryfast), &go_on);
+                ClipEncoder::new(&tools, &footage, (codec, EncoderPreset::Veryfast), &monitor);
             let encoded = encoder.encode_with(20).unwrap().clone();
             let stream = fs::read(encoder.stream_path()).unwrap();
             let context = format!("{} {size:?}", codec.name());
@@ -67,7 +69,7 @@ fn bytes_are_those_of_the_stream_and_pictures_as_good_as_ffmpeg_says() {
             }
             // The clip is encoded again, and then with a coarser quantizer.
             let mut again =
-                ClipEncoder::new(&tools, &footage, (codec, EncoderPreset::Veryfast), &go_on);
+                ClipEncoder::new(&tools, &footage, (codec, EncoderPreset::Veryfast), &monitor);
             assert_eq!(again.encode_with(20).unwrap(), &encoded, "{context}");
             assert_eq!(fs::read(again.stream_path()).unwrap(), stream, "{context}");
             let coarse = again.encode_with(30).unwrap();
@@ -87,9 +89,9 @@ fn the_finest_h264_is_lossless() {
     }
     let folder = tempfile::tempdir().unwrap();
     let (tools, footage) = (Toolchain::system(), footage(folder.path(), (64, 48)));
-    let go_on = || false;
+    let monitor = RunMonitor::of_frames(&SilentHooks, None);
     let mut encoder =
-        ClipEncoder::new(&tools, &footage, (Codec::H264, EncoderPreset::Veryfast), &go_on);
+        ClipEncoder::new(&tools, &footage, (Codec::H264, EncoderPreset::Veryfast), &monitor);
     assert_eq!(encoder.encode_with(0).unwrap().quality.psnr, None);
     assert_eq!(encoder.encoded_clips().len(), 1);
 }
@@ -99,7 +101,8 @@ fn an_interrupt_is_heard_and_a_missing_encoder_is_named() {
     if require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         let folder = tempfile::tempdir().unwrap();
         let (tools, footage) = (Toolchain::system(), footage(folder.path(), (64, 48)));
-        let stop = || true;
+        let hooks = RecordingHooks::cancelling_after(0);
+        let stop = RunMonitor::of_frames(&hooks, None);
         let mut encoder =
             ClipEncoder::new(&tools, &footage, (Codec::Mjpeg, EncoderPreset::Veryfast), &stop);
         let error = encoder.encode_with(9).unwrap_err().to_string();

@@ -7,6 +7,7 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use foveate_playback::PlaybackError;
 use foveate_staging::has_room;
 use foveate_toolchain::{Interrupt, Invocation, ProgramWriter, Tool, ToolError, Toolchain};
 
@@ -45,7 +46,7 @@ impl VideoFile {
     pub(super) fn create(path: &Path, interrupt: &Interrupt) -> Result<Self, SimulatorError> {
         let found = Toolchain::system().with_cancel_flag(interrupt.flag()).find(Tool::Ffmpeg);
         let ffmpeg = found.map_err(|error| match error.is_interrupted() {
-            true => SimulatorError::Cancelled,
+            true => PlaybackError::Interrupted.into(),
             false => SimulatorError::NoVideo(Box::new(error)),
         });
         let (path, interrupt) = (path.to_owned(), interrupt.clone());

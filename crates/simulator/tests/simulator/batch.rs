@@ -4,12 +4,13 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 use crate::support::{grey, names};
 use foveate_design::DesignConfig;
 use foveate_footage::{BatchClip, ClipPlan, FootageError, ImageRelation, InputOptions, plan};
-use foveate_simulator::{BatchHooks, BatchProgress, RunOptions, SimulatorError, run_batch};
+use foveate_playback::RunProgress;
+use foveate_playback::testing::RecordingHooks;
+use foveate_simulator::{RunOptions, SimulatorError, run_batch};
 
 /// Writes a stream of `frames` frames of 16x16 pixels.
 fn y4m(path: &Path, frames: u8) -> PathBuf {
@@ -21,27 +22,6 @@ fn y4m(path: &Path, frames: u8) -> PathBuf {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, bytes).unwrap();
     path.to_owned()
-}
-
-struct ProgressRecorder {
-    seen: Mutex<Vec<BatchProgress>>,
-    stop_after: usize,
-}
-
-impl ProgressRecorder {
-    fn new(stop_after: usize) -> Self {
-        Self { seen: Mutex::default(), stop_after }
-    }
-}
-
-impl BatchHooks for ProgressRecorder {
-    fn progress(&self, progress: BatchProgress) {
-        self.seen.lock().unwrap().push(progress);
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.seen.lock().unwrap().len() >= self.stop_after
-    }
 }
 
 fn planned<P: AsRef<Path>>(inputs: &[P]) -> Vec<BatchClip> {
@@ -114,7 +94,7 @@ fn what_is_one_clip_is_no_batch() {
 fn run(
     inputs: &[PathBuf],
     output: &Path,
-    hooks: &ProgressRecorder,
+    hooks: &RecordingHooks,
 ) -> Result<serde_json::Value, SimulatorError> {
     let summary = run_batch(
         &planned(inputs),
@@ -135,20 +115,20 @@ fn every_clip_gets_its_folder_and_a_failing_one_is_listed() {
     let dir = tempfile::tempdir().unwrap();
     let (input, output) = (dir.path().join("in"), dir.path().join("out"));
     tree(&input);
-    let hooks = ProgressRecorder::new(usize::MAX);
+    let hooks = RecordingHooks::new();
     let summary = run(std::slice::from_ref(&input), &output, &hooks).unwrap();
     assert_eq!((&summary["complete"], &summary["frames"]), (&true.into(), &12.into()));
     assert_eq!(names(&output), [".foveate", "alone", "cars", "people", "summary.json", "top"]);
     assert!(output.join("people/day/b/summary.json").is_file());
     assert_eq!(summary["clips"][1]["label"], "cars");
-    let last = *hooks.seen.lock().unwrap().iter().max_by_key(|p| (p.clips, p.frames)).unwrap();
-    assert_eq!(last, BatchProgress { clips: 6, total_clips: 6, frames: 12 });
+    let last = RunProgress::frames(12, None, "6/6 clips");
+    assert!(hooks.reports().contains(&last), "{:?}", hooks.reports());
 
     let cut = fs::read(input.join("top.y4m")).unwrap();
     fs::write(input.join("top.y4m"), &cut[..cut.len() - 9]).unwrap();
     fs::write(input.join("alone/1.png"), "no image").unwrap();
     let other = dir.path().join("other");
-    let summary = run(&[input], &other, &ProgressRecorder::new(usize::MAX)).unwrap();
+    let summary = run(&[input], &other, &RecordingHooks::new()).unwrap();
     assert_eq!(summary["problem"], "2 of 6 clips are not complete");
     assert_eq!(names(&other), [".foveate", "cars", "people", "summary.json", "top"]);
     let clips = summary["clips"].as_array().unwrap();
@@ -166,7 +146,7 @@ fn an_interrupted_batch_keeps_what_was_done() {
     let clips: Vec<PathBuf> =
         (0..9).map(|clip| y4m(&dir.path().join(format!("{clip}.y4m")), 50)).collect();
     let output = dir.path().join("out");
-    let summary = run(&clips, &output, &ProgressRecorder::new(60)).unwrap();
+    let summary = run(&clips, &output, &RecordingHooks::cancelling_after(60)).unwrap();
     assert_eq!((&summary["complete"], &summary["problem"]), (&false.into(), &"interrupted".into()));
     let frames = summary["frames"].as_u64().unwrap();
     assert!((50..200).contains(&frames), "{frames}");
@@ -178,7 +158,7 @@ fn when_every_clip_fails_nothing_is_left() {
     let clips: Vec<PathBuf> =
         (0..3).map(|clip| y4m(&dir.path().join(format!("{clip}.y4m")), 0)).collect();
     let output = dir.path().join("out");
-    let error = run(&clips, &output, &ProgressRecorder::new(usize::MAX)).unwrap_err();
+    let error = run(&clips, &output, &RecordingHooks::new()).unwrap_err();
     assert!(matches!(error, SimulatorError::NoClip { clips: 3, .. }), "{error}");
     assert!(!output.exists());
 }

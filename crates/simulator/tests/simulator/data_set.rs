@@ -10,7 +10,8 @@ use crate::support::data_sets::{
 };
 use crate::support::{NpyArray, grey, names};
 use foveate_footage::InputOptions;
-use foveate_simulator::{RunHooks, RunProgress, SilentHooks};
+use foveate_playback::SilentHooks;
+use foveate_playback::testing::RecordingHooks;
 
 #[test]
 fn idx_becomes_idx_byte_by_byte() {
@@ -31,7 +32,7 @@ fn idx_becomes_idx_byte_by_byte() {
             let out = at(&format!("out-{run}-{}", name.len()));
             let input = [at(name)];
             let summary =
-                made(&input, &config, &InputOptions::default(), &out, &mut SilentHooks).unwrap();
+                made(&input, &config, &InputOptions::default(), &out, &SilentHooks).unwrap();
             let file = out.join(name);
             let plain =
                 if name.ends_with("gz") { unpacked(&file) } else { fs::read(&file).unwrap() };
@@ -54,24 +55,16 @@ fn idx_becomes_idx_byte_by_byte() {
 
 #[test]
 fn a_part_of_a_set_says_how_many_it_holds_and_the_same_run_gives_the_same_bytes() {
-    struct StopAtThree(u64);
-    impl RunHooks for StopAtThree {
-        fn progress(&mut self, progress: RunProgress) {
-            self.0 = progress.done;
-        }
-        fn is_cancelled(&self) -> bool {
-            self.0 == 3
-        }
-    }
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("t-images.gz");
     fs::write(&path, packed(&images())).unwrap();
     let out = |name: &str| dir.path().join(name);
     let three = InputOptions { frames: Some(3), ..InputOptions::default() };
-    made(&[&path], &[], &three, &out("a"), &mut SilentHooks).unwrap();
-    made(&[&path], &[], &three, &out("b"), &mut SilentHooks).unwrap();
+    made(&[&path], &[], &three, &out("a"), &SilentHooks).unwrap();
+    made(&[&path], &[], &three, &out("b"), &SilentHooks).unwrap();
     let all = InputOptions::default();
-    let stopped = made(&[&path], &[], &all, &out("c"), &mut StopAtThree(0)).unwrap();
+    let stopped =
+        made(&[&path], &[], &all, &out("c"), &RecordingHooks::cancelling_after(3)).unwrap();
     assert_eq!((stopped.frames, stopped.problem.as_deref()), (3, Some("interrupted")));
     assert_eq!(unpacked(&out("a/t-images.gz"))[4..8], [0, 0, 0, 3]);
     for name in ["b/t-images.gz", "c/t-images.gz"] {
@@ -79,7 +72,7 @@ fn a_part_of_a_set_says_how_many_it_holds_and_the_same_run_gives_the_same_bytes(
     }
     assert!(!names(&out("a")).contains(&"labels.npy".to_owned()), "there are no labels");
     let fitted = InputOptions { resize: Some((6, 5)), ..three };
-    made(&[&path], &[], &fitted, &out("d"), &mut SilentHooks).unwrap();
+    made(&[&path], &[], &fitted, &out("d"), &SilentHooks).unwrap();
     let bytes = unpacked(&out("d/t-images.gz"));
     assert_eq!((&bytes[8..16], bytes.len()), (&[0, 0, 0, 5, 0, 0, 0, 6][..], 16 + 3 * 30));
 }
@@ -98,7 +91,7 @@ fn a_tree_becomes_a_tree_with_the_same_names() {
     let inputs = [file("loose.png", 3), file("b 2/a.b.png", 2), file("b 2/x.png", 6)];
     let inputs = [&inputs[..], &[file("b 2/x.bmp", 6), file("b10/x.png", 12)]].concat();
     let out = dir.path().join("out");
-    let summary = made(&[&root], &["frame.pixel_bits=8"], &set(), &out, &mut SilentHooks).unwrap();
+    let summary = made(&[&root], &["frame.pixel_bits=8"], &set(), &out, &SilentHooks).unwrap();
     assert_eq!(summary.data_set.unwrap().classes, ["b 2", "b10"]);
     let table = fs::read_to_string(out.join("images.csv")).unwrap();
     let rows: Vec<&str> = table.lines().collect();
@@ -129,7 +122,7 @@ fn cifar_becomes_a_labelled_tree() {
         |label: u8| [vec![label], (0..3072u32).map(|p| (p * p / 64).to_le_bytes()[0]).collect()];
     fs::write(&path, [record(9), record(0), record(9)].concat().concat()).unwrap();
     let out = dir.path().join("out");
-    made(&[&path], &[], &InputOptions::default(), &out, &mut SilentHooks).unwrap();
+    made(&[&path], &[], &InputOptions::default(), &out, &SilentHooks).unwrap();
     assert_eq!(names(&out.join("images/9")), ["000000.png", "000002.png"]);
     assert_eq!(image::open(out.join("images/0/000001.png")).unwrap().width(), 32);
     assert_eq!(NpyArray::read(&out.join("labels.npy")).data[8], 0);
@@ -142,8 +135,7 @@ fn a_clip_is_no_set_and_the_message_says_what_is() {
     let path = grey(&dir.path().join("a.png"), 8, 8, |_, _| 0);
     let out = dir.path().join("out");
     for input in [path.to_str().unwrap(), "scene:street"] {
-        let error =
-            made(&[input], &[], &InputOptions::default(), &out, &mut SilentHooks).unwrap_err();
+        let error = made(&[input], &[], &InputOptions::default(), &out, &SilentHooks).unwrap_err();
         let said = error.to_string();
         assert!(said.starts_with(input) && said.contains("--images set"), "{said}");
         assert!(!said.contains('\n') && !out.exists());
@@ -160,7 +152,7 @@ fn labels_have_a_name_of_their_own() {
     fs::write(at("labels/b.idx"), LABELS).unwrap();
     let run = |labels: &str| {
         let input = InputOptions { labels: Some(at(labels)), ..InputOptions::default() };
-        made(&[at("a.idx")], &[], &input, &at("out"), &mut SilentHooks)
+        made(&[at("a.idx")], &[], &input, &at("out"), &SilentHooks)
     };
     let said = run("labels/a.idx").unwrap_err().to_string();
     assert!(said.contains("--labels") && said.contains("both called `a.idx`"), "{said}");
@@ -177,8 +169,7 @@ fn mnist_becomes_mnist() {
     let out = dir.path().join("out");
     let name = "t10k-images-idx3-ubyte.gz";
     let input = InputOptions { frames: Some(200), ..InputOptions::default() };
-    let summary =
-        made(&[data.join("mnist").join(name)], &[], &input, &out, &mut SilentHooks).unwrap();
+    let summary = made(&[data.join("mnist").join(name)], &[], &input, &out, &SilentHooks).unwrap();
     assert_eq!(summary.frames, 200);
     let original = unpacked_any(&data.join("mnist").join(name));
     let digits = original[16..].chunks(784).take(200).map(<[u8]>::to_vec);

@@ -6,9 +6,10 @@ use std::fs;
 use std::path::Path;
 
 use foveate_design::DesignConfig;
+use foveate_playback::SilentHooks;
 use foveate_simulator::{
     DecodedRecording, PacketContent, PacketRecording, PictureFormat, PixelEventOptions, RunOptions,
-    SilentHooks, SimulatorError,
+    SimulatorError,
 };
 
 use crate::packets::{DESIGNS, crc, options};
@@ -25,7 +26,7 @@ fn decode(
     PacketRecording { config: &config, stream: &mut stream, name: "scene:street" }.decode(
         output,
         options,
-        &mut SilentHooks,
+        &SilentHooks,
     )
 }
 

@@ -8,9 +8,9 @@ use crate::support::{NpyArray, grey, names, run};
 use foveate_design::DesignConfig;
 use foveate_footage::{FootageError, FrameSource, InputOptions, SourceFrame, open};
 use foveate_frame::Frame;
-use foveate_simulator::{
-    RunHooks, RunOptions, RunProgress, SilentHooks, Simulation, SimulatorError,
-};
+use foveate_playback::testing::RecordingHooks;
+use foveate_playback::{InputError, PlaybackError, RunHooks, RunProgress, SilentHooks};
+use foveate_simulator::{RunOptions, Simulation, SimulatorError};
 use foveate_staging::StagingError;
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
@@ -59,32 +59,22 @@ fn a_failing_run_leaves_nothing() {
     let whole = fs::read(&broken).unwrap();
     fs::write(&broken, &whole[..whole.len() / 2]).unwrap();
     let error = run(&[&frames], &[], &folder.path().join("out"), &plain()).unwrap_err();
-    assert!(matches!(error, SimulatorError::Footage(FootageError::Truncated { .. })), "{error}");
+    assert!(matches!(input_error(&error), InputError::Footage(FootageError::Truncated { .. })));
     assert_eq!(names(folder.path()), ["frames"]);
 
     grey(&broken, 17, 16, |_, _| 0);
     let error = run(&[&frames], &[], &folder.path().join("out"), &plain()).unwrap_err();
-    assert!(matches!(error, SimulatorError::Footage(FootageError::MixedSizes { .. })), "{error}");
+    assert!(matches!(input_error(&error), InputError::Footage(FootageError::MixedSizes { .. })));
     assert_eq!(names(folder.path()), ["frames"]);
 }
 
-/// Hooks that cancel after some frames and record the progress.
-struct CancelAfterFrames {
-    frames: u64,
-    progress: Vec<RunProgress>,
+/// Returns the fault of the input that stopped a simulation.
+fn input_error(error: &SimulatorError) -> &InputError {
+    let SimulatorError::Playback(error) = error else { panic!("{error}") };
+    error.as_input().unwrap()
 }
 
-impl RunHooks for CancelAfterFrames {
-    fn progress(&mut self, progress: RunProgress) {
-        self.progress.push(progress);
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.progress.len() as u64 >= self.frames
-    }
-}
-
-fn run_with(output: &Path, hooks: &mut dyn RunHooks) -> Result<(), SimulatorError> {
+fn run_with(output: &Path, hooks: &dyn RunHooks) -> Result<(), SimulatorError> {
     let config = DesignConfig::from_toml_with("", &SMALL).unwrap();
     let source = open(&["scene:max"], &config.camera, &InputOptions::default())?;
     Simulation::new(&config, source)?.run(output, &plain(), hooks).map(drop)
@@ -94,8 +84,8 @@ fn run_with(output: &Path, hooks: &mut dyn RunHooks) -> Result<(), SimulatorErro
 fn a_cancelled_run_leaves_what_was_done_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let mut hooks = CancelAfterFrames { frames: 2, progress: Vec::new() };
-    run_with(&output, &mut hooks).unwrap();
+    let hooks = RecordingHooks::cancelling_after(2);
+    run_with(&output, &hooks).unwrap();
     assert_eq!(names(folder.path()), ["out"]);
     let summary: serde_json::Value =
         serde_json::from_slice(&fs::read(output.join("summary.json")).unwrap()).unwrap();
@@ -110,21 +100,20 @@ fn a_cancelled_run_leaves_what_was_done_and_says_so() {
 #[test]
 fn a_run_that_is_cancelled_at_once_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let mut hooks = CancelAfterFrames { frames: 0, progress: Vec::new() };
-    let error = run_with(&folder.path().join("out"), &mut hooks).unwrap_err();
-    assert!(matches!(error, SimulatorError::Cancelled), "{error}");
+    let hooks = RecordingHooks::cancelling_after(0);
+    let error = run_with(&folder.path().join("out"), &hooks).unwrap_err();
+    assert!(matches!(error, SimulatorError::Playback(PlaybackError::Interrupted)), "{error}");
     assert!(names(folder.path()).is_empty());
 }
 
 #[test]
 fn progress_counts_every_frame() {
     let folder = tempfile::tempdir().unwrap();
-    let mut hooks = CancelAfterFrames { frames: 99, progress: Vec::new() };
-    run_with(&folder.path().join("out"), &mut hooks).unwrap();
-    let expected: Vec<RunProgress> =
-        (1..=4).map(|done| RunProgress { done, total: Some(4) }).collect();
-    assert_eq!(hooks.progress, expected);
-    run_with(&folder.path().join("silent"), &mut SilentHooks).unwrap();
+    let hooks = RecordingHooks::new();
+    run_with(&folder.path().join("out"), &hooks).unwrap();
+    let expected: Vec<_> = (1..=4).map(|done| RunProgress::frames(done, Some(4), "")).collect();
+    assert_eq!(*hooks.reports(), expected);
+    run_with(&folder.path().join("silent"), &SilentHooks).unwrap();
 }
 
 #[test]
@@ -226,15 +215,16 @@ fn any_source_will_do_but_it_must_keep_its_word() {
     let folder = tempfile::tempdir().unwrap();
     let start = |frames| {
         let source = ForeignSource { inputs: ["camera 3".to_owned()], frames };
-        let simulation = Simulation::new(&DesignConfig::default(), Box::new(source)).unwrap();
-        simulation.run(&folder.path().join("out"), &plain(), &mut SilentHooks)
+        let source: Box<dyn FrameSource> = Box::new(source);
+        let simulation = Simulation::new(&DesignConfig::default(), source).unwrap();
+        simulation.run(&folder.path().join("out"), &plain(), &SilentHooks)
     };
     let message = start(Vec::new()).unwrap_err().to_string();
     assert_eq!(message, "camera 3 holds no frame; at least one is needed");
     let good = Frame::filled(16, 16, 8, 1).unwrap();
     let bad = Frame::filled(16, 15, 8, 1).unwrap();
     let error = start(vec![bad, good.clone()]).unwrap_err();
-    assert!(matches!(error, SimulatorError::Engine(_)), "{error}");
+    assert!(matches!(input_error(&error), InputError::RefusedFrame(_)));
     assert!(names(folder.path()).is_empty());
     assert_eq!(start(vec![good.clone(), good]).unwrap().frames, 2);
 }

@@ -15,7 +15,8 @@ use foveate_footage::{
     FootageError, FrameSelection, ImageRelation, InputOptions, SourceFrame, SourceKind, open,
 };
 use foveate_frame::luma;
-use foveate_simulator::{RunOptions, SilentHooks, Simulation};
+use foveate_playback::SilentHooks;
+use foveate_simulator::{RunOptions, Simulation};
 
 fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, FootageError> {
     let mut source = open(&[path], &CameraConfig::default(), options)?;
@@ -171,7 +172,7 @@ fn every_image_of_a_set_is_a_first_frame() {
         let options = InputOptions { images, ..InputOptions::default() };
         let source = open(&[&frames], &CameraConfig::default(), &options).unwrap();
         let simulation = Simulation::new(&DesignConfig::default(), source).unwrap();
-        simulation.run(&output, &RunOptions::default(), &mut SilentHooks).unwrap();
+        simulation.run(&output, &RunOptions::default(), &SilentHooks).unwrap();
         NpyArray::read(&output.join("trs.npy")).data
     };
     assert_eq!(trs(ImageRelation::Set), [1; 12]);

@@ -8,9 +8,11 @@ use std::path::Path;
 use fastrand::Rng;
 use foveate_design::DesignConfig;
 use foveate_packets::{PacketLayout, StreamLoss, packet_writer};
+use foveate_playback::testing::RecordingHooks;
+use foveate_playback::{RunHooks, SilentHooks};
 use foveate_simulator::{
-    DecodedRecording, MAX_CLAIMED_PIXELS, PacketContent, PacketRecording, PacketStream, RunHooks,
-    RunOptions, RunProgress, ShownFrame, SilentHooks, SimulatorError, StreamItem,
+    DecodedRecording, MAX_CLAIMED_PIXELS, PacketContent, PacketRecording, PacketStream, RunOptions,
+    ShownFrame, SimulatorError, StreamItem,
 };
 
 use crate::packets::{DESIGNS, crc, options};
@@ -73,7 +75,7 @@ fn receive(bytes: &[u8]) -> (Vec<ShownFrame>, Vec<StreamLoss>, Vec<String>) {
 fn decode(
     bytes: &[u8],
     output: &Path,
-    hooks: &mut dyn RunHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<DecodedRecording, SimulatorError> {
     let mut stream = bytes;
     let options = RunOptions { packets: None, ..options(None) };
@@ -104,7 +106,7 @@ fn a_time_that_cannot_be_right_is_a_loss_and_the_stream_goes_on() {
         assert!(times[4] >= times[3] && times[4] <= times[3] + 5 * interval, "{times:?}");
         let folder = tempfile::tempdir().unwrap();
         let seen = folder.path().join("seen");
-        let decoded = decode(&forged.concat(), &seen, &mut SilentHooks).unwrap();
+        let decoded = decode(&forged.concat(), &seen, &SilentHooks).unwrap();
         assert_eq!((decoded.summary.frames, decoded.loss_count), (5, losses.len() as u64));
         assert!(!decoded.summary.complete);
         let table = fs::read_to_string(seen.join("losses.csv")).unwrap();
@@ -133,15 +135,14 @@ fn a_frame_of_another_camera_on_the_way_costs_no_more_than_itself() {
     forged[2] = with_word(&sent[2], FINGERPRINT, 0x0123_4567_89AB_CDEF);
     let folder = tempfile::tempdir().unwrap();
     let seen = folder.path().join("seen");
-    let decoded = decode(&forged.concat(), &seen, &mut SilentHooks).unwrap();
+    let decoded = decode(&forged.concat(), &seen, &SilentHooks).unwrap();
     assert_eq!((decoded.summary.frames, decoded.summary.complete), (4, false));
     let table = fs::read_to_string(seen.join("losses.csv")).unwrap();
     assert_eq!(table.lines().skip(1).collect::<Vec<_>>(), ["foreign,2,,,,", "frames,2,,,1,"]);
     // The first FRAME packet decides whether the configuration is that of the camera.
     let mut forged = sent;
     forged[0] = with_word(&forged[0], FINGERPRINT, 0x0123_4567_89AB_CDEF);
-    let refused =
-        decode(&forged.concat(), &folder.path().join("none"), &mut SilentHooks).unwrap_err();
+    let refused = decode(&forged.concat(), &folder.path().join("none"), &SilentHooks).unwrap_err();
     assert!(refused.to_string().contains("0123456789abcdef"), "{refused}");
 }
 
@@ -182,20 +183,6 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
     }
 }
 
-/// Hooks that cancel once a frame is written.
-#[derive(Default)]
-struct FirstFrameCanceller(u64);
-
-impl RunHooks for FirstFrameCanceller {
-    fn progress(&mut self, progress: RunProgress) {
-        self.0 = progress.done;
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.0 > 0
-    }
-}
-
 #[test]
 fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
     let sent = sent();
@@ -207,8 +194,8 @@ fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
         packet_writer::append_frame(&mut bytes, &layout, number, (u64::from(number), false));
     }
     let folder = tempfile::tempdir().unwrap();
-    let decoded =
-        decode(&bytes, &folder.path().join("seen"), &mut FirstFrameCanceller::default()).unwrap();
+    let hooks = RecordingHooks::cancelling_after(1);
+    let decoded = decode(&bytes, &folder.path().join("seen"), &hooks).unwrap();
     assert_eq!(decoded.summary.problem.as_deref(), Some("interrupted"));
     assert_eq!(decoded.summary.frames, 1);
 }

@@ -38,8 +38,9 @@ pub(crate) fn run(
     start: u64,
 ) -> Result<StudyFindings, StudyError> {
     let path = events.ok_or(StudyError::NoSensorEvents)?;
-    if watcher.subjects.len() != 1 {
-        return Err(StudyError::SeveralClips { clips: watcher.subjects.len() });
+    let clips = watcher.clips.clips().len();
+    if clips != 1 {
+        return Err(StudyError::SeveralClips { clips });
     }
     let watched =
         watcher.run_clips(from_ref(watcher.config), |counts: &mut ModelCounts, _, seen| {

@@ -3,10 +3,11 @@
 
 use std::fs;
 
-use crate::support::{SilentHooks, cells, run};
+use crate::support::{cells, run};
 use foveate_design::DesignConfig;
 use foveate_footage::{FrameRate, ImageRelation, InputOptions};
-use foveate_simulator::{BatchHooks, BatchProgress};
+use foveate_playback::testing::RecordingHooks;
+use foveate_playback::{PlaybackError, SilentHooks};
 use foveate_studies::{Study, StudyError, StudyRequest, analyze};
 
 #[test]
@@ -91,17 +92,6 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
 }
 
-/// Hooks that cancel at once.
-struct CancelledHooks;
-
-impl BatchHooks for CancelledHooks {
-    fn progress(&self, _: BatchProgress) {}
-
-    fn is_cancelled(&self) -> bool {
-        true
-    }
-}
-
 #[test]
 fn a_cut_clip_is_marked_and_a_stopped_study_leaves_nothing() {
     let dir = tempfile::tempdir().unwrap();
@@ -120,8 +110,8 @@ fn a_cut_clip_is_marked_and_a_stopped_study_leaves_nothing() {
         boxes: &[],
     };
     let out = dir.path().join("out");
-    let stopped = analyze(&request, &out, false, &CancelledHooks).unwrap_err();
-    assert!(matches!(stopped, StudyError::Cancelled) && !out.exists());
+    let stopped = analyze(&request, &out, false, &RecordingHooks::cancelling_after(0)).unwrap_err();
+    assert!(matches!(stopped, StudyError::Playback(PlaybackError::Interrupted)) && !out.exists());
     let report = analyze(&request, &out, false, &SilentHooks).unwrap();
     assert_eq!((cells(&report, "frames")[0], report.problems.len()), ("2", 1));
     for file in ["temporal.csv", "temporal.svg"] {

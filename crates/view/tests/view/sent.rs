@@ -5,9 +5,8 @@ use std::fs;
 
 use foveate_design::DesignConfig;
 use foveate_footage::{InputOptions, open};
-use foveate_simulator::{
-    EventTableOptions, PacketContent, PictureFormat, RunOptions, SilentHooks, Simulation,
-};
+use foveate_playback::SilentHooks;
+use foveate_simulator::{EventTableOptions, PacketContent, PictureFormat, RunOptions, Simulation};
 
 /// A stream, and what the page must show of it.
 pub(crate) struct SentStream {
@@ -48,7 +47,7 @@ pub(crate) fn street_stream(set: &[&str], frames: u32) -> SentStream {
         ..RunOptions::default()
     };
     let out = folder.path().join("out");
-    Simulation::new(&config, source).unwrap().run(&out, &options, &mut SilentHooks).unwrap();
+    Simulation::new(&config, source).unwrap().run(&out, &options, &SilentHooks).unwrap();
 
     let (stream, mut frames) = (fs::read(out.join("packets.bin")).unwrap(), vec![Vec::new()]);
     let mut rest = &stream[..];

@@ -7,15 +7,16 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::{InputOptions, open};
+use foveate_footage::InputOptions;
+use foveate_playback::ClipPlayer;
 use foveate_simulator::{PacketRecording, RunOptions, Simulation};
 use foveate_staging::{FolderKind, StagedFolder};
 use serde::Serialize;
 
-use super::super::simulate::ClipTerminal;
 use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::interrupt;
+use crate::progress::RunTerminal;
 
 /// The names in the folder: the packets, the receiver's results, and the model's results.
 const PACKETS: &str = "packets.bin";
@@ -96,7 +97,7 @@ pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEn
     let told = |folder: &Path| staged.shown_path(folder);
     let folder = staged.folder();
     let config = args.design.config()?;
-    let mut hooks = ClipTerminal::new(true)?;
+    let hooks = RunTerminal::new(true)?;
     let options = RunOptions::default();
     let (received, simulated) = (folder.join(RECEIVED), folder.join(SIMULATED));
     let simulation = simulation(args, &config)?;
@@ -107,10 +108,10 @@ pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEn
     let mut stream = File::open(&packets).map_err(CliError::io("read the packets", &packets))?;
     let name = told(&packets).display().to_string();
     let recording = PacketRecording { config: &config, stream: &mut stream, name: &name };
-    let decoded = recording.decode(&received, &options, &mut hooks);
+    let decoded = recording.decode(&received, &options, &hooks);
     let decoded = decoded.map_err(|error| error.with_shown_paths(staged))?;
     hooks.check_complete(&told(&received), decoded.summary.problem)?;
-    let summary = simulation.run(&simulated, &options, &mut hooks);
+    let summary = simulation.run(&simulated, &options, &hooks);
     let summary = summary.map_err(|error| error.with_shown_paths(staged))?;
     hooks.check_complete(&told(&simulated), summary.problem)?;
     let (files, differences) = differences(&received, &simulated)?;
@@ -121,7 +122,7 @@ pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEn
 fn simulation(args: &CosimArgs, config: &DesignConfig) -> Result<Simulation, CliError> {
     let (frames, interrupt) = (Some(args.frames), interrupt::stop_request());
     let input = InputOptions { frames, interrupt, ..InputOptions::default() };
-    Ok(Simulation::new(config, open(&args.inputs, &config.camera, &input)?)?)
+    Ok(Simulation::new(config, ClipPlayer::open(&args.inputs, &config.camera, &input)?)?)
 }
 
 /// Returns the number of compared arrays and pictures, and the names of those that differ from the

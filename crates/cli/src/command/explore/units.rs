@@ -5,17 +5,18 @@
 use std::path::Path;
 
 use foveate_explore::{ExploreError, ExploreRequest, measure_unit, plan_units};
+use foveate_playback::PlaybackError;
 
-use super::ExploreTerminal;
 use crate::args::ExploreArgs;
 use crate::error::CliError;
 use crate::output;
+use crate::progress::RunTerminal;
 
 /// Prints one unit per line, as compact JSON.
 pub(super) fn print_plan(
     request: &ExploreRequest<'_>,
     folder: &Path,
-    terminal: &ExploreTerminal,
+    terminal: &RunTerminal,
 ) -> Result<(), CliError> {
     let units = plan_units(request, folder, terminal);
     terminal.progress.finish();
@@ -30,12 +31,12 @@ pub(super) fn run_unit(
     request: &ExploreRequest<'_>,
     unit: &str,
     folder: &Path,
-    terminal: &ExploreTerminal,
+    terminal: &RunTerminal,
 ) -> Result<(), CliError> {
     let done = measure_unit(request, unit, folder, terminal);
     terminal.progress.finish();
     let done = match done {
-        Err(ExploreError::Cancelled) => {
+        Err(ExploreError::Playback(PlaybackError::Interrupted)) => {
             return Err(CliError::Interrupted { path: folder.to_owned() });
         }
         Err(error @ ExploreError::IncompleteClip { .. }) => {

@@ -13,14 +13,15 @@ use foveate_design::DesignConfig;
 use foveate_footage::{ImageRelation, InputOptions, open};
 use foveate_frame::{Frame, convert_depth};
 use foveate_model::FunctionalCamera;
-use foveate_simulator::{RunHooks, RunOptions, RunSummary, Simulation, SimulatorError};
+use foveate_playback::RunHooks;
+use foveate_simulator::{RunOptions, RunSummary, Simulation, SimulatorError};
 
 pub(crate) fn made<P: AsRef<Path>>(
     inputs: &[P],
     overrides: &[&str],
     input: &InputOptions,
     output: &Path,
-    hooks: &mut dyn RunHooks,
+    hooks: &dyn RunHooks,
 ) -> Result<RunSummary, Box<SimulatorError>> {
     let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let source = open(inputs, &config.camera, input).map_err(SimulatorError::from)?;

@@ -12,8 +12,9 @@ use foveate_design::{Design, DesignConfig};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_playback::SilentHooks;
 use foveate_scenes::{Scene, SceneParameters};
-use foveate_simulator::{RunOptions, RunSummary, SilentHooks, Simulation, SimulatorError};
+use foveate_simulator::{RunOptions, RunSummary, Simulation, SimulatorError};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.
 pub(crate) fn run<P: AsRef<Path>>(
@@ -24,7 +25,7 @@ pub(crate) fn run<P: AsRef<Path>>(
 ) -> Result<RunSummary, SimulatorError> {
     let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let source = open(inputs, &config.camera, &InputOptions::default())?;
-    Simulation::new(&config, source)?.run(output, options, &mut SilentHooks)
+    Simulation::new(&config, source)?.run(output, options, &SilentHooks)
 }
 
 /// The configuration of a ragged street with two features.
@@ -40,7 +41,7 @@ pub(crate) fn street(output: &Path, overrides: &[&str], options: &RunOptions) ->
     let config = DesignConfig::from_toml_with("", overrides).unwrap();
     let limit = InputOptions { frames: Some(5), ..InputOptions::default() };
     let source = open(&["scene:street"], &config.camera, &limit).unwrap();
-    Simulation::new(&config, source).unwrap().run(output, options, &mut SilentHooks).unwrap()
+    Simulation::new(&config, source).unwrap().run(output, options, &SilentHooks).unwrap()
 }
 
 /// Returns the five frames of the street.

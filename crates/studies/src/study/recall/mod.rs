@@ -10,13 +10,11 @@ mod count;
 mod tables;
 mod truth;
 
-use std::path::PathBuf;
 use std::slice::from_ref;
 use std::sync::Arc;
 
 use foveate_design::DesignConfig;
 use foveate_footage::SourceKind;
-use foveate_footage::boxes::{ClipToLabel, assign_boxes};
 
 use super::Study;
 use super::sweep::{SweptKey, region_size_key, threshold_keys};
@@ -50,24 +48,17 @@ struct RecallResult {
     design: String,
 }
 
-pub(crate) fn run(
-    watcher: &StudyRunner<'_>,
-    files: &[PathBuf],
-) -> Result<StudyFindings, StudyError> {
-    if files.is_empty() {
-        return Err(StudyError::NoBoxes);
-    }
-    let subjects = watcher.subjects;
-    let clips =
-        subjects.iter().map(|clip| ClipToLabel { name: &clip.name, input: &clip.inputs[0] });
-    let boxes = assign_boxes(files, &clips.collect::<Vec<_>>())?;
+pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError> {
+    let clips = watcher.clips;
+    let boxes = (0..clips.clips().len()).map(|clip| clips.boxes(clip).map(Arc::clone));
+    let boxes = boxes.collect::<Option<Vec<_>>>().ok_or(StudyError::NoBoxes)?;
     let keys = swept_keys(watcher.config);
     let varied = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
     let configs: Vec<DesignConfig> =
         std::iter::once(watcher.config.clone()).chain(varied).collect();
     let watched = watcher.run_annotated_clips(
         &configs,
-        |clip| GroundTruthObjects::new(Arc::clone(&boxes[clip]), watcher.input.crop),
+        |clip| GroundTruthObjects::new(Arc::clone(&boxes[clip]), clips.options().crop),
         |truth, tally: &mut ObjectTally, design, seen| tally.add(truth, design, seen),
     )?;
     check_boxes(&watched)?;

@@ -5,13 +5,13 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use foveate_footage::boxes::{BoxError, BoxFile, BoxView, FrameKey};
-use foveate_footage::{CropRect, FrameSource, SourceFrame, SourceKind};
+use foveate_footage::boxes::{BoxFile, BoxView, FrameKey};
+use foveate_footage::{CropRect, SourceKind};
 use foveate_frame::Rect;
+use foveate_playback::{PlaybackError, PlayedFrame};
 
 use super::class::classes_of;
 use super::contrast::SummedAreaTable;
-use crate::StudyError;
 use crate::runner::FrameAnnotator;
 
 /// An object of the current frame.
@@ -56,8 +56,8 @@ impl GroundTruthObjects {
     }
 
     /// Fails if no frame of the clip has an entry in the boxes.
-    pub(super) fn check(&self, clip: &str) -> Result<(), BoxError> {
-        if self.labelled_frames > 0 { Ok(()) } else { Err(self.boxes.no_entry_error(clip)) }
+    pub(super) fn check(&self, clip: &str) -> Result<(), PlaybackError> {
+        if self.labelled_frames > 0 { Ok(()) } else { Err(self.boxes.no_entry_error(clip).into()) }
     }
 
     /// Returns a note on the origin of the objects.
@@ -73,19 +73,15 @@ impl GroundTruthObjects {
 }
 
 impl FrameAnnotator for GroundTruthObjects {
-    fn annotate(
-        &mut self,
-        frame: &SourceFrame,
-        source: &dyn FrameSource,
-    ) -> Result<(), StudyError> {
+    fn annotate(&mut self, frame: &PlayedFrame) -> Result<(), PlaybackError> {
         self.objects.clear();
-        let origin = source.origin().expect("an input knows where its frames are from");
+        let origin = frame.origin.expect("an input knows where its frames are from");
         let labelled = self.boxes.boxes_of_frame(&FrameKey::from_source_frame(frame, &origin))?;
         self.frames += 1;
         self.labelled_frames += u64::from(labelled.is_some());
         let labelled = labelled.unwrap_or_default();
         // An object of a data set is in a single frame, so it has no track.
-        let has_tracks = source.kind() == SourceKind::Clip;
+        let has_tracks = frame.kind == SourceKind::Clip;
         let view = BoxView::from_source_frame(frame, &origin, self.crop);
         let sums = (!labelled.is_empty()).then(|| SummedAreaTable::from_frame(&frame.frame));
         let before = std::mem::take(&mut self.last_centres);

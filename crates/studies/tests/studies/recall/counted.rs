@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 
 use super::{check_known, images, mot_rows, recall, row};
-use crate::support::{SilentHooks, cells};
+use crate::support::cells;
 use foveate_design::DesignConfig;
 use foveate_engine::Engine;
 use foveate_footage::{InputOptions, open};
+use foveate_playback::SilentHooks;
 use foveate_studies::{Study, StudyRequest, analyze};
 
 #[test]

@@ -8,9 +8,9 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::SilentHooks;
 use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
+use foveate_playback::SilentHooks;
 use foveate_studies::{Study, StudyError, StudyReport, StudyRequest, analyze};
 
 /// The tracks and boxes of the objects, in frames of 4x2 regions: regions 0 and 1, region 6, and

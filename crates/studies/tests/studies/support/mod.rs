@@ -5,18 +5,8 @@ use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
-use foveate_simulator::{BatchHooks, BatchProgress};
+use foveate_playback::SilentHooks;
 use foveate_studies::{Study, StudyError, StudyReport, StudyRequest, analyze};
-
-pub(crate) struct SilentHooks;
-
-impl BatchHooks for SilentHooks {
-    fn progress(&self, _: BatchProgress) {}
-
-    fn is_cancelled(&self) -> bool {
-        false
-    }
-}
 
 pub(crate) fn config(text: &str) -> DesignConfig {
     DesignConfig::from_toml_with("frame.width = 32\nframe.height = 16", &[text]).unwrap()

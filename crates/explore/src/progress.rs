@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The stages of explorations and fits, as reports of progress.
+
+use foveate_playback::RunProgress;
+
+/// Reports that clips are read to find their lengths, so far this number of frames.
+pub(crate) fn reading_progress(frames: u64) -> RunProgress<'static> {
+    RunProgress::frames(frames, None, "reading the clips")
+}
+
+/// Reports that designs run over clips: so many pairs of a clip and a design are done, of all pairs.
+pub(crate) fn measuring_progress(done_pairs: usize, all: usize) -> RunProgress<'static> {
+    RunProgress::steps("designs over clips", done_pairs as u64, all as u64)
+}
+
+/// Reports that a network runs behind cameras, so far behind this number.
+pub(crate) fn network_progress(cameras: usize) -> RunProgress<'static> {
+    RunProgress::work(format!("the network looks at cameras, {cameras} so far"))
+}
+
+/// Reports that Yosys synthesizes designs: so many distinct RTLs are done, of all distinct RTLs.
+pub(crate) fn synthesis_progress(done: usize, all: usize) -> RunProgress<'static> {
+    RunProgress::steps("synthesizing with Yosys", done as u64, all as u64)
+}
