@@ -161,7 +161,7 @@ function makeSource(name) {
 function sourceOfFiles(files) {
   const isPicture = file => file.type.startsWith("image/");
   if (files.every(isPicture)) return new Pictures(files);
-  if (files.length > 1) throw new Error(`${files.length} files are no one clip; give one clip, or pictures alone`);
+  if (files.length > 1) throw new Error(`${files.length} files are not one clip; give one clip, or only pictures`);
   const [file] = files;
   // Browsers know few types of clips by name. The browser itself reports whether it decodes one.
   if (/^(text|application\/(pdf|zip|json))/.test(file.type)) throw new Error(`${file.name} is neither a clip nor a picture`);
@@ -336,7 +336,7 @@ async function fromLink() {
   const linkError = messageOf(() => {
     wish = readLink(location.hash);
     presetConfig(wish.pageSettings.preset ?? START.preset);
-    if (wish.pageSettings.size && !/^\d+x\d+$/.test(wish.pageSettings.size)) throw new Error(`the link's size \`${wish.pageSettings.size}\` is none; write 640x480`);
+    if (wish.pageSettings.size && !/^\d+x\d+$/.test(wish.pageSettings.size)) throw new Error(`the link's size \`${wish.pageSettings.size}\` is not valid; write it as 640x480`);
   });
   network.wishes = linkError ? {} : wish.network;
   settings = { ...START, source: frames_path ? "computer" : START.source, ...(linkError ? {} : wish.pageSettings) };

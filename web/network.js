@@ -186,7 +186,7 @@ export class NetworkView {
     byId("network-keys").hidden = !this.#facts?.head;
     if (!this.#facts) return;
     const { input, macs, head } = this.#facts;
-    const kind = head ? `detections of ${head}` : "no detector: its outputs are compared";
+    const kind = head ? `detections of ${head}` : "not a detector, so its outputs are compared";
     setText("network-status", `${this.#file}: ${input.width}x${input.height} pixels, ${(macs / 1e6).toFixed(0)} million multiplications, ${kind}`);
   }
 

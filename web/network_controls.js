@@ -5,7 +5,7 @@ import { byId, make } from "./elements.js";
 
 /** Common ranges of pixels, with their mean and scale. */
 const RANGES = [["0 to 1", "0", "1"], ["0 to 255", "0", "1/255"], ["-1 to 1", "0.5", "0.5"], ["(x - 127) / 128", "127/255", "128/255"],
-  ["as of torchvision", "0.485,0.456,0.406", "0.229,0.224,0.225"]];
+  ["as in torchvision", "0.485,0.456,0.406", "0.229,0.224,0.225"]];
 const HEADS = ["yolox", "yolov5", "yolov8", "ssd", "yunet", "fastestdet"];
 const option = (value, textContent) => make("option", { value, textContent });
 

@@ -43,15 +43,15 @@ export class NetworkFigures {
   #counts({ found, classes }) {
     const { frames, whole, kept, added, same, agreement } = this.#sums;
     const share = (part, all) => all ? `${part} (${percent(part / all)})` : part;
-    if (found) return [["found in whole frames", whole], ["of these kept", share(kept, whole)], ["added", added], ["frames looked at", frames]];
-    if (classes) return [["same class", share(Math.round(same), frames)], ["frames looked at", frames]];
-    return [["agreement", percent(agreement / frames)], ["frames looked at", frames]];
+    if (found) return [["found in whole frames", whole], ["of these kept", share(kept, whole)], ["added", added], ["frames compared", frames]];
+    if (classes) return [["same class", share(Math.round(same), frames)], ["frames compared", frames]];
+    return [["agreement", percent(agreement / frames)], ["frames compared", frames]];
   }
 
   #speed() {
     const recent = this.#recent, mean = recent.reduce((sum, { ms }) => sum + ms, 0) / recent.length;
     const seconds = (recent.at(-1).now - recent[0].now) / 1000;
-    return [["of them a second", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(1) : "–"], ["ms a picture", (mean / 2).toFixed(1)]];
+    return [["compared per second", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(1) : "–"], ["ms per picture", (mean / 2).toFixed(1)]];
   }
 
   /** The sums, for tests. */

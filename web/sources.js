@@ -110,7 +110,7 @@ export class Pictures extends TimedSource {
       this.#last = { file, picture };
       return picture;
     } catch {
-      throw new Error(`${file.name} is no picture that this browser reads; use PNG, JPEG, WebP or AVIF`);
+      throw new Error(`${file.name} is not a picture that this browser can read; use PNG, JPEG, WebP or AVIF`);
     }
   }
   close() {
@@ -238,7 +238,7 @@ export class Webcam extends VideoSource {
       throw new Error(REFUSALS.get(error.name) ?? `the camera does not start (${error.name}: ${error.message})`);
     }
     for (const track of this.#stream.getVideoTracks())
-      track.onended = () => this.onend("the camera has gone; plug it in and choose it again");
+      track.onended = () => this.onend("the camera has been disconnected; plug it in and choose it again");
     this.video.srcObject = this.#stream;
     await this.video.play();
     this.watch();

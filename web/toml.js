@@ -7,7 +7,7 @@ export function valueOf(text) {
   try { value = JSON.parse(text); } catch { /* The text is not a value. */ }
   const isKept = Number.isInteger(value) ? Number.isSafeInteger(value) : Number.isFinite(value) || ["boolean", "string"].includes(typeof value);
   if (isKept) return value;
-  throw new Error(`\`${text}\` is no value; write 8, true or "edge"`);
+  throw new Error(`\`${text}\` is not a value; write 8, true or "edge"`);
 }
 
 /** Returns a table's own value, if it has one. Every object inherits `constructor` and `__proto__`, which are not keys. */
@@ -15,7 +15,7 @@ const ownOf = (table, name) => table !== null && typeof table === "object" && Ob
 
 /** Sets a table's own value of any name. A plain assignment to `__proto__` would change inherited values. */
 function setOwn(table, name, value) {
-  if (table === null || typeof table !== "object") throw new Error(`\`${name}\` is no key of ${JSON.stringify(table)}, which is no table`);
+  if (table === null || typeof table !== "object") throw new Error(`\`${name}\` is not a key of ${JSON.stringify(table)}, which is not a table`);
   if (Array.isArray(table) && !(String(Number(name)) === name && Number(name) <= table.length))
     throw new Error(`${name} is not one of 0 to ${table.length}, by which these tables are numbered`);
   Object.defineProperty(table, name, { value, writable: true, enumerable: true, configurable: true });

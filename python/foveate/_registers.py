@@ -36,18 +36,18 @@ class Register(NamedTuple):
 
 for _tuple, _docs in (
     (RegisterField, {
-        "name": "Its name.",
-        "low": "Its lowest bit.",
-        "width": "How many bits it has.",
-        "access": 'What a program may do: "read", "read, write", "write 1" or "read, write 1 to clear".',
-        "reset": "Its value after a reset; None where the core says.",
-        "doc": "What it says.",
+        "name": "Name.",
+        "low": "Lowest bit.",
+        "width": "Number of bits.",
+        "access": 'Access of a program: "read", "read, write", "write 1" or "read, write 1 to clear".',
+        "reset": "Value after a reset; None if it depends on the state of the core.",
+        "doc": "Meaning.",
     }),
     (Register, {
-        "name": "Its name.",
-        "address": "Its address in bytes.",
-        "doc": "What it is.",
-        "fields": "Its fields, from the lowest bit on: a tuple of RegisterField.",
+        "name": "Name.",
+        "address": "Address in bytes.",
+        "doc": "Purpose.",
+        "fields": "Fields, from the lowest bit on: a tuple of RegisterField.",
     }),
 ):
     for _name, _doc in _docs.items():

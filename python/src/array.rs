@@ -104,9 +104,11 @@ pub(crate) fn conversion(array: &Bound<'_, PyUntypedArray>, bits: u32) -> PyResu
         _ => return Ok(String::new()),
     }
     let Some((least, most)) = range(array)? else {
-        return Ok("; it has values that are no numbers, which no pixel has, so replace them first, for example with \
-                   numpy.nan_to_num"
-            .to_owned());
+        return Ok(
+            "; it has values that are not numbers (NaN), so replace them first, for example \
+                   with numpy.nan_to_num"
+                .to_owned(),
+        );
     };
     let top = f64::from(largest);
     let rounded = if dtype.kind() == b'f' { ".round()" } else { "" };

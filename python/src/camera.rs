@@ -345,7 +345,7 @@ impl Seen {
         if self.frames > 0 {
             if threads != 1 && self.process != std::process::id() {
                 return Err(PyRuntimeError::new_err(
-                    "this camera has threads, which do not live on after a fork; make the camera in the new process",
+                    "this camera has threads, which do not exist after a fork; make the camera in the new process",
                 ));
             }
             let (own_width, own_height) =

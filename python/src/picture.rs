@@ -67,6 +67,6 @@ fn png<'py>(
     let mut encoded = Vec::new();
     PngEncoder::new(&mut encoded)
         .write_image(bytes, side(width)?, side(height)?, colour)
-        .map_err(|error| PyValueError::new_err(format!("this is no picture: {error}")))?;
+        .map_err(|error| PyValueError::new_err(format!("this is not a picture: {error}")))?;
     Ok(PyBytes::new(py, &encoded))
 }

@@ -27,8 +27,9 @@ pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bo
     let inner = design.inner();
     let Some(table) = register_table(inner) else {
         return Err(value_error(format!(
-            "design {} has no registers, because it is not on AXI: organization `{}`, interface `{}`; registers have \
-             designs with hardware.organization = 'raster' and hardware.interface = 'axi'",
+            "design {} has no registers, because it is not on AXI: organization `{}`, interface \
+             `{}`; only designs with hardware.organization = 'raster' and hardware.interface = \
+             'axi' have registers",
             inner.fingerprint(),
             inner.organization().name(),
             inner.interface_kind().name(),

@@ -228,7 +228,7 @@ def test_the_message_says_which_values_there_are():
     assert "its values are -7.5 to 300: pixels of 8 bits are 0 to 255, so scale them first" in refusal([[-7.5, 300.0]])
     assert "its values are -3 to 300: pixels of 8 bits are 0 to 255, so scale them first" in refusal([[-3, 300]])
     for wrong in (np.nan, np.inf, -np.inf):
-        assert "values that are no numbers, which no pixel has" in refusal([[0.5, wrong]])
+        assert "values that are not numbers (NaN)" in refusal([[0.5, wrong]])
 
 
 class Exchanged:

@@ -112,7 +112,7 @@ if child == 0:
     try:
         many.step(frame)
     except RuntimeError as error:
-        assert "do not live on after a fork" in str(error)
+        assert "do not exist after a fork" in str(error)
         many.reset()
         assert many.step(frame).number == 0
         os._exit(7)

@@ -53,6 +53,8 @@ HIDDEN = {
 }
 CLAP = {"Args", "Parser", "Subcommand", "ValueEnum"}
 ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0"}
+TEMPLATE_TAG = re.compile(r"\{[%#].*?[%#]\}", re.S)
+TEMPLATE_VALUE = re.compile(r"\{\{.*?\}\}", re.S)
 SHOWN_ATTRIBUTES = {"title", "alt", "placeholder", "aria-label", "label", "content"}
 SCRIPT = re.compile(
     r"""//[^\n]*|/\*.*?\*/|(?P<quote>["'`])(?P<text>(?:\\.|(?!(?P=quote))[^\\])*)(?P=quote)|[=(,:]\s*/(?![/*])(?:\\.|[^/\\\n])+/""", re.S
@@ -183,9 +185,9 @@ class PageReader(HTMLParser):
 
 
 def page_texts(source):
-    """Returns the texts of a page."""
+    """Returns the texts of a page, or of a template of one."""
     reader = PageReader()
-    reader.feed(source)
+    reader.feed(TEMPLATE_VALUE.sub("{}", TEMPLATE_TAG.sub(" ", source)))
     return [text for text in (" ".join(text.split()) for text in reader.texts) if is_message(text)]
 
 
@@ -194,7 +196,7 @@ def sources():
     for folder in [*sorted(ROOT.glob("crates/*/src")), ROOT / "python/src"]:
         yield from ((file, lambda source: RustReader().read(source)) for file in rust_files(folder))
     yield from ((file, python_texts) for file in sorted(ROOT.glob("python/foveate/**/*.py")))
-    for folder in [ROOT / "web", *sorted(ROOT.glob("crates/*/src"))]:
+    for folder in [ROOT / "web", *sorted(ROOT.glob("crates/*/src")), *sorted(ROOT.glob("crates/*/templates"))]:
         files = [file for file in sorted(folder.rglob("*")) if not file.relative_to(folder).as_posix().startswith("tests/")]
         yield from ((file, script_texts) for file in files if file.suffix == ".js")
         yield from ((file, page_texts) for file in files if file.suffix == ".html")

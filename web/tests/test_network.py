@@ -228,7 +228,7 @@ def test_counts_are_shown_and_begin_anew(street):
     assert shown["found in whole frames"] == str(sums["whole"])
     assert shown["of these kept"].startswith(f"{sums['kept']} (")
     assert shown["added"] == str(sums["added"])
-    assert float(shown["ms a picture"]) > 0
+    assert float(shown["ms per picture"]) > 0
     page.locator("[data-key='region.size'] input[type=number]").fill("16")
     page.keyboard.press("Tab")
     network_result(page)
@@ -285,7 +285,7 @@ def test_a_slow_network_does_not_slow_the_picture(opened):
         ("empty.onnx", b"", "it has no graph"),
         ("big.onnx", lambda: onnx.filters(128, 2, (1, 1, 1024, 1024)), "MB of tensors"),
         ("many.onnx", lambda: onnx.filters(1, 1, (1, 4, 48, 64)), "with 1 or 3 channels, but it has 4"),
-        ("any.onnx", lambda: onnx.filters(1, 1, (1, 1, "height", "width")), "say which, for example letterbox=416x416"),
+        ("any.onnx", lambda: onnx.filters(1, 1, (1, 1, "height", "width")), "give one, for example letterbox=416x416"),
         ("odd.onnx", lambda: odd_model(), "has the operator Odd, which is not supported"),
     ],
     ids=["no network", "empty", "memory", "channels", "size", "operator"],

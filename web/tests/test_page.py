@@ -259,7 +259,7 @@ def test_a_link_restores_all_settings(still):
         ("preset=nothing", "no preset nothing"),
         ("source=scene:nothing", "scene:nothing"),
         ("size=large", "write 640x480"),
-        ("region.size=x", "x is no value"),
+        ("region.size=x", "x is not a value"),
         # Names that every object has from elsewhere.
         ("__proto__.rgba=1", "__proto__"),
         ("constructor.prototype=1", "constructor"),
@@ -274,11 +274,11 @@ def test_a_link_restores_all_settings(still):
         ("network.__proto__=1", "network.__proto__ is not a setting"),
         ("__proto__=1", "__proto__ is not a setting"),
         # Numbers that are none, too large or leave others out.
-        ("region.size=1e999", "1e999 is no value"),
-        ("region.size=12345678901234567890", "12345678901234567890 is no value"),
-        ("region.size=null", "null is no value"),
-        ("region.size=%5B8%5D", "[8] is no value"),
-        ("region.size=%7B%22__proto__%22:%7B%22rgba%22:1%7D%7D", "is no value"),
+        ("region.size=1e999", "1e999 is not a value"),
+        ("region.size=12345678901234567890", "12345678901234567890 is not a value"),
+        ("region.size=null", "null is not a value"),
+        ("region.size=%5B8%5D", "[8] is not a value"),
+        ("region.size=%7B%22__proto__%22:%7B%22rgba%22:1%7D%7D", "is not a value"),
         ("spatial.999999999.level=1", "spatial.999999999"),
         ("spatial.1.feature=%22edge%22", "spatial.1"),
         ("size=99999999999x1", "99999999999"),
@@ -361,7 +361,7 @@ def test_several_pictures_are_a_clip_in_order_of_their_numbers(still, picture):
 @pytest.mark.parametrize(
     ("name", "kind", "data", "message"),
     [
-        ("broken.png", "image/png", b"\x89PNG\r\n\x1a\nbroken", "broken.png is no picture"),
+        ("broken.png", "image/png", b"\x89PNG\r\n\x1a\nbroken", "broken.png is not a picture"),
         ("notes.txt", "text/plain", b"notes", "notes.txt is neither a clip nor a picture"),
         ("clip.mp4", "video/mp4", b"no clip at all", "foveate live clip.mp4"),
     ],

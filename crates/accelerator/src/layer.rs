@@ -112,7 +112,7 @@ impl Layer {
             ("number of output channels", outputs.channels),
         ] {
             if channels % groups != 0 {
-                let valid = format!("a multiple of its {groups} groups");
+                let valid = format!("a multiple of {groups}, the number of groups");
                 return Err(AcceleratorError::InvalidLayer { what, value: channels.into(), valid });
             }
         }
@@ -202,7 +202,7 @@ impl Layer {
         Err(AcceleratorError::InvalidLayer {
             what: "number of multiplications",
             value: macs,
-            valid: format!("at most {MAX_MACS}, were it dense"),
+            valid: format!("at most {MAX_MACS}, counted as if the layer were dense"),
         })
     }
 }

@@ -292,7 +292,7 @@ impl Board {
         }
         let is_closed = self.device.family == DeviceFamily::Vivado;
         if is_closed && sensor_and_pins.is_some() {
-            return Err(format!("device.family = vivado takes sensor = \"{PATTERN}\" alone"));
+            return Err(format!("device.family = vivado works only with sensor = \"{PATTERN}\""));
         }
         let needed_pins = if is_closed { 2 } else { 1 };
         if self.clock.pins.len() != needed_pins {
@@ -300,10 +300,12 @@ impl Board {
             return Err(format!("clock.pins has {pins} pins; {needed_pins} are needed"));
         }
         if (self.device.family == DeviceFamily::Ecp5) != self.device.speed.is_some() {
-            return Err("device.speed is for ECP5, which needs it".to_owned());
+            return Err(
+                "device.speed must be given for the family ecp5, and only for it".to_owned()
+            );
         }
         if !(1..=1000).contains(&self.clock.core_mhz) || !(1..=1000).contains(&self.clock.mhz) {
-            return Err("clocks are 1 to 1000 MHz".to_owned());
+            return Err("clock.mhz and clock.core_mhz must be 1 to 1000".to_owned());
         }
         self.check_baud()
     }
@@ -315,7 +317,10 @@ impl Board {
         if known.is_empty() || known.contains(&part.as_str()) {
             return Ok(());
         }
-        Err(format!("device.part = \"{part}\": this family has {}", known.join(", ")))
+        Err(format!(
+            "device.part = \"{part}\" is not a part of this family; its parts are {}",
+            known.join(", ")
+        ))
     }
 
     /// Checks that the data pins are as many as those of the sensor, that the sensor may get the
@@ -334,7 +339,7 @@ impl Board {
         if pixels > f64::from(self.clock.core_mhz) {
             let core = self.clock.core_mhz;
             return Err(format!(
-                "clock.core_mhz = {core}: `{name}` sends up to {pixels} million pixels in a second"
+                "clock.core_mhz = {core} is too slow: `{name}` sends up to {pixels} million pixels per second"
             ));
         }
         Ok(())
@@ -346,7 +351,10 @@ impl Board {
         let baud = self.serial.baud;
         let clock = self.clock.core_mhz * 1_000_000;
         if baud == 0 || baud > clock / 4 {
-            return Err(format!("serial.baud = {baud}: 1 to {} can be made", clock / 4));
+            return Err(format!(
+                "serial.baud = {baud} cannot be made from the clock; the valid range is 1 to {}",
+                clock / 4
+            ));
         }
         let divisor = self.baud_divisor();
         let deviation = (f64::from(clock) / f64::from(divisor) / f64::from(baud) - 1.0).abs();
@@ -386,8 +394,8 @@ mod tests {
             ("[\"37\", \"11\"]", "[\"37\"]", "2 are needed"),
             ("family = \"ice40\"", "family = \"ice41\"", "unknown variant `ice41`"),
             ("package = \"sg48\"", "package = \"sg48\"\nspeed = 6", "device.speed"),
-            ("sensor = \"ov7670-qvga\"", "sensor = \"ov7671\"", "no sensor `ov7671`"),
-            ("family = \"ice40\"", "family = \"vivado\"", "\"pattern\" alone"),
+            ("sensor = \"ov7670-qvga\"", "sensor = \"ov7671\"", "unknown sensor `ov7671`"),
+            ("family = \"ice40\"", "family = \"vivado\"", "works only with sensor = \"pattern\""),
             ("xclk = \"47\"", "xlck = \"47\"", "unknown field `xlck`"),
         ] {
             assert!(good.contains(from), "{from}");

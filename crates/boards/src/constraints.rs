@@ -32,9 +32,9 @@ pub(crate) fn pin_file(project: &BoardProject) -> SourceFile {
     let clocks = [Some(board), sensor].into_iter().flatten();
     text.extend(clocks.map(|(port, mhz)| clock_line(family, port, mhz)));
     if family == DeviceFamily::Vivado {
-        text += "# Lights and the serial line have no clock outside.\n\
-                 set_false_path -to [get_ports {tx_o led_o[*]}]\n\
-                 set_false_path -from [get_ports rx_i]\n";
+        text += "# LEDs and the serial line are asynchronous: no clock outside of the device \
+                 belongs to them.\nset_false_path -to [get_ports {tx_o led_o[*]}]\nset_false_path \
+                 -from [get_ports rx_i]\n";
     }
     source_file(pin_file_name(family), text)
 }

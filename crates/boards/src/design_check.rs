@@ -14,23 +14,28 @@ const MAX_REGION_VALUES: u32 = 2048;
 /// Fails with the reason if a design does not fit a board, behind this sensor or a pattern.
 pub(crate) fn check_fit(design: &Design, sensor: Option<&Sensor>) -> Result<(), String> {
     match (design.interface_kind(), design.hardware(), sensor) {
-        (InterfaceKind::Axi, Hardware::Raster(hardware), sensor) => check_raster(design.with_hardware(hardware), sensor),
-        (InterfaceKind::Ports, Hardware::Pipelined(hardware), None) => check_array(design.with_hardware(hardware)),
+        (InterfaceKind::Axi, Hardware::Raster(hardware), sensor) => {
+            check_raster(design.with_hardware(hardware), sensor)
+        }
+        (InterfaceKind::Ports, Hardware::Pipelined(hardware), None) => {
+            check_array(design.with_hardware(hardware))
+        }
         (InterfaceKind::Ports, Hardware::Pipelined(_), Some(_)) => {
-            Err("an array takes a pixel of every region at a clock, and a sensor sends one; set hardware.organization='raster' \
-                 and hardware.interface='axi', or take a board with a pattern, vcu118"
+            Err("an array of RPUs takes a pixel of every region per clock, but a sensor sends one \
+                 pixel; set hardware.organization='raster' and hardware.interface='axi', or choose \
+                 a board with a pattern, vcu118"
                 .to_owned())
         }
         (InterfaceKind::Ports, Hardware::Serial(_), _) => {
-            Err("organization `serial` stands on no board; set hardware.organization='raster' and hardware.interface='axi', or \
-                 'pipelined' where a pattern is"
+            Err("no board supports the organization `serial`; set hardware.organization='raster' \
+                 and hardware.interface='axi', or 'pipelined' for a board with a pattern"
                 .to_owned())
         }
         (InterfaceKind::Ports, Hardware::Raster(_), _) => {
-            Err("it has no bus; set hardware.interface='axi'".to_owned())
+            Err("it has no AXI interface; set hardware.interface='axi'".to_owned())
         }
         (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_), _) => {
-            Err("only organization `raster` is on AXI".to_owned())
+            Err("only the organization `raster` has an AXI interface".to_owned())
         }
     }
 }
@@ -38,15 +43,22 @@ pub(crate) fn check_fit(design: &Design, sensor: Option<&Sensor>) -> Result<(), 
 fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(), String> {
     if raster.has_external_store() {
         let remedy = "set hardware.store='block'";
-        return Err(format!("no board here has a memory for a frame store outside; {remedy}"));
+        return Err(format!(
+            "no board has a memory for a frame store outside of the core; {remedy}"
+        ));
     }
     if raster.pixel_bits() != 8 {
-        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", raster.pixel_bits()));
+        return Err(format!(
+            "frame.pixel_bits = {}: pixels on a board have 8 bits",
+            raster.pixel_bits()
+        ));
     }
     let lanes = raster.pixels_per_clock();
     let Some(sensor) = sensor else { return Ok(()) };
     if lanes != 1 {
-        return Err(format!("hardware.pixels_per_clock = {lanes}: a sensor sends one at a time"));
+        return Err(format!(
+            "hardware.pixels_per_clock = {lanes}: a sensor sends one pixel per clock"
+        ));
     }
     let (width, height) = (raster.width(), raster.height());
     let (max_width, max_height) = (sensor.width - sensor.left, sensor.height - sensor.top);
@@ -62,13 +74,19 @@ fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(),
 fn check_array(array: PipelinedDesign<'_>) -> Result<(), String> {
     let side = array.region_size();
     if array.neighborhood() == Neighborhood::Shared {
-        return Err("an RPU sees the pixels of its own region alone here; set region.neighborhood='isolated'".to_owned());
+        return Err("an RPU on a board gets only the pixels of its own region; set region.neighborhood='isolated'".to_owned());
     }
     if array.has_frame_sync() {
-        return Err("a pattern loses no pixel; set hardware.sync=false".to_owned());
+        return Err(
+            "a pattern loses no pixels, so it needs no frame sync; set hardware.sync=false"
+                .to_owned(),
+        );
     }
     if array.pixel_bits() != 8 {
-        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", array.pixel_bits()));
+        return Err(format!(
+            "frame.pixel_bits = {}: pixels on a board have 8 bits",
+            array.pixel_bits()
+        ));
     }
     if array.region_pixels() > MAX_REGION_VALUES {
         return Err(format!(

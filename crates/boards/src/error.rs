@@ -12,7 +12,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum BoardError {
     /// There is no board of that name.
-    #[error("there is no board `{name}`; there are {known}; a file with one ends in .toml")]
+    #[error("unknown board `{name}`; boards are {known}, or a file NAME.toml")]
     UnknownBoard {
         /// The given name.
         name: String,
@@ -21,7 +21,7 @@ pub enum BoardError {
     },
     /// There is no sensor of that name.
     #[error(
-        "there is no sensor `{name}`; there are {known}, and `pattern` for a pattern in place of one"
+        "unknown sensor `{name}`; sensors are {known}, and `pattern` for a pattern in place of a sensor"
     )]
     UnknownSensor {
         /// The given name.
@@ -38,7 +38,7 @@ pub enum BoardError {
         source: std::io::Error,
     },
     /// The script has not left a file that it should make.
-    #[error("the build left no `{}`: {source}", path.display())]
+    #[error("the build did not write `{}`: {source}", path.display())]
     MissingOutput {
         /// The path of the file.
         path: PathBuf,

@@ -172,26 +172,31 @@ impl Sensor {
     fn check(&self) -> Result<(), String> {
         let I2cAddress { device, address_bytes } = self.i2c;
         if device > 0x7F {
-            return Err(format!("i2c.device = {device}: an address has 7 bits"));
+            return Err(format!("i2c.device = {device}: an address of I2C has 7 bits"));
         }
         if !(1..=2).contains(&address_bytes) {
-            return Err(format!("i2c.address_bytes = {address_bytes}: registers have 1 or 2"));
+            return Err(format!(
+                "i2c.address_bytes = {address_bytes}: the address of a register has 1 or 2 bytes"
+            ));
         }
         let most = if address_bytes == 1 { 0xFF } else { 0xFFFF };
         if let Some((address, _)) = self.writes().find(|(address, _)| *address > most) {
-            return Err(format!("a step writes register {address:#X}, the last is {most:#X}"));
+            return Err(format!("a step writes register {address:#X}, but the last is {most:#X}"));
         }
         if self.setup_words().len() < 2 {
-            return Err("a sensor needs two steps or more".to_owned());
+            return Err("a sensor needs at least two steps".to_owned());
         }
         if self.left >= self.width || self.top >= self.height {
-            return Err("left and top leave nothing of a frame".to_owned());
+            return Err(
+                "left and top leave nothing of the frame; they must be below width and height"
+                    .to_owned(),
+            );
         }
         let [least, largest] = self.xclk_mhz;
         let rates = [self.pclk_per_xclk, self.frames_per_mhz, least, largest];
         if rates.iter().any(|rate| !rate.is_finite() || *rate <= 0.0) || least > largest {
             return Err(
-                "clocks and rates are above 0, and the least is not above the most".to_owned()
+                "clocks and rates must be above 0, and the smallest clock must not exceed the largest".to_owned()
             );
         }
         Ok(())
@@ -246,7 +251,7 @@ mod tests {
             ("address_bytes = 1", "address_bytes = 3", "1 or 2"),
             ("[0x12, 0x80]", "[0x112, 0x80]", "the last is 0xFF"),
             ("left = 0", "left = 320", "leave nothing"),
-            ("xclk_mhz = [10.0", "xclk_mhz = [50.0", "the least is not above"),
+            ("xclk_mhz = [10.0", "xclk_mhz = [50.0", "must not exceed"),
             ("frames_per_mhz = 1.25", "frames_per_mhz = nan", "above 0"),
             ("[0x12, 0x80]", "[0x12, 0x180]", "invalid"),
             ("luma-first", "luma", "unknown variant `luma`"),

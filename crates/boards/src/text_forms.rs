@@ -95,23 +95,24 @@ impl TextForm {
         }
         let (is_valid, expected) = match self {
             Self::Word => {
-                (is_word(text, ""), "letters, digits, `.`, `_` and `-`, the first no `-`")
+                (is_word(text, ""), "letters, digits, `.`, `_` and `-`, and not begin with `-`")
             }
-            Self::Part => {
-                (is_word(text, "/"), "letters, digits, `.`, `_`, `/` and `-`, the first no `-`")
-            }
+            Self::Part => (
+                is_word(text, "/"),
+                "letters, digits, `.`, `_`, `/` and `-`, and not begin with `-`",
+            ),
             Self::Line => (is_line(text), "a line of text without control characters"),
             Self::Page => (
                 is_page(text),
-                "an address that begins with https:// or http://, with `%20` for a blank",
+                "an address that begins with https:// or http://, with `%20` for a space",
             ),
             Self::Command => (
                 is_command(text),
-                "a program and its arguments with a blank between them, words of letters, digits and `-_./:=,+@` that a shell takes as they are",
+                "a program and its arguments with a space between them, of letters, digits and `-_./:=,+@` alone, which a shell does not change",
             ),
             Self::Sensor => (
                 is_sensor(text),
-                "the name of a sensor, or the path of a file NAME.toml, whose name has letters, digits, `.`, `_` and `-`, the first no `-`",
+                "the name of a sensor, or the path of a file NAME.toml, whose name has only letters, digits, `.`, `_` and `-`, and does not begin with `-`",
             ),
             Self::Change => (is_line(text), "KEY=VALUE in a line without control characters"),
         };
@@ -216,6 +217,9 @@ mod tests {
         let error = check("[pins]\ndata = [\"1\", \"a\\nb\"]");
         assert!(error.starts_with("pins.data[1] = \"a\\nb\": expected letters, digits"), "{error}");
         let error = check(&format!("title = '{}'", "x".repeat(201)));
-        assert!(error.ends_with("...\": it has 201 characters; 200 is the most"), "{error}");
+        assert!(
+            error.ends_with("...\": it has 201 characters; at most 200 are allowed"),
+            "{error}"
+        );
     }
 }

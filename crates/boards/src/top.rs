@@ -276,7 +276,7 @@ pub(crate) fn clock_module(project: &BoardProject, simulated: bool) -> String {
     let (pair, port) = (project.has_pair(), project.clock_port());
     let (description, body) = match project.clock {
         _ if simulated => {
-            (", in a simulation: the clock that comes is taken for it", direct_clock(port))
+            (", in a simulation: the incoming clock is used in its place", direct_clock(port))
         }
         ClockSource::Direct if pair => {
             (", by the buffers of a Xilinx device", differential_clock())

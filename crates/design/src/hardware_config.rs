@@ -233,7 +233,7 @@ fn refuse_foreign_keys(organization: Organization, table: &Table) -> Result<(), 
                 (_, Some(value)) => {
                     let (key, value) = (format!("hardware.{key}"), value.to_string());
                     let remedy = format!(
-                        "only the {owner} organization has it; leave the key out, or use \
+                        "only the {owner} organization has this key; leave the key out, or use \
                          organization = \"{owner}\""
                     );
                     return Err(organization.combination_error(&key, value, &remedy));

@@ -234,7 +234,7 @@ impl Port {
 /// Returns the input that marks the first pixel or word of a frame. It is the same for every
 /// organization. Returns `None` for a design without `hardware.sync`.
 pub(crate) fn sync_input(design: &Design) -> Option<Port> {
-    let doc = "what comes is the first of a frame; only with valid_i";
+    let doc = "pixel_i begins a frame; only with valid_i";
     let port = || Port::scalar(PortDirection::Input, PortRole::StartOfFrame, 1, doc);
     design.has_frame_sync().then(port)
 }
@@ -242,7 +242,7 @@ pub(crate) fn sync_input(design: &Design) -> Option<Port> {
 /// Returns the output that reports a pixel or word that fits no frame, or `None` for a design
 /// without `hardware.sync`.
 pub(crate) fn sync_output(design: &Design) -> Option<Port> {
-    let doc = "what came at this edge fits no frame";
+    let doc = "the input at this edge does not fit into a frame";
     let port = || Port::scalar(PortDirection::Output, PortRole::SyncError, 1, doc);
     design.has_frame_sync().then(port)
 }

@@ -17,7 +17,9 @@ pub(crate) fn instance(design: &Design, prefix: &Prefix) -> Vec<String> {
     let declare = |port: &&Port| {
         let driven = match (port.direction, port.role) {
             (PortDirection::Input, PortRole::Clock) => "  // yours",
-            (PortDirection::Input, _) => "  // yours, changes after the clock's rising edge",
+            (PortDirection::Input, _) => {
+                "  // your signal, which changes after the clock's rising edge"
+            }
             (PortDirection::Output, _) => "",
         };
         format!("wire {:widest$} {};{driven}", range(port), signal(port))

@@ -115,17 +115,18 @@ impl DesignComparison {
             header,
             rows,
             note: Some(format!(
-                "low, high: logic LUTs of one RPU or lane, with and without small ones sharing a LUT. \
-                 mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + mem. levels: \
-                 of the longest path, from and to registers, memories and ports. cycles: clocks from \
-                 frame to frame. MHz: {}. frames/s: at that clock. RCM, and what stands right \
-                 of it: all regions and what they share{}. device: the largest share of an {}.",
+                "low, high: logic LUTs of one RPU or lane, with and without small ones sharing a \
+                 LUT. mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + \
+                 mem. levels: of the longest path, from and to registers, memories and ports. \
+                 cycles: clocks from frame to frame. MHz: {}. frames/s: at that clock. RCM, and \
+                 the columns right of it: all regions and the logic that they share{}. device: the \
+                 largest share of an {}.",
                 match self.clock_mhz {
                     Some(_) => "the clock as it was given",
                     None => "the clock that is estimated from the netlist, and its range",
                 },
                 if self.candidates.iter().any(|one| one.report.bus.is_some()) {
-                    ", and what puts them on AXI"
+                    ", and the AXI interface"
                 } else {
                     ""
                 },

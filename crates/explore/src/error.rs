@@ -44,8 +44,8 @@ pub enum ExploreError {
     Inference(Box<InferenceError>),
     /// There are no objects, so no share of them can be sent.
     #[error(
-        "no object is to be counted in the {half} half of the clips, so --min-recall says nothing; check --boxes, \
-         or take more footage"
+        "the {half} half of the clips has no object to count, so --min-recall cannot be checked; \
+         check --boxes, or use longer clips"
     )]
     NoObjects {
         /// The half of the clips: `first` or `second`.
@@ -59,7 +59,7 @@ pub enum ExploreError {
     },
     /// The exploration has no unit of this name.
     #[error(
-        "there is no unit `{unit}`: the space, the clips or the options are other than when it was planned; plan again"
+        "there is no unit `{unit}`: the space, the clips or the options have changed since it was planned; plan again"
     )]
     NoUnit {
         /// The name as the user gave it.

@@ -15,7 +15,7 @@ pub(crate) fn measuring_progress(done_pairs: usize, all: usize) -> RunProgress<'
 
 /// Reports that a network runs behind cameras, so far behind this number.
 pub(crate) fn network_progress(cameras: usize) -> RunProgress<'static> {
-    RunProgress::work(format!("the network looks at cameras, {cameras} so far"))
+    RunProgress::work(format!("running the network behind cameras, {cameras} so far"))
 }
 
 /// Reports that Yosys synthesizes designs: so many distinct RTLs are done, of all distinct RTLs.

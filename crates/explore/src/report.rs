@@ -94,7 +94,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let table = |prefix, tall, rows| SortableTable {
         prefix,
         number: "number of the point",
-        link: "all of it, with its configuration",
+        link: "all figures of the point, with its configuration",
         tall,
         marks_best: tall,
         columns: &columns,

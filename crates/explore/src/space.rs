@@ -63,17 +63,17 @@ pub struct BuiltInSpace {
 pub const BUILT_IN_SPACES: &[BuiltInSpace] = &[
     BuiltInSpace {
         name: "approximations",
-        summary: "what each approximation of the hardware costs in error, one at a time",
+        summary: "the error that each approximation of the hardware causes, one at a time",
         toml: include_str!("../spaces/approximations.toml"),
     },
     BuiltInSpace {
         name: "designs",
-        summary: "organizations, folds, pixel bits, windows and denoising against each other",
+        summary: "organizations, folds, pixel bits, windows and denoising, each with each",
         toml: include_str!("../spaces/designs.toml"),
     },
     BuiltInSpace {
         name: "periphery",
-        summary: "what irrelevant regions send: blocks, level and minimum score against bytes",
+        summary: "means of irrelevant regions: blocks, level and minimum score against bytes",
         toml: include_str!("../spaces/periphery.toml"),
     },
 ];

@@ -265,7 +265,7 @@ pub enum FootageError {
         inputs: String,
     },
     /// A frame rate is zero or infinite.
-    #[error("{frames} frames in {seconds} s is not a frame rate; both numbers must be at least 1")]
+    #[error("{frames} frames in {seconds} s are not a frame rate; both numbers must be at least 1")]
     FrameRate {
         /// The number of frames as given.
         frames: u32,

@@ -84,7 +84,7 @@ mod tests {
         assert_eq!(FrameRate::new(30_000, 1_001).unwrap().time_us(30_000), 1_001_000_000);
         assert_eq!(rate.time_us(u64::MAX), u64::MAX);
         let message = FrameRate::new(0, 1).unwrap_err().to_string();
-        assert!(message.starts_with("0 frames in 1 s is not a frame rate"));
+        assert!(message.starts_with("0 frames in 1 s are not a frame rate"));
     }
 
     #[test]

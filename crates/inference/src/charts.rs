@@ -69,7 +69,7 @@ fn depth_chart(summary: &InferenceSummary) -> ChartWithIds {
     };
     chart(
         "depth",
-        "What is needed along the network's depth",
+        "Share needed along the depth of the network",
         "layer with multiplications, from the input on",
         "share of the layer's positions [%]",
         vec![
@@ -91,7 +91,7 @@ fn frames_chart(summary: &InferenceSummary, frames: &[&FrameFigures]) -> ChartWi
     };
     chart(
         "frames",
-        "What is needed over the frames",
+        "Share needed over the frames",
         if summary.clips.len() > 1 { "frame, clip after clip" } else { "frame" },
         "share [%]",
         vec![
@@ -123,7 +123,7 @@ fn savings_chart(summary: &InferenceSummary, frames: &[&FrameFigures]) -> ChartW
     };
     let mut drawn = chart(
         "saved",
-        "What is saved against what is active",
+        "MACs saved against active regions",
         "regions active [%]",
         "MACs saved [%]",
         series,

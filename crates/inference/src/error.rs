@@ -83,7 +83,7 @@ pub enum InferenceError {
     },
     /// The frames do not fit into memory together.
     #[error(
-        "the pictures of the first {frames} frames take more than 4 GiB, and tuning keeps all in memory; cut the clip with --max-frames"
+        "the pixels of the first {frames} frames take more than 4 GiB, and tuning keeps all of them in memory; cut the clip with --max-frames"
     )]
     TooLong {
         /// The number of frames that fit.
@@ -91,7 +91,7 @@ pub enum InferenceError {
     },
     /// There are too few frames for two halves.
     #[error(
-        "tuning takes one half of the frames and reports the other, for which it needs {least} frames; there {} {frames}",
+        "tuning uses one half of the frames and reports the other, for which it needs {least} frames, but there {} {frames}",
         if *frames == 1 { "is" } else { "are" }
     )]
     TooShort {
@@ -102,7 +102,7 @@ pub enum InferenceError {
     },
     /// The clips have no counted frame.
     #[error(
-        "no frame of the {clips} counts, because a clip's first frame is computed whole; give clips of at least 2 frames"
+        "no frame of the {clips} counts, because the first frame of a clip is computed whole; give clips of at least 2 frames"
     )]
     NoCountedFrame {
         /// The clips in words.

@@ -191,9 +191,7 @@ impl Inference {
                 match (run.has_counted_frames(), is_whole) {
                     (true, _) => {}
                     (false, true) => {
-                        return Err(InferenceError::NoCountedFrame {
-                            clips: "clips that it reports",
-                        });
+                        return Err(InferenceError::NoCountedFrame { clips: "clips to report" });
                     }
                     (false, false) => return Err(PlaybackError::Interrupted.into()),
                 }

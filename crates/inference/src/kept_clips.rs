@@ -98,7 +98,7 @@ impl KeptClips {
         }
         let parts: Vec<_> = self.clips.iter().map(|clip| clip.clip_part(&clip.frames)).collect();
         if parts.iter().all(|part| part.counted_frames() == 0) {
-            return Err(InferenceError::NoCountedFrame { clips: "clips that it tunes on" });
+            return Err(InferenceError::NoCountedFrame { clips: "clips to tune on" });
         }
         Ok((parts, None))
     }

@@ -240,9 +240,7 @@ impl<'a> InferenceRun<'a> {
             .collect();
         let forms = || (0..=self.network.nodes().len()).map(|value| self.network.form(value));
         let of_weights = self.network.non_finite_weights().iter().map(|(name, count)| {
-            format!(
-                "the weights `{name}` hold {count} infinite values, or such that are no numbers"
-            )
+            format!("the weights `{name}` hold {count} values that are infinite or not a number")
         });
         let is_one = clips.len() == 1;
         let warnings = of_weights.chain(self.not_finite.warning(self.network, is_one)).collect();

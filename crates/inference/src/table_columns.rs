@@ -100,27 +100,28 @@ const REGIONS: &str = "% of regions";
 const MACS: &str = "% of MACs";
 
 /// Other meanings, which are too long for a line of a list.
-const OPERATOR: &str = "what it computes; + stands before an activation of the same node";
+const OPERATOR: &str = "operation of the layer; + precedes an activation of the same node";
 const OUTPUT: &str = "bytes of the output, which stays from frame to frame";
-const CYCLES: &str = "cycles per frame on the accelerator, where the masks say";
-const ENERGY: &str = "energy per frame on the accelerator, where the masks say";
+const CYCLES: &str = "cycles per frame on the accelerator, which computes only where the masks say";
+const ENERGY: &str = "energy per frame on the accelerator, which computes only where the masks say";
 const DIFFERENCE: &str = "relative RMS difference of the outputs from a whole computation";
 const RELATIVE_LIMIT: &str =
-    "share of the root mean square of each layer's values, if it is one for all";
+    "share of the root mean square of each layer's values, if all layers have the same share";
 const AGREEMENT: &str = "frames in which every output has its largest value at the same place";
 const COSINE: &str = "cosine of the angle between all outputs and those of a whole computation";
 const LIMITS: &str = "exact: limits of 0; uniform: one relative limit; frozen: nothing after the first frame; chosen";
 const SENT: &str =
     "bytes that the camera sends: two bits per region, pixels of active regions and means";
-const PICTURE: &str = "PSNR of what the receiver sees against the whole frame";
+const PICTURE: &str = "PSNR of the receiver's screen against the whole frame";
 const FINDINGS_AGREE: &str =
-    "what the network says of the whole frame that it says behind the camera, too";
+    "share of the network's outputs for the whole frame that are the same behind the camera";
 const VARIATION: &str = "RMS error of the outputs, as a share of their standard deviation over the frames of their clip";
 
 /// The columns of the table of clips, for the page.
 pub(crate) const CLIPS: &[FigureColumn<ClipSummary>] = &[
     heading("clip", "clip", "", "the clip or set").text(|it| Text(it.name.clone())),
-    heading("frames", "frames", "", "frames that were seen").number(|it| Count(it.frames)),
+    heading("frames", "frames", "", "frames that the network has run on")
+        .number(|it| Count(it.frames)),
     heading("counted", "counted", "", "frames that are in the means")
         .number(|it| Count(it.counted_frames)),
     heading("active", "active", REGIONS, ACTIVE).mean(|it| Share(it.active_share)),
@@ -201,9 +202,14 @@ pub(crate) const FRAMES: &[FigureColumn<FrameFigures>] = &[
     }),
     heading("whole_detections", "found", "whole", "detections in the whole frame")
         .number(|it| detection_count(it, |found| found.whole)),
-    heading("kept_detections", "found", "kept", "of these found in what the receiver sees, too")
-        .number(|it| detection_count(it, |found| found.kept)),
-    heading("added_detections", "found", "added", "found in what the receiver sees alone")
+    heading(
+        "kept_detections",
+        "found",
+        "kept",
+        "of these, detections on the receiver's screen, too",
+    )
+    .number(|it| detection_count(it, |found| found.kept)),
+    heading("added_detections", "found", "added", "detections on the receiver's screen alone")
         .number(|it| detection_count(it, |found| found.added)),
 ];
 
@@ -248,7 +254,7 @@ pub(crate) const TRIALS: &[FigureColumn<NamedTrial>] = &[
         .number(|it| Error(Some(it.1.outputs.relative_rms))),
     heading("rms_of_variation", "error", "% of variation", VARIATION)
         .number(|it| Share(it.1.outputs.rms_of_variation)),
-    heading("holds", "goal", "", "whether it is reached").text(|it| GoalReached(it.1.holds)),
+    heading("holds", "goal", "", "whether the goal is reached").text(|it| GoalReached(it.1.holds)),
 ];
 
 fn real(value: f64) -> FigureValue {

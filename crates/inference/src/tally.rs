@@ -64,7 +64,7 @@ impl NotFiniteTally {
         let node = &network.nodes()[*node];
         let clip = if is_one_clip { String::new() } else { format!(" of `{clip}`") };
         Some(format!(
-            "outputs hold infinite values, or such that are no numbers, in {} frames; in the first, frame {frame}{clip}, they begin at node `{}` ({})",
+            "outputs hold values that are infinite or not a number in {} frames; in the first, frame {frame}{clip}, these begin at node `{}` ({})",
             self.frames,
             node.name(),
             node.operator_name()

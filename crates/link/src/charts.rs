@@ -10,8 +10,8 @@ use crate::{ClipReport, CurvePoint, Quality};
 type QualityChart = (&'static str, &'static str, fn(&Quality) -> Option<f64>);
 
 const VIEWS: [QualityChart; 2] = [
-    ("rate-distortion", "PSNR of what the receiver sees [dB]", |quality| quality.psnr),
-    ("rate-distortion-ssim", "SSIM of what the receiver sees", |quality| Some(quality.ssim)),
+    ("rate-distortion", "PSNR of the receiver's screen [dB]", |quality| quality.psnr),
+    ("rate-distortion-ssim", "SSIM of the receiver's screen", |quality| Some(quality.ssim)),
 ];
 
 /// Draws the charts of a clip; `suffix` is added to their file names.

@@ -69,7 +69,7 @@ pub enum LinkError {
         name: String,
     },
     /// A clip has fewer than two frames.
-    #[error("`{clip}` has {frames} frame, which makes no rate; at least 2 are needed")]
+    #[error("`{clip}` has {frames} frame, which has no rate; at least 2 frames are needed")]
     TooFewFrames {
         /// The name of the clip.
         clip: String,
@@ -78,7 +78,7 @@ pub enum LinkError {
     },
     /// The times of the frames do not rise.
     #[error(
-        "frame {frame} of `{clip}` is at {time_us} us, not after the frame before it; give times that rise, for example with --input-fps"
+        "frame {frame} of `{clip}` is at {time_us} us, not after the frame before it; give increasing times, for example with --input-fps"
     )]
     TimesNotRising {
         /// The name of the clip.
@@ -90,7 +90,7 @@ pub enum LinkError {
     },
     /// The codecs do not support this depth.
     #[error(
-        "the design has {bits} bits per pixel, but codecs are compared with 8; set frame.pixel_bits = 8"
+        "the design has {bits} bits per pixel, but codecs are compared at 8; set frame.pixel_bits = 8"
     )]
     UnsupportedDepth {
         /// The number of bits per pixel.

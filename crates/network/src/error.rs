@@ -56,7 +56,7 @@ pub enum NetworkError {
     InvalidNetwork(String),
     /// The frames have another size than the network's input.
     #[error(
-        "the network takes pictures of {wanted} pixels, but the frames have {found}; give --resize {wanted}, or --framing letterbox to scale behind the camera"
+        "the network takes frames of {wanted} pixels, but these frames have {found}; give --resize {wanted}, or --framing letterbox to scale behind the camera"
     )]
     FrameSizeMismatch {
         /// The width x height of the input.

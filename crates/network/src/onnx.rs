@@ -204,8 +204,7 @@ pub mod data_type {
     #[must_use]
     pub fn type_name(kind: i64) -> String {
         let known = usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind));
-        known
-            .map_or_else(|| format!("number {kind}, which ONNX does not have"), ToString::to_string)
+        known.map_or_else(|| format!("type {kind}, which ONNX does not have"), ToString::to_string)
     }
 }
 

@@ -157,14 +157,8 @@ impl FrameAssembler {
             ("bits of a pixel", info.pixel_bits == expected.pixel_bits),
             ("summaries", (info.blocks, info.irrelevant) == (expected.blocks, expected.irrelevant)),
             ("payload", info.raw == expected.raw),
-            (
-                "scores, which the frames before have or have not",
-                info.has_scores == expected.has_scores,
-            ),
-            (
-                "unit of time, which the frames before have",
-                info.ticks_per_second == expected.ticks_per_second,
-            ),
+            ("presence of scores", info.has_scores == expected.has_scores),
+            ("unit of time", info.ticks_per_second == expected.ticks_per_second),
         ];
         match pairs.into_iter().find(|(_, same)| !same) {
             None => Ok(()),

@@ -133,7 +133,7 @@ impl fmt::Display for StreamLoss {
         let cause = |dropped: bool| if dropped { "dropped by the camera" } else { "missing" };
         match *self {
             Self::Bytes { offset, bytes } => {
-                write!(f, "{bytes} bytes from byte {offset} on are no packet")
+                write!(f, "{bytes} bytes from byte {offset} on are not a packet")
             }
             Self::Start { frame } => {
                 write!(
@@ -183,7 +183,7 @@ impl fmt::Display for StreamLoss {
             Self::Foreign { frame } => {
                 write!(
                     f,
-                    "frame {frame} is of another camera or format, and is ignored with what follows it"
+                    "frame {frame} is of another camera or format, and is ignored together with all that follows"
                 )
             }
         }

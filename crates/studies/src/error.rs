@@ -53,7 +53,7 @@ pub enum StudyError {
     },
     /// No event of the recording falls into the time of the clip.
     #[error(
-        "no event of `{}` falls into the time of the clip, which is {first} to {last} us with \
+        "no event of `{}` lies within the time of the clip, which is {first} to {last} us with \
          --sensor-start {first}. The events are from {from} to {to} us; set --sensor-start to the \
          time of the first frame on that clock",
         path.display()
@@ -77,7 +77,7 @@ pub enum StudyError {
     NoBoxes,
     /// There are no objects to count.
     #[error(
-        "no object is to be counted in any frame after the first of `{clips}`; check --boxes, and take more \
+        "`{clips}` has no object to count after its first frame; check --boxes, and use more \
          frames, or --images set for unrelated images"
     )]
     NoObjects {

@@ -145,7 +145,7 @@ pub enum ToolError {
 
     /// The name of a source would leave its folder, or has a special meaning in a script.
     #[error(
-        "source name `{name}` is not valid; use letters, digits, `.`, `_`, `+` and `-`, a first letter that is no `-` or `+`, and no `..`"
+        "source name `{name}` is not valid; use letters, digits, `.`, `_`, `+` and `-`, no `-` or `+` at the beginning, and no `..`"
     )]
     InvalidSourceName {
         /// The name of the source.

@@ -230,7 +230,7 @@ fn silent_failure_advice(invocation: &Invocation) -> String {
     let places = invocation.dir.iter().chain([&temporary]);
     let places: Vec<_> = places.map(|place| format!("`{}`", place.display())).collect();
     format!(
-        "it printed nothing, as on a full disk; see how much is free in {}",
+        "it printed nothing, as happens on a full disk; check the free space in {}",
         places.join(" and in ")
     )
 }
@@ -260,7 +260,7 @@ mod tests {
     fn a_failure_without_a_word_points_to_the_disk() {
         let tool = Invocation::new("tool").dir("/build");
         let error = ProgramOutput::failure(1, "\n").into_checked(&tool).unwrap_err().to_string();
-        assert!(error.contains("printed nothing, as on a full disk"), "{error}");
+        assert!(error.contains("printed nothing, as happens on a full disk"), "{error}");
         for place in [Path::new("/build"), &std::env::temp_dir()] {
             assert!(error.contains(&format!("`{}`", place.display())), "{error}");
         }

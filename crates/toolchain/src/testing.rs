@@ -63,7 +63,7 @@ fn named_folder(named: Option<OsString>, strict: bool) -> Option<PathBuf> {
     if path.is_dir() {
         return Some(path);
     }
-    let problem = format!("FOVEATE_DATA is `{}`, which is no folder", path.display());
+    let problem = format!("FOVEATE_DATA is `{}`, which is not a folder", path.display());
     assert!(!strict, "FOVEATE_REQUIRE_TOOLS is 1, but {problem}");
     report_skip(&problem);
     None
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "FOVEATE_DATA is `/nowhere`, which is no folder")]
+    #[should_panic(expected = "FOVEATE_DATA is `/nowhere`, which is not a folder")]
     fn data_that_is_named_and_missing_fails() {
         let _ = named_folder(Some("/nowhere".into()), true);
     }

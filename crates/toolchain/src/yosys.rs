@@ -112,7 +112,7 @@ fn check_json(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolErro
     let reason = match serde_json::from_slice::<Value>(contents) {
         Ok(Value::Object(object)) if object.is_empty() => "it is empty JSON".to_owned(),
         Ok(_) => return Ok(()),
-        Err(error) => format!("it is no JSON: {error}"),
+        Err(error) => format!("it is not JSON: {error}"),
     };
     Err(ToolError::Unusable { path: folder.join(name), folder: folder.to_owned(), reason })
 }

@@ -98,12 +98,14 @@ impl BoardRegisters {
     /// Writes a register. Fails with a message if the register cannot be written, the value is too
     /// large, or the board does not answer.
     pub(crate) fn write(&self, address: u64, value: u64) -> Result<(), String> {
-        let table = self.table.get().ok_or("there is no core whose registers can be written")?;
+        let table =
+            self.table.get().ok_or("the stream has no core with registers that can be written")?;
         let register = table.iter().find(|register| u64::from(register.address) == address);
         let register = register.ok_or_else(|| format!("there is no register {address:#x}"))?;
         let width = register.fields.iter().filter(|field| may_be_written(field));
         let width = width.map(|field| field.low + field.width).max();
-        let width = width.ok_or_else(|| format!("`{}` cannot be set here", register.name))?;
+        let width =
+            width.ok_or_else(|| format!("the register `{}` can only be read", register.name))?;
         if value >> width != 0 {
             let most = (1u64 << width) - 1;
             return Err(format!("`{}` is at most {most}, not {value}", register.name));
@@ -117,7 +119,10 @@ impl BoardRegisters {
             .and_then(|writes| writes.send(RegisterWrite { address, value, result: sender }).ok());
         match sent.and_then(|()| receiver.recv_timeout(WRITE_LIMIT).ok()) {
             Some(true) => Ok(()),
-            Some(false) | None => Err("the board does not answer; it may have been set".to_owned()),
+            Some(false) | None => {
+                Err("the board did not answer; the register may have been written all the same"
+                    .to_owned())
+            }
         }
     }
 
@@ -196,7 +201,7 @@ fn read_registers(design: &Design) -> Option<Vec<Register>> {
         fields: vec![
             status("done", 0, 1, "the sensor is set up"),
             status("failed", 1, 1, "the sensor did not acknowledge a register"),
-            status("lost", 16, 16, "pixels that found no room, modulo 2^16"),
+            status("lost", 16, 16, "pixels lost because a buffer was full, modulo 2^16"),
         ],
         doc: "the board around the core".to_owned(),
     };

@@ -28,7 +28,7 @@ pub enum ViewError {
         path: PathBuf,
     },
     /// The input is a device, but no serial port.
-    #[error("`{}` is a device, but no serial port; give a port such as /dev/ttyUSB0, a file, a FIFO, or -", path.display())]
+    #[error("`{}` is a device, but not a serial port; give a port such as /dev/ttyUSB0, a file, a FIFO, or -", path.display())]
     NotASerialPort {
         /// The path as given.
         path: PathBuf,
@@ -44,7 +44,7 @@ pub enum ViewError {
         source: io::Error,
     },
     /// The input can be read only once, and so cannot be repeated.
-    #[error("`{}` is no file, so it cannot be played again; leave --play looped out", path.display())]
+    #[error("`{}` is not a file, so it cannot be played again; leave --play looped out", path.display())]
     NotRepeatable {
         /// The path as given.
         path: PathBuf,
@@ -57,8 +57,8 @@ pub enum ViewError {
     Config(#[from] ConfigError),
     /// Other machines could reach the address.
     #[error(
-        "{address} is not an address of this machine alone; take one that begins with 127.0.0.1 or \
-         [::1], and from another machine a tunnel: ssh -L 8000:127.0.0.1:8000"
+        "{address} is not an address of this machine alone; give one that begins with 127.0.0.1 or \
+         [::1], and use a tunnel from another machine: ssh -L 8000:127.0.0.1:8000"
     )]
     Address {
         /// The address as given.

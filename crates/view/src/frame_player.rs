@@ -246,7 +246,9 @@ impl FramePlayer {
         let mut state = self.lock();
         match (self.kind, state.status) {
             (FrameDelivery::OneTime, _) => {
-                return Err("standard input comes once; start `foveate live` again".to_owned());
+                return Err(
+                    "standard input can be read only once; start `foveate live` again".to_owned()
+                );
             }
             (FrameDelivery::Camera, InputStatus::Running) => return Ok(()),
             (FrameDelivery::Camera, InputStatus::Ended | InputStatus::Failed)

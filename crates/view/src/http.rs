@@ -51,7 +51,7 @@ impl HttpAnswer {
 
     /// Returns the answer to a method that the path does not have.
     pub(crate) fn method_not_allowed() -> Self {
-        Self::text("405 Method Not Allowed", "not so")
+        Self::text("405 Method Not Allowed", "this address does not support that method")
     }
 
     pub(crate) fn binary(body: Vec<u8>) -> Self {
@@ -117,7 +117,7 @@ fn read_line(head: &mut impl BufRead) -> io::Result<Option<String>> {
     match text.strip_suffix(b"\n") {
         Some(text) => Ok(Some(String::from_utf8_lossy(text).trim_end().to_owned())),
         None if text.is_empty() => Ok(None),
-        None => Err(invalid("a line without an end")),
+        None => Err(invalid("a line of the request has no end")),
     }
 }
 
@@ -125,7 +125,7 @@ fn read_line(head: &mut impl BufRead) -> io::Result<Option<String>> {
 fn set_once<T>(header: &mut Option<T>, value: T) -> io::Result<()> {
     match header.replace(value) {
         None => Ok(()),
-        Some(_) => Err(invalid("a line that comes twice")),
+        Some(_) => Err(invalid("a header of the request appears twice")),
     }
 }
 
@@ -133,22 +133,26 @@ fn read_request(stream: &mut impl BufRead) -> io::Result<Option<HttpRequest>> {
     let mut head = stream.by_ref().take(HEAD_LIMIT);
     let Some(first) = read_line(&mut head)? else { return Ok(None) };
     let mut words = first.split(' ');
-    let (method, target) = words.next().zip(words.next()).ok_or_else(|| invalid("no request"))?;
+    let (method, target) = words
+        .next()
+        .zip(words.next())
+        .ok_or_else(|| invalid("the first line of the request has no method and path"))?;
     let (method, target) = (method.to_owned(), target.to_owned());
     let (mut host, mut length) = (None, None);
     for number in 1.. {
-        let text = read_line(&mut head)?.ok_or_else(|| invalid("a head without an end"))?;
+        let text =
+            read_line(&mut head)?.ok_or_else(|| invalid("the head of the request has no end"))?;
         if text.is_empty() {
             break;
         }
         if number >= LINE_LIMIT {
-            return Err(invalid("a head of too many lines"));
+            return Err(invalid("the head of the request has too many lines"));
         }
         let Some((name, value)) = text.split_once(':') else { continue };
         match name.to_ascii_lowercase().as_str() {
             "host" => set_once(&mut host, value.trim().to_owned())?,
             "content-length" => set_once(&mut length, parse_body_length(value.trim())?)?,
-            "transfer-encoding" => return Err(invalid("a body without a length")),
+            "transfer-encoding" => return Err(invalid("the body of the request has no length")),
             _ => {}
         }
     }
@@ -163,5 +167,5 @@ fn parse_body_length(text: &str) -> io::Result<usize> {
     let length: Option<usize> = if digits { text.parse().ok() } else { None };
     length
         .filter(|&length| length <= BODY_LIMIT)
-        .ok_or_else(|| invalid("no length of a body that is taken"))
+        .ok_or_else(|| invalid("the length of the request's body is not a number, or too large"))
 }

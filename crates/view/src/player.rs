@@ -132,7 +132,7 @@ impl PageSite for PlayerSite {
                 HttpAnswer::binary(frames.frame_after(after, FRAME_WAIT))
             }
             ("POST", "restart") => match frames.restart() {
-                Ok(()) => HttpAnswer::text("200 OK", "begins again"),
+                Ok(()) => HttpAnswer::text("200 OK", "the input begins again"),
                 Err(why) => HttpAnswer::text("409 Conflict", &why),
             },
             (_, "frames" | "restart") => HttpAnswer::method_not_allowed(),

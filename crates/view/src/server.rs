@@ -164,7 +164,9 @@ impl<S: PageSite> ServerContext<S> {
             (_, "") => HttpAnswer::method_not_allowed(),
             (method, subpath) => {
                 let answer = self.site.answer(method, subpath, query, &request.body);
-                answer.unwrap_or_else(|| HttpAnswer::text("404 Not Found", "there is nothing"))
+                answer.unwrap_or_else(|| {
+                    HttpAnswer::text("404 Not Found", "there is no page at this address")
+                })
             }
         }
     }

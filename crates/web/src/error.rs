@@ -92,7 +92,7 @@ pub enum WebError {
     },
     /// The bytes are no frame of the camera.
     #[error(
-        "{given} bytes are no frame; one of {width}x{height} pixels has {needed}, {each} per pixel"
+        "{given} bytes are not a frame; one of {width}x{height} pixels has {needed}, {each} per pixel"
     )]
     FrameLength {
         /// The number of bytes that came.
@@ -107,7 +107,7 @@ pub enum WebError {
         height: u32,
     },
     /// The page has the largest number of cameras already.
-    #[error("there are {most} cameras already, the most of a page; free one first")]
+    #[error("there are {most} cameras already, the most that a page can have; free one first")]
     TooManyCameras {
         /// The largest number of cameras.
         most: usize,

@@ -26,7 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"error: {problem}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(f"interrupted: the runs below {options.output / 'runs'} are whole; the same command goes on from there", file=sys.stderr)
+        print(f"interrupted: the runs below {options.output / 'runs'} are complete; the same command continues from there", file=sys.stderr)
         return 130
 
 
@@ -36,7 +36,7 @@ def _parser() -> argparse.ArgumentParser:
     accuracy = studies.add_parser("accuracy", help="accuracy of networks that learn from regions, beside originals")
     savings = studies.add_parser("savings", help="accuracy against bytes and MACs, over thresholds and region sizes")
     for study in (accuracy, savings):
-        study.add_argument("-o", "--output", type=Path, required=True, help="folder of runs, tables and figures; a second start goes on")
+        study.add_argument("-o", "--output", type=Path, required=True, help="folder of runs, tables and figures; the same command continues an interrupted study")
         study.add_argument("--data", type=Path, default=os.environ.get("FOVEATE_DATA"),
                          help="folder of the sets: IDX files or torchvision's layout; default $FOVEATE_DATA; nothing is downloaded")
         study.add_argument("--sets", nargs="+", default=list(SETS), help=f"{', '.join(SETS)} or pictures (DATA/train/CLASS/*, DATA/test/CLASS/*)")
@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
         study.add_argument("--size", type=int, help="scale images to this width and height")
         study.add_argument("--weights", type=Path, help="state_dict of torchvision's network to start from")
         study.add_argument("--device", default="cpu", help="cpu or cuda")
-        study.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread; Ctrl-C lets those that have begun end")
+        study.add_argument("--jobs", type=int, default=1, help="parallel runs, each on one thread; Ctrl-C waits until those that have begun end")
     accuracy.add_argument("--thresholds", type=int, nargs="+", default=list(range(1, 11)), help="min_score of edge (default 1 to 10)")
     accuracy.add_argument("--seeds", type=int, default=10, help="seeds of the originals and of the chosen threshold (default 10)")
     accuracy.add_argument("--figure-seeds", type=int, default=3, help="seeds of every threshold (default 3)")
@@ -59,7 +59,7 @@ def _parser() -> argparse.ArgumentParser:
     savings.add_argument("--sizes", type=int, nargs="+", default=[4, 7, 8, 14], help="sizes of regions")
     savings.add_argument("--thresholds", type=int, nargs="+", default=[1, 2, 5, 10], help="min_score of edge")
     savings.add_argument("--seeds", type=int, default=3, help="networks that learn from originals and are tested on every camera (default 3)")
-    savings.add_argument("--learned", type=int, default=1, help="of these seeds, how many also learn from the regions of every camera (default 1)")
+    savings.add_argument("--learned", type=int, default=1, help="number of these seeds that also learn from the regions of every camera (default 1)")
     savings.add_argument("--images", type=int, default=1000, help="test images on which MACs are counted (default 1000)")
     return parser
 

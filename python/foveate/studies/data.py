@@ -92,7 +92,7 @@ def read_idx(path: Path) -> NDArray[np.uint8]:
     shape = tuple(int(side) for side in np.frombuffer(content[:start], ">u4", offset=4)) if len(content) >= start else ()
     expected = int(np.prod(shape)) if shape else 1
     if not shape or len(content) - start != expected:
-        raise StudyError(f"{path}: has {len(content)} bytes, but its header tells of {start + expected}; the file is damaged")
+        raise StudyError(f"{path}: has {len(content)} bytes, but its header announces {start + expected}; the file is damaged")
     return np.frombuffer(content, np.uint8, offset=start).reshape(shape)
 
 

@@ -128,7 +128,7 @@ class RunFolder:
         try:
             return Result(json.loads(path.read_text()))
         except ValueError as error:
-            raise StudyError(f"{path}: is no result of a run ({error}); delete it, and the run is made again") from None
+            raise StudyError(f"{path}: is not the result of a run ({error}); delete it to repeat the run") from None
 
     def network(self, name: str, trained: Regions | None, seed: int, *, fresh: bool = False) -> nn.Module:
         """Return a network with its initial weights, or as a run has trained it."""

@@ -74,7 +74,7 @@ def _conclusion(row: Mapping[str, Any]) -> str:
     largest = f"{100 * row['largest']:.2f} points"
     seeds = (row["difference"]["low"], row["difference"]["high"])
     if seeds[0] is None:
-        return "one seed alone says nothing about other seeds"
+        return "one seed alone does not show how much seeds differ"
     intervals = (seeds, row["bootstrap"])
     if all(high < 0 for _, high in intervals):
         return f"a loss of {-100 * row['difference']['mean']:.2f} points, at most {largest}"

@@ -9,7 +9,7 @@ CHANGING = [
     (re.compile(r"Verilator 5\.\d+ \d{4}-\d\d-\d\d rev \([^)]*\)"), "Verilator <version>"),
     # foveate infer: if masks take longer than they save, it does not say when they would save.
     (re.compile(r"\d+\.\d\d ms per frame, \d+\.\d\d ms of it for masks"), "<time> ms per frame, <time> ms of it for masks"),
-    (re.compile(r"; whole \d+\.\d\d ms(; faster up to \d+\.\d % of the blocks or more)?$"), "; whole <time> ms"),
+    (re.compile(r"; whole \d+\.\d\d ms(; faster than that as long as at most \d+\.\d % of the blocks are computed)?$"), "; whole <time> ms"),
 ]
 # Lines of a page that stand for any number of others.
 LEFT_OUT = "..."

@@ -43,6 +43,7 @@ class Messages(unittest.TestCase):
     def test_scripts_and_pages(self):
         self.assertEqual(script_texts("f(`${n} of the frames`) // 'a comment here'\n"), ["${n} of the frames"])
         self.assertEqual(page_texts('<p title="a small page">One word</p><style>a b</style>word'), ["a small page", "One word"])
+        self.assertEqual(page_texts("<p>All {% if x %}points of {{ y }}{% endif %}</p>"), ["All points of {}"])
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ fn layers_that_contradict_themselves_are_refused() {
     );
     assert_refused(
         convolution(shape(6, 4, 4), shape(4, 4, 4), 4),
-        "the layer's number of input channels is 6, but must be a multiple of its 4 groups",
+        "the layer's number of input channels is 6, but must be a multiple of 4, the number of groups",
     );
     assert_refused(
         convolution(shape(4, 4, 4), shape(4, 1 << 20, 1 << 20), 1),
@@ -103,7 +103,7 @@ fn layers_that_contradict_themselves_are_refused() {
     );
     assert_refused(
         convolution(shape(1 << 20, 1 << 14, 1 << 14), shape(1 << 20, 1, 1), 1),
-        "the layer's number of multiplications is 2656331146614175432704, but must be at most 1000000000000000, were it dense",
+        "the layer's number of multiplications is 2656331146614175432704, but must be at most 1000000000000000, counted as if the layer were dense",
     );
     assert_refused(
         Layer::product(1, 1, 1).unwrap().with_images(0),

@@ -190,9 +190,9 @@ fn designs_that_fit_no_board_are_refused() {
     for (keys, remedy) in [
         (&["hardware.interface='ports'"][..], "hardware.interface='axi'"),
         (&["frame.width=328"], "the sensor sends 320 x 240 at most"),
-        (&["frame.pixel_bits=10"], "pixels have 8 bits here"),
+        (&["frame.pixel_bits=10"], "pixels on a board have 8 bits"),
         (&["hardware.store='external'"], "hardware.store='block'"),
-        (&["hardware.pixels_per_clock=2"], "one at a time"),
+        (&["hardware.pixels_per_clock=2"], "one pixel per clock"),
     ] {
         let error = project("icebreaker", keys).unwrap_err().to_string();
         assert!(error.contains(remedy) && error.contains("`icebreaker`"), "{error}");
@@ -200,10 +200,10 @@ fn designs_that_fit_no_board_are_refused() {
     for (keys, remedy) in [
         (&["region.neighborhood='shared'"][..], "region.neighborhood='isolated'"),
         (&["hardware.sync=true"], "hardware.sync=false"),
-        (&["frame.pixel_bits=10"], "pixels have 8 bits here"),
+        (&["frame.pixel_bits=10"], "pixels on a board have 8 bits"),
         (&["region.size=64", "frame={width=64,height=64}"], "45 is the largest"),
-        (&["frame.width=225"], "232 is a multiple of 8"),
-        (&["frame.height=220"], "224 is a multiple of 8"),
+        (&["frame.width=225"], "a multiple of 8, such as 232"),
+        (&["frame.height=220"], "a multiple of 8, such as 224"),
         (
             &[
                 "region.size=2",
@@ -211,7 +211,7 @@ fn designs_that_fit_no_board_are_refused() {
                 "temporal.min_count=2",
                 "spatial=[{feature='edge',min_score=1}]",
             ],
-            "frame.width = 8 is the most",
+            "frame.width = 8 is the largest",
         ),
         (&["hardware.organization='serial'"], "hardware.organization='raster'"),
         (&["hardware={organization='raster',sync=true}"], "hardware.interface='axi'"),

@@ -14,7 +14,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     if !args.boxes.is_empty() && args.study.0 != Study::Recall {
         let study = args.study.0.name();
         return Err(CliError::Usage(format!(
-            "--boxes belongs to the study recall, not to {study}; leave it out"
+            "--boxes is only for the study recall, not for {study}; leave it out"
         )));
     }
     StagedFolder::check(&args.output, STUDY_FOLDER, args.force)?;

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
     print_report(args, &report)?;
     match report.differing_values() {
         0 => Ok(()),
-        differing => Err(CliError::Failed(format!("levels differ in {differing} values"))),
+        differing => Err(CliError::Failed(format!("the levels differ in {differing} values"))),
     }
 }
 

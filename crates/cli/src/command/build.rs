@@ -52,7 +52,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     };
     let complaint = built.as_ref().filter(|built| !built.is_fast_enough()).map(|built| {
         format!(
-            "too slow: `{}` may not work; try more --seeds",
+            "the clocks that were reached are too slow, so `{}` may not work; try more --seeds",
             folder.join(&built.bitstream).display()
         )
     });
@@ -135,7 +135,7 @@ fn text(
     let _ = writeln!(text, "sensor  {:.1} MHz, needs {}", built.pclk_reached_mhz, built.pclk_mhz);
     let _ = writeln!(
         text,
-        "frames  {:.0} in a second come, {:.0} could",
+        "frames  {:.0} per second arrive, {:.0} per second are possible",
         project.incoming_fps(),
         project.core_fps(f64::from(built.core_mhz))
     );
@@ -165,11 +165,11 @@ fn list_boards(json: bool) -> Result<(), CliError> {
         let (width, height) = board.frame;
         let _ = writeln!(
             text,
-            "{:16}{}\n{:16}{}; {}, {width} x {height} pixels, {:.0} frames in a second",
+            "{:16}{}\n{:16}{}; {}, {width} x {height} pixels, {:.0} frames/s",
             board.name, board.title, "", board.part, board.sensor, board.fps
         );
     }
-    text += "\nEach is simulated whole by the project. All but vcu118, which needs Vivado, are also placed, routed and packed. None has been run on a board.\n";
+    text += "\nThe project simulates each of these designs as a whole, and places, routes and packs all but that of vcu118, which needs Vivado. None has been run on a real board.\n";
     output::print_text(&text)
 }
 

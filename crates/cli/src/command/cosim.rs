@@ -53,7 +53,10 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     print_output(args, &CosimOutput { summary: &summary, end_to_end })?;
     let complaint = match summary.verdict() {
         CosimVerdict::Passed if is_received => return written,
-        CosimVerdict::Passed => "a receiver does not see what `simulate` says".to_owned(),
+        CosimVerdict::Passed => {
+            "the frames that `decode` makes of the packets differ from the results of `simulate`"
+                .to_owned()
+        }
         CosimVerdict::Mismatch => "model and RTL do not agree".to_owned(),
         CosimVerdict::Incomplete => incompleteness_message(&summary),
     };
@@ -77,8 +80,8 @@ fn incompleteness_message(summary: &CosimSummary) -> String {
     let missing = summary.situations.missing();
     if !missing.is_empty() {
         return format!(
-            "no mismatch, but the vectors did not reach what they must: {}. More --rounds, another --seed or \
-             thresholds that can be met reach more.",
+            "no mismatch, but the vectors did not reach every situation: {}. Try more --rounds, \
+             another --seed, or thresholds that frames can meet.",
             missing.join("; ")
         );
     }
@@ -94,7 +97,7 @@ fn incompleteness_message(summary: &CosimSummary) -> String {
     }
     if !summary.not_elaborated.is_empty() {
         text.push_str(
-            " Only a run with --full has these modules with these parameter values; --level asks for a part.",
+            " Only a run with --full has these modules with these parameter values; --level simulates a part.",
         );
     }
     text
@@ -125,7 +128,7 @@ fn run_all(
     let names = left.map(|work| work.name()).collect();
     let agree = reports.iter().all(CosimReport::passed);
     let left_out = left_out_parts(args, &plan, (&levels, has_axi), agree, toolchain);
-    let left_out = report_error_to_ci(args, "what is left out", left_out)?;
+    let left_out = report_error_to_ci(args, "parts left out", left_out)?;
     Ok(CosimSummary::new(
         plan.design.fingerprint(),
         reports,

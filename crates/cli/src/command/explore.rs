@@ -25,7 +25,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     }
     let (Some(file), output) = (&args.space, args.output.as_deref()) else {
         return Err(CliError::Usage(
-            "no space is given; name a file, or one of those that --list prints".to_owned(),
+            "no space is given; give a file, or the name of a space that --list prints".to_owned(),
         ));
     };
     if let Some(folder) = output.filter(|_| !args.print) {

@@ -139,7 +139,8 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     }
     if !found.binding.is_empty() {
         let options: Vec<String> = found.binding.iter().map(|name| format!("--{name}")).collect();
-        let line = format!("Binding: without {} there would be a design.", options.join(" or "));
+        let line =
+            format!("Binding: without {}, a design would meet all limits.", options.join(" or "));
         text.push('\n');
         paragraph(&mut text, &line, width, "  ");
     }

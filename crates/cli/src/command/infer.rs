@@ -83,7 +83,7 @@ fn clip_lines(summary: &InferenceSummary) -> String {
     }
     let line = |clip: &ClipSummary| {
         let result = if clip.counted_frames == 0 {
-            "none of them counted".to_owned()
+            "none of these counts".to_owned()
         } else {
             format!(
                 "regions active {}, changed {}; MACs needed {}",
@@ -210,12 +210,16 @@ fn text(folder: &Path, summary: &InferenceSummary) -> String {
     if let Some(error) = &summary.error {
         let _ = write!(text, "; whole {:.2} ms", 1e3 * error.dense_seconds_per_frame);
         if let Some(share) = summary.break_even_share() {
-            let _ = write!(text, "; faster up to {} of the blocks or more", percent(share));
+            let _ = write!(
+                text,
+                "; faster than that as long as at most {} of the blocks are computed",
+                percent(share)
+            );
         }
         text.push('\n');
         let _ = writeln!(
             text,
-            "outputs    relative RMS error {:.2e}, largest error {:.2e}, cosine {:.6}, PSNR {}, same largest value in {} of frames",
+            "outputs    relative RMS error {:.2e}, largest error {:.2e}, cosine {:.6}, PSNR {}, same largest value in {} of the frames",
             error.outputs.relative_rms,
             error.outputs.largest,
             error.outputs.cosine,
@@ -240,7 +244,7 @@ fn text(folder: &Path, summary: &InferenceSummary) -> String {
 fn loss_lines(sight: &WholeFrameAgreement) -> String {
     let psnr = sight.picture_psnr.map_or("infinite".to_owned(), |psnr| format!("{psnr:.1} dB"));
     let mut text = format!(
-        "sent       {:.0} bytes per frame, {} of whole frames; PSNR of what the receiver sees {psnr}\n",
+        "sent       {:.0} bytes per frame, {} of whole frames; PSNR of the receiver's screen {psnr}\n",
         sight.sent_bytes,
         percent(sight.sent_share)
     );
@@ -273,14 +277,18 @@ fn loss_lines(sight: &WholeFrameAgreement) -> String {
     if let Some(classes) = &sight.classes {
         let _ = writeln!(
             text,
-            "class      same as of whole frames in {} of frames; margin {:.3} in whole frames, {:.3} behind the camera",
+            "class      same as for whole frames in {} of the frames; margin {:.3} in whole frames, {:.3} behind the camera",
             percent(classes.same_share),
             classes.whole_margin,
             classes.seen_margin
         );
     }
     if let Some(same) = sight.same_places {
-        let _ = writeln!(text, "classes    same as of whole frames at {} of places", percent(same));
+        let _ = writeln!(
+            text,
+            "classes    same as for whole frames at {} of the places",
+            percent(same)
+        );
     }
     let _ = writeln!(
         text,

@@ -60,7 +60,7 @@ fn text(rows: &[CaseRow]) -> String {
         text.push('\n');
     }
     let held = rows.iter().filter(|row| row.is_as_expected).count();
-    text + &format!("{held} of {} hold\n", rows.len())
+    text + &format!("{held} of {} cases hold\n", rows.len())
 }
 
 fn markdown(rows: &[CaseRow]) -> String {

@@ -85,7 +85,7 @@ fn check_tells_how_fast_each_organization_is() {
     let text = check(&["--preset", "raster", "--set", "hardware.pixels_per_clock=2"]);
     for part in [
         "raster, 2 pixels per clock, plain",
-        "the frame row by row, a word of 2 pixels at every clock",
+        "the frame row by row, a word of 2 pixels per clock",
         " of them references",
         "lost_count_o",
     ] {

@@ -26,7 +26,7 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     let dir = folder_with_space();
     let printed = run_successfully(dir.path(), &RUN);
     assert!(printed.starts_with("4 points, "), "{printed}");
-    assert!(printed.contains("1 combinations are no design"), "{printed}");
+    assert!(printed.contains("1 combinations are not valid designs"), "{printed}");
     let before = files_below(&dir.path().join("out"));
     let names: Vec<String> =
         before.iter().filter_map(|(path, _)| path.to_str().map(str::to_owned)).collect();

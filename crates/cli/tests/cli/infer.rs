@@ -178,7 +178,7 @@ fn goals_that_say_nothing_are_named() {
         "{text}"
     );
     let few = [&args[..], &["psnr=40", "--max-frames", "3", "--force"]].concat();
-    expect_failure(dir.path(), 2, &few, &["it needs 4 frames; there are 3"]);
+    expect_failure(dir.path(), 2, &few, &["it needs 4 frames, but there are 3"]);
 }
 
 #[test]
@@ -281,11 +281,11 @@ fn values_that_are_not_numbers_are_reported() {
         .collect();
     assert_eq!(warnings.len(), 2, "{warnings:?}");
     assert!(
-        warnings[0].contains("bias` hold 1 infinite values, or such that are no numbers"),
+        warnings[0].contains("bias` hold 1 values that are infinite or not a number"),
         "{warnings:?}"
     );
     assert!(
-        warnings[1].contains("in 3 frames; in the first, frame 0, they begin at node"),
+        warnings[1].contains("in 3 frames; in the first, frame 0, these begin at node"),
         "{warnings:?}"
     );
     assert_eq!(summary(dir.path(), &[])["warnings"], Value::Array(Vec::new()));
@@ -308,7 +308,7 @@ fn the_loss_behind_the_camera_is_reported() {
     let infer = ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "4", "--force"];
     let with = |more: &[&'static str]| [&infer[..], more].concat();
     let text = run_successfully(dir.path(), &with(&["--whole-frames", "--preset", "fovea"]));
-    for part in ["sent  ", " bytes per frame, ", "PSNR of what the receiver sees", "agreement  "] {
+    for part in ["sent  ", " bytes per frame, ", "PSNR of the receiver's screen", "agreement  "] {
         assert!(text.contains(part), "{part} in {text}");
     }
     let rows = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();

@@ -199,7 +199,7 @@ fn arrays_that_do_not_fit_are_refused() {
     says(&["x.npy"], "cannot read the array `x.npy`: it ends after 15 of 16 bytes");
     says(&["y.npy"], "cannot read the array `y.npy`: No such file");
     array("<f4", "1, 1, 2, 2", 16);
-    says(&["x.npy", "scene:street"], "`scene:street` is no array (.npy), but other inputs are");
+    says(&["x.npy", "scene:street"], "`scene:street` is not an array (.npy), but other inputs are");
     says(&["x.npy", "--preset", "fovea"], "--preset has no meaning with arrays");
     says(&["x.npy", "--mode", "dense"], "--mode has no meaning with arrays");
     let odd = ["infer", "m.onnx", "--check", "--mode", "dense"];

@@ -174,7 +174,7 @@ fn channels_may_be_last() {
     let relu = model(&[node("Relu", "x", "z")], [1, 48, 64, 3], ("z", [1, 48, 64, 3]));
     fs::write(dir.path().join("relu.onnx"), relu).unwrap();
     let args = ["infer", "relu.onnx", "scene:street", "-o", "out", "--force"];
-    let parts = ["`node z` (Relu) takes it so", "--inputs-as-nchw x"];
+    let parts = ["`node z` (Relu) takes it in this order", "--inputs-as-nchw x"];
     expect_failure(dir.path(), 2, &args, &parts);
 }
 

@@ -57,7 +57,7 @@ fn recall_prints_objects_and_writes_everything() {
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["columns"][6], "objects");
     assert_eq!(json["rows"][0][6], "3");
-    let known = [("recall", "--boxes"), ("temporal", "--boxes belongs to the study recall")];
+    let known = [("recall", "--boxes"), ("temporal", "--boxes is only for the study recall")];
     for ((study, part), boxes) in known.into_iter().zip([&[][..], &boxes]) {
         expect_failure(dir.path(), 2, &analyze(study, &[&["--force"], boxes].concat()), &[part]);
     }

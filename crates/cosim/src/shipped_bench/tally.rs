@@ -214,7 +214,7 @@ impl VectorTally {
         let grid = |design: &Design| format!("{} x {}", design.columns(), design.rows());
         let of = match top {
             Top::Rcm if grid(part) != grid(design) => {
-                format!(", by parameters a part of the core's {}", grid(design))
+                format!(", a part of the core's {} that parameters select", grid(design))
             }
             Top::Rcm | Top::Rpu => String::new(),
         };
@@ -236,8 +236,8 @@ impl VectorTally {
                 waiting + stepping
             ));
             lines.push(format!(
-                "{waiting} while the word that ends them waits, {stepping} as it comes to the \
-                 ports; {single} after one word."
+                "{waiting} while their last word waits, {stepping} when it reaches the ports; \
+                 {single} after one word."
             ));
         }
         if self.sync_errors > 0 {

@@ -26,7 +26,7 @@ pub(crate) fn rpu_interface(design: &Design) -> CoreInterface {
         ),
         decision_and_score_ports(design),
     );
-    let doc = "that pixel; 0 unless forward_valid_o";
+    let doc = "the pixel that leaves; 0 unless forward_valid_o";
     let (beat, leaves) = match design.periphery() {
         None => ("a pixel of the region", "a pixel of an active region leaves"),
         Some(_) => {

@@ -156,8 +156,8 @@ fn check_summaries(
     };
     if own.forward == Some(false) {
         let with = format!("render.irrelevant = \"{}\"", IrrelevantRendering::Mean);
-        let remedy = "what the screen shows is what has left; leave the key out, or show something \
-                      else";
+        let remedy = "the screen shows only what leaves the core; leave the key out, or set \
+                      another render.irrelevant";
         return clash("hardware.forward", false.to_string(), with, remedy.to_owned());
     }
     let side = periphery.block_side;

@@ -63,15 +63,15 @@ fn pixel_stream(design: &Design, word: u32) -> CoreStream {
 /// Returns the stream of references from an external frame store.
 fn reference_stream(word: u32) -> CoreStream {
     let ready = "reference_pixel_i is taken at the next edge";
-    let underrun = "a reference was missing since reset";
-    let pixels = "the word of the frame before, if reference_ready_o";
+    let underrun = "a reference has been missing at least once since reset";
+    let pixels = "the word of the previous frame, if reference_ready_o";
     CoreStream {
         ready: Some(output(PortRole::ReferenceReady, 1, ready)),
         status: vec![output(PortRole::Underrun, 1, underrun)],
         ..CoreStream::into_core(
             StreamRole::References,
             "the word with which the next word is compared",
-            input(PortRole::ReferenceValid, 1, "a reference is on the port below"),
+            input(PortRole::ReferenceValid, 1, "reference_pixel_i has a reference"),
             vec![input(PortRole::ReferencePixel, word, pixels)],
         )
     }
@@ -84,11 +84,11 @@ fn store_stream(word: u32) -> CoreStream {
         last: Some(PortRole::StoreLast),
         ..CoreStream::out_of_core(
             StreamRole::StoredWords,
-            "a word that is given back in the next frame",
+            "a word that the store gives back in the next frame",
             output(PortRole::StoreValid, 1, "a word is to be stored"),
             vec![
-                with(PortRole::StorePixel, word, "that word; only with store_valid_o"),
-                with(PortRole::StoreLast, 1, "the last of a row; only with store_valid_o"),
+                with(PortRole::StorePixel, word, "the word to store; only with store_valid_o"),
+                with(PortRole::StoreLast, 1, "the last word of a row; only with store_valid_o"),
             ],
         )
     }
@@ -111,14 +111,14 @@ fn decision_and_score_ports(design: &Design) -> Vec<Port> {
 fn forward_stream(design: &Design, word: u32) -> CoreStream {
     let with = |role, width, doc| Port::qualified_output(PortRole::ForwardValid, role, width, doc);
     let (regions, frames) = (design.region_bits(), FRAME_NUMBERS.ilog2());
-    let ready = "what is on the forward ports is taken";
-    let region = "its region; only with forward_valid_o";
-    let position = "number in its region of its first pixel; only with forward_valid_o";
-    let pixels = "that word, the left pixel in the lowest bits; only with forward_valid_o";
+    let ready = "the sink takes the word on the forward ports";
+    let region = "region of the word; only with forward_valid_o";
+    let position = "number of its first pixel in the region; only with forward_valid_o";
+    let pixels = "the word, its left pixel in the lowest bits; only with forward_valid_o";
     let first = "the first word of its region; only with forward_valid_o";
-    let last = "the last that comes of its region; only with forward_valid_o";
+    let last = "the last word of its region that leaves; only with forward_valid_o";
     let abort = "its region was lost in the middle: no more comes; only with forward_valid_o";
-    let frame = "number of its frame since reset, modulo 256; only with forward_valid_o";
+    let frame = "number of the word's frame since reset, modulo 256; only with forward_valid_o";
     let count = "regions lost since reset, at most 65,535";
     let mut payload = vec![
         with(PortRole::ForwardRegion, regions, region),
@@ -145,7 +145,7 @@ fn forward_stream(design: &Design, word: u32) -> CoreStream {
         region: BeatRegion::Number(PortRole::ForwardRegion),
         last: Some(PortRole::ForwardLast),
         status: vec![
-            output(PortRole::Lost, 1, "a region was lost since reset"),
+            output(PortRole::Lost, 1, "a region has been lost since reset"),
             output(PortRole::LostCount, LOST_COUNT_BITS, count),
         ],
         ..CoreStream::out_of_core(
@@ -159,14 +159,14 @@ fn forward_stream(design: &Design, word: u32) -> CoreStream {
 
 fn loss_stream(design: &Design) -> CoreStream {
     let with = |role, width, doc| Port::qualified_output(PortRole::LostValid, role, width, doc);
-    let frame = "number of its frame since reset, modulo 256; only with lost_valid_o";
-    let region = "that region; only with lost_valid_o";
+    let frame = "number of the region's frame since reset, modulo 256; only with lost_valid_o";
+    let region = "the region that was lost; only with lost_valid_o";
     CoreStream {
         region: BeatRegion::Number(PortRole::LostRegion),
         ..CoreStream::out_of_core(
             StreamRole::LostRegions,
             "a region that was lost",
-            output(PortRole::LostValid, 1, "a region was lost at the edge before"),
+            output(PortRole::LostValid, 1, "a region was lost at the previous edge"),
             vec![
                 with(PortRole::LostRegion, design.region_bits(), region),
                 with(PortRole::LostFrame, FRAME_NUMBERS.ilog2(), frame),

@@ -232,7 +232,7 @@ fn keys_are_filled_in_and_only_here() {
                 refusal(&[other[0], &key]),
                 format!(
                     "`{name}` = {value} cannot be combined with organization = \
-                     \"{organization}\"; only the raster organization has it; leave the key out, or \
+                     \"{organization}\"; only the raster organization has this key; leave the key out, or \
                      use organization = \"raster\""
                 )
             );
@@ -241,7 +241,7 @@ fn keys_are_filled_in_and_only_here() {
             refusal(&[other[0], "hardware.interface=axi"]),
             format!(
                 "`hardware.interface` = \"axi\" cannot be combined with organization = \
-                 \"{organization}\"; only the raster organization has it; leave the key out, or use \
+                 \"{organization}\"; only the raster organization has this key; leave the key out, or use \
                  organization = \"raster\""
             )
         );
@@ -250,8 +250,7 @@ fn keys_are_filled_in_and_only_here() {
 
 #[test]
 fn what_only_lanes_have_is_refused() {
-    let alone =
-        "only the serial organization has it; leave the key out, or use organization = \"serial\"";
+    let alone = "only the serial organization has this key; leave the key out, or use organization = \"serial\"";
     for (key, remedy) in [
         ("hardware.fold=2", "only the serial organization shares lanes; use 1"),
         ("hardware.feed=\"raster\"", alone),

@@ -263,7 +263,7 @@ impl RasterTiming {
         let leave = if self.has_forwarding {
             format!("from {} clocks after their decision on", self.clocks_to_first_word())
         } else {
-            "never: only decisions do".to_owned()
+            "never: only decisions leave this core".to_owned()
         };
         DesignTiming {
             clocks_per_frame: clocks,

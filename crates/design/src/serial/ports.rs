@@ -26,7 +26,8 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> CoreInterface {
         )
     };
     let score = |role, width, doc| Port::qualified_output(PortRole::ScoreValid, role, width, doc);
-    let which = "which: 0 the temporal count, 1.. the features; only with score_valid_o";
+    let which =
+        "number of the score: 0 the temporal count, 1.. the features; only with score_valid_o";
     let region = BeatRegion::Number(PortRole::Region);
     let scores = CoreStream::out_of_core(
         StreamRole::Scores,
@@ -34,8 +35,16 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> CoreInterface {
         output(PortRole::ScoreValid, 1, "a score of one region"),
         vec![
             score(PortRole::ScoreIndex, design.score_index_bits(), which),
-            score(PortRole::Region, design.region_bits(), "its region; only with score_valid_o"),
-            score(PortRole::AnyScore, design.max_score_bits(), "it; only with score_valid_o"),
+            score(
+                PortRole::Region,
+                design.region_bits(),
+                "region of the score; only with score_valid_o",
+            ),
+            score(
+                PortRole::AnyScore,
+                design.max_score_bits(),
+                "the score; only with score_valid_o",
+            ),
         ],
     );
     let decisions = CoreStream::out_of_core(
@@ -80,20 +89,20 @@ fn forward_beat_docs(design: SerialDesign<'_>) -> (&'static str, &'static str) {
 /// Returns the ports that carry a pixel that leaves.
 fn forward_ports(design: SerialDesign<'_>) -> Vec<Port> {
     let with = |role, width, doc| Port::qualified_output(PortRole::ForwardValid, role, width, doc);
-    let position = "its number in its region; only with forward_valid_o";
-    let pixel = "that pixel; only with forward_valid_o";
+    let position = "number of the pixel in its region; only with forward_valid_o";
+    let pixel = "the pixel; only with forward_valid_o";
     let mut list = vec![
         with_feed_lanes(design, with(PortRole::ForwardPixel, design.pixel_bits(), pixel)),
         with(PortRole::ForwardPosition, design.position_bits(), position),
     ];
     match design.feed() {
         PixelFeed::Parallel if design.fold() > 1 => {
-            let doc = "slot of its region in its lane; only with forward_valid_o";
+            let doc = "slot of the pixel's region in its lane; only with forward_valid_o";
             list.push(with(PortRole::ForwardSlot, design.slot_bits(), doc));
         }
         PixelFeed::Parallel => {}
         PixelFeed::Raster => {
-            let doc = "its region; only with forward_valid_o";
+            let doc = "region of the pixel; only with forward_valid_o";
             list.push(with(PortRole::ForwardRegion, design.region_bits(), doc));
         }
     }

@@ -131,7 +131,7 @@ fn a_key_of_an_organization_is_refused_with_one_message() {
                 validate_with(&[&keys[0], &keys[1]]).unwrap_err(),
                 format!(
                     "`{}` = {value} cannot be combined with organization = \"{other}\"; only the {name} organization has \
-                     it; leave the key out, or use organization = \"{name}\"",
+                     this key; leave the key out, or use organization = \"{name}\"",
                     row.key
                 )
             );

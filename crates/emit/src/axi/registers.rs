@@ -91,13 +91,13 @@ pub struct Register {
 
 /// The events and their descriptions, in the order of the bits of `EVENTS`.
 const EVENTS: [(&str, &str); 8] = [
-    ("eol_early", "a line was too short, and went on with its last pixel"),
-    ("eol_late", "a line was too long; what was too much is left out"),
-    ("sof_early", "a frame was too short, and went on with its last line"),
+    ("eol_early", "a line was too short, and its last pixel was repeated"),
+    ("eol_late", "a line was too long, and its last pixels were left out"),
+    ("sof_early", "a frame was too short, and its last line was repeated"),
     ("sof_late", "pixels came between two frames, and were left out"),
-    ("frame_skipped", "a frame came while two were under way, and was skipped"),
-    ("region_dropped", "pixels or means of a region were dropped, as the sink stalled"),
-    ("row_dropped", "decisions of a row were dropped, as the sink stalled"),
+    ("frame_skipped", "a frame came while two were in progress, and was skipped"),
+    ("region_dropped", "pixels or means of a region were dropped, because the sink stalled"),
+    ("row_dropped", "decisions of a row were dropped, because the sink stalled"),
     ("frame_done", "the last packet of a frame has left"),
 ];
 
@@ -116,14 +116,24 @@ pub(super) fn common_registers(design: &Design, beside: Vec<RegisterField>) -> V
     };
     let all = |value: u32, doc: &str| vec![constant("value", 0, REGISTER_BITS, value, doc)];
     let magic = u32::from_le_bytes(*b"FOVE");
-    add(0x000, "identity", "says that this is a Foveate core", all(magic, "ASCII `FOVE`"));
+    add(0x000, "identity", "identifies a Foveate core", all(magic, "ASCII `FOVE`"));
     let width = beside.first().map_or(REGISTER_BITS, |field| field.low);
     let mut version =
-        vec![constant("value", 0, width, MAP_VERSION, "grows with what is not compatible")];
+        vec![constant("value", 0, width, MAP_VERSION, "grows with every incompatible change")];
     version.extend(beside);
     add(0x004, "version", "version of this map", version);
-    add(0x008, "fingerprint_low", "fingerprint of the design", all(low, "its last 8 digits"));
-    add(0x00C, "fingerprint_high", "fingerprint of the design", all(high, "its first 8 digits"));
+    add(
+        0x008,
+        "fingerprint_low",
+        "fingerprint of the design",
+        all(low, "last 8 digits of the fingerprint"),
+    );
+    add(
+        0x00C,
+        "fingerprint_high",
+        "fingerprint of the design",
+        all(high, "first 8 digits of the fingerprint"),
+    );
     add(
         0x010,
         "frame",
@@ -146,7 +156,7 @@ pub(super) fn common_registers(design: &Design, beside: Vec<RegisterField>) -> V
     add(
         0x018,
         "region",
-        "a region",
+        "a region and what it sends",
         vec![
             constant("size", 0, 8, design.region_size(), "N, pixels of a side"),
             constant("pixel_bits", 8, 8, design.pixel_bits(), "P"),
@@ -175,14 +185,14 @@ pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
     add(
         0x020,
         "control",
-        "what the core does",
+        "control of the core",
         vec![
             field(
                 "enable",
                 0,
                 1,
                 FieldKind::Control { reset: 1 },
-                "0: no frame begins; those that come are left out",
+                "0: no frame begins, and incoming frames are left out",
             ),
             field(
                 "wait",
@@ -196,22 +206,22 @@ pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
                 2,
                 1,
                 FieldKind::Command,
-                "forgets all references once no frame is under way",
+                "forgets all references as soon as no frame is in progress",
             ),
         ],
     );
     add(
         0x024,
         "status",
-        "what goes on",
+        "state of the core",
         vec![
-            field("busy", 0, 1, FieldKind::Status, "a frame is under way"),
+            field("busy", 0, 1, FieldKind::Status, "a frame is in progress"),
             field(
                 "restarting",
                 1,
                 1,
                 FieldKind::Status,
-                "a restart waits for the frames under way",
+                "a restart waits for the frames in progress",
             ),
         ],
     );
@@ -220,19 +230,29 @@ pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
             |(bit, (name, doc)): (u32, &(&str, &str))| field(name, bit, 1, kind.clone(), doc);
         (0..).zip(&EVENTS).map(event).collect::<Vec<_>>()
     };
-    add(0x028, "events", "what has happened, until 1 is written", each(&FieldKind::Event));
+    add(
+        0x028,
+        "events",
+        "events that have happened; writing 1 clears one",
+        each(&FieldKind::Event),
+    );
     add(
         0x02C,
         "interrupt_enable",
         "events that raise `interrupt_o`",
         each(&FieldKind::Control { reset: 0 }),
     );
-    add(0x030, "interrupt_test", "as if that happened", each(&FieldKind::Command));
+    add(
+        0x030,
+        "interrupt_test",
+        "writing 1 sets the event, to test an interrupt",
+        each(&FieldKind::Command),
+    );
     add(
         0x034,
         "frames",
         "frames that came, skipped ones included",
-        status(32, "modulo 2^32; the number of the next"),
+        status(32, "modulo 2^32; the number of the next frame"),
     );
     for (address, name, doc) in [
         (0x038, "repaired", "frames that were damaged"),

@@ -34,45 +34,54 @@ pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
     add(
         0x040,
         "capture_region",
-        "the region that is kept",
-        vec![control("column", 0, 16, "its column"), control("row", 16, 16, "its row")],
+        "the region to capture",
+        vec![
+            control("column", 0, 16, "column of the region"),
+            control("row", 16, 16, "row of the region"),
+        ],
     );
-    let period = vec![control("value", 0, PERIOD_BITS, "its number modulo 128")];
-    add(0x044, "capture_frame", "the frame that is kept", period);
+    let period = vec![control("value", 0, PERIOD_BITS, "number of the frame modulo 128")];
+    add(0x044, "capture_frame", "the frame to capture", period);
     add(
         0x048,
         "capture",
-        "a capture",
+        "control of a capture",
         vec![
-            field("start", 0, 1, FieldKind::Command, "the next such frame is kept"),
-            field("captured", 1, 1, FieldKind::Status, "it is there"),
+            field("start", 0, 1, FieldKind::Command, "captures the next frame of that number"),
+            field("captured", 1, 1, FieldKind::Status, "a capture is complete"),
         ],
     );
     add(
         0x04C,
         "captured_frame",
-        "the frame that is there",
-        status(WORD_BITS, "its number since reset"),
+        "the captured frame",
+        status(WORD_BITS, "number of the frame since reset"),
     );
     let bits = ["srs", "trs", "summary", "active"].into_iter().zip(0..);
     let mut decision: Vec<_> = bits
-        .map(|(name, low)| field(name, low, 1, FieldKind::Status, "as the RPU said it"))
+        .map(|(name, low)| field(name, low, 1, FieldKind::Status, "output of the RPU"))
         .collect();
     let values = bits_for(design.region_pixels().into());
-    decision.push(field("values", 16, values, FieldKind::Status, "how many pixels or means left"));
-    add(0x050, "captured_decision", "its decision", decision);
+    decision.push(field(
+        "values",
+        16,
+        values,
+        FieldKind::Status,
+        "number of pixels or means that left",
+    ));
+    add(0x050, "captured_decision", "decision of the captured region", decision);
     let mut address = 0x054;
     for port in array_scores(&design) {
         let name = format!("captured_{}", port.name.trim_end_matches("_o"));
         let mut part = |name: &str, width: u32, doc: &str| {
-            add(address, name, doc, status(width, "as the RPU said it"));
+            add(address, name, doc, status(width, "output of the RPU"));
             address += 4;
         };
         match port.width.checked_sub(WORD_BITS).filter(|more| *more > 0) {
-            None => part(&name, port.width, "a score"),
+            None => part(&name, port.width, "score of the captured region"),
             Some(more) => {
-                part(&format!("{name}_low"), WORD_BITS, "a score, its low bits");
-                part(&format!("{name}_high"), more, "a score, its high bits");
+                part(&format!("{name}_low"), WORD_BITS, "score of the captured region, low bits");
+                part(&format!("{name}_high"), more, "score of the captured region, high bits");
             }
         }
     }

@@ -231,7 +231,7 @@ impl SynthesizedDesign {
     ) -> Result<PlacementResult, EstimateError> {
         let seeds = reports.iter().map(NextpnrReport::fmax_mhz).collect::<Result<Vec<_>, _>>()?;
         let no_seeds =
-            || EstimateError::UnreadableReport { reason: "there is none, for no seed".to_owned() };
+            || EstimateError::UnreadableReport { reason: "no seed gave a report".to_owned() };
         let (fmax, median) = ClockStatistics::of(seeds).ok_or_else(no_seeds)?;
         let report = &reports[median];
         let names = SourceNames { top, netlist: &self.netlist, hierarchy: &self.hierarchy };

@@ -69,9 +69,8 @@ impl NextpnrReport {
     pub(super) fn fmax_mhz(&self) -> Result<f64, EstimateError> {
         let clocks = self.fmax.values().map(|clock| clock.achieved);
         let slowest = clocks.min_by(f64::total_cmp);
-        slowest.ok_or_else(|| EstimateError::UnreadableReport {
-            reason: "it names no clock".to_owned(),
-        })
+        slowest
+            .ok_or_else(|| EstimateError::UnreadableReport { reason: "it has no clock".to_owned() })
     }
 
     /// Returns the used and the available number of a resource; 0 for a resource that the device

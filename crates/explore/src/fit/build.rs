@@ -130,7 +130,7 @@ pub(super) fn build_designs(
     if candidates.is_empty() {
         return Err(ExploreError::NoPoints {
             settings: "all candidate cameras".to_owned(),
-            reason: "none can be built".to_owned(),
+            reason: "no design can be built from any of them".to_owned(),
         });
     }
     Ok(SynthesizedDesigns { candidates, left_out_designs: left_out })

@@ -310,7 +310,7 @@ impl KnownAgreements {
         let all = self.confirmed.len();
         (count > 0).then(|| {
             format!(
-                "later frames did not confirm {count} of {all} cameras that agreed enough before"
+                "later frames did not confirm {count} of {all} cameras whose agreement was sufficient before"
             )
         })
     }

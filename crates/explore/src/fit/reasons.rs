@@ -31,7 +31,7 @@ pub(super) fn design_text(design: &Design) -> String {
             (IrrelevantRendering::Mean, Some(own)) => {
                 format!("; irrelevant regions send {0}x{0} means", own.blocks)
             }
-            (IrrelevantRendering::Hold, _) => "; irrelevant regions stay".to_owned(),
+            (IrrelevantRendering::Hold, _) => "; irrelevant regions keep their pixels".to_owned(),
             (IrrelevantRendering::Zero | IrrelevantRendering::Mean, _) => String::new(),
         },
         hardware = design.config().hardware.description(),
@@ -243,7 +243,7 @@ impl ConstraintCheck {
         let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
         let clock = clock.unwrap_or_default();
         let what = if self.is_expected {
-            format!("{what} to expect of other frames")
+            format!("{what} expected for other frames")
         } else {
             what.to_owned()
         };

@@ -65,7 +65,7 @@ fn nearest_task(
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
     best.ok_or(ExploreError::NoPoints {
         settings: "every scale of the thresholds".to_owned(),
-        reason: "none gives a valid design".to_owned(),
+        reason: "none of them gives a valid design".to_owned(),
     })
 }
 

@@ -45,7 +45,7 @@ pub(crate) fn groupings(settings: &PointSettings, rows: &[&DesignRow]) -> Vec<Po
             |row: &&DesignRow| axes_set(row).next().map(|axis| settings.names[axis].clone());
         let values = rows.iter().map(|row| changed(row).unwrap_or_else(|| "the start".to_owned()));
         let values: Vec<String> = values.collect();
-        all.push(PointGrouping::new("what is changed".to_owned(), &values));
+        all.push(PointGrouping::new("changed setting".to_owned(), &values));
     } else {
         all.extend(axes.map(of_axis));
     }
@@ -82,7 +82,7 @@ impl PointGrouping {
         let more = labels.len() > MAX_GROUPS;
         labels.truncate(MAX_GROUPS);
         let label =
-            |label: String| if label.is_empty() { "as the start".to_owned() } else { label };
+            |label: String| if label.is_empty() { "same as the start".to_owned() } else { label };
         let rest = more.then(|| "others".to_owned());
         let labels = labels.into_iter().map(label).chain(rest);
         let group = |(index, label)| {
@@ -102,7 +102,7 @@ mod tests {
         let grouping =
             PointGrouping::new("fold".to_owned(), &["16", "4", "", "4"].map(str::to_owned));
         let labels: Vec<&str> = grouping.groups.iter().map(|group| group.label.as_str()).collect();
-        assert_eq!(labels, ["16", "4", "as the start"]);
+        assert_eq!(labels, ["16", "4", "same as the start"]);
         assert_eq!(grouping.of_row, [0, 1, 2, 1]);
         let many = (0..40).rev().map(|value| value.to_string()).collect::<Vec<_>>();
         let many = PointGrouping::new(String::new(), &many);

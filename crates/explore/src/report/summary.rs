@@ -61,7 +61,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
 fn clock(exploration: &Exploration) -> HeadingFigure {
     let of_rows = || exploration.rows.iter().filter_map(|row| row.speed);
     let (value, note) = match (exploration.clock_mhz, of_rows().next()) {
-        (Some(mhz), _) => (format!("{mhz} MHz"), "as the space gives it"),
+        (Some(mhz), _) => (format!("{mhz} MHz"), "given by the space"),
         (None, Some(_)) => {
             let slowest = of_rows().map(|speed| speed.clock_mhz).fold(f64::INFINITY, f64::min);
             let fastest = of_rows().map(|speed| speed.clock_mhz).fold(0.0, f64::max);

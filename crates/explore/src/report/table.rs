@@ -11,7 +11,7 @@ use crate::{DesignArea, DesignRow};
 
 /// The name, unit and meaning of every figure of the table.
 const FIGURES: [(&str, &str, &str); 8] = [
-    ("flipped", "%", "regions that the ideal camera treats differently on the screen"),
+    ("flipped", "%", "regions that the ideal camera shows differently on the screen"),
     ("missed", "%", "share of the ideal camera's active area that is not active here"),
     ("false", "%", "share of the active area here that is not active in the ideal camera"),
     ("IoU", "", "overlap of the active areas; 1 means equal"),
@@ -39,7 +39,7 @@ pub(crate) fn columns(settings: &PointSettings, area: bool) -> Vec<TableColumn> 
         numbers: false,
     };
     let axes: Vec<TableColumn> = if settings.is_one_at_a_time {
-        vec![axis("what is changed", "the one setting that differs from the start")]
+        vec![axis("changed setting", "the one setting that differs from the start")]
     } else {
         settings.names.iter().zip(&settings.keys).map(|(name, key)| axis(name, key)).collect()
     };

@@ -84,7 +84,7 @@ fn read_header(file: &mut impl Read) -> Result<String, String> {
     let mut start = [0; 8];
     file.read_exact(&mut start).map_err(header_error)?;
     if start[..6] != *b"\x93NUMPY" {
-        return Err("it is no NumPy file; numpy.save writes one".to_owned());
+        return Err("it is not a NumPy file; numpy.save writes one".to_owned());
     }
     let length = match start[6] {
         1 => {
@@ -103,7 +103,7 @@ fn read_header(file: &mut impl Read) -> Result<String, String> {
     let length = length.ok_or_else(|| format!("its header is longer than {HEADER_LIMIT} bytes"))?;
     let mut text = vec![0; length];
     file.read_exact(&mut text).map_err(header_error)?;
-    String::from_utf8(text).map_err(|_| "its header is no text".to_owned())
+    String::from_utf8(text).map_err(|_| "its header is not text".to_owned())
 }
 
 /// Parses a header. Returns the type, true if the array is in Fortran order, and the shape.
@@ -137,7 +137,7 @@ fn value_bytes(dtype: &str) -> Result<usize, String> {
             "its values are of type {other}, the highest byte first; save array.astype(\"<{}\")",
             &other[1..]
         )),
-        other => Err(format!("its values are of type {other}, which are no plain numbers")),
+        other => Err(format!("its values are of type {other}, which are not plain numbers")),
     }
 }
 
@@ -197,13 +197,13 @@ mod tests {
     #[test]
     fn a_file_that_is_no_array_is_refused_with_the_reason() {
         for (bytes, expected) in [
-            (b"PK\x03\x04 an archive".to_vec(), "it is no NumPy file"),
+            (b"PK\x03\x04 an archive".to_vec(), "it is not a NumPy file"),
             (b"\x93NUMPY\x01".to_vec(), "it ends in its header"),
             (b"\x93NUMPY\x09\x00\x01\x00 ".to_vec(), "version 9"),
             (b"\x93NUMPY\x02\x00\xff\xff\xff\xff".to_vec(), "longer than 10000"),
             (file(("'>f4'", "1,"), &[0; 4]), "astype(\"<f4\")"),
-            (file(("'|O'", "1,"), &[0; 4]), "no plain numbers"),
-            (file(("[('a', '<f4')]", "1,"), &[0; 4]), "no plain numbers"),
+            (file(("'|O'", "1,"), &[0; 4]), "not plain numbers"),
+            (file(("[('a', '<f4')]", "1,"), &[0; 4]), "not plain numbers"),
             (file(("'<f4'", "2,"), &[0; 7]), "it ends after 7 of 8 bytes"),
             (file(("'<f4'", "2,"), &[0; 9]), "but more follow"),
             (file(("'<f8'", "4294967296, 4294967296"), &[]), "larger than 2 GiB"),

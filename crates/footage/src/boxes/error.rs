@@ -60,8 +60,8 @@ pub enum BoxError {
     },
     /// Several clips share a file that goes by frame numbers, which count the frames of one clip.
     #[error(
-        "boxes `{}` go by frame number, so they belong to one clip, but `{one}` and `{other}` would share them; \
-         give a file for each clip",
+        "boxes `{}` belong to frame numbers, and so to one clip, but `{one}` and `{other}` would \
+         share them; give a file for each clip",
         path.display()
     )]
     Shared {

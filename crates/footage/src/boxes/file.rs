@@ -153,7 +153,7 @@ impl BoxFile {
         let holds = match (&self.entries, first) {
             (_, Some(first)) => format!("begins with {first}"),
             (BoxEntries::Folder, _) => "needs a file for each, with its name and .txt".to_owned(),
-            _ => "has none at all".to_owned(),
+            _ => "has no entries at all".to_owned(),
         };
         BoxError::NoEntry { path: self.path.clone(), clip: clip.to_owned(), holds }
     }

@@ -99,7 +99,7 @@ impl fmt::Display for SkipReason {
             Self::ImageType { name } => {
                 write!(f, "images of the type {name} are not read; convert it to PNG")
             }
-            Self::BrokenLink => f.write_str("the target of the link does not exist; mend the link or remove it"),
+            Self::BrokenLink => f.write_str("the target of the link does not exist; repair the link or remove it"),
             Self::Unreadable { problem } => write!(f, "it cannot be read ({problem}); check its permissions"),
             Self::NotAFile => f.write_str("it has the name of an image or a video, but is not a file; rename it"),
             Self::NoExtension => {

@@ -104,7 +104,7 @@ fn inflate(pixels: &[&[u8]], length: u64) -> Result<(), PictureFault> {
     let unpacked = io::copy(&mut rows.by_ref().take(length + 1), &mut io::sink());
     match unpacked {
         Ok(found) if found < length => Err(PictureFault::truncated(format!(
-            "it has {found} bytes of pixels, and needs {length}"
+            "it has {found} bytes of pixels, but needs {length}"
         ))),
         Ok(found) if found > length => {
             Err(PictureFault::damaged(format!("it has more than the {length} bytes of its pixels")))

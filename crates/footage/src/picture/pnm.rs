@@ -36,7 +36,7 @@ fn check_binary(header: &PnmHeader, raster: &[u8]) -> Result<(), PictureFault> {
     else {
         let found = raster.len();
         return Err(PictureFault::truncated(format!(
-            "it has {found} bytes of pixels, and needs {length}"
+            "it has {found} bytes of pixels, but needs {length}"
         )));
     };
     let beyond = |value: &u64| *value > header.largest;
@@ -65,7 +65,7 @@ fn check_text(header: &PnmHeader, raster: &[u8]) -> Result<(), PictureFault> {
         let Ok(value) = digits.parse::<u64>() else {
             return match rest.first() {
                 None => Err(PictureFault::truncated(format!(
-                    "it has {found} samples, and needs {needed}"
+                    "it has {found} samples, but needs {needed}"
                 ))),
                 Some(byte) => Err(PictureFault::damaged(format!(
                     "`{}` stands among its samples, where numbers are expected",
@@ -84,7 +84,7 @@ fn refuse_sample(header: &PnmHeader, sample: Option<u64>) -> Result<(), PictureF
     let largest = header.largest;
     sample.map_or(Ok(()), |value| {
         Err(PictureFault::damaged(format!(
-            "it has a sample of {value}, and its maximum is {largest}"
+            "it has a sample of {value}, but its maximum is {largest}"
         )))
     })
 }

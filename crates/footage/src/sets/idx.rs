@@ -40,7 +40,7 @@ impl IdxImages {
         let mut input = open_unpacked(path)?;
         let magic: [u8; 4] = read(&mut *input, path)?;
         if magic != MAGIC {
-            return Err(damaged(path, "it is no IDX file of 8-bit images (00 00 08 03)"));
+            return Err(damaged(path, "it is not an IDX file of 8-bit images (00 00 08 03)"));
         }
         let [total, height, width] = [(); 3].map(|()| number(&mut *input, path));
         let (total, height, width) = (total?, height?, width?);
@@ -160,7 +160,7 @@ fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
     if total > MAX_LABELS {
         return Err(damaged(
             path,
-            format!("it holds {total} labels, and the limit is {MAX_LABELS}; split it"),
+            format!("it holds {total} labels, but at most {MAX_LABELS} are read; split it"),
         ));
     }
     let mut labels = Vec::new();

@@ -29,7 +29,7 @@ pub fn source_from_memory(
 ) -> Result<Box<dyn FrameSource>, FootageError> {
     let of_files = |option, what: &str| FootageError::Option {
         option,
-        problem: format!("{what} are files, and `{name}` is none"),
+        problem: format!("{what} are files, but `{name}` is not a file"),
     };
     let kind = match options.images {
         ImageRelation::Clip => SourceKind::Clip,

@@ -107,8 +107,8 @@ fn parse_frame(line: &str) -> Option<LogEntry> {
     let (pts, format) = (value(" pts:")?, value(" fmt:")?);
     let Some(samples) = sample_format(format) else {
         return Some(LogEntry::UntakableFrame(format!(
-            "ffmpeg gives frames in the pixel format `{format}`, which is not known; convert it first, for example with \
-             `ffmpeg -i FILE -pix_fmt yuv420p -c:v ffv1 OUT.mkv`"
+            "ffmpeg gives frames in the pixel format `{format}`, which is not supported; convert \
+             it first, for example with `ffmpeg -i FILE -pix_fmt yuv420p -c:v ffv1 OUT.mkv`"
         )));
     };
     let size = || {

@@ -50,7 +50,7 @@ impl Y4mHeader {
         let (Some(width), Some(height)) = (width, height) else {
             return Err("its header lacks width or height".to_owned());
         };
-        let unknown = || format!("its colour space `{colour}` is not known");
+        let unknown = || format!("its colour space `{colour}` is not supported");
         let (others, depth) =
             chroma_samples_and_depth(colour, width.into(), height.into()).ok_or_else(unknown)?;
         Ok(Self { width, height, depth, others, rate })

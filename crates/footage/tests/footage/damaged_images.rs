@@ -233,7 +233,7 @@ fn compressed_pixels_of_a_png_are_as_long_as_its_rows() {
     let mut wrong = whole.clone();
     *wrong.last_mut().unwrap() ^= 1;
     for (data, part) in [
-        (packed(&ROWS[..10]), "it has 10 bytes of pixels, and needs 15"),
+        (packed(&ROWS[..10]), "it has 10 bytes of pixels, but needs 15"),
         (packed(&[&ROWS[..], &[0]].concat()), "more than the 15 bytes"),
         ([&whole[..], &[0]].concat(), "bytes after its compressed pixels"),
         (wrong, "its compressed pixels"),
@@ -268,13 +268,13 @@ fn interlaced_and_deep_pngs_are_as_long_as_they_say() {
 fn a_pnm_is_one_image_with_samples_in_range() {
     for (bytes, part) in [
         (&b"P5 2 2 255\nabc"[..], "`picture` is truncated"),
-        (b"P5 2 1 100\n\x64\x65", "a sample of 101, and its maximum is 100"),
-        (b"P5 1 1 1000\n\x03\xE9", "a sample of 1001, and its maximum is 1000"),
+        (b"P5 2 1 100\n\x64\x65", "a sample of 101, but its maximum is 100"),
+        (b"P5 1 1 1000\n\x03\xE9", "a sample of 1001, but its maximum is 1000"),
         (b"P5 1 1 255\naP5 1 1 255\nb", "more images follow the first one"),
         (b"P5 1 1 255\nab", "1 bytes follow its last pixel"),
         (b"P4 8 1\n\xA5\xA5", "1 bytes follow its last pixel"),
         (b"P6 1 1 255\nab", "`picture` is truncated"),
-        (b"P2 2 1 15\n3 16\n", "a sample of 16, and its maximum is 15"),
+        (b"P2 2 1 15\n3 16\n", "a sample of 16, but its maximum is 15"),
         (b"P2 2 1 15\n3", "`picture` is "),
         (b"P2 2 1 15\n3 x\n", "`picture` is damaged"),
         (b"P2 2 1 15\n3 -1\n", "`picture` is damaged"),

@@ -68,7 +68,9 @@ fn a_set_has_no_times_and_what_belongs_to_files_is_refused() {
         source_from_memory("array", frames, options).map(|_| ()).unwrap_err().to_string()
     };
     let sheet = InputOptions { images: ImageRelation::CifarSheet, ..InputOptions::default() };
-    assert!(refused(frames(), &sheet).contains("CIFAR sheets are files, and `array` is none"));
+    assert!(
+        refused(frames(), &sheet).contains("CIFAR sheets are files, but `array` is not a file")
+    );
     let labels = InputOptions { labels: Some(PathBuf::from("l")), ..InputOptions::default() };
     assert!(refused(frames(), &labels).contains("labelled images are files"));
     let none = refused(Vec::new(), &InputOptions::default());

@@ -142,7 +142,7 @@ pub(super) fn layers(summary: &InferenceSummary) -> TableRows {
 fn layer_title(number: usize, layer: &LayerSummary) -> String {
     let traffic = layer.traffic;
     let mut title = format!(
-        "Layer {number}: {} ({}), {}\n{} needed, {} computed, {} passed on\n{} MACs, weights {}, output {}\nread {}, of it halo {}, written {}",
+        "Layer {number}: {} ({}), {}\n{} needed, {} computed, {} passed on\n{} MACs, weights {}, output {}\nread {}, {} of it halo, written {}",
         layer.name,
         layer.operator,
         shape_text(&layer.shape, "×"),

@@ -44,7 +44,7 @@ fn first_names(names: &[String]) -> String {
 pub(super) fn run_sentences(summary: &InferenceSummary, design: &Design) -> String {
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     format!(
-        "The network {} ran on {}{} of {}{}, as a camera with {} shows them, in mode {}: {}. {}{}",
+        "The network {} ran on {}{} of {}{}, as a receiver shows them behind a camera with {}, in mode {}: {}. {}{}",
         summary.network,
         counted(frames, "frame"),
         frame_interval_text(summary),
@@ -128,7 +128,9 @@ fn mode_text(summary: &InferenceSummary) -> String {
         }
         Computation::Mode(ExecutionMode::Exact) => format!("{again} a changed pixel"),
         Computation::Mode(ExecutionMode::Compare) => {
-            format!("{again} a change, and a value that came out as before is none")
+            format!(
+                "{again} a change, where a value that comes out as before does not count as one"
+            )
         }
         Computation::Mode(ExecutionMode::Truncate(limit)) => {
             format!("{again} a change of more than {limit}")
@@ -199,7 +201,7 @@ pub(super) fn findings(summary: &InferenceSummary) -> Vec<String> {
 fn traffic_sentence(summary: &InferenceSummary) -> String {
     let traffic = &summary.traffic;
     format!(
-        "The layers read {} of tensors per frame, of them {} that had not changed (the halo around changes), and wrote {}.",
+        "The layers read {} of tensors per frame, {} of which had not changed (the halo around changes), and wrote {}.",
         mean_bytes_text(traffic.read_bytes),
         mean_bytes_text(traffic.halo_bytes),
         mean_bytes_text(traffic.written_bytes)
@@ -232,7 +234,7 @@ fn time_sentence(summary: &InferenceSummary) -> String {
     }
     if let Some(blocks) = summary.break_even_share() {
         text += &format!(
-            ", as long as this run would at {} of the blocks of a whole frame or more",
+            "; this run is faster than that as long as at most {} of the blocks of a whole frame are computed",
             share_text(blocks)
         );
     }
@@ -278,7 +280,7 @@ fn error_sentence(summary: &InferenceSummary) -> Option<String> {
 fn whole_frame_sentences(summary: &InferenceSummary) -> Vec<String> {
     let Some(sight) = &summary.sight else { return Vec::new() };
     let mut found = vec![format!(
-        "The camera sends {} per frame, {} of the whole frames; what the receiver sees of them has a PSNR of {}.",
+        "The camera sends {} per frame, {} of the whole frames; the receiver's screen has a PSNR of {}.",
         mean_bytes_text(sight.sent_bytes),
         share_text(sight.sent_share),
         decibels_text(sight.picture_psnr)
@@ -286,7 +288,7 @@ fn whole_frame_sentences(summary: &InferenceSummary) -> Vec<String> {
     found.extend(sight.detections.as_ref().map(|kept| {
         let all = kept.all;
         format!(
-            "Of {} that the network finds in whole frames ({}) it finds {} behind the camera, and {} that are not there: {} are kept, {} are right.",
+            "Of {} that the network finds in whole frames ({}), it finds {} behind the camera, too, and {} others: {} are kept, {} are right.",
             counted(usize::try_from(all.whole).unwrap_or(usize::MAX), "object"),
             kept.detector,
             grouped(all.kept),
@@ -305,7 +307,7 @@ fn whole_frame_sentences(summary: &InferenceSummary) -> Vec<String> {
     }));
     found.extend(sight.classes.map(|classes| {
         format!(
-            "The class is that of the whole frame in {} of the frames; its margin is {:.3} in whole frames and {:.3} behind the camera.",
+            "The class is the same as for the whole frame in {} of the frames; its margin is {:.3} in whole frames and {:.3} behind the camera.",
             share_text(classes.same_share),
             classes.whole_margin,
             classes.seen_margin
@@ -313,12 +315,12 @@ fn whole_frame_sentences(summary: &InferenceSummary) -> Vec<String> {
     }));
     found.extend(sight.same_places.map(|same| {
         format!(
-            "The class of a place is that of the whole frame at {} of the places.",
+            "The class is the same as in the whole frame at {} of the places.",
             share_text(same)
         )
     }));
     found.push(format!(
-        "The outputs differ from those of whole frames by a relative RMS of {}.",
+        "The outputs differ from those for whole frames by a relative RMS of {}.",
         error_text(sight.relative_rms)
     ));
     found.extend(noise_sentence(sight));
@@ -344,7 +346,11 @@ fn noise_sentence(sight: &WholeFrameAgreement) -> Option<String> {
         counted(usize::try_from(frames).unwrap_or(usize::MAX), "frame"),
         all(&|noisy| agreement(noisy.agreement, &noisy.intervals)),
         agreement(sight.agreement, &sight.intervals),
-        if is_few { " In brackets are 95 % intervals, for few things say little." } else { "" }
+        if is_few {
+            " In brackets are 95 % intervals, which are wide where little was counted."
+        } else {
+            ""
+        }
     ))
 }
 
@@ -356,7 +362,7 @@ fn tuning_sentence(summary: &InferenceSummary, tuning: &TuningSummary) -> String
         String::new()
     };
     format!(
-        "The limits were chosen on {} {}, in {} runs; there they needed {} of the MACs, and {} without a limit. The goal {} {held} on these frames.{frozen}",
+        "The limits were chosen on {} {}, in {} runs; there {} of the MACs were needed, and {} without a limit. The goal {} {held} on these frames.{frozen}",
         counted(usize::try_from(tuning.frames).unwrap_or(usize::MAX), "counted frame"),
         if summary.is_tuned_on_clips() {
             format!("of {}", first_names(&tuning.clips))

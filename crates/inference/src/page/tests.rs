@@ -409,7 +409,7 @@ fn hard() -> Vec<(&'static str, RunSample)> {
         dense_seconds_per_frame: 0.005,
     });
     let mut odd = sample(5);
-    odd.0.warnings.push("outputs hold infinite values, or such that are no numbers".to_owned());
+    odd.0.warnings.push("outputs hold values that are infinite or not a number".to_owned());
     odd.0.problem = Some("it was interrupted".to_owned());
     odd.0.error = Some(WholeComputationError {
         different_frames: 5,

@@ -96,7 +96,7 @@ fn limits_of_some_clips_are_reported_on_the_others() {
         (far(&["scene:street", "scene:fade"]), far(&["scene:street", "scene:zero", "scene:fade"]));
     assert!(is_near(alone.rms_of_variation, beside.rms_of_variation), "{alone:?} {beside:?}");
     let error = run(&all, 1).write(dir.path()).unwrap_err().to_string();
-    assert!(error.starts_with("no frame of the clips that it tunes on counts"), "{error}");
+    assert!(error.starts_with("no frame of the clips to tune on counts"), "{error}");
 }
 
 /// An interrupted run keeps the frames that were done, and says which clip stopped and how many

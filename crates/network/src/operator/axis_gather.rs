@@ -91,7 +91,7 @@ impl Operator for AxisGather {
         };
         if self.axes.len() != input.shape().len() || !self.axes.iter().zip(input.shape()).all(fits)
         {
-            return Err(format!("it takes elements that {} does not have", input.describe()));
+            return Err(format!("it reads elements that {} does not have", input.describe()));
         }
         let mut shape = self.lengths(input);
         let axes = input.position_axes();

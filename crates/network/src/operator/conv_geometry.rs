@@ -27,7 +27,7 @@ impl ConvGeometry {
     ) -> Result<Self, String> {
         let &[channels, inputs, height, width] = shape else {
             return Err(format!(
-                "its weights have {} axes; only two-dimensional convolution is known",
+                "its weights have {} axes; only two-dimensional convolution is supported",
                 shape.len()
             ));
         };
@@ -50,7 +50,7 @@ impl ConvGeometry {
     pub(crate) fn check_bias<T>(&self, bias: Option<&[T]>) -> Result<(), String> {
         match bias {
             Some(bias) if bias.len() != self.output_channels => {
-                Err(format!("its bias is not of {} channels", self.output_channels))
+                Err(format!("its bias does not have {} channels", self.output_channels))
             }
             _ => Ok(()),
         }

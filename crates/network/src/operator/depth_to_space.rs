@@ -28,7 +28,7 @@ impl Operator for DepthToSpace {
         let [channels, height, width] = feature_size(only_input(inputs)?)?;
         let square = self.block_size * self.block_size;
         if channels % square != 0 {
-            return Err(format!("{channels} channels are not squares of {square}"));
+            return Err(format!("{channels} channels are not a multiple of the square {square}"));
         }
         Ok(TensorForm::features(vec![
             1,
@@ -83,7 +83,9 @@ impl Operator for SpaceToDepth {
         let [channels, height, width] = feature_size(only_input(inputs)?)?;
         let side = self.block_size;
         if height % side != 0 || width % side != 0 {
-            return Err(format!("{width}x{height} places are not squares of {side}x{side}"));
+            return Err(format!(
+                "{width}x{height} positions do not consist of squares of {side}x{side}"
+            ));
         }
         let channels = channels.checked_mul(side * side).ok_or("it has too many channels")?;
         Ok(TensorForm::features(vec![1, channels, height / side, width / side]))

@@ -60,7 +60,7 @@ impl IntegerConv {
             IntegerConvKernels::Depthwise(rows)
         } else if geometry.columns.kernel > MAX_EXACT_PRODUCTS {
             return Err(format!(
-                "its kernel has {} columns; of 8-bit values at most {MAX_EXACT_PRODUCTS} are supported",
+                "its kernel has {} columns; at most {MAX_EXACT_PRODUCTS} are supported for 8-bit values",
                 geometry.columns.kernel
             ));
         } else {

@@ -183,7 +183,7 @@ impl Operator for Pool {
         let [channels, height, width] = feature_size(only_input(inputs)?)?;
         if self.rows.kernel * self.columns.kernel > usize::from(u16::MAX) {
             return Err(format!(
-                "its window of {}x{} is larger than is known",
+                "its window of {}x{} is too large; at most 65535 positions are supported",
                 self.rows.kernel, self.columns.kernel
             ));
         }

@@ -151,7 +151,7 @@ impl Constant {
         match &self.values {
             ConstantValues::Integers(values) => Ok(values),
             ConstantValues::Floats(_) => Err(format!(
-                "a constant must be of integers, but is of {}",
+                "a constant must have integers, but has values of {}",
                 data_type::type_name(self.data_type.into())
             )),
         }
@@ -174,7 +174,7 @@ impl Constant {
         if self.element() != Some(wanted) || self.values.value_count() != 1 {
             let count = self.values.value_count();
             return Err(format!(
-                "a constant must be one value of {}, but is {count} of {}",
+                "a constant must be one value of {}, but has {count} values of {}",
                 wanted.describe(),
                 data_type::type_name(self.data_type.into())
             ));
@@ -191,7 +191,7 @@ impl Constant {
     pub(super) fn tensor(&self) -> Result<Tensor, String> {
         let element = self.element().ok_or_else(|| {
             format!(
-                "a constant must be of floating-point values or of integers of 8 or 32 bits, but is of {}",
+                "a constant must have floating-point values or integers of 8 or 32 bits, but has values of {}",
                 data_type::type_name(self.data_type.into())
             )
         })?;
@@ -211,7 +211,7 @@ impl Constant {
         match &self.values {
             ConstantValues::Floats(values) => Ok(values),
             ConstantValues::Integers(_) => Err(format!(
-                "a constant must be of floating-point values, but is of {}",
+                "a constant must have floating-point values, but has values of {}",
                 data_type::type_name(self.data_type.into())
             )),
         }

@@ -36,7 +36,9 @@ pub(super) fn unary_operation(kind: &str, from: &Constant) -> FoldResult<Option<
         (ConstantValues::Integers(values), Activation::Abs) => {
             ConstantValues::Integers(values.iter().map(|value| value.wrapping_abs()).collect())
         }
-        (ConstantValues::Integers(_), _) => return Err("its constant is of integers".to_owned()),
+        (ConstantValues::Integers(_), _) => {
+            return Err("its constant has integers, which are not supported here".to_owned());
+        }
     };
     Ok(Some(Constant { values, ..from.clone() }))
 }
@@ -66,7 +68,7 @@ pub(super) fn binary_operation(
             let pairs = values_of_a.iter().zip(values_of_b);
             let values: Option<Vec<i64>> =
                 pairs.map(|(&a, &b)| integer_operation(kind, a, b)).collect();
-            ConstantValues::Integers(values.ok_or("its result is no integer of 64 bits")?)
+            ConstantValues::Integers(values.ok_or("its result does not fit into 64 bits")?)
         }
         (ConstantValues::Floats(values_of_a), ConstantValues::Floats(values_of_b)) => {
             let pairs = values_of_a.iter().zip(values_of_b);
@@ -78,7 +80,7 @@ pub(super) fn binary_operation(
         }
         (ConstantValues::Integers(_), ConstantValues::Floats(_))
         | (ConstantValues::Floats(_), ConstantValues::Integers(_)) => {
-            return Err("one of its constants is of integers, the other is not".to_owned());
+            return Err("one of its constants has integers, but the other does not".to_owned());
         }
     };
     let kind = if is_comparison { data_type::BOOL } else { a.data_type };
@@ -100,7 +102,8 @@ pub(super) fn cast_exponent(exponent: &Constant, base: i32) -> FoldResult<Consta
     let is_integer = base == data_type::INT64 || base == data_type::INT32;
     match &exponent.values {
         ConstantValues::Floats(values) if is_integer && !values.iter().all(is_whole) => {
-            Err("a power of integers with an exponent that is none is not supported".to_owned())
+            Err("a power of integers with an exponent that is not a whole number is not supported"
+                .to_owned())
         }
         _ => exponent.cast(base),
     }
@@ -170,7 +173,7 @@ pub(super) fn select_by_condition(
         }
         (ConstantValues::Integers(_), ConstantValues::Floats(_))
         | (ConstantValues::Floats(_), ConstantValues::Integers(_)) => {
-            return Err("one of its constants is of integers, the other is not".to_owned());
+            return Err("one of its constants has integers, but the other does not".to_owned());
         }
     };
     Ok(Constant { shape, values, data_type: a.data_type })
@@ -206,7 +209,7 @@ pub(super) fn number_range(folder: &ModelFolder, inputs: &[&Constant]) -> FoldRe
         (single_number(start)?, single_number(limit)?, single_number(delta)?);
     let count = ((limit - start) / delta).ceil().max(0.0);
     if count.is_nan() {
-        return Err(format!("no numbers go from {start} to {limit} in steps of {delta}"));
+        return Err(format!("there are no numbers from {start} to {limit} in steps of {delta}"));
     }
     #[allow(
         clippy::cast_possible_truncation,

@@ -94,7 +94,7 @@ pub(super) fn slice_constant(node: &NodeReader<'_>, from: &Constant) -> Result<C
         .unwrap_or_else(|| (0..length_to_i64(starts.len())).collect());
     let steps = node.ints_or_input("steps", 4)?.unwrap_or_else(|| vec![1; starts.len()]);
     if [ends.len(), axes.len(), steps.len()].iter().any(|&length| length != starts.len()) {
-        return Err("its starts, ends, axes and steps are not as many".to_owned());
+        return Err("its starts, ends, axes and steps differ in length".to_owned());
     }
     let (mut shape, mut first) = (from.shape.clone(), vec![0; from.shape.len()]);
     let mut step = vec![1; from.shape.len()];
@@ -134,7 +134,7 @@ pub(super) fn slice_bounds(
     match usize::try_from(step.unsigned_abs()) {
         Ok(0) => Err("its step is 0".to_owned()),
         Ok(step) => Ok((start, distance.div_ceil(step))),
-        Err(_) => Err(format!("its step is {step}")),
+        Err(_) => Err(format!("its step is {step}, which is not supported")),
     }
 }
 
@@ -176,7 +176,7 @@ pub(super) fn gather_constant(
 ) -> Result<Constant, String> {
     let axis = index_from_start(node.int("axis", 0), from.shape.len());
     let axis = usize::try_from(axis).ok().filter(|&axis| axis < from.shape.len());
-    let axis = axis.ok_or("its axis is outside")?;
+    let axis = axis.ok_or("its axis is outside of the axes of its input")?;
     let length = from.shape[axis];
     let index = |&index: &i64| {
         let at = usize::try_from(index_from_start(index, length)).ok().filter(|&at| at < length);
@@ -207,7 +207,7 @@ pub(super) fn concat_constants(
     let axis = usize::try_from(index_from_start(node.int("axis", 0), first.shape.len()))
         .ok()
         .filter(|&axis| axis < first.shape.len())
-        .ok_or("its axis is outside")?;
+        .ok_or("its axis is outside of the axes of its input")?;
     let fits = |part: &&Constant| {
         let own = part.shape.iter().zip(&first.shape).enumerate();
         part.shape.len() == first.shape.len()
@@ -218,7 +218,7 @@ pub(super) fn concat_constants(
     }
     let mut shape = first.shape.clone();
     let length = parts.iter().try_fold(0usize, |sum, part| sum.checked_add(part.shape[axis]));
-    shape[axis] = length.ok_or("its output is too long")?;
+    shape[axis] = length.ok_or("its output is too large")?;
     node.folder.check_room(&shape, &first.values)?;
     let outer: usize = shape[..axis].iter().product();
     fn lines<T: Copy>(parts: &[&[T]], outer: usize) -> Vec<T> {

@@ -170,9 +170,7 @@ impl GraphReader<'_> {
         let operator = full_operator_name(node);
         if !operators::is_supported(&operator) {
             let advice = match self.on_problem {
-                ProblemPolicy::Stop => {
-                    "; `foveate infer --check MODEL` lists all nodes that are not"
-                }
+                ProblemPolicy::Stop => "; `foveate infer --check MODEL` lists all such nodes",
                 ProblemPolicy::Note => "",
             };
             return Err(NetworkError::UnsupportedOperator { node: name, operator, advice });
@@ -307,7 +305,7 @@ impl GraphReader<'_> {
     fn node_outputs(&self, node: &NodeProto) -> Result<Vec<NodeOutput>, String> {
         for input in node.input.iter().filter(|input| !input.is_empty()) {
             if !self.values.contains_key(input) {
-                return Err(format!("its input `{input}` is made by no node before it"));
+                return Err(format!("no earlier node makes its input `{input}`"));
             }
         }
         let forms = |value: usize| self.network.form(value).clone();

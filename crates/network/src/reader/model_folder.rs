@@ -84,13 +84,15 @@ pub(super) fn read_external_data(
     };
     let number = |key: &str| {
         entry(key)
-            .map(|text| text.parse::<u64>().map_err(|_| format!("its {key} is no number: {text}")))
+            .map(|text| {
+                text.parse::<u64>().map_err(|_| format!("its {key} is not a number: {text}"))
+            })
             .transpose()
     };
-    let location = Path::new(entry("location").ok_or("its data has no location")?);
+    let location = Path::new(entry("location").ok_or("its data have no location")?);
     if !location.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
         return Err(format!(
-            "its data `{}` is outside the folder of the model",
+            "its data `{}` are outside of the folder of the model",
             location.display()
         ));
     }
@@ -98,7 +100,7 @@ pub(super) fn read_external_data(
     let fails =
         |error: std::io::Error| format!("cannot read its data `{}`: {error}", path.display());
     let outside =
-        |_| format!("its data `{}` is outside the folder of the model", location.display());
+        |_| format!("its data `{}` are outside of the folder of the model", location.display());
     if !path.metadata().map_err(fails)?.is_file() {
         return Err(format!("its data `{}` is not a file", location.display()));
     }

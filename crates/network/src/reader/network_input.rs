@@ -50,7 +50,11 @@ fn input_layout(
     let mut obstacle = graph.node.iter().enumerate();
     let obstacle = obstacle.find(|(_, node)| is_taken_by(node) && !puts_channels_first(node, name));
     let obstacle = obstacle.map(|(index, node)| {
-        format!("node `{}` ({}) takes it so", node_name(node, index), full_operator_name(node))
+        format!(
+            "node `{}` ({}) takes it in this order",
+            node_name(node, index),
+            full_operator_name(node)
+        )
     });
     let is_output = graph.output.iter().any(|output| value_name(output) == name);
     match obstacle.or_else(|| is_output.then(|| "it is an output, too".to_owned())) {
@@ -84,7 +88,7 @@ pub(super) fn frame_input(
     let &[input] = inputs else {
         let names: Vec<_> = inputs.iter().map(|input| value_name(input)).collect();
         return Err(NetworkError::InvalidNetwork(format!(
-            "it must have one input, the picture, but it has {} ({})",
+            "it must have one input, the frame, but it has {} ({})",
             inputs.len(),
             names.join(", ")
         )));
@@ -148,7 +152,7 @@ fn check_array(input: &ValueInfoProto, array: &TensorProto) -> Result<(), Networ
     let tensor = input.r#type.as_ref().and_then(|value_type| value_type.tensor_type.as_ref());
     let tensor = tensor.ok_or_else(|| {
         NetworkError::InvalidNetwork(format!(
-            "its input `{name}` is no tensor, and others are not supported"
+            "its input `{name}` is not a tensor, and other types are not supported"
         ))
     })?;
     let type_text = |kind: Option<i32>| data_type::type_name(kind.unwrap_or(0).into());
@@ -225,9 +229,10 @@ fn input_form(
         return Err(form_error(format!("but it has {} axes", lengths.len())));
     };
     if batch.is_some_and(|batch| batch != 1) {
-        return Err(form_error(format!("but it takes {} pictures at once", batch.unwrap_or(0))));
+        return Err(form_error(format!("but it takes a batch of {}", batch.unwrap_or(0))));
     }
-    let channels = channels.ok_or_else(|| form_error("but its channels are open".to_owned()))?;
+    let channels =
+        channels.ok_or_else(|| form_error("but its number of channels is not given".to_owned()))?;
     if channels != 1 && channels != 3 {
         return Err(form_error(format!("with 1 or 3 channels, but it has {channels}")));
     }
@@ -248,7 +253,7 @@ fn input_form(
         None => height.zip(width).ok_or_else(|| {
             let name = value_name(input);
             NetworkError::InvalidNetwork(format!(
-                "its input `{name}` takes pictures of any size; say which, for example letterbox=416x416"
+                "its input `{name}` takes frames of any size; give one, for example letterbox=416x416"
             ))
         })?,
     };

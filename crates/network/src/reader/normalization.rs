@@ -77,7 +77,9 @@ pub(super) fn softmax_operator(
     // is such an axis for a tensor of one axis.
     let count = (node.forms)(value).shape().len();
     if is_to_end && usize::try_from(index_from_start(axis, count)) == Ok(count) {
-        return Err(format!("its axis {axis} is behind the last, so that every share is 1"));
+        return Err(format!(
+            "its axis {axis} is behind the last one, so that every output is constant"
+        ));
     }
     Ok(Softmax { axis, spans_following_axes: is_to_end, is_logarithm })
 }

@@ -153,7 +153,7 @@ pub(super) fn binary(
             vec![a],
         ),
         _ => Err(format!(
-            "it has {} inputs; only two are supported, not both constant",
+            "it has {} inputs; only two are supported, of which at most one is constant",
             node.node.input.len()
         )),
     }
@@ -178,7 +178,7 @@ pub(super) fn gelu(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     match node.text("approximate", "none").as_str() {
         "none" => activation(node, Activation::Gelu),
         "tanh" => activation(node, Activation::TanhGelu),
-        other => Err(format!("approximate = {other} is unknown; it is none or tanh")),
+        other => Err(format!("approximate = {other} is unknown; it must be none or tanh")),
     }
 }
 

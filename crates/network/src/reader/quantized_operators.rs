@@ -184,7 +184,7 @@ pub(super) fn binary(
         (Some(&GraphValue::Tensor(a)), Some(GraphValue::Constant(b))) => {
             (Some((byte_tensor(b, to.element)?, false)), vec![a])
         }
-        _ => return Err("it takes two tensors, not both constant".to_owned()),
+        _ => return Err("it takes two tensors, of which at most one is constant".to_owned()),
     };
     let binary = BinaryOperator { kind, constant, activation: Activation::Identity };
     output_of_tensors(QuantizedBinary { operator: binary, from, to }, inputs)
@@ -195,7 +195,7 @@ fn byte_tensor(constant: &Constant, element: ElementType) -> QuantizedResult<Ten
     let form = TensorForm::without_positions(constant.shape.clone())
         .with_encoding(Encoding::plain(element));
     if constant.element() != Some(element) {
-        return Err(format!("its constant must be of {}", element.describe()));
+        return Err(format!("its constant must have {}", element.describe()));
     }
     Tensor::from_integers(form, constant.as_integers()?)
 }

@@ -35,10 +35,10 @@ pub(super) fn flatten(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> 
     let axis = usize::try_from(axis)
         .ok()
         .filter(|&axis| axis <= form.shape().len())
-        .ok_or("its axis is outside")?;
+        .ok_or("its axis is outside of the axes of its input")?;
     let before: usize = form.shape()[..axis].iter().product();
     output_of_tensors(
-        Reshape { shape: vec![i64::try_from(before).map_err(|_| "it is too large")?, -1] },
+        Reshape { shape: vec![i64::try_from(before).map_err(|_| "its input is too large")?, -1] },
         vec![value],
     )
 }
@@ -99,7 +99,7 @@ pub(super) fn resolve_axes(axes: &[i64], count: usize) -> Result<Vec<usize>, Str
         usize::try_from(index_from_start(axis, count))
             .ok()
             .filter(|&resolved| resolved < count)
-            .ok_or_else(|| format!("its axis {axis} is outside"))
+            .ok_or_else(|| format!("its axis {axis} is outside of the axes of its input"))
     };
     let axes: Vec<usize> = axes.iter().map(resolved).collect::<Result<_, _>>()?;
     let are_distinct = (1..axes.len()).all(|at| !axes[..at].contains(&axes[at]));
@@ -113,7 +113,10 @@ pub(super) fn transpose(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String
         None => (0..count).rev().collect(),
         Some(perm) => perm
             .iter()
-            .map(|&axis| usize::try_from(axis).map_err(|_| format!("its perm is {perm:?}")))
+            .map(|&axis| {
+                usize::try_from(axis)
+                    .map_err(|_| format!("its perm is {perm:?}, which has a negative axis"))
+            })
             .collect::<Result<_, _>>()?,
     };
     output_of_tensors(Transpose { order }, vec![value])

@@ -129,6 +129,6 @@ fn block_size_and_order(node: &NodeReader<'_>) -> Result<(usize, DepthToSpaceOrd
     match node.text("mode", "DCR").as_str() {
         "DCR" => Ok((side, DepthToSpaceOrder::DepthColumnRow)),
         "CRD" => Ok((side, DepthToSpaceOrder::ColumnRowDepth)),
-        other => Err(format!("the mode `{other}` is unknown; it is DCR or CRD")),
+        other => Err(format!("the mode `{other}` is unknown; it must be DCR or CRD")),
     }
 }

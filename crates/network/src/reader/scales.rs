@@ -42,7 +42,7 @@ impl NodeReader<'_> {
     ) -> ScaleResult<Vec<i32>> {
         let Some(zeros) = self.constant(at, what)? else { return Ok(vec![0; count]) };
         if zeros.element() != Some(element) {
-            return Err(format!("its {what} must be of {}, as its tensor", element.describe()));
+            return Err(format!("its {what} must have {}, as its tensor has", element.describe()));
         }
         let (lowest, highest) = if element.is_byte() { element.range() } else { (0, 0) };
         let zero = |&zero: &i64| {
@@ -111,7 +111,8 @@ impl NodeReader<'_> {
             return Err("its bias must be of 32-bit integers".to_owned());
         }
         let value = |&value: &i64| {
-            i32::try_from(value).map_err(|_| format!("its bias is {value}, beyond 32 bits"))
+            i32::try_from(value)
+                .map_err(|_| format!("its bias is {value}, which does not fit into 32 bits"))
         };
         bias.as_integers()?.iter().map(value).collect()
     }
@@ -157,9 +158,9 @@ impl NodeReader<'_> {
 }
 
 fn checked_byte_type(element: Option<ElementType>, what: &str) -> ScaleResult<ElementType> {
-    element
-        .filter(|element| element.is_byte())
-        .ok_or_else(|| format!("its {what} must be of 8-bit integers; others are not supported"))
+    element.filter(|element| element.is_byte()).ok_or_else(|| {
+        format!("its {what} must have 8-bit integers; other types are not supported")
+    })
 }
 
 /// Returns constant weights with one row per channel. Their zero points, one or one per channel,

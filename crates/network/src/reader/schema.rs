@@ -109,7 +109,7 @@ impl OperatorSchema {
         match lines.iter().rev().find(|schema| schema.first_version <= version) {
             Some(schema) => Ok(Some(schema)),
             None => Err(format!(
-                "it is an operator since version {}, but the model uses version {opset}",
+                "it exists since version {} of the operators, but the model uses version {opset}",
                 lines[0].first_version
             )),
         }
@@ -127,7 +127,7 @@ impl AttributeSchema {
     fn check(&self, attribute: &AttributeProto) -> Result<(), String> {
         if attribute.ref_attr_name.as_deref().is_some_and(|name| !name.is_empty()) {
             return Err(format!(
-                "its attribute `{}` is that of a function around it, which is not supported",
+                "its attribute `{}` refers to an attribute of a function, which is not supported",
                 self.name
             ));
         }

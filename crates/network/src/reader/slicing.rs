@@ -73,7 +73,9 @@ pub(super) fn split(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let mut start = 0i64;
     let all = sizes.iter().try_fold(0i64, |sum, &size| sum.checked_add(size).filter(|_| size >= 0));
     if all != Some(length_to_i64(length)) || sizes.len() != parts {
-        return Err(format!("{length} elements cannot be split into {parts} parts as it says"));
+        return Err(format!(
+            "{length} elements cannot be split into {parts} parts of the lengths that it gives"
+        ));
     }
     let slices = sizes.iter().map(|&size| {
         let selection = axis_slice(start, start + size, 1, length)?;
@@ -164,9 +166,9 @@ impl PaddingMode {
             "reflect" => Ok(Self::Reflect),
             "edge" => Ok(Self::Edge),
             "wrap" => Ok(Self::Wrap),
-            other => {
-                Err(format!("the mode `{other}` is unknown; it is constant, reflect, edge or wrap"))
-            }
+            other => Err(format!(
+                "the mode `{other}` is unknown; it must be constant, reflect, edge or wrap"
+            )),
         }
     }
 

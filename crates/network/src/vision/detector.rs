@@ -65,7 +65,7 @@ pub fn parse_detector(text: &str) -> Result<Detector, String> {
     let format =
         DetectionFormat::ALL.into_iter().find(|format| format.name() == name).ok_or_else(|| {
             let names = DetectionFormat::ALL.map(DetectionFormat::name);
-            format!("`{name}` is no format of detections; expected {}", names.join(", "))
+            format!("`{name}` is not a format of detections; expected {}", names.join(", "))
         })?;
     let mut detector = Detector::new(format);
     for word in words {

@@ -57,7 +57,7 @@ fn attributes_belong_to_versions() {
         |opset| one_node(Some(opset), "ReduceMax", &[("axes", AttributeValue::Ints(vec![1]))]);
     assert!(axes(17).read(SIDE, SIDE).is_ok());
     assert!(refusal(axes(18)).contains("it has no attribute `axes` in version 18"));
-    let says = "it is an operator since version 20, but the model uses version 19";
+    let says = "it exists since version 20 of the operators, but the model uses version 19";
     assert!(refusal(one_node(Some(19), "Gelu", &[])).contains(says));
 }
 
@@ -108,7 +108,7 @@ fn attributes_are_of_their_type_and_there_once() {
     assert!(refusal(twice).contains("it has the attribute `alpha` twice"));
     let mut of_function = one_node(None, "Elu", &[alpha()]);
     of_function.graph.node[0].attribute[0].ref_attr_name = Some("slope".to_owned());
-    assert!(refusal(of_function).contains("that of a function around it"));
+    assert!(refusal(of_function).contains("an attribute of a function"));
     assert!(
         refusal(one_node(None, "DepthToSpace", &[])).contains("it has no attribute `blocksize`")
     );

@@ -89,8 +89,8 @@ fn channels_that_stay_last_are_refused_with_what_would_help() {
     add_transpose(&mut output, "picture", FIRST);
     output.output("picture");
     for (model, why) in [
-        (used, "node `Relu2` (Relu) takes it so"),
-        (other, "node `Transpose1` (Transpose) takes it so"),
+        (used, "node `Relu2` (Relu) takes it in this order"),
+        (other, "node `Transpose1` (Transpose) takes it in this order"),
         (output, "it is an output, too"),
     ] {
         let refusal = refusal(model);

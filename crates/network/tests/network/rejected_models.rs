@@ -24,7 +24,7 @@ fn one_node(kind: &str, attributes: &[(&str, AttributeValue)]) -> ModelBuilder {
 fn an_unsupported_operator_is_reported_with_its_node() {
     assert_eq!(
         refusal(one_node("Einsum", &[])),
-        "node `Einsum1` has the operator `Einsum`, which is not supported; `foveate infer --check MODEL` lists all nodes that are not"
+        "node `Einsum1` has the operator `Einsum`, which is not supported; `foveate infer --check MODEL` lists all such nodes"
     );
     let mut model = one_node("Relu", &[]);
     model.graph.node[0].domain = Some("com.example".to_owned());
@@ -38,7 +38,7 @@ fn pictures_of_another_size_are_refused_with_the_right_size() {
     model.output(&output);
     assert_eq!(
         refusal(model),
-        "the network takes pictures of 224x224 pixels, but the frames have 8x8; give --resize 224x224, or --framing letterbox to scale behind the camera"
+        "the network takes frames of 224x224 pixels, but these frames have 8x8; give --resize 224x224, or --framing letterbox to scale behind the camera"
     );
 }
 
@@ -78,16 +78,16 @@ fn impossible_models_are_refused() {
     };
     let cases: [(ModelBuilder, &str); 13] = [
         (of_weights, "it has 4 values, but the shape [1, 1, 3, 3]"),
-        (cycle, "its input `value2` is made by no node before it"),
+        (cycle, "no earlier node makes its input `value2`"),
         (twice, "its output `value1` has the name of another tensor"),
         (of_constant, "has the name of another tensor"),
         (huge, "values"),
         (claims, "has 0 values, but the shape"),
         (kernel, "its window of 9 is larger than its input, 8 with padding"),
-        (two, "it must have one input, the picture, but it has 2 (picture, second)"),
+        (two, "it must have one input, the frame, but it has 2 (picture, second)"),
         (ModelBuilder::new(&[1, 1, 8, 8]), "it has no output"),
         (ModelBuilder::new(&[1, 1, 8]), "but it has 3 axes"),
-        (ModelBuilder::new(&[4, 1, 8, 8]), "but it takes 4 pictures at once"),
+        (ModelBuilder::new(&[4, 1, 8, 8]), "but it takes a batch of 4"),
         (
             one_node("MaxPool", &[("kernel_shape", AttributeValue::Ints(vec![0, 2]))]),
             "its kernel_shape is 0; it must be 1 to 65535",
@@ -130,7 +130,11 @@ fn a_length_that_no_picture_has_is_not_an_open_one() {
     // Some exporters write an open length as -1.
     assert_eq!(lengths([Some(-1), Some(1), Some(8), Some(8)]), Ok(()));
     assert_eq!(lengths([Some(-1), Some(1), Some(-1), Some(-1)]), Ok(()));
-    assert!(lengths([Some(1), Some(-1), None, None]).unwrap_err().contains("channels are open"));
+    assert!(
+        lengths([Some(1), Some(-1), None, None])
+            .unwrap_err()
+            .contains("number of channels is not given")
+    );
 }
 
 /// Models are rejected that would be computed differently from the standard, or that would take the
@@ -276,7 +280,7 @@ fn invalid_quantized_networks_are_refused() {
         (of_scale(&[f32::INFINITY]), "its w_scale is inf"),
         (of_scale(&[1.0; 3]), "its w_scale has 3 values; it must have 1 or 2"),
         (of_zero(data_type::UINT8, &[256]), "its x_zero_point is 256; it must be 0 to 255"),
-        (of_zero(data_type::INT8, &[0]), "its x_zero_point must be of 8-bit integers without sign"),
+        (of_zero(data_type::INT8, &[0]), "its x_zero_point must have 8-bit integers without sign"),
         (of_zero(data_type::UINT8, &[0, 0]), "its x_zero_point has 2 values; it must have 1"),
         (
             conv(&|model, inputs| inputs[3] = model.typed(data_type::INT8, &[1, 1, 1, 1], &[200])),
@@ -286,7 +290,7 @@ fn invalid_quantized_networks_are_refused() {
             conv(&|model, inputs| {
                 inputs[3] = model.typed(data_type::INT8, &[2, 1, 1, 257], &[1; 514]);
             }),
-            "its kernel has 257 columns; of 8-bit values at most 256 are supported",
+            "its kernel has 257 columns; at most 256 are supported for 8-bit values",
         ),
         (conv(&|_, inputs| inputs[3] = inputs[0].clone()), "its w must be constant"),
         (
@@ -299,7 +303,7 @@ fn invalid_quantized_networks_are_refused() {
         ),
         (
             conv(&|model, inputs| inputs.push(model.typed(data_type::INT32, &[3], &[1; 3]))),
-            "its bias is not of 2 channels",
+            "its bias does not have 2 channels",
         ),
         (
             conv(&|model, inputs| inputs.push(model.floats(&[2], &[1.0; 2]))),
@@ -307,7 +311,7 @@ fn invalid_quantized_networks_are_refused() {
         ),
         (
             alone("QuantizeLinear", &to(data_type::INT32, 0), &[]),
-            "its y_zero_point must be of 8-bit integers",
+            "its y_zero_point must have 8-bit integers",
         ),
         (
             alone("QuantizeLinear", &to(data_type::INT8, -129), &[]),
@@ -423,7 +427,7 @@ fn data_outside_of_the_folder_is_refused() {
             value: Some(location.to_owned()),
         }];
         let refusal = refusal(model);
-        assert!(refusal.contains("is outside the folder of the model"), "{refusal}");
+        assert!(refusal.contains("are outside of the folder of the model"), "{refusal}");
     }
 }
 

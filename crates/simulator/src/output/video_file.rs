@@ -171,10 +171,7 @@ impl VideoFile {
 
 impl EncoderState {
     fn of_tool_error(error: &ToolError) -> Self {
-        Self::Failed(EncoderFailure {
-            said: format!("ffmpeg was given up: {error}"),
-            is_full: false,
-        })
+        Self::Failed(EncoderFailure { said: format!("ffmpeg failed: {error}"), is_full: false })
     }
 }
 

@@ -96,7 +96,7 @@ fn idx_files_that_are_wrong_are_named() {
     let many = 0x1000_0001_u32.to_be_bytes();
     let many_images = [&[0, 0, 8, 3][..], &many, &[0, 0, 0, 1, 0, 0, 0, 1]].concat();
     let many_labels = [&[0, 0, 8, 1][..], &many].concat();
-    assert!(refusal(&many_images, Some(&many_labels)).contains("the limit is 268435456"));
+    assert!(refusal(&many_images, Some(&many_labels)).contains("at most 268435456"));
     let huge = [0, 0, 8, 3, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255];
     assert!(refusal(&huge, None).contains("sides are 1..=16384"));
     let large = [0, 0, 8, 3, 255, 255, 255, 255, 0, 0, 64, 0, 0, 0, 64, 0];

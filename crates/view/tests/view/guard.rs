@@ -103,8 +103,8 @@ fn an_input_that_cannot_be_shown_is_refused_at_once() {
     let refusal = |input: &Path, play| open(input, &CORE, play).unwrap_err().to_string();
     assert!(refusal(&folder.path().join("none"), None).contains("none"));
     assert!(refusal(folder.path(), None).contains("is a folder"));
-    assert!(refusal(Path::new("/dev/null"), None).contains("no serial port"));
-    assert!(refusal(Path::new("-"), Some(PlayMode::Looped)).contains("no file"));
+    assert!(refusal(Path::new("/dev/null"), None).contains("not a serial port"));
+    assert!(refusal(Path::new("-"), Some(PlayMode::Looped)).contains("not a file"));
     let file = folder.path().join("packets.bin");
     fs::write(&file, "").unwrap();
     for (address, is_refused) in

@@ -43,7 +43,7 @@ fn a_damaged_packet_is_listed_and_all_other_frames_are_shown() {
     assert_eq!(page.state["losses"], json!({"bytes": 1, "row": 1}));
     let listed = [
         "frame 1, row 0: decisions are missing".to_owned(),
-        format!("{row} bytes from byte {} on are no packet", sent.frames[0].len() + frame),
+        format!("{row} bytes from byte {} on are not a packet", sent.frames[0].len() + frame),
     ];
     assert_eq!(page.state["listed"], json!(listed));
     wait_for_message(&view, &["row 0: decisions are missing"]);
@@ -172,7 +172,7 @@ fn noise_without_packets_is_reported() {
     }
     let page = wait_for(view.link(), "loss", |state| state["losses"]["bytes"] == 1);
     assert_eq!(page.state["frames"], 0);
-    wait_for_message(&view, &["bytes from byte 0 on are no packet"]);
+    wait_for_message(&view, &["bytes from byte 0 on are not a packet"]);
     line.send(&sent.frames[0]);
     let page = wait_for(view.link(), "frame", |state| state["frames"] == 1);
     assert!(page.picture == sent.pictures[0]);

@@ -142,7 +142,7 @@ fn what_is_refused_has_a_message() {
         ("mean", "1,x", "`x`: expected a number"),
         ("mean", "1,2", "--mean has 2 values, but the network's input has 1 channel;"),
         ("scale", "0", "above 0"),
-        ("detect", "yolo", "is no format of detections"),
+        ("detect", "yolo", "is not a format of detections"),
         ("detect", "ssd", "`found` [1, 6, 5, 7]"),
         ("colour", "red", "unknown field `colour`"),
     ] {
@@ -155,7 +155,7 @@ fn what_is_refused_has_a_message() {
     let pixels = (SIZE.0 * SIZE.1) as usize;
     let (desk, _) = open_network(5);
     let problem = look(&desk, &vec![0; pixels], &[], 5).unwrap_err();
-    assert!(problem.contains("bytes are no frame"), "{problem}");
+    assert!(problem.contains("bytes are not a frame"), "{problem}");
     let problem = look(&desk, &vec![0; pixels], &vec![32; pixels], 5).unwrap_err();
     assert!(problem.contains("larger than 5 bits"), "{problem}");
 }

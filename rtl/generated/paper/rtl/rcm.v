@@ -24,7 +24,7 @@ module rcm #(
     output wire [COLUMNS*ROWS*7-1:0] edge_score_o,      // score; final with decision_valid_o; element i is region i
     output wire [COLUMNS*ROWS*7-1:0] temporal_count_o,  // changed pixels; final with decision_valid_o; element i is region i
     output wire [COLUMNS*ROWS-1:0]   forward_valid_o,   // a pixel of an active region leaves; element i is region i
-    output wire [COLUMNS*ROWS*8-1:0] forward_pixel_o    // that pixel; 0 unless forward_valid_o; element i is region i
+    output wire [COLUMNS*ROWS*8-1:0] forward_pixel_o    // the pixel that leaves; 0 unless forward_valid_o; element i is region i
 );
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.

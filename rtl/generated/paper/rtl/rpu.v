@@ -25,7 +25,7 @@ module rpu (
     output wire [6:0]  edge_score_o,      // score; final with decision_valid_o
     output wire [6:0]  temporal_count_o,  // changed pixels; final with decision_valid_o
     output wire        forward_valid_o,   // a pixel of an active region leaves
-    output wire [7:0]  forward_pixel_o    // that pixel; 0 unless forward_valid_o
+    output wire [7:0]  forward_pixel_o    // the pixel that leaves; 0 unless forward_valid_o
 );
 
     // Denoising.

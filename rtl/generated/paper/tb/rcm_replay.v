@@ -3,7 +3,7 @@
 // is a mismatch. An output that means something only with a valid bit is compared at the clocks at which the vectors expect
 // that bit.
 //
-// The vectors show 22 frames of 2 x 2 regions, by parameters a part of the core's 28 x 28.
+// The vectors show 22 frames of 2 x 2 regions, a part of the core's 28 x 28 that parameters select.
 // Decisions: 25 active, 40 held, 23 blank; 59 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of

@@ -16,15 +16,15 @@ module rcm #(
     input  wire                            clk_i,               // clock, rising edge
     input  wire                            rst_i,               // synchronous reset, active high
     input  wire                            valid_i,             // a word is taken at this edge, if ready_o
-    input  wire                            sof_i,               // what comes is the first of a frame; only with valid_i
+    input  wire                            sof_i,               // pixel_i begins a frame; only with valid_i
     input  wire [7:0]                      pixel_i,             // word of pixels, the left one in the lowest bits
-    input  wire                            forward_ready_i,     // what is on the forward ports is taken
+    input  wire                            forward_ready_i,     // the sink takes the word on the forward ports
     input  wire [10:0]                     edge_level_i,        // a pixel is a hit above this
     input  wire [6:0]                      edge_min_i,          // the feature votes from this score on
     input  wire [7:0]                      temporal_level_i,    // a pixel has changed above this difference
     input  wire [6:0]                      temporal_min_i,      // TRS from this count on
     output wire                            ready_o,             // a word would be taken at the next edge
-    output wire                            sync_error_o,        // what came at this edge fits no frame
+    output wire                            sync_error_o,        // the input at this edge does not fit into a frame
     output wire                            decision_valid_o,    // the decision for region_o
     output wire [$clog2(COLUMNS*ROWS)-1:0] region_o,            // the region that is decided; only with decision_valid_o
     output wire                            srs_o,               // spatial relevance; 0 unless decision_valid_o
@@ -33,18 +33,18 @@ module rcm #(
     output wire [6:0]                      edge_score_o,        // score; only with decision_valid_o
     output wire [6:0]                      temporal_count_o,    // changed pixels; only with decision_valid_o
     output wire                            forward_valid_o,     // a word of an active region leaves
-    output wire [$clog2(COLUMNS*ROWS)-1:0] forward_region_o,    // its region; only with forward_valid_o
-    output wire [5:0]                      forward_position_o,  // number in its region of its first pixel; only with forward_valid_o
-    output wire [7:0]                      forward_pixel_o,     // that word, the left pixel in the lowest bits; only with forward_valid_o
+    output wire [$clog2(COLUMNS*ROWS)-1:0] forward_region_o,    // region of the word; only with forward_valid_o
+    output wire [5:0]                      forward_position_o,  // number of its first pixel in the region; only with forward_valid_o
+    output wire [7:0]                      forward_pixel_o,     // the word, its left pixel in the lowest bits; only with forward_valid_o
     output wire                            forward_first_o,     // the first word of its region; only with forward_valid_o
-    output wire                            forward_last_o,      // the last that comes of its region; only with forward_valid_o
+    output wire                            forward_last_o,      // the last word of its region that leaves; only with forward_valid_o
     output wire                            forward_abort_o,     // its region was lost in the middle: no more comes; only with forward_valid_o
-    output wire [7:0]                      forward_frame_o,     // number of its frame since reset, modulo 256; only with forward_valid_o
-    output wire                            lost_o,              // a region was lost since reset
+    output wire [7:0]                      forward_frame_o,     // number of the word's frame since reset, modulo 256; only with forward_valid_o
+    output wire                            lost_o,              // a region has been lost since reset
     output wire [15:0]                     lost_count_o,        // regions lost since reset, at most 65,535
-    output wire                            lost_valid_o,        // a region was lost at the edge before
-    output wire [$clog2(COLUMNS*ROWS)-1:0] lost_region_o,       // that region; only with lost_valid_o
-    output wire [7:0]                      lost_frame_o         // number of its frame since reset, modulo 256; only with lost_valid_o
+    output wire                            lost_valid_o,        // a region was lost at the previous edge
+    output wire [$clog2(COLUMNS*ROWS)-1:0] lost_region_o,       // the region that was lost; only with lost_valid_o
+    output wire [7:0]                      lost_frame_o         // number of the region's frame since reset, modulo 256; only with lost_valid_o
 );
     wire unused_summary;
     wire unused_reference_ready;

@@ -7,7 +7,7 @@
 // Decisions: 447 active, 366 held, 292 blank; 679 comparisons with an earlier frame.
 // The sink stalls until 75 regions are lost.
 // In all sequences 64 are lost as a whole, 11 in the middle:
-// 5 while the word that ends them waits, 6 as it comes to the ports; 10 after one word.
+// 5 while their last word waits, 6 when it reaches the ports; 10 after one word.
 // Frames come damaged: 2 sync errors, and 104 decisions after the first.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of

@@ -24,17 +24,17 @@ module rpu #(
     input  wire [6:0]                                               temporal_min_i,      // TRS from this count on
     output wire                                                     ready_o,             // a pixel would be taken at the next edge
     output wire                                                     score_valid_o,       // a score of one region
-    output wire                                                     score_index_o,       // which: 0 the temporal count, 1.. the features; only with score_valid_o
-    output wire [(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1:0] region_o,            // its region; only with score_valid_o
-    output wire [6:0]                                               score_o,             // it; only with score_valid_o
+    output wire                                                     score_index_o,       // number of the score: 0 the temporal count, 1.. the features; only with score_valid_o
+    output wire [(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1:0] region_o,            // region of the score; only with score_valid_o
+    output wire [6:0]                                               score_o,             // the score; only with score_valid_o
     output wire                                                     decision_valid_o,    // the decision for region_o; comes with its last score
     output wire                                                     srs_o,               // spatial relevance; 0 unless decision_valid_o
     output wire                                                     trs_o,               // temporal relevance; 0 unless decision_valid_o
     output wire                                                     active_o,            // SRS and TRS; 0 unless decision_valid_o
     output wire [((COLUMNS*ROWS+3)/4)-1:0]                          forward_valid_o,     // a pixel of an active region leaves; element i is lane i
-    output wire [((COLUMNS*ROWS+3)/4)*8-1:0]                        forward_pixel_o,     // that pixel; only with forward_valid_o; element i is lane i
-    output wire [5:0]                                               forward_position_o,  // its number in its region; only with forward_valid_o
-    output wire [1:0]                                               forward_slot_o       // slot of its region in its lane; only with forward_valid_o
+    output wire [((COLUMNS*ROWS+3)/4)*8-1:0]                        forward_pixel_o,     // the pixel; only with forward_valid_o; element i is lane i
+    output wire [5:0]                                               forward_position_o,  // number of the pixel in its region; only with forward_valid_o
+    output wire [1:0]                                               forward_slot_o       // slot of the pixel's region in its lane; only with forward_valid_o
 );
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.

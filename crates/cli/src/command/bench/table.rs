@@ -104,7 +104,7 @@ fn notes(report: &BenchmarkReport) -> Vec<String> {
     let compared = |row: &LevelRow| {
         let measured = row.measured.as_ref()?;
         let with = report.rows.iter().find(|other| Some(other.level) == measured.compared_with)?;
-        Some(format!("{} with {} in {} values", row.name, with.name, measured.compared))
+        Some(format!("{} with {} ({} values)", row.name, with.name, measured.compared))
     };
     let compared: Vec<_> = report.rows.iter().filter_map(compared).collect();
     notes.push(format!("compared: {}", compared.join(", ")));
@@ -121,8 +121,8 @@ fn notes(report: &BenchmarkReport) -> Vec<String> {
     }) = rtl.and_then(|row| row.measured.as_ref())
     {
         notes.push(format!(
-            "times are from memory, without files and without a look at the outputs; RTL from file to file: \
-             {} clocks/s; unpacking its inputs is {:.1} % of its time",
+            "times are from memory, without files and without a comparison of the outputs; RTL \
+             with its files: {} clocks/s; unpacking its inputs takes {:.1} % of its time",
             three_digits(*files),
             unpacking * 100.0
         ));

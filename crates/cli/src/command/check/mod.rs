@@ -20,8 +20,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     let design = source.design()?;
     if args.quiet && args.min_fps.is_some() && args.clock.is_none() {
         return Err(CliError::Usage(
-            "--quiet says by its exit code whether --min-fps is reached, which needs a clock; give --clock, \
-             or leave --quiet out and read which clock is needed"
+            "--quiet tells by the exit code whether --min-fps is reached, and this needs a clock; \
+             give --clock, or leave --quiet out to see which clock is needed"
                 .to_owned(),
         ));
     }

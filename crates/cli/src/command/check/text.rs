@@ -111,7 +111,7 @@ fn stream_line(design: &Design, card: &DesignCard) -> String {
 /// Returns the line about the stream of a core that takes the frame row by row (`raster`).
 fn raster_stream_line(pixels: u32) -> String {
     let word = if pixels == 1 { "pixel".to_owned() } else { format!("word of {pixels} pixels") };
-    format!("the frame row by row, a {word} at every clock")
+    format!("the frame row by row, a {word} per clock")
 }
 
 fn raster_memory_line(design: RasterDesign<'_>) -> String {

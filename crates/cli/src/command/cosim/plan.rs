@@ -112,7 +112,9 @@ fn axi_job(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError
         (None, None) => "--level axi",
     };
     if is_asked && is_part {
-        let message = format!("{option} goes without --full, --netlist and --simulator iverilog");
+        let message = format!(
+            "{option} cannot be combined with --full, --netlist or --simulator iverilog; leave these out"
+        );
         return Err(CliError::Usage(message));
     }
     let wanted = is_asked || (args.level.is_none() && !is_part);

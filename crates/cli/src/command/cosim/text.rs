@@ -14,7 +14,7 @@ pub(super) fn summary_text(told: &CosimOutput<'_>, width: usize) -> String {
         if let Some(mismatch) = &report.mismatch {
             push_paragraph(
                 &mut text,
-                "ports that differ before the sequence ends, from:",
+                "ports that differ before the end of the sequence, each with its first clock:",
                 "  ",
                 width,
             );

@@ -32,11 +32,11 @@ pub(super) fn run_arrays(
 ) -> Result<(), CliError> {
     if let Some(other) = args.inputs.iter().find(|input| !is_array(input)) {
         return Err(CliError::Usage(format!(
-            "`{}` is no array (.npy), but other inputs are; give arrays alone, one for each input of the network, or clips alone",
+            "`{}` is not an array (.npy), but other inputs are; give only arrays, one for each input of the network, or only clips",
             other.display()
         )));
     }
-    refuse_other_arguments(words, &ARRAY_ARGUMENTS, "with arrays, which no camera looks at")?;
+    refuse_other_arguments(words, &ARRAY_ARGUMENTS, "with arrays, which bypass the camera")?;
     let summary = infer_arrays(&args.network, &args.inputs, folder, args.force)?;
     match (args.json, args.quiet) {
         (true, _) => output::print_json(&summary),

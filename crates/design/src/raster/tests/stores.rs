@@ -44,7 +44,7 @@ fn only_a_raster_core_has_the_keys() {
                 refusal(&[&other, &format!("hardware.{key}={value}")]),
                 format!(
                     "`hardware.{key}` = {value} cannot be combined with organization = \
-                     \"{organization}\"; only the raster organization has it; leave the key out, or \
+                     \"{organization}\"; only the raster organization has this key; leave the key out, or \
                      use organization = \"raster\""
                 )
             );
@@ -195,7 +195,10 @@ fn numbers_follow_the_store_and_forwarding() {
     let departure = answers.departure();
     assert_eq!(departure.forward_clocks, departure.decision_clocks);
     let leaves = answers.descriptions().iter().find(|(heading, _)| *heading == "pixels leave");
-    assert_eq!(leaves.map(|(_, text)| text.as_str()), Some("never: only decisions do"));
+    assert_eq!(
+        leaves.map(|(_, text)| text.as_str()),
+        Some("never: only decisions leave this core")
+    );
 }
 
 #[test]

@@ -27,8 +27,9 @@ fn a_word_lies_in_one_block_and_means_have_to_leave() {
         ),
         (
             ["hardware.pixels_per_clock=1", "hardware.forward=false"],
-            "`hardware.forward` = false cannot be combined with render.irrelevant = \"mean\"; what \
-             the screen shows is what has left; leave the key out, or show something else"
+            "`hardware.forward` = false cannot be combined with render.irrelevant = \"mean\"; the \
+             screen shows only what leaves the core; leave the key out, or set another \
+             render.irrelevant"
                 .to_owned(),
         ),
     ] {

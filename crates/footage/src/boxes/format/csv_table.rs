@@ -33,7 +33,7 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, Box
     }
     for column in COLUMNS {
         if headers.iter().filter(|header| *header == column).count() > 1 {
-            let problem = format!("the column `{column}` is there twice; leave one out");
+            let problem = format!("the column `{column}` appears twice; leave one out");
             return Err(error_in_line(path, &headers, problem));
         }
     }

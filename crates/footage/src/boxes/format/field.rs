@@ -11,10 +11,9 @@ use crate::boxes::BoxError;
 
 /// Parses a field as a finite number.
 pub(crate) fn parse_number(name: &str, text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|value: &f64| value.is_finite())
-        .ok_or_else(|| format!("`{}` is no {name}; expected a number", text.escape_debug()))
+    text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+        format!("the {name} `{}` is not valid; expected a number", text.escape_debug())
+    })
 }
 
 /// Parses a field as a whole number of at least `least`. It may have a decimal point, as in `3.0`.
@@ -26,7 +25,7 @@ pub(crate) fn parse_whole(name: &str, text: &str, least: u32) -> Result<u64, Str
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     value.map(|value| value as u64).ok_or_else(|| {
         let text = text.escape_debug();
-        format!("`{text}` is no {name}; expected a whole number of at least {least}")
+        format!("the {name} `{text}` is not valid; expected a whole number of at least {least}")
     })
 }
 
@@ -73,7 +72,7 @@ pub(crate) fn unreadable_record(path: &Path, error: csv::Error) -> BoxError {
         ErrorKind::Io(source) => BoxError::Io { path, source },
         ErrorKind::Utf8 { pos: Some(place), .. } => match line_of(&path, &place) {
             Ok(line) => {
-                let problem = "it is no text in UTF-8; expected rows of text".to_owned();
+                let problem = "it is not text in UTF-8; expected rows of text".to_owned();
                 BoxError::Line { path, line, problem }
             }
             Err(source) => BoxError::Io { path, source },

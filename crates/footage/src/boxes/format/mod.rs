@@ -58,7 +58,7 @@ impl BoxFormat {
                 // Blank lines and the byte order mark of UTF-8 are skipped.
                 b' ' | b'\t' | b'\r' | b'\n' | 0xEF | 0xBB | 0xBF => continue,
                 b'{' => Ok(Self::Coco),
-                b'[' => Err(wrong("a list of results is no ground truth")),
+                b'[' => Err(wrong("it is a list of results, not ground truth")),
                 b'0'..=b'9' | b'-' | b'+' | b'.' => Ok(Self::Mot),
                 b'"' | b'A'..=b'Z' | b'a'..=b'z' | b'_' => Ok(Self::Csv),
                 _ => Err(wrong("it is in no known format")),

@@ -39,7 +39,7 @@ pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Label
             return Err(wrong(problem));
         }
         let text = str::from_utf8(&line)
-            .map_err(|_| wrong("it is no text in UTF-8; expected numbers".to_owned()))?;
+            .map_err(|_| wrong("it is not text in UTF-8; expected numbers".to_owned()))?;
         let fields: Vec<&str> = text.split_whitespace().collect();
         if fields.is_empty() {
             continue;
@@ -64,7 +64,7 @@ fn parse_fractions(fields: &[&str]) -> Result<Rect, String> {
     let names = [COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4]];
     let values = parse_numbers(names, [x, y, width, height])?;
     if let Some(value) = values.iter().find(|value| !(0.0..=1.0).contains(*value)) {
-        return Err(format!("{value} is no share of the image; expected 0 to 1"));
+        return Err(format!("{value} is not a share of the image; expected 0 to 1"));
     }
     let [x, y, width, height] = values;
     Rect::from_corner_and_size([x - width / 2.0, y - height / 2.0, width, height])

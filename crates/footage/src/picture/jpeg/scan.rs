@@ -154,7 +154,7 @@ impl ScanHeader {
                 *before = Some(low);
                 fits
             }) {
-                return Err(PictureFault::damaged("a scan does not follow from those before it"));
+                return Err(PictureFault::damaged("a scan does not continue the earlier scans"));
             }
         }
         Ok(())

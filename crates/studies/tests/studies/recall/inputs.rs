@@ -135,6 +135,9 @@ fn boxes_that_do_not_fit_are_refused_and_leave_nothing() {
     assert!(message("", &[]).contains("--boxes"));
     assert!(message("1,1,x\n", &given).contains("gt.txt`, line 1"));
     assert!(message("9,1,1,1,8,8,1,1,1\n", &given).contains("begins with frame 9"));
-    assert!(message("1,1,1,1,8,8,1,1,1\n", &given).contains("any frame after the first of `clip`"));
+    assert!(
+        message("1,1,1,1,8,8,1,1,1\n", &given)
+            .contains("`clip` has no object to count after its first frame")
+    );
     assert!(message("2,1,1,1,8,8,0,1,1\n", &given).contains("no object"));
 }
