@@ -227,9 +227,7 @@ impl<'a> RasterOracle<'a> {
         let shown = (i64::from(got.lost_region), i64::from(got.lost_frame));
         let shown = if got.lost_valid { vec![shown] } else { Vec::new() };
         let agrees = shown == due;
-        agrees
-            .then_some(())
-            .ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
+        agrees.then_some(()).ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
     }
 
     /// Returns the number of a frame as the ports show it.

@@ -2,7 +2,7 @@
 //! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow from
 //! it.
 
-use foveate_design::{Design, FrameStoreKind, Organization, Pipelining};
+use foveate_design::{Design, FrameStoreKind, Pipelining};
 use proptest::prelude::*;
 use proptest::sample::select;
 

@@ -2,7 +2,7 @@
 //! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow from
 //! it.
 
-use foveate_design::{Design, Organization, PixelFeed};
+use foveate_design::{Design, PixelFeed};
 use proptest::prelude::*;
 use proptest::sample::select;
 
