@@ -74,7 +74,7 @@ class SerialLine:
         action = f"write {value:#x} to" if is_written else "read"
         raise TimeoutError(
             f"the board did not answer: it was asked {self._attempts} times to {action} register {address:#x}, and had {self._timeout} s "
-            "each time; are the port and its rate right, and is the board configured?"
+            "each time; check the port and its rate, and that the board is configured"
         )
 
     def _receive(self) -> None:
