@@ -20,7 +20,7 @@ module decision #(
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
-        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 8) begin : g_features FEATURES_must_be_1_to_8 u_refused (); end
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
     endgenerate
 

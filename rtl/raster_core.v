@@ -9,6 +9,7 @@
 
 (* keep_hierarchy = "yes" *)
 module raster_core #(
+    // Frame and regions
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
@@ -17,49 +18,60 @@ module raster_core #(
     parameter FRAME_WIDTH = 1920,    // pixels of a row of the frame
     parameter FRAME_HEIGHT = 1080,   // rows of the frame
     parameter ISOLATED = 0,          // 1: windows end at the borders of regions; 0: at those of the frame
-    parameter MEDIAN = 1,            // 1: pixels are denoised
-    parameter FEATURES = 1,          // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,    // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance; counts first, mad last
-    parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
-    parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
-    parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
-    parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
-    parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
-    parameter STORE = 0,             // the references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside the core
-    parameter DEEP = 0,              // 1: more registers, for a faster clock
-    parameter SETTLE = 11,           // clocks from the last advance of a frame to its last decision
-    parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
-    parameter SCORE_BITS = 14,       // bits of all scores of a region: the temporal count lowest, then every feature
-    parameter [32*FEATURES+31:0] ENDS = 64'h0000000E_00000007,  // 32 bits per score, the first lowest: the bit behind its end in the scores
-    parameter EDGE_LEVEL_BITS = 11,  // bits of the level of edges
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
+    parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
+    // Filter, features and decision
+    parameter MEDIAN = 1,            // 1: pixels are denoised
+    parameter EDGE = 1,              // 1: regions have the score of `edge`
+    parameter CORNER = 0,            // 1: regions have the score of `corner`
+    parameter VARIANCE = 0,          // 1: regions have the score of `variance`
+    parameter MAD = 0,               // 1: regions have the score of `mad`
+    parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
+    parameter SCORE_BITS = 14,       // bits of all scores of a region: temporal count lowest, then edge, corner, variance, mad
+    // Widths of the features
+    parameter EDGE_LEVEL_BITS = 11,  // bits of the level of `edge`
+    parameter SUM_BITS = 14,         // bits of the sum of a region's pixels (VARIANCE, MAD)
+    parameter VARIANCE_BITS = 1,     // bits of the score of `variance`
+    parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (VARIANCE)
+    parameter PRODUCT_BITS = 28,     // bits of the products of the variance (VARIANCE)
+    parameter MAD_BITS = 1,          // bits of the score of `mad`
+    parameter FRACTION = 0,          // fraction bits of the mean (MAD)
+    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum plus half of the pixels (MAD)
+    parameter MEAN_BITS = 8,         // bits of the mean (MAD)
+    parameter FACTOR_BITS = 1,       // bits of FACTOR (MAD)
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT is the dividend divided by the pixels of a region (MAD)
+    parameter SHIFT = 6,             // bits of the product that are dropped (MAD)
+    // Reference and its store
+    parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
+    parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
+    parameter STORE = 0,             // the references are in 0: block RAM; 1: UltraRAM; 2: RAM of one port; 3: memory outside the core
+    // Pixels and means that leave
+    parameter FORWARD = 1,           // 1: pixels of active regions leave; 0: only decisions do
+    parameter RAW = 0,               // 1: raw pixels leave; 0: denoised ones
     parameter FRAME_BITS = 8,        // bits of the number of a frame, at least 2 (FORWARD)
-    parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
-    parameter FRACTION = 0,          // fraction bits of the mean (mad)
-    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum plus half of the pixels
-    parameter MEAN_BITS = 8,         // bits of the mean
-    parameter FACTOR_BITS = 1,       // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT is the dividend divided by the pixels of a region
-    parameter SHIFT = 6,             // bits of the product that are dropped
-    parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (variance)
-    parameter PRODUCT_BITS = 28,     // bits of the products of the variance
     parameter BLOCKS = 0,            // regions without SRS send the means of BLOCKS * BLOCKS blocks; 0: they send nothing
     parameter BLOCK_SUM_BITS = 12,   // bits of the sum of a block plus half of its pixels (BLOCKS)
-    parameter BLOCK_FACTOR_BITS = 1, // bits of BLOCK_FACTOR
+    parameter BLOCK_FACTOR_BITS = 1, // bits of BLOCK_FACTOR (BLOCKS)
     parameter [BLOCK_FACTOR_BITS-1:0] BLOCK_FACTOR = 1,  // (sum * BLOCK_FACTOR) >> BLOCK_SHIFT divides by the pixels of a block
-    parameter BLOCK_SHIFT = 4        // bits of the product that are dropped
+    parameter BLOCK_SHIFT = 4,       // bits of the product that are dropped (BLOCKS)
+    // Timing
+    parameter DEEP = 0,              // 1: more registers, for a faster clock
+    parameter SETTLE = 11            // clocks from the last advance of a frame to its last decision
 ) (
+    // Clock and frame
     input  wire                       clk_i,               // clock, rising edge
     input  wire                       rst_i,               // synchronous reset, active high
     input  wire                       valid_i,             // a word is offered, and is taken with ready_o
     input  wire [    LANES*WIDTH-1:0] pixel_i,             // the word that comes in, its left pixel in the lowest bits
     output wire                       ready_o,             // the offered word is taken
+    // Thresholds
     input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a gradient above this level is a hit of `edge`
     input  wire [          WIDTH-1:0] corner_level_i,      // a neighbor differs from its center above this level (`corner`)
     input  wire [          WIDTH-1:0] temporal_level_i,    // a pixel has changed above this difference
     input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more than this level is sent again (BLOCKS)
     input  wire [     SCORE_BITS-1:0] minima_i,            // smallest value of each score that votes; the lowest belongs to TRS
+    // Decisions
     output wire                       decision_valid_o,    // the decision for region_o is on the ports
     output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
     output wire                       srs_o,               // SRS, the spatial relevance of the region
@@ -67,6 +79,7 @@ module raster_core #(
     output wire                       active_o,            // SRS and TRS are both 1
     output wire                       summary_o,           // the means of region_o are sent (BLOCKS)
     output wire [     SCORE_BITS-1:0] scores_o,            // scores of region_o
+    // Frame store outside the core (STORE 3)
     output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
     input  wire                       reference_valid_i,   // a reference is on the port
     input  wire [    LANES*WIDTH-1:0] reference_pixel_i,   // the reference on the port
@@ -74,6 +87,7 @@ module raster_core #(
     output wire [    LANES*WIDTH-1:0] store_pixel_o,       // the word to be stored
     output wire                       store_last_o,        // the word to be stored is the last of a row
     output wire                       underrun_o,          // a reference was missing at least once since reset (STORE 3)
+    // Pixels and means that leave (FORWARD)
     input  wire                       forward_ready_i,     // the word on the forward ports is taken
     output wire                       forward_valid_o,     // a word is on the forward ports
     output wire [    REGION_BITS-1:0] forward_region_o,    // number of the region of the forwarded word
@@ -84,6 +98,7 @@ module raster_core #(
     output wire                       forward_abort_o,     // the forwarded word is the last because its region was lost in the middle
     output wire [     FRAME_BITS-1:0] forward_frame_o,     // number since reset of the frame of the forwarded region
     output wire                       forward_summary_o,   // the forwarded word is the mean of a block (BLOCKS)
+    // Lost regions (FORWARD)
     output wire                       lost_o,              // at least one region was lost since reset
     output wire [               15:0] lost_count_o,        // number of lost regions, up to the largest number of this width
     output wire                       lost_valid_o,        // a region was lost at the last edge
@@ -118,7 +133,9 @@ module raster_core #(
         if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
         if (BLOCKS > 0 && !FORWARD) begin : g_forward_means FORWARD_must_be_1_with_BLOCKS u_refused (); end
         if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
-        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if ((EDGE | CORNER | VARIANCE | MAD) != 1) begin : g_features
+            EDGE_CORNER_VARIANCE_MAD_must_be_0_or_1_and_one_of_them_1 u_refused ();
+        end
     endgenerate
 
     localparam WORD = LANES * WIDTH;
@@ -127,14 +144,9 @@ module raster_core #(
     localparam TAKEN_WORDS = (FRAME_WIDTH + LANES - 1) / LANES;
     localparam REGIONS = COLUMNS * ROWS;
     localparam WORD_BITS = $clog2(ROW_WORDS);
-    // The list of features: counts of hits first, then sums. The score of mad is the last, that of variance the one before it.
-    localparam [9:0] KINDS_BEFORE = {KINDS, 2'd0};  // kinds of the features before each feature
-    localparam MAD = KINDS_BEFORE[2*FEATURES+:2] == 2 ? 1 : 0;
-    localparam VARIANCE = KINDS_BEFORE[2*(FEATURES-MAD)+:2] == 3 ? 1 : 0;
-    localparam HITS = FEATURES - MAD - VARIANCE;
+    localparam HITS = EDGE + CORNER;  // features that count hits of a window
     localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
-    localparam integer SETTLED_BITS = ENDS[32*(FEATURES-MAD)+:32];  // bits of all scores except that of mad
-    localparam VARIANCE_BITS = VARIANCE ? SETTLED_BITS - COUNTS_BITS : 1;
+    localparam SETTLED_BITS = COUNTS_BITS + VARIANCE * VARIANCE_BITS;  // bits of all scores except that of mad
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
     localparam BANKS = MAD ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
@@ -262,7 +274,6 @@ module raster_core #(
     wire [(HITS+1)*LANES-1:0] hits;  // the changed pixels lowest, then the hits of every feature that counts
     wire [WORD-1:0] center_word;     // the center of the last window
     wire unused_levels = |edge_level_i || |corner_level_i;
-    genvar i;
     generate
         if (HITS > 0) begin : g_window
             wire column_step;
@@ -288,21 +299,19 @@ module raster_core #(
                 .bottom_o(column_bottom), .upper_o(upper), .middle_o(middle), .lower_o(lower)
             );
 
-            for (i = 0; i < HITS; i = i + 1) begin : g_feature
-                if (KINDS[2*i+:2] > 1) begin : g_kind KINDS_must_be_counts_then_variance_then_mad u_refused (); end
-                if (KINDS[2*i+:2] == 0) begin : g_edge
-                    raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
-                        .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                        .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
-                        .level_i(edge_level_i), .hit_o(hits[(i+1)*LANES+:LANES])
-                    );
-                end else begin : g_corner
-                    raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
-                        .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                        .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
-                        .level_i(corner_level_i), .hit_o(hits[(i+1)*LANES+:LANES])
-                    );
-                end
+            if (EDGE) begin : g_edge
+                raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
+                    .level_i(edge_level_i), .hit_o(hits[LANES+:LANES])
+                );
+            end
+            if (CORNER) begin : g_corner
+                raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
+                    .level_i(corner_level_i), .hit_o(hits[(EDGE+1)*LANES+:LANES])
+                );
             end
         end else begin : g_no_window
             wire unused_window = scored_step || scored_repeated || |top || |bottom || |left || |right;
@@ -463,7 +472,7 @@ module raster_core #(
                 .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
-                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(SCORE_BITS - SETTLED_BITS),
+                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(MAD_BITS),
                 .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
             ) u_deviation (
                 .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
@@ -491,8 +500,10 @@ module raster_core #(
     wire lost_mark;
 
     raster_decision #(
-        .FEATURES(FEATURES), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(BLOCKS > 0 ? 1 : 0),
-        .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .SCORE_BITS(SCORE_BITS), .ENDS(ENDS)
+        .HITS(HITS), .VARIANCE(VARIANCE), .MAD(MAD), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS),
+        .SUMMARIES(BLOCKS > 0 ? 1 : 0), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS),
+        .VARIANCE_BITS(VARIANCE_BITS), .MAD_BITS(MAD_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS),
+        .SCORE_BITS(SCORE_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i(minima_i),
         .shown_i(judged_shown), .differs_i(judged_differs), .lost_i(lost_reference),

@@ -4,7 +4,9 @@
 `default_nettype none
 
 module raster_decision #(
-    parameter FEATURES = 1,      // spatial features
+    parameter HITS = 1,          // features whose score is a count
+    parameter VARIANCE = 0,      // 1: regions have the score of `variance`
+    parameter MAD = 0,           // 1: regions have the score of `mad`
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,     // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,        // 1: a region without SRS loses its reference (LAST_SENT)
@@ -12,10 +14,11 @@ module raster_decision #(
     parameter DEEP = 0,          // 1: one more register, for a faster clock
     parameter PIXELS = 64,       // pixels of a region
     parameter COUNT_BITS = 7,    // bits of a count, 0..PIXELS
+    parameter VARIANCE_BITS = 1, // bits of the score of `variance`
+    parameter MAD_BITS = 1,      // bits of the score of `mad`
     parameter REGIONS = 32400,   // regions of the frame
     parameter REGION_BITS = 15,  // ceil(log2(REGIONS))
-    parameter SCORE_BITS = 14,   // bits of all scores of a region: the temporal count lowest, then every feature
-    parameter [32*FEATURES+31:0] ENDS = 64'h0000000E_00000007  // 32 bits per score, the first lowest: the bit behind its end in the scores
+    parameter SCORE_BITS = 14    // bits of all scores of a region: temporal count lowest, then counts, variance, mad
 ) (
     input  wire                   clk_i,             // clock, rising edge
     input  wire                   rst_i,             // synchronous reset, active high
@@ -43,15 +46,18 @@ module raster_decision #(
     output reg  [ SCORE_BITS-1:0] scores_o           // scores of region_o
 );
 
+    localparam VARIANCE_START = (HITS + 1) * COUNT_BITS;
+    localparam MAD_START = VARIANCE_START + VARIANCE * VARIANCE_BITS;
+    localparam FEATURES = HITS + VARIANCE + MAD;
+
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
-        if (ENDS[31:0] != COUNT_BITS[31:0] || ENDS[32*FEATURES+:32] != SCORE_BITS[31:0]) begin : g_ends
-            ENDS_must_be_from_COUNT_BITS_to_SCORE_BITS u_refused ();
+        if (SCORE_BITS != MAD_START + MAD * MAD_BITS) begin : g_score_bits
+            SCORE_BITS_must_hold_all_scores u_refused ();
         end
     endgenerate
 
     localparam BEFORE_LAST = REGIONS - 2;
-    localparam [32*FEATURES+63:0] STARTS = {ENDS, 32'd0};
 
     reg [REGION_BITS-1:0] region_q;  // number of the region that is judged
     reg last_region_q;
@@ -66,11 +72,22 @@ module raster_decision #(
     wire [FEATURES:0] votes;
     genvar i;
     generate
-        for (i = 0; i <= FEATURES; i = i + 1) begin : g_score
-            localparam START = STARTS[32*i+:32];
-            localparam BITS = ENDS[32*i+:32] - STARTS[32*i+:32];
-            vote #(.WIDTH(BITS)) u_vote (
-                .score_i(scores[START+:BITS]), .minimum_i(minima_i[START+:BITS]), .vote_o(votes[i])
+        for (i = 0; i <= HITS; i = i + 1) begin : g_count
+            vote #(.WIDTH(COUNT_BITS)) u_vote (
+                .score_i(scores[i*COUNT_BITS+:COUNT_BITS]), .minimum_i(minima_i[i*COUNT_BITS+:COUNT_BITS]),
+                .vote_o(votes[i])
+            );
+        end
+        if (VARIANCE) begin : g_variance
+            vote #(.WIDTH(VARIANCE_BITS)) u_vote (
+                .score_i(scores[VARIANCE_START+:VARIANCE_BITS]), .minimum_i(minima_i[VARIANCE_START+:VARIANCE_BITS]),
+                .vote_o(votes[HITS+1])
+            );
+        end
+        if (MAD) begin : g_mad
+            vote #(.WIDTH(MAD_BITS)) u_vote (
+                .score_i(scores[MAD_START+:MAD_BITS]), .minimum_i(minima_i[MAD_START+:MAD_BITS]),
+                .vote_o(votes[FEATURES])
             );
         end
     endgenerate

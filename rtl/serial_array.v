@@ -7,40 +7,49 @@
 `default_nettype none
 
 module serial_array #(
+    // Grid, lanes and slots
     parameter COLUMNS = 2,          // regions in a row of regions
     parameter ROWS = 2,             // rows of regions
     parameter FOLD = 1,             // number of regions of a lane, its slots
     parameter LANES = 4,            // number of lanes that COLUMNS * ROWS regions need
+    parameter RASTER = 0,           // 1: the frame enters row by row; 0: one pixel per lane
+    parameter LANE_BITS = 2,        // bits of the number of a lane, at least 1
+    parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
+    parameter REGION_BITS = 2,      // bits of the number of a region, empty slots included
+    // Regions and their windows
     parameter WIDTH = 8,            // bits of a pixel, 1 to 16
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
     parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE plus twice the halo
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised; SIDE without a filter
     parameter MEDIAN = 1,           // 1: pixels are denoised
     parameter SHARED = 0,           // 1: windows see neighboring regions; 0: windows repeat the region's own border
+    parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
+    // Features and decision
+    parameter FEATURES = 1,         // spatial features, 1 to 8
+    parameter EDGE_INDEX = 1,       // number of the score of `edge`, from 1 on in the order of the ports; 0: there is none
+    parameter CORNER_INDEX = 0,     // number of the score of `corner`; 0: there is none
+    parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
+    parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
+    parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
+    parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
+    // Reference and what leaves
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
     parameter BLANKS = 1,           // 1: irrelevant regions are shown as 0; 0: they are held
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
-    parameter RASTER = 0,           // 1: the frame enters row by row; 0: one pixel per lane
-    parameter BLOCK = 0,            // 1: the memories are block RAM; 0: distributed RAM
-    parameter DEEP = 0,             // 1: more registers, for a faster clock
-    parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
-    parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
-    parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
+    // Means of blocks
     parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
     parameter MEAN_DROPPED = 0,     // bits of a block's sum that stay in the lane
     parameter MEAN_SUM_BITS = 8,    // bits of a block's sum that leave the lane
     parameter MEAN_FACTOR_BITS = 1, // bits of MEAN_FACTOR
     parameter [MEAN_FACTOR_BITS-1:0] MEAN_FACTOR = 1,  // (sum from the lane * MEAN_FACTOR) >> MEAN_SHIFT is the mean
     parameter MEAN_SHIFT = 0,       // bits of the product that are dropped
+    // Memory of a lane
+    parameter BLOCK = 0,            // 1: the memories are block RAM; 0: distributed RAM
     parameter DENOISED_BASE = 64,   // address in a slot where the denoised square starts
     parameter REFERENCE_BASE = 64,  // address in a slot where the reference starts
     parameter WORD_BITS = 7,        // bits of an address inside a slot
-    parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
     parameter ADDRESS_BITS = 7,     // bits of an address in the memory of a lane: slot and word
-    parameter LANE_BITS = 2,        // bits of the number of a lane, at least 1
-    parameter REGION_BITS = 2,      // bits of the number of a region, empty slots included
-    parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
+    // Widths of scores and of the lane
     parameter INDEX_BITS = 1,       // bits of the number of a score
     parameter COUNT_BITS = 7,       // bits of a count of pixels, 0..SIDE * SIDE
     parameter SCORE_BITS = 7,       // bits of the widest score
@@ -48,18 +57,23 @@ module serial_array #(
     parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
     parameter ACC_BITS = 11,        // bits of the accumulator, which is signed
     parameter AUX_BITS = 1,         // bits of the second word of `mad` and `variance`, at least 2
-    parameter CHAIN_BITS = 7        // bits of the word that goes around the ring of lanes
+    parameter CHAIN_BITS = 7,       // bits of the word that goes around the ring of lanes
+    // Timing
+    parameter DEEP = 0              // 1: more registers, for a faster clock
 ) (
+    // Clock and frame
     input  wire                                       clk_i,              // clock, rising edge
     input  wire                                       rst_i,              // synchronous reset, active high
     input  wire                                       valid_i,            // a pixel comes in
     output wire                                       ready_o,            // a pixel would be taken at the next edge
     input  wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] pixel_i,            // the pixel; `parallel`: one pixel per lane, lane 0 lowest
+    // Thresholds
     input  wire [                          WIDTH-1:0] temporal_level_i,   // a pixel has changed above this difference
     input  wire [                          WIDTH+1:0] edge_half_i,        // half the level of `edge`, rounded down
     input  wire [                          WIDTH-1:0] corner_level_i,     // level of `corner`
     input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // smallest scores that vote, that of TRS lowest
     input  wire [                          WIDTH-1:0] summary_level_i,    // a mean that differs by more than this level is sent again
+    // Scores and decisions
     output wire                                       score_valid_o,      // a score of region_o is on the ports
     output wire [                     INDEX_BITS-1:0] score_index_o,      // number of that score; 0 is the temporal count
     output wire [                    REGION_BITS-1:0] region_o,           // number of the region of the score and of the decision
@@ -69,11 +83,18 @@ module serial_array #(
     output wire                                       trs_o,              // TRS, the temporal relevance; 0 unless decision_valid_o
     output wire                                       active_o,           // SRS and TRS are both 1
     output wire                                       summary_o,          // the means of region_o are sent; 0 unless decision_valid_o
+    // Pixels and means that leave
     output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,    // a pixel of an active region, or a mean, leaves
     output wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] forward_pixel_o,    // the pixel or mean that leaves
     output wire [                      SLOT_BITS-1:0] forward_slot_o,     // `parallel`: slot of that pixel's region in its lane
     output wire [                  POSITION_BITS-1:0] forward_position_o  // position of that pixel in its region
 );
+
+    // The features of the design.
+    localparam EDGE = EDGE_INDEX != 0 ? 1 : 0;
+    localparam CORNER = CORNER_INDEX != 0 ? 1 : 0;
+    localparam MAD = MAD_INDEX != 0 ? 1 : 0;
+    localparam VARIANCE = VARIANCE_INDEX != 0 ? 1 : 0;
 
     // The areas of a slot: raw, denoised, reference.
     localparam HAS_DENOISED = MEDIAN != 0;
@@ -113,7 +134,10 @@ module serial_array #(
         if (BLOCK != 0 && BLOCK != 1) begin : g_block BLOCK_must_be_0_or_1 u_refused (); end
         if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
-        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 8) begin : g_features FEATURES_must_be_1_to_8 u_refused (); end
+        if (FEATURES != EDGE + CORNER + MAD + VARIANCE) begin : g_indices
+            FEATURES_must_count_the_features u_refused ();
+        end
         if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
         if (BLOCKS != 0 && BLOCKS != 1 && BLOCKS != 2 && BLOCKS != 4) begin : g_blocks
             BLOCKS_must_be_0_1_2_or_4 u_refused ();
@@ -150,14 +174,6 @@ module serial_array #(
 
     localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // a group selects one of 64
     localparam GROUPS = (LANES + GROUP_LANES - 1) / GROUP_LANES;
-    localparam EDGE = KINDS[1:0] == 0 || (FEATURES > 1 && KINDS[3:2] == 0)
-        || (FEATURES > 2 && KINDS[5:4] == 0) || (FEATURES > 3 && KINDS[7:6] == 0);
-    localparam CORNER = KINDS[1:0] == 1 || (FEATURES > 1 && KINDS[3:2] == 1)
-        || (FEATURES > 2 && KINDS[5:4] == 1) || (FEATURES > 3 && KINDS[7:6] == 1);
-    localparam MAD = KINDS[1:0] == 2 || (FEATURES > 1 && KINDS[3:2] == 2)
-        || (FEATURES > 2 && KINDS[5:4] == 2) || (FEATURES > 3 && KINDS[7:6] == 2);
-    localparam VARIANCE = KINDS[1:0] == 3 || (FEATURES > 1 && KINDS[3:2] == 3)
-        || (FEATURES > 2 && KINDS[5:4] == 3) || (FEATURES > 3 && KINDS[7:6] == 3);
     localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
     localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
     localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
@@ -212,8 +228,9 @@ module serial_array #(
     serial_sequencer #(
         .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
         .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
-        .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS),
-        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS),
+        .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES),
+        .EDGE_INDEX(EDGE_INDEX), .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX), .VARIANCE_INDEX(VARIANCE_INDEX),
+        .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS),
         .FRACTION(FRACTION), .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
         .REGION_BITS(REGION_BITS), .POSITION_BITS(POSITION_BITS), .INDEX_BITS(INDEX_BITS),

@@ -122,23 +122,17 @@ endfunction
 function integer f_ones(input integer value);
     for (f_ones = 0; value > 0; value = value / 2) f_ones = f_ones + value % 2;
 endfunction
-function integer f_pass(input integer kind);
-    case (kind)
-        0: f_pass = 14 * F_N;
-        1: f_pass = 36 * F_N;
-        2: f_pass = 2 * F_N + WIDTH + 2 * FRACTION + 3;
-        default: f_pass = F_N + WIDTH * F_N * f_ones(F_N) + 2 * f_bits(F_N * ((1 << WIDTH) - 1)) + WIDTH + f_bits(F_N) + 2;
-    endcase
-endfunction
-localparam F_SUMS = KINDS[1] || (FEATURES > 1 && KINDS[3]) || (FEATURES > 2 && KINDS[5]) || (FEATURES > 3 && KINDS[7]);
+localparam F_PASSES = (EDGE != 0 ? 14 * F_N : 0) + (CORNER != 0 ? 36 * F_N : 0)
+    + (MAD != 0 ? 2 * F_N + WIDTH + 2 * FRACTION + 3 : 0)
+    + (VARIANCE != 0 ? F_N + WIDTH * F_N * f_ones(F_N) + 2 * f_bits(F_N * ((1 << WIDTH) - 1)) + WIDTH + f_bits(F_N) + 2 : 0);
+localparam F_SUMS = MAD != 0 || VARIANCE != 0;
 localparam F_Q = (BLOCK != 0 ? 1 : 0) + (DEEP == 0 ? 0 : F_SUMS ? 2 : 1);
 localparam F_SENT = LAST_SENT != 0;
 localparam F_STEPS = FOLD * (
     (MEDIAN != 0 ? F_DENOISED * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
     + (BORDERS ? 4 * (SIDE + 2) * (2 + F_Q) : 0)
     + (LANES + (DEEP != 0 ? 1 : 0)) * (FEATURES + 1)
-    + f_pass(KINDS[1:0]) + (FEATURES > 1 ? f_pass(KINDS[3:2]) : 0)
-    + (FEATURES > 2 ? f_pass(KINDS[5:4]) : 0) + (FEATURES > 3 ? f_pass(KINDS[7:6]) : 0)
+    + F_PASSES
     + (F_SENT ? F_N * (2 + F_Q) : 0)
     + (RASTER != 0 ? F_N * (1 + LANES) : F_N)
     + (BLOCKS != 0 ? F_N + F_MEANS * (2 + LANES + (DEEP != 0 ? 1 : 0)) + F_MEANS * (LANES + (RASTER != 0 ? 1 : 2 + F_Q)) : 0));

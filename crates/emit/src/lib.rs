@@ -9,7 +9,7 @@ mod axi;
 mod camera_flags;
 mod core_files;
 mod error;
-mod feature_numbers;
+mod feature_parameters;
 mod frame_sync;
 mod instance;
 mod leaf;

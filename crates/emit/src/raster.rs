@@ -2,7 +2,7 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::feature_numbers::{deviation_mean, kinds_value};
+use crate::feature_parameters::{deviation_mean, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
@@ -34,7 +34,7 @@ struct RasterTop {
     constants: Vec<ThresholdConstant>,
     /// The outputs of the core that are no ports of the design.
     unused: Vec<UnusedOutput>,
-    parameters: Vec<(&'static str, String)>,
+    parameters: Vec<(String, String)>,
     /// The inputs of the core for the levels of pixels, and the signals connected to them.
     levels: Vec<(String, String)>,
     /// The minima and the scores, those of the last feature first.
@@ -178,39 +178,27 @@ fn stream_connections(
     list
 }
 
-/// Returns the features in the order in which the core has their scores: counts, sums, and the
-/// score of a second pass.
+/// Returns the features in the order in which the core has their scores.
 fn features_in_core_order(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
     let mut list: Vec<_> = design.design().features().iter().collect();
     list.sort_by_key(|feature| score_rank(feature.kind()));
     list
 }
 
-/// Returns the rank of a feature's score in the core: counts come first, then sums, then the score
-/// of the second pass.
+/// Returns the rank of a feature's score in the core: counts come first, then the score of sums,
+/// then that of the second pass.
 fn score_rank(kind: FeatureKind) -> u32 {
     match kind {
-        FeatureKind::Edge | FeatureKind::Corner => 0,
-        FeatureKind::Variance => 1,
-        FeatureKind::Mad => 2,
+        FeatureKind::Edge => 0,
+        FeatureKind::Corner => 1,
+        FeatureKind::Variance => 2,
+        FeatureKind::Mad => 3,
     }
 }
 
-/// Returns the end of each score in the bits of all scores.
-fn score_ends(design: RasterDesign<'_>) -> Vec<u32> {
-    let widths = features_in_core_order(design).into_iter().map(SpatialFeature::score_bits);
-    let widths = [design.count_bits()].into_iter().chain(widths);
-    widths
-        .scan(0, |end, width| {
-            *end += width;
-            Some(*end)
-        })
-        .collect()
-}
-
-fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static str, String)> {
+fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(String, String)> {
     let flag = |condition: bool| u32::from(condition);
-    let ends = score_ends(design);
+    let scores = design.features().iter().map(SpatialFeature::score_bits).sum::<u32>();
     let edge_level_bits = level_bits(design, FeatureKind::Edge).expect("edge has a level");
     let mut list = vec![
         ("WIDTH", design.pixel_bits()),
@@ -227,17 +215,12 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'st
         ("DEEP", flag(design.pipelining() == Pipelining::Deep)),
         ("SETTLE", timing.decision_latency),
         ("COUNT_BITS", design.count_bits()),
-        ("SCORE_BITS", *ends.last().expect("changed pixels are a score")),
+        ("SCORE_BITS", design.count_bits() + scores),
         ("EDGE_LEVEL_BITS", edge_level_bits),
         ("POSITION_BITS", design.position_bits()),
         ("FRAME_BITS", FRAME_NUMBERS.ilog2()),
     ];
-    let ends: Vec<_> = ends.iter().rev().map(|end| format!("32'd{end}")).collect();
-    let mut wide = vec![
-        ("FEATURES", features_in_core_order(design).len().to_string()),
-        ("KINDS", kinds_value(features_in_core_order(design).into_iter())),
-        ("ENDS", format!("{{{}}}", ends.join(", "))),
-    ];
+    let mut wide = Vec::new();
     for feature in features_in_core_order(design) {
         let new = sum_widths(design, feature).into_iter().filter(|new| !list.contains(new));
         list.extend(new.collect::<Vec<_>>());
@@ -256,11 +239,19 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'st
         ]);
         wide.push(("BLOCK_FACTOR", format!("{}'d{factor}", bits_for(factor))));
     }
-    let list = list.into_iter().map(|(name, value)| (name, value.to_string()));
-    list.chain(wide).collect()
+    let list = list.into_iter().map(|(name, value)| (name, value.to_string())).chain(wide);
+    let list = list.map(|(name, value)| (name.to_owned(), value));
+    let flags = FeatureKind::ALL.iter().map(|&kind| feature_flag(design, kind));
+    list.chain(flags).collect()
 }
 
-/// Returns the widths of the sums that a score is computed from; none if the score is a count.
+/// Returns the parameter that says whether the design has a feature.
+fn feature_flag(design: RasterDesign<'_>, kind: FeatureKind) -> (String, String) {
+    (parameter_prefix(kind), u32::from(design.feature(kind).is_some()).to_string())
+}
+
+/// Returns the widths of a score and of the sums that it is computed from; none if the score is a
+/// count.
 fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
     let sum = ("SUM_BITS", design.pixel_sum_bits());
     match feature.kind() {
@@ -269,6 +260,7 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
             let mean = feature.mean().expect("mad has a mean");
             vec![
                 sum,
+                ("MAD_BITS", feature.score_bits()),
                 ("FRACTION", mean.fraction_bits),
                 ("DIVIDEND_BITS", mean.dividend_bits),
                 ("MEAN_BITS", mean.mean_bits),
@@ -280,6 +272,7 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
             let variance = feature.variance().expect("variance has accumulators");
             vec![
                 sum,
+                ("VARIANCE_BITS", feature.score_bits()),
                 ("SQUARE_SUM_BITS", variance.square_sum_bits),
                 ("PRODUCT_BITS", variance.product_bits),
             ]

@@ -2,7 +2,7 @@
 //! Fills `serial.v`, the top of a serial design: the array, or an array that has one lane.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::feature_numbers::{deviation_mean, kinds_value};
+use crate::feature_parameters::{deviation_mean, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
@@ -32,7 +32,7 @@ struct SerialTop {
     highest: u32,
     ports: Vec<PortLine>,
     constants: Vec<ThresholdConstant>,
-    parameters: Vec<(&'static str, String)>,
+    parameters: Vec<(String, String)>,
     fold: u32,
     slot_bits: u32,
     center_bits: u32,
@@ -167,7 +167,7 @@ fn clocks_text(design: SerialDesign<'_>) -> String {
     )
 }
 
-fn array_parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
+fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
     let memory = design.lane_memory();
     let widths = design.lane_widths();
     let median = design.filter() == DenoiseFilter::Median3x3;
@@ -206,20 +206,31 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("AUX_BITS", widths.second),
         ("CHAIN_BITS", widths.chain),
     ];
-    let mut list: Vec<_> = numbers.iter().map(|(name, value)| (*name, value.to_string())).collect();
-    list.push(("KINDS", kinds_value(design.features().iter())));
+    let named = |(name, value): (&str, String)| (name.to_owned(), value);
+    let mut list: Vec<_> =
+        numbers.iter().map(|(name, value)| named((name, value.to_string()))).collect();
+    list.extend(FeatureKind::ALL.iter().map(|&kind| score_index(design, kind)));
     if let (Some(periphery), Some(sums)) = (design.periphery(), design.block_mean_division()) {
         let factor_bits = bits_for(sums.factor);
-        list.extend([
+        let means = [
             ("BLOCKS", periphery.blocks.to_string()),
             ("MEAN_DROPPED", sums.dropped_bits.to_string()),
             ("MEAN_SUM_BITS", sums.passing_bits.to_string()),
             ("MEAN_FACTOR_BITS", factor_bits.to_string()),
             ("MEAN_FACTOR", format!("{factor_bits}'d{}", sums.factor)),
             ("MEAN_SHIFT", sums.shift.to_string()),
-        ]);
+        ];
+        list.extend(means.map(named));
     }
     list
+}
+
+/// Returns the parameter with the number of a feature's score, which is 0 for a feature that the
+/// design does not have.
+fn score_index(design: SerialDesign<'_>, kind: FeatureKind) -> (String, String) {
+    let place = design.features().iter().position(|feature| feature.kind() == kind);
+    let index = place.map_or(0, |place| place + 1);
+    (format!("{}_INDEX", parameter_prefix(kind)), index.to_string())
 }
 
 /// Returns the input of the array for the level of a feature, and the signal connected to it. The

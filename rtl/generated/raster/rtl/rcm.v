@@ -86,9 +86,10 @@ module rcm #(
         .EDGE_LEVEL_BITS(11),
         .POSITION_BITS(6),
         .FRAME_BITS(8),
-        .FEATURES(1),
-        .KINDS(8'd0),
-        .ENDS({32'd14, 32'd7})
+        .EDGE(1),
+        .CORNER(0),
+        .MAD(0),
+        .VARIANCE(0)
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(beat), .pixel_i(pixel_i), .ready_o(open),
         .temporal_level_i(temporal_level_i),

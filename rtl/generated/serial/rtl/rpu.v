@@ -89,7 +89,10 @@ module rpu #(
         .ACC_BITS(11),
         .AUX_BITS(2),
         .CHAIN_BITS(7),
-        .KINDS(8'd0)
+        .EDGE_INDEX(1),
+        .CORNER_INDEX(0),
+        .MAD_INDEX(0),
+        .VARIANCE_INDEX(0)
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
         .temporal_level_i(temporal_level_i),

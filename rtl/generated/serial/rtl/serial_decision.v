@@ -7,7 +7,7 @@ module serial_decision #(
     parameter CHAIN_BITS = 7,    // bits of the words that pass
     parameter SCORE_BITS = 7,    // bits of the widest score
     parameter PIXELS = 64,       // pixels of a region
-    parameter FEATURES = 1,      // spatial features, 1 to 4
+    parameter FEATURES = 1,      // spatial features, 1 to 8
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
     parameter FLAGS = 1,         // bits of the flags of a region: 1 for one feature without summaries, else 2
@@ -40,7 +40,7 @@ module serial_decision #(
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
-        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 8) begin : g_features FEATURES_must_be_1_to_8 u_refused (); end
         if (FLAGS != (FEATURES > 1 || SUMMARIES != 0 ? 2 : 1)) begin : g_flags
             FLAGS_must_be_1_for_one_feature_without_summaries_else_2 u_refused ();
         end

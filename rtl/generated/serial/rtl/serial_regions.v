@@ -6,10 +6,11 @@
 module serial_regions #(
     parameter FOLD = 1,             // regions of a lane
     parameter LANES = 784,          // lanes of the array
-    parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
-    parameter MAD = 0,              // 1: the design has the feature `mad`
-    parameter VARIANCE = 0,         // 1: the design has the feature `variance`
+    parameter FEATURES = 1,         // spatial features, 1 to 8
+    parameter EDGE_INDEX = 1,       // number of the score of `edge`, from 1 on in the order of the ports; 0: there is none
+    parameter CORNER_INDEX = 0,     // number of the score of `corner`; 0: there is none
+    parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
+    parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
     parameter MEANS = 0,            // blocks of a region whose means are sent: 1, 4 or 16; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
@@ -30,7 +31,8 @@ module serial_regions #(
     output wire                   last_score_o,  // the score is the last of the slot
     output wire [ BLOCK_BITS-1:0] block_o,       // number of the block
     output wire                   last_block_o,  // the block is the last of the region
-    output wire [            1:0] next_kind_o,   // kind of the feature that comes next: 0 edge, 1 corner, 2 mad, 3 variance
+    output wire                   next_edge_o,   // the feature that comes next is `edge`
+    output wire                   next_corner_o, // the feature that comes next is `corner`
     output wire                   squares_o,     // the feature under way is `variance`
     output wire [REGION_BITS-1:0] region_o,      // number of the region whose score passes
     output wire                   last_lane_o    // the region is that of the last lane
@@ -40,13 +42,15 @@ module serial_regions #(
     localparam [REGION_BITS-1:0] LAST_LANE = (LANES - 1) * FOLD;
     localparam [REGION_BITS-1:0] REGION_STEP = FOLD;
     localparam [INDEX_BITS-1:0] LAST_SCORE = FEATURES;
+    localparam [INDEX_BITS-1:0] BEFORE_EDGE = EDGE_INDEX - 1;
+    localparam [INDEX_BITS-1:0] BEFORE_CORNER = CORNER_INDEX - 1;
+    localparam [INDEX_BITS-1:0] BEFORE_VARIANCE = VARIANCE_INDEX - 1;
     /* verilator lint_on WIDTH */
 
     // Scores.
     reg [INDEX_BITS-1:0] index_q;
     reg squares_q;
-    wire [7:0] kinds = KINDS >> {index_q, 1'b0};
-    wire unused_kinds = |kinds;
+    wire next_variance = VARIANCE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_VARIANCE);
 
     // With means, the temporal count is done only when the sums of all blocks have passed.
     wire waits = MEANS != 0 && (averaging_i ? !last_block_o : first_score_o);
@@ -54,14 +58,15 @@ module serial_regions #(
     assign index_o = index_q;
     assign first_score_o = index_q == {INDEX_BITS{1'b0}};
     assign last_score_o = index_q == LAST_SCORE;
-    assign next_kind_o = FEATURES == 1 ? KINDS[1:0] : kinds[1:0];
-    assign squares_o = VARIANCE && (!MAD || squares_q);
+    assign next_edge_o = EDGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_EDGE);
+    assign next_corner_o = CORNER_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_CORNER);
+    assign squares_o = VARIANCE_INDEX != 0 && (MAD_INDEX == 0 || squares_q);
 
     always @(posedge clk_i) begin
         if (loading_i || slot_ends_i) index_q <= {INDEX_BITS{1'b0}};
         else if (rotating_i && last_lane_o && !last_score_o && !waits) begin
             index_q   <= index_q + 1'b1;
-            squares_q <= next_kind_o == 2'd3;
+            squares_q <= next_variance;
         end
     end
 

@@ -20,12 +20,11 @@ module serial_sequencer #(
     parameter DEEP = 0,             // 1: a score is whole one clock after its last step
     parameter FOLD = 1,             // regions of a lane
     parameter LANES = 784,          // lanes of the array
-    parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
-    parameter EDGE = 1,             // 1: the design has the feature `edge`
-    parameter CORNER = 0,           // 1: the design has the feature `corner`
-    parameter MAD = 0,              // 1: the design has the feature `mad`
-    parameter VARIANCE = 0,         // 1: the design has the feature `variance`
+    parameter FEATURES = 1,         // spatial features, 1 to 8
+    parameter EDGE_INDEX = 1,       // number of the score of `edge`, from 1 on in the order of the ports; 0: there is none
+    parameter CORNER_INDEX = 0,     // number of the score of `corner`; 0: there is none
+    parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
+    parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
     parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`
@@ -69,12 +68,16 @@ module serial_sequencer #(
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
-        if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
+        if (FEATURES < 1 || FEATURES > 8) begin : g_features FEATURES_must_be_1_to_8 u_refused (); end
         if (LANES < 1) begin : g_lane_count LANES_must_be_1_or_more u_refused (); end
         if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
         if (LATE < 0 || LATE > 3) begin : g_late LATE_must_be_0_to_3 u_refused (); end
     endgenerate
 
+    localparam EDGE = EDGE_INDEX != 0 ? 1 : 0;
+    localparam CORNER = CORNER_INDEX != 0 ? 1 : 0;
+    localparam MAD = MAD_INDEX != 0 ? 1 : 0;
+    localparam VARIANCE = VARIANCE_INDEX != 0 ? 1 : 0;
     localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
 
     wire [33:0] step;
@@ -83,7 +86,7 @@ module serial_sequencer #(
     wire walks, block_ends, slot_ends, last_column, last_center, counts, squares;
     wire last_lane, first_score, last_score, last_block, last_slot;
     wire spent, divided, last_place, corrects, any_pairs, more_pairs;
-    wire [1:0] next_kind;
+    wire next_edge, next_corner;
 
     wire loading, draining, rotating, unloading, shifting;
     wire averaging, returning;
@@ -99,14 +102,16 @@ module serial_sequencer #(
 
     // The regions, slots and scores.
     serial_regions #(
-        .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS), .MAD(MAD), .VARIANCE(VARIANCE),
+        .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .EDGE_INDEX(EDGE_INDEX),
+        .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX), .VARIANCE_INDEX(VARIANCE_INDEX),
         .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS),
         .INDEX_BITS(INDEX_BITS)
     ) u_regions (
         .clk_i(clk_i), .loading_i(loading), .rotating_i(rotating), .shifting_i(shifting),
         .averaging_i(averaging), .block_ends_i(block_ends), .slot_ends_i(slot_ends), .slot_o(slot_o),
         .last_slot_o(last_slot), .index_o(index_o), .first_score_o(first_score), .last_score_o(last_score),
-        .block_o(block_o), .last_block_o(last_block), .next_kind_o(next_kind), .squares_o(squares), .region_o(region_o),
+        .block_o(block_o), .last_block_o(last_block), .next_edge_o(next_edge),
+        .next_corner_o(next_corner), .squares_o(squares), .region_o(region_o),
         .last_lane_o(last_lane)
     );
 
@@ -118,7 +123,8 @@ module serial_sequencer #(
     ) u_states (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start_i), .last_column_i(last_column),
         .last_center_i(last_center), .last_lane_i(last_lane), .first_score_i(first_score), .last_score_i(last_score),
-        .last_block_i(last_block), .last_slot_i(last_slot), .next_kind_i(next_kind), .squares_i(squares), .spent_i(spent),
+        .last_block_i(last_block), .last_slot_i(last_slot), .next_edge_i(next_edge),
+        .next_corner_i(next_corner), .squares_i(squares), .spent_i(spent),
         .divided_i(divided), .last_place_i(last_place), .corrects_i(corrects), .any_pairs_i(any_pairs),
         .more_pairs_i(more_pairs), .step_o(step), .tap_o(tap), .part_o(part), .walks_o(walks),
         .block_ends_o(block_ends), .slot_ends_o(slot_ends)

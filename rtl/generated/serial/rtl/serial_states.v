@@ -30,7 +30,8 @@ module serial_states #(
     input  wire        last_score_i,   // this score is the last of the slot
     input  wire        last_block_i,   // the block is the last of the region
     input  wire        last_slot_i,    // the slot is the last of the frame
-    input  wire [ 1:0] next_kind_i,    // kind of the feature that comes next: 0 edge, 1 corner, 2 mad, 3 variance
+    input  wire        next_edge_i,    // the feature that comes next is `edge`
+    input  wire        next_corner_i,  // the feature that comes next is `corner`
     input  wire        squares_i,      // the feature under way is `variance`
     // State of the constant.
     input  wire        spent_i,        // the shifted number has no bits left
@@ -206,8 +207,8 @@ module serial_states #(
                 if (is_returning) state = RETURNED;
                 else if (averaging) state = HALF;
                 else if (last_score_i) state = LAST_SENT != 0 ? READ : UNLOAD;
-                else if (EDGE && next_kind_i == 2'd0) state = GRADIENT;
-                else if (CORNER && next_kind_i == 2'd1) state = RING;
+                else if (EDGE && next_edge_i) state = GRADIENT;
+                else if (CORNER && next_corner_i) state = RING;
                 else state = SUM;
             end
             GRADIENT, RING: if (pass_ends) state = SCORED;
