@@ -2,18 +2,16 @@
 //! Model against emitted RTL at RPU level: every feature x region size x filter x neighborhood x
 //! reference, with the other keys sampled, and extreme cases outside the matrix.
 
-use std::collections::BTreeSet;
-
 use crate::common::{
-    axis_positions, check_agreement, config_name, design, directed_stimulus, feature,
-    has_simulators, in_parallel, in_turn, pairwise_part,
+    check_agreement, config_name, design, directed_stimulus, feature, has_simulators, in_parallel,
+    in_turn,
 };
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
     CameraConfig, Decimal, DenoiseFilter, DesignConfig, FeatureKind, IrrelevantRendering,
     Neighborhood, Payload, Pipelining, ReferencePolicy, ThresholdSource, VoteCombination,
 };
-use foveate_toolchain::testing::sampling_step;
+use foveate_toolchain::testing::{Depth, cover};
 
 /// The number of pixels per region from which on Verilator's build takes less time than it saves.
 const COMPILED_FROM: u32 = 16 * 16;
@@ -60,9 +58,6 @@ fn set_irrelevant_in_turn(camera: &mut CameraConfig, turn: usize) {
     }
 }
 
-/// The number of values of each axis of the matrix.
-const AXIS_LENGTHS: [usize; 5] = [4, 5, 2, 2, 2];
-
 /// Returns the 160 designs. Keys outside the five axes take turns.
 fn matrix() -> Vec<DesignConfig> {
     let mut configs = Vec::new();
@@ -95,7 +90,9 @@ fn matrix() -> Vec<DesignConfig> {
 
 #[test]
 fn every_feature_size_filter_neighborhood_and_reference_agrees() {
-    check_all(&pairwise_part(matrix(), &AXIS_LENGTHS));
+    check_all(&cover(matrix(), Depth::of_run(), |config| {
+        design(config, (1, 1)).config().to_toml()
+    }));
 }
 
 /// Summaries agree for blocks of one pixel and of sides that are no power of two, the most blocks,
@@ -144,28 +141,6 @@ fn summaries_agree() {
         }
     }
     check_all(&configs);
-}
-
-/// A part of a matrix contains every pair of values of two axes.
-#[test]
-fn in_a_part_of_a_matrix_every_two_values_meet() {
-    for (axes, share) in [(&AXIS_LENGTHS[..], 4), (&[4, 2, 2, 2], 4), (&[2, 2, 2, 2], 2)] {
-        let all: Vec<usize> = (0..axes.iter().product()).collect();
-        let part = all.len() / sampling_step(share);
-        let taken: Vec<_> =
-            pairwise_part(all, axes).iter().map(|&at| axis_positions(at, axes)).collect();
-        assert_eq!(taken.len(), part);
-        for first in 0..axes.len() {
-            for second in 0..first {
-                let pairs: BTreeSet<_> = taken.iter().map(|at| (at[first], at[second])).collect();
-                assert_eq!(
-                    pairs.len(),
-                    axes[first] * axes[second],
-                    "{first} and {second} of {axes:?}"
-                );
-            }
-        }
-    }
 }
 
 /// Designs with several features, other depths, other sizes or constant thresholds agree.

@@ -14,7 +14,7 @@ use foveate_design::{
     CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, Neighborhood,
     Payload, Pipelining, PortRole, RasterTiming, ThresholdSource,
 };
-use foveate_toolchain::testing::takes_whole_lists;
+use foveate_toolchain::testing::{Depth, cover};
 
 /// Returns a configuration with an external store and regions of 4x4 pixels with these features.
 fn config(kinds: &[FeatureKind]) -> DesignConfig {
@@ -202,9 +202,21 @@ fn without_forwarding_there_are_no_forward_columns() {
     assert!(seen > 100, "{seen} active regions");
 }
 
-/// Returns the designs of one store, with or without forwarding: features x words x pipelining,
-/// with the other keys in turn.
-fn matrix(store: FrameStoreKind, forward: bool) -> Vec<Design> {
+/// Returns the designs of every store, with and without forwarding: features x pipelining, with the
+/// other keys in turn.
+fn matrix() -> Vec<Design> {
+    [
+        (FrameStoreKind::SinglePort, true),
+        (FrameStoreKind::External, true),
+        (FrameStoreKind::Block, false),
+        (FrameStoreKind::SinglePort, false),
+        (FrameStoreKind::External, false),
+    ]
+    .map(|(store, forward)| designs_with_store(store, forward))
+    .concat()
+}
+
+fn designs_with_store(store: FrameStoreKind, forward: bool) -> Vec<Design> {
     use FeatureKind::{Corner, Edge, Mad, Variance};
     let sets: [&[FeatureKind]; 5] =
         [&[Edge], &[Mad], &[Edge, Variance], &[Variance], &[Mad, Corner, Variance]];
@@ -236,18 +248,13 @@ fn matrix(store: FrameStoreKind, forward: bool) -> Vec<Design> {
     designs
 }
 
-fn check_all(store: FrameStoreKind, forward: bool) {
+#[test]
+fn the_rtl_of_a_raster_core_with_any_store_agrees() {
     if !has_simulators() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    // One design of each set of features is taken, plain and deep in turn; with forwarding, the
-    // other one.
-    let turns = if forward { [1, 2] } else { [0, 3] };
-    let taken = |number: usize| takes_whole_lists() || turns.contains(&(number % 4));
-    let designs =
-        matrix(store, forward).into_iter().enumerate().filter(|&(number, _)| taken(number));
-    let designs: Vec<Design> = designs.map(|(_, design)| design).collect();
+    let designs = cover(matrix(), Depth::of_run(), |design| design.config().to_toml());
     let failures = in_parallel(&designs, |design| {
         // Icarus has unknown values, but is slow for wide words. It simulates words of one pixel,
         // plain and deep.
@@ -259,25 +266,4 @@ fn check_all(store: FrameStoreKind, forward: bool) {
         check_agreement(&what, design, simulator, directed_stimulus(CosimLevel::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
-}
-
-#[test]
-fn the_rtl_of_a_raster_core_with_a_store_of_one_port_agrees() {
-    check_all(FrameStoreKind::SinglePort, true);
-}
-
-#[test]
-fn the_rtl_of_a_raster_core_with_an_external_store_agrees() {
-    check_all(FrameStoreKind::External, true);
-}
-
-#[test]
-fn the_rtl_of_a_raster_core_without_forwarding_agrees() {
-    check_all(FrameStoreKind::Block, false);
-    check_all(FrameStoreKind::SinglePort, false);
-}
-
-#[test]
-fn the_rtl_of_a_raster_core_with_an_external_store_and_without_forwarding_agrees() {
-    check_all(FrameStoreKind::External, false);
 }

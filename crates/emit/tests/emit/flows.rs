@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{covering_pairs, design, every_design_on_a_bus, has_tclsh};
+use crate::common::{covering, design, every_design_on_a_bus, has_tclsh};
 use foveate_emit::{Prefix, SourceFile, core_files};
 
 /// Returns a core of each organization and the selected cores on AXI, each with the module that
@@ -16,8 +16,7 @@ fn cores() -> Vec<(String, &'static str, &'static str)> {
         let frame = "frame = { width = 32, height = 24 }";
         (format!("{frame}\nhardware.organization = '{organization}'\n"), "rcm", "clk_i")
     });
-    let buses =
-        covering_pairs(every_design_on_a_bus()).into_iter().map(|toml| (toml, "rcm_axi", "aclk"));
+    let buses = covering(every_design_on_a_bus()).into_iter().map(|toml| (toml, "rcm_axi", "aclk"));
     ports.into_iter().chain(buses).collect()
 }
 

@@ -3,16 +3,15 @@
 //! `elaborated.rs` tests warnings of Icarus.
 
 use crate::common::{
-    EXTRA_RASTER_DESIGNS, covering_pairs, design, pipelined_matrix, raster_matrix, serial_matrix,
+    EXTRA_RASTER_DESIGNS, covering, design, pipelined_matrix, raster_matrix, serial_matrix,
 };
 use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
 
 /// Runs `check` on the Verilog of every design and reports every failure.
 fn check_each_design(
@@ -30,42 +29,23 @@ fn check_each_design(
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// Returns the designs that are linted: those that cover the matrix of each organization, and the
+/// others.
+fn linted_designs() -> Vec<String> {
+    let matrices = [pipelined_matrix(), serial_matrix(), raster_matrix()];
+    let more = EXTRA_RASTER_DESIGNS.map(str::to_owned);
+    [matrices.map(covering).concat(), more.to_vec()].concat()
+}
+
 #[test]
 fn verilator_has_no_warning() {
     if !require_tools(&[Tool::Verilator]) {
         return;
     }
     let toolchain = Toolchain::system();
-    let (others, more) = (
-        covering_pairs([serial_matrix(), raster_matrix()].concat()),
-        EXTRA_RASTER_DESIGNS.map(str::to_owned),
-    );
-    let designs = [covering_pairs(pipelined_matrix()), others, more.to_vec()].concat();
-    check_each_design(&designs, |sources| verilator::lint(&toolchain, sources, "rcm", None));
-}
-
-/// The selection of designs still has each feature with each size of regions, and each organization
-/// with the other choices.
-#[test]
-fn fewer_designs_have_every_two_values() {
-    for (matrix, sizes) in [(serial_matrix(), 6), (raster_matrix(), 8)] {
-        let (whole, fewer) = (matrix.len(), covering_pairs(matrix));
-        assert!(takes_whole_lists() || fewer.len() < whole * 2 / 3, "{}", fewer.len());
-        let of = |toml: &String, key: &str| {
-            let line = toml.lines().find(|line| line.starts_with(key));
-            line.unwrap_or_else(|| panic!("no {key} in {toml}")).to_owned()
-        };
-        let count = |one: &str, other: &str| {
-            let pairs = fewer.iter().map(|toml| (of(toml, one), of(toml, other)));
-            pairs.collect::<BTreeSet<_>>().len()
-        };
-        assert_eq!(count("spatial", "size"), 7 * sizes);
-        for (one, other) in
-            [("pipelining", "sync"), ("filter", "reference"), ("neighborhood", "payload")]
-        {
-            assert_eq!((count("spatial", one), count(one, other)), (14, 4), "{one}, {other}");
-        }
-    }
+    check_each_design(&linted_designs(), |sources| {
+        verilator::lint(&toolchain, sources, "rcm", None)
+    });
 }
 
 #[test]
@@ -74,14 +54,7 @@ fn yosys_has_no_warning() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
-    // The other organizations, with all their memories, take seconds each. Every fifth of them
-    // still covers every leaf; `scripts/lint.sh` lints more.
-    let others = [serial_matrix(), raster_matrix()].concat();
-    let more = EXTRA_RASTER_DESIGNS.map(str::to_owned).to_vec();
-    let designs =
-        [covering_pairs(pipelined_matrix()), others.into_iter().step_by(5).collect(), more]
-            .concat();
-    check_each_design(&designs, |sources| {
+    check_each_design(&linted_designs(), |sources| {
         let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
         let script = format!(
             "read_verilog {}\nhierarchy -check -top rcm\nproc\nopt_clean\ncheck -assert\n",
@@ -103,11 +76,8 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
-    let designs: Vec<String> = raster_matrix().into_iter().skip(1).step_by(7).collect();
-    let has = |part: &str| designs.iter().any(|toml| toml.contains(part));
-    assert!(has("feature='mad'") && has("'variance'") && has("'last-sent'") && has("'raw'"));
-    for toml in &designs {
-        let design = design(toml);
+    for toml in covering(raster_matrix()) {
+        let design = design(&toml);
         let sources: Vec<Source> =
             verilog(&design, Top::Rcm).into_iter().map(|file| (file.path, file.contents)).collect();
         let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();

@@ -6,7 +6,7 @@ pub(crate) mod vectors;
 
 use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimReport, Simulator, Stimulus};
 use foveate_design::{Design, DesignConfig, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::{require_tools, sampling_step, takes_whole_lists};
+use foveate_toolchain::testing::{require_tools, sampling_step};
 use foveate_toolchain::{Cache, Toolchain};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -37,38 +37,6 @@ pub(crate) fn config_name(config: &DesignConfig) -> String {
         config.camera.decision.combine,
         config.hardware.thresholds,
     )
-}
-
-/// Returns the place on each axis of item `number` of a list that goes through all values of these
-/// axes, the last axis fastest.
-pub(crate) fn axis_positions(number: usize, axes: &[usize]) -> Vec<usize> {
-    let mut behind: usize = axes.iter().product();
-    let place = |axis: &usize| {
-        behind /= axis;
-        number / behind % axis
-    };
-    axes.iter().map(place).collect()
-}
-
-/// Returns a part of such a list in which every value of an axis still meets every value of any
-/// other axis; or the whole list if whole lists are taken. The part is one half, or one quarter if
-/// the first axis has four values and the last three have two.
-pub(crate) fn pairwise_part<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
-    assert_eq!(list.len(), axes.iter().product::<usize>());
-    let is_in = |number: usize| match *axis_positions(number, axes) {
-        _ if takes_whole_lists() => true,
-        // The places on the last two axes follow from the one before them and from a bit of the
-        // first.
-        [first, .., free, next, last] if axes[0] == 4 => {
-            (free + first / 2 + next) % 2 == 0 && (free + first + last) % 2 == 0
-        }
-        ref places => places.iter().sum::<usize>() % 2 == 0,
-    };
-    list.into_iter()
-        .enumerate()
-        .filter(|(number, _)| is_in(*number))
-        .map(|(_, item)| item)
-        .collect()
 }
 
 /// Returns one of all values of a key, in turn.

@@ -2,47 +2,12 @@
 //! Designs to emit: every value of the configuration occurs with every other at least once.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_toolchain::testing::takes_whole_lists;
-use std::collections::BTreeSet;
+use foveate_toolchain::testing::{Depth, cover};
 use std::process::{Command, Stdio};
 
-/// Selects from a list the designs that have a pair of values that no earlier design has. Every
-/// pair of values of the whole list thus occurs in the selection, and a slow tool runs on fewer
-/// designs. Returns the whole list where tests take whole lists.
-pub(crate) fn covering_pairs(list: Vec<String>) -> Vec<String> {
-    if takes_whole_lists() {
-        return list;
-    }
-    let mut met = BTreeSet::new();
-    let is_new = |toml: &String| {
-        let pairs = value_pairs(toml);
-        let new = !pairs.is_subset(&met);
-        met.extend(pairs);
-        new
-    };
-    list.into_iter().filter(is_new).collect()
-}
-
-/// Returns each pair of values of a configuration that change what its Verilog contains, and not
-/// only its widths.
-fn value_pairs(toml: &str) -> BTreeSet<(String, String)> {
-    const KEYS: [&str; 11] = [
-        "spatial",
-        "size",
-        "neighborhood",
-        "filter",
-        "reference",
-        "payload",
-        "irrelevant",
-        "feed",
-        "pipelining",
-        "store",
-        "sync",
-    ];
-    let counts = |line: &&str| KEYS.iter().any(|key| line.starts_with(key));
-    let lines: Vec<&str> = toml.lines().filter(counts).collect();
-    let met = lines.iter().flat_map(|one| lines.iter().map(move |other| (*one, *other)));
-    met.map(|(one, other)| (one.to_owned(), other.to_owned())).collect()
+/// Returns the designs of a matrix that cover it at the depth of this run.
+pub(crate) fn covering(matrix: Vec<String>) -> Vec<String> {
+    cover(matrix, Depth::of_run(), |toml| design(toml).config().to_toml())
 }
 
 /// Returns whether there is a Tcl interpreter. Prints a message if there is none, and panics if

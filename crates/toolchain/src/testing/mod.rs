@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Helpers for tests: skips where a tool or data is missing, and a mock machine with scripted
-//! tools.
+//! Helpers for tests: skips where a tool or data is missing, the choice of designs for slow tests,
+//! and a mock machine with scripted tools.
+
+mod cover;
+
+pub use cover::{Depth, cover};
 
 use std::collections::HashMap;
 use std::ffi::OsString;
