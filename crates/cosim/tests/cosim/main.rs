@@ -12,6 +12,7 @@ mod equal_results;
 mod folders;
 mod harness;
 mod large;
+mod mutated_modules;
 mod negative_control;
 mod netlist;
 mod pipelined_matrix;

@@ -1,157 +1,147 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of the serial organization.
-//!
-//! Some edits of resets and clears have no visible effect, and are not in the list. A first frame
-//! has no reference, so a count that a reset leaves is never shown. A rotation leaves zeros. A word
-//! that is written to a wrong place after a reset is overwritten by the next frame. The candidate
-//! of a median is never negative, so all its signs are equal.
+//! The faults of the serial organization. After a change of the RTL, a text that is no longer found
+//! is replaced by one with the same effect.
 
-use super::fault_designs::FaultDesign::{
-    SerialBlock as Block, SerialConstant as Constant, SerialCorner as Corner, SerialEdge as Edge,
-    SerialFold as Fold, SerialMad as Mad, SerialMany as Many, SerialPaper as Paper,
-    SerialRaster as Raster, SerialSent as Sent, SerialVariance as Variance,
-};
-use super::faults::{RtlFault, fault};
+use super::planted_fault::{FaultDesign, PlantedFault};
 
-/// All faults, by module.
-#[rustfmt::skip]
-pub(crate) const FAULTS: &[RtlFault] = &[
-    fault("operator", Paper, "carry_adder", "} - {~other_i", "} + {~other_i"),
-    fault("constant", Paper, "carry_adder", "~carry_i}", "1'b0}"),
-    fault("constant", Mad, "carry_adder", "~carry_i}", "1'b1}"),
-    fault("width", Paper, "carry_adder", "{plain_i, 1'b0}", "{1'b0, plain_i[WIDTH-2:0], 1'b0}"),
+/// The paper's scores in small regions.
+const PAPER: FaultDesign =
+    FaultDesign::array("region.size = 4\nhardware.organization = 'serial'\n", (2, 1));
+/// Edges and corners, both of which must vote.
+const EDGE_AND_CORNER: FaultDesign = FaultDesign::array(
+    "region.size = 4\ndenoise.filter = 'none'\ndecision.combine = 'all'\n\
+     spatial = [{ feature = 'edge' }, { feature = 'corner' }]\nhardware.organization = 'serial'\n",
+    (2, 1),
+);
+/// Mean absolute deviation, with a second pass.
+const MAD: FaultDesign = FaultDesign::array(
+    "region.size = 5\ndenoise.filter = 'none'\nspatial = [{ feature = 'mad', mean_fraction_bits = 2 }]\n\
+     hardware.organization = 'serial'\n",
+    (2, 1),
+);
+/// Pixels in the order of the frame.
+const RASTER_FEED: FaultDesign = FaultDesign::array(
+    "region.size = 4\ndenoise.filter = 'none'\nhardware = { organization = 'serial', feed = 'raster' }\n",
+    (3, 2),
+);
+/// Two regions per lane, one of which is empty in the last lane.
+const FOLDED: FaultDesign = FaultDesign::array(
+    "region.size = 4\ndenoise.filter = 'none'\nhardware = { organization = 'serial', fold = 2 }\n",
+    (3, 1),
+);
+/// Thresholds in the Verilog.
+const CONSTANT: FaultDesign = FaultDesign::array(
+    "region.size = 4\nhardware = { organization = 'serial', thresholds = 'constant' }\n",
+    (2, 1),
+);
+/// Means of four blocks of raw pixels.
+const MEANS: FaultDesign = FaultDesign::array(
+    "region.size = 4\nrender = { payload = 'raw', irrelevant = 'mean' }\n\
+     hardware = { organization = 'serial', fold = 2 }\n",
+    (3, 1),
+);
+/// An array that finds its frames.
+const SYNC: FaultDesign = FaultDesign::array(
+    "region = { size = 4, neighborhood = 'shared' }\ndenoise.filter = 'none'\n\
+     hardware = { organization = 'serial', feed = 'raster', sync = true }\n",
+    (2, 2),
+);
 
-    // Only the largest gradient with a level just below it needs the highest bit.
-    fault("width", Edge, "rcm", ".ACC_BITS(11)", ".ACC_BITS(10)"),
-
-    fault("index", Paper, "serial_lane", "run, run_corner, run_clear, count, count_corner,\n", "run, run_corner, count, run_clear, count_corner,\n"),
-    fault("index", Sent, "serial_lane", "{\n        write_active, write_border, side,", "{\n        side, write_active, write_border,"),
-    fault("operator", Paper, "serial_lane", "stays = sum[ACC_BITS-1] == acc_q[ACC_BITS-1];",
-        "stays = sum[ACC_BITS-1] != acc_q[ACC_BITS-1];"),
-    fault("constant", Raster, "serial_lane", "RASTER != 0 && select_row_i && select_column_i", "RASTER != 0 && select_row_i"),
-    fault("constant", Sent, "serial_lane", "write_active && flags_q[0]", "write_active"),
-    fault("index", Sent, "serial_lane", "write_border && sides_i[side]", "write_border && sides_i[~side]"),
-    fault("operator", Paper, "serial_lane", "loading_i ? pixel_i : result", "loading_i ? result : pixel_i"),
-    fault("width", Mad, "serial_lane", "{{(ACC_BITS - MEAN_BITS) {1'b0}}, difference", "{{(ACC_BITS - MEAN_BITS) {negative}}, difference"),
-    fault("constant", Mad, "serial_lane", "word} << FRACTION", "word} << (FRACTION - 1)"),
-    fault("operator", Variance, "serial_lane", "!masked || |(plain & constant_i)", "!masked || &(plain & constant_i)"),
-    fault("operator", Variance, "serial_lane", "from_aux ? wide_aux : wide_word", "wide_word"),
-    fault("constant", Mad, "serial_lane", "turned && carry", "carry"),
-    fault("operator", Mad, "serial_lane", "takes && (!divide || stays)", "takes"),
-    fault("operator", Variance, "serial_lane", "enable && takes &&", "enable &&"),
-    // A mean has more bits than the sum of a region.
-    fault("reset", Variance, "serial_lane", "if (shift) aux_q <= {AUX_BITS{1'b0}};\n                else if", "if"),
-    fault("operator", Mad, "serial_lane", "{(ACC_BITS - MEAN_BITS) {invert}}", "{(ACC_BITS - MEAN_BITS) {turned}}"),
-    fault("constant", Paper, "serial_lane", "{{(CHAIN_BITS - 1) {1'b0}}, scored}", "{CHAIN_BITS{1'b0}}"),
-    fault("constant", Paper, "serial_lane", "invert && carry", "1'b1"),
-    fault("operator", Paper, "serial_lane", "by_sign && !acc_q[ACC_BITS-1]", "by_sign && acc_q[ACC_BITS-1]"),
-    fault("operator", Paper, "serial_lane", "by_run && five", "by_run && !five"),
-    fault("operator", Corner, "serial_lane", "negative_q == acc_q[ACC_BITS-1]", "negative_q != acc_q[ACC_BITS-1]"),
-    fault("index", Corner, "serial_lane", "run_q[3] && on", "run_q[2] && on"),
-    fault("operator", Corner, "serial_lane", "five || reaches : stays", "five : stays"),
-    fault("constant", Corner, "serial_lane", "if (run_clear) run_q <= 5'b00000;\n                else if (run && !five && (stays || run_corner))",
-        "if (run && !five && (stays || run_corner))"),
-    fault("width", Paper, "serial_lane", "run_q <= {run_q[3:0], 1'b1}", "run_q <= {run_q[2:0], 2'b11}"),
-    fault("operator", Paper, "serial_lane", "assign hit = stays || (EDGE != 0 && run_q[0]);", "assign hit = stays;"),
-    fault("constant", Edge, "serial_lane", "else if (run) run_q <= stays;", "else if (run) run_q <= 1'b0;"),
-    fault("index", Paper, "serial_lane", "shift ? word_i : fetch", "fetch"),
-    fault("constant", Sent, "serial_lane", "if (shift) flags_q <= flags_i;", "flags_q <= flags_i;"),
-
-    fault("index", Block, "serial_memory", "data_q <= pixels_q[address_i];", "data_q <= pixels_q[address_i ^ 1'b1];"),
-    fault("width", Block, "serial_memory", "pixels_q[address_i] <= data_i", "pixels_q[address_i] <= {1'b0, data_i[WIDTH-2:0]}"),
-    fault("constant", Block, "serial_memory", "reg [WIDTH-1:0] pixels_q[0:WORDS-1];", "reg [WIDTH-1:0] pixels_q[0:WORDS/2-1];"),
-    fault("width", Paper, "serial_memory", ".data_i(data_i)", ".data_i({1'b0, data_i[WIDTH-2:0]})"),
-
-    fault("constant", Paper, "serial_parallel_feed", "LAST = PIXELS - 1;", "LAST = PIXELS - 2;"),
-    fault("reset", Paper, "serial_parallel_feed", "if (rst_i) word_q <= SECOND;\n        else if", "if"),
-    fault("reset", Paper, "serial_parallel_feed", "rst_i || reopen_i || (ready_q", "reopen_i || (ready_q"),
-    fault("reset", Fold, "serial_parallel_feed", "if (rst_i) slot_q <= {SLOT_BITS{1'b0}};\n                else if", "if"),
-    fault("constant", Fold, "serial_parallel_feed", "LAST_SLOT = FOLD - 1;", "LAST_SLOT = FOLD;"),
-
-    fault("reset", Raster, "serial_raster_feed", "            ready_q <= 1'b1;\n            x_q", "            x_q"),
-    fault("reset", Raster, "serial_raster_feed", "            y_q <= {INNER_BITS{1'b0}};\n            column_q <= {COLUMN_BITS{1'b0}};\n            row_q",
-        "            column_q <= {COLUMN_BITS{1'b0}};\n            row_q"),
-    fault("reset", Sent, "serial_raster_feed", "busy_q   <= 1'b0;\n", "busy_q   <= busy_q;\n"),
-    fault("reset", Sent, "serial_raster_feed", "across_q <= 2'd0;\n                    down_q   <= 2'd0;", "across_q <= across_q;\n                    down_q   <= 2'd0;"),
-    fault("constant", Raster, "serial_raster_feed", "NEXT_LINE = STRIDE - (SIDE - 1);", "NEXT_LINE = STRIDE - (SIDE - 2);"),
-    fault("index", Sent, "serial_raster_feed", "lane_q <= row_lane_q;", "lane_q <= lane_q;"),
-    fault("index", Sent, "serial_raster_feed", "row_slot_q <= next_slot;", "row_slot_q <= row_slot_q;"),
-    fault("operator", Sent, "serial_raster_feed", "last_across && down_q == down_more", "last_across"),
-    fault("operator", Raster, "serial_raster_feed", "take_o = ready_q && valid_i", "take_o = valid_i"),
-
-    fault("constant", Sent, "serial_places", "NEAR = HALO;", "NEAR = HALO - 1;"),
-    fault("constant", Sent, "serial_places", "FAR = SIDE - HALO;", "FAR = SIDE - HALO + 1;"),
-    fault("constant", Sent, "serial_places", "REPEATED = HALO;", "REPEATED = HALO - 1;"),
-    fault("operator", Sent, "serial_places", "offset = OWN + REGION", "offset = OWN - REGION"),
-    fault("constant", Sent, "serial_places", "place_i == 2'd1 ? OWN + ONE : OWN + ONE + ONE", "place_i == 2'd1 ? OWN : OWN + ONE + ONE"),
-    fault("index", Sent, "serial_neighbor", "far = lanes(COLUMNS + 1); on = slots(COLUMNS + 1)", "far = lanes(COLUMNS); on = slots(COLUMNS)"),
-    fault("index", Sent, "serial_neighbor", "far = lanes(-1 - COLUMNS);", "far = lanes(1 - COLUMNS);"),
-    fault("operator", Sent, "serial_neighbor", "over = plain >= SLOTS", "over = plain > SLOTS"),
-    fault("width", Sent, "serial_neighbor", "over ? plain - SLOTS : plain", "plain"),
-    fault("constant", Sent, "serial_sides", "REGION / COLUMNS == 0,", "REGION / COLUMNS == 1,"),
-    fault("index", Sent, "serial_sides", "table_of_sides[4*slot_i+:4]", "table_of_sides[0+:4]"),
-    fault("constant", Sent, "serial_sides", "REGION % COLUMNS == COLUMNS - 1", "REGION % COLUMNS == COLUMNS"),
-
-    fault("operator", Paper, "serial_group", "!loading_q || valid_i) address_q", "1'b1) address_q"),
-    fault("constant", Paper, "serial_group", "write_q || (loading_q && valid_i)", "write_q || valid_i"),
-    fault("reset", Paper, "serial_group", "if (rst_i) address_q <= {ADDRESS_BITS{1'b0}};\n                else if", "if"),
-    fault("index", Many, "serial_group", "lane >> 6 == OWN", "1'b1"),
-    fault("width", Many, "serial_group", "8'd1 << lane[5:3]", "8'd1 << lane[4:3]"),
-    fault("width", Many, "serial_group", "8'd1 << lane[2:0]", "8'd1 << lane[1:0]"),
-
-    fault("constant", Mad, "serial_group", "{1'b1, MAD != 0, {2{VARIANCE != 0}}}", "{1'b1, {3{VARIANCE != 0}}}"),
-    fault("index", Corner, "serial_group", "RUNS, CORNER != 0, RUNS, 1'b1", "RUNS, CORNER == 0, RUNS, 1'b1"),
-    fault("constant", Block, "serial_group", ".USED(WITH_WORD), .LATE(WORD)", ".USED(WITH_WORD), .LATE(0)"),
-    fault("constant", Block, "serial_group", ".USED(WITH_ACCUMULATOR), .LATE(LATE)", ".USED(WITH_ACCUMULATOR), .LATE(0)"),
-    fault("width", Block, "serial_group", "bits_i(controls_i[17:0])", "bits_i({1'b0, controls_i[16:0]})"),
-
-    fault("reset", Paper, "serial_control", "if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};\n        else bits_q", "bits_q"),
-    fault("constant", Paper, "serial_control", "bits_i & USED", "bits_i & (USED << 1)"),
-    fault("index", Block, "serial_control", "bits_q[LATE*WIDTH+:WIDTH]", "bits_q[0+:WIDTH]"),
-    fault("reset", Paper, "serial_shown", "if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};\n        else bits_q", "bits_q"),
-    fault("index", Block, "serial_shown", "bits_q[LATE*WIDTH+:WIDTH]", "bits_q[0+:WIDTH]"),
-
-    fault("constant", Sent, "serial_decision", ".write_i(rotate_i && last)", ".write_i(rotate_i)"),
-    fault("operator", Sent, "serial_decision", ".data_i(active ||", ".data_i(!active ||"),
-    fault("reset", Paper, "serial_decision", "if (rst_i) first_q <= 1'b1;\n        else if", "if"),
-    fault("constant", Paper, "serial_decision", "else if (frame_i) first_q <= 1'b0;", "else if (rotate_i) first_q <= 1'b0;"),
-    fault("operator", Paper, "serial_decision", "score_o >= minimum;", "score_o > minimum;"),
-    fault("operator", Constant, "serial_decision", "score_o >= minimum;", "score_o > minimum;"),
-    fault("operator", Fold, "serial_decision", "region_i} < BEHIND", "region_i} <= BEHIND"),
-    fault("constant", Paper, "serial_decision", "EVERY = PIXELS;", "EVERY = PIXELS - 1;"),
-    fault("operator", Corner, "serial_decision", "flags_i[1] && vote : flags_i[1] || vote", "flags_i[1] || vote : flags_i[1] || vote"),
-    fault("constant", Corner, "serial_decision", "temporal ? ALL != 0 : srs", "srs"),
-    fault("operator", Sent, "serial_decision", "active || (reference && (srs || BLANKS == 0))", "active || reference"),
-    fault("constant", Sent, "serial_decision", "reference = referenced && !first_q;", "reference = referenced;"),
-    fault("index", Corner, "serial_decision", "minima_i[index_i*SCORE_BITS+:SCORE_BITS]", "minima_i[0+:SCORE_BITS]"),
-    fault("operator", Paper, "serial_decision", "flags_i[0] && srs && region_valid_o", "srs && region_valid_o"),
-
-    fault("index", Many, "serial_array", "rows[GROUP*8+(i%64)/8]", "rows[(i%64)/8]"),
-    fault("index", Paper, "serial_array", "assign pixel = pixel_i[i*WIDTH+:WIDTH];", "assign pixel = pixel_i[0+:WIDTH];"),
-    fault("index", Paper, "serial_array", "words[i*WIDTH+:WIDTH];\n            end", "words[0+:WIDTH];\n            end"),
-    fault("operator", Raster, "serial_array", "shown_unload && (shown_return", "shown_unload || (shown_return"),
-    fault("constant", Fold, "serial_array", "working ? {slot, word} :", "working ? {place_slot, word} :"),
-
-    fault("operator", Raster, "serial_sequencer", "RASTER != 0 ? shifting : unloading", "unloading"),
-    fault("index", Sent, "serial_sequencer", ".last_column_i(last_column)", ".last_column_i(last_center)"),
-    fault("reset", Paper, "serial_states", "            state_q <= LOAD;", "            state_q <= state;"),
-    fault("constant", Sent, "serial_states", "last_column_i && part_q == 2'd3;", "last_column_i && part_q == 2'd2;"),
-    fault("constant", Mad, "serial_constant", "HALF_PIXELS = PIXELS / 2;", "HALF_PIXELS = PIXELS / 2 + 1;"),
-    fault("constant", Variance, "serial_constant", "FACTOR = PIXELS;", "FACTOR = PIXELS - 1;"),
-    fault("operator", Variance, "serial_constant", "pairs_q & (pairs_q - 1'b1)", "pairs_q & (pairs_q + 1'b1)"),
-    fault("index", Paper, "serial_addresses", "neighbor[2:0] >= 3'd2 && neighbor[2:0] <= 3'd4", "neighbor[2:0] > 3'd2 && neighbor[2:0] <= 3'd4"),
-    fault("operator", Paper, "serial_addresses", "down && (CLAMPS == 0 || !last_row)", "down"),
-    fault("operator", Paper, "serial_addresses", "left && (CLAMPS == 0 || column_q != 0)", "left"),
-    fault("constant", Corner, "serial_states", "ring_last = tap_q == 4'd11", "ring_last = tap_q == 4'd10"),
-    fault("index", Fold, "serial_regions", "LAST_LANE = (LANES - 1) * FOLD;", "LAST_LANE = LANES - 1;"),
-    fault("constant", Paper, "serial_constant", "scale_q <= UNIT << (WIDTH - 1);", "scale_q <= UNIT << (WIDTH - 2);"),
-    fault("constant", Paper, "serial_constant", "loading || testing || unloading", "loading || unloading"),
-    fault("constant", Mad, "serial_constant", "else if (SUMS && summing)", "else if (dividing)"),
-    fault("width", Sent, "serial_addresses", "row_q != 0 && row_q <= LAST_COUNTED", "row_q <= LAST_COUNTED"),
-    fault("index", Sent, "serial_addresses", "2'd2: center_q <= BOTTOM_START;", "2'd2: center_q <= TOP_START;"),
-    fault("index", Paper, "serial_controls", "gradient, gradient_test, ring, ring_test, ring_last,\n        summing", "gradient_test, gradient, ring, ring_test, ring_last,\n        summing"),
-    fault("index", Paper, "serial_addresses", "gradient, gradient_test, ring, ring_test, ring_last,\n        unused", "gradient_test, gradient, ring, ring_test, ring_last,\n        unused"),
-    fault("index", Variance, "serial_constant", "halving, dividing, clearing, deviating, squaring, correcting, keeping,\n", "halving, clearing, dividing, deviating, squaring, correcting, keeping,\n"),
-    fault("operator", Corner, "serial_controls", "run_clear = idle || adjusting || scores;", "run_clear = idle || adjusting;"),
-    fault("operator", Paper, "serial_controls", "adjusting && !spent_i", "adjusting"),
+pub(super) const FAULTS: [PlantedFault; 12] = [
+    PlantedFault {
+        check: "the temporal count and the scores, which share a port",
+        port: "score_o",
+        design: PAPER,
+        module: "carry_adder",
+        from: "} - {~other_i",
+        to: "} + {~other_i",
+    },
+    PlantedFault {
+        check: "a score of the second pass",
+        port: "score_o",
+        design: MAD,
+        module: "serial_lane",
+        from: "word} << FRACTION",
+        to: "word} << (FRACTION - 1)",
+    },
+    PlantedFault {
+        check: "a threshold at a port: the score that equals it",
+        port: "srs_o",
+        design: PAPER,
+        module: "serial_decision",
+        from: "score_o >= minimum;",
+        to: "score_o > minimum;",
+    },
+    PlantedFault {
+        check: "a constant threshold: the count that equals it",
+        port: "trs_o",
+        design: CONSTANT,
+        module: "serial_decision",
+        from: "score_o >= minimum;",
+        to: "score_o > minimum;",
+    },
+    PlantedFault {
+        check: "the decision, from votes that differ",
+        port: "srs_o",
+        design: EDGE_AND_CORNER,
+        module: "serial_decision",
+        from: "flags_i[1] && vote : flags_i[1] || vote",
+        to: "flags_i[1] || vote : flags_i[1] || vote",
+    },
+    PlantedFault {
+        check: "the handshake of pixels: when the array takes them",
+        port: "ready_o",
+        design: PAPER,
+        module: "serial_parallel_feed",
+        from: "LAST = PIXELS - 1;",
+        to: "LAST = PIXELS - 2;",
+    },
+    PlantedFault {
+        check: "a forwarded word",
+        port: "forward_pixel_o",
+        design: PAPER,
+        module: "serial_array",
+        from: "words[i*WIDTH+:WIDTH];\n            end",
+        to: "words[0+:WIDTH];\n            end",
+    },
+    PlantedFault {
+        check: "the valid bit of forwarded words",
+        port: "forward_valid_o",
+        design: RASTER_FEED,
+        module: "serial_sequencer",
+        from: "RASTER != 0 ? shifting : unloading",
+        to: "unloading",
+    },
+    PlantedFault {
+        check: "a slot without a region",
+        port: "score_valid_o",
+        design: FOLDED,
+        module: "serial_decision",
+        from: "region_i} < BEHIND",
+        to: "region_i} <= BEHIND",
+    },
+    PlantedFault {
+        check: "a summary, and when one is sent",
+        port: "summary_o",
+        design: MEANS,
+        module: "serial_summary",
+        from: "(!shows || differs)",
+        to: "!shows",
+    },
+    PlantedFault {
+        check: "the reset of the outputs",
+        port: "score_valid_o",
+        design: PAPER,
+        module: "serial_shown",
+        from: "if (rst_i) bits_q <= {(LATE + 1) * WIDTH{1'b0}};\n        else bits_q",
+        to: "bits_q",
+    },
+    PlantedFault {
+        check: "the error of a frame that has another length",
+        port: "sync_error_o",
+        design: SYNC,
+        module: "frame_sync",
+        from: "(inside_q || start_q)",
+        to: "inside_q",
+    },
 ];
