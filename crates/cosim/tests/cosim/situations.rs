@@ -6,6 +6,7 @@ use crate::common::in_parallel;
 use foveate_cosim::{CosimLevel, Occurrences, ShippedBench, Stimulus};
 use foveate_design::{Design, DesignConfig};
 use foveate_emit::{Prefix, Top};
+use foveate_toolchain::testing::takes_whole_lists;
 use std::sync::atomic::AtomicBool;
 
 /// A frame so small that arrays are simulated whole.
@@ -146,7 +147,7 @@ fn drawn_designs(count: usize) -> Vec<(Vec<&'static str>, Design)> {
 /// With `FOVEATE_WHOLE` more designs are drawn.
 #[test]
 fn vectors_reach_every_situation_of_designs_drawn_at_random() {
-    let count = if std::env::var_os("FOVEATE_WHOLE").is_some() { 1000 } else { 24 };
+    let count = if takes_whole_lists() { 1000 } else { 24 };
     let failures = in_parallel(&drawn_designs(count), |(keys, design)| {
         let found = reached_situations(design, 1);
         match found.missing().is_empty() && !found.0.is_empty() {
