@@ -9,7 +9,7 @@
 //! | --- | --- | --- | --- |
 //! | functional, clear | `FunctionalCamera` | frames | none: it is the reference |
 //! | functional, fast | `Engine` | frames | every result of every region, with `FunctionalCamera` |
-//! | cycle | `PipelinedRcm` and others | clocks | every score and decision, with `FunctionalCamera` |
+//! | cycle | `PipelinedRcm` and others | clocks | scores and decisions, with `FunctionalCamera` |
 //! | RTL | Verilator | clocks | every port at every clock, with the cycle level |
 //! | netlist | Icarus, one RPU | clocks | every port at every clock, with the cycle level |
 //!

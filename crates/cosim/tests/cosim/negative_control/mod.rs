@@ -46,7 +46,8 @@ fn run_with_fault(fault: &PlantedFault, output: &Path) -> Result<CosimReport, St
     }
 }
 
-/// Every fault differs at the port of the check that it proves, and leaves a folder that replays it.
+/// Every fault differs first at the port of the check that it proves, and leaves a folder that
+/// replays it.
 #[test]
 fn every_kind_of_check_finds_its_planted_fault() {
     if !has_simulators() {
