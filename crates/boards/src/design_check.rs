@@ -104,7 +104,7 @@ fn check_array(array: PipelinedDesign<'_>) -> Result<(), String> {
     let (columns, max_columns) = (array.columns(), array.region_pixels());
     if columns > max_columns {
         return Err(format!(
-            "{columns} regions side by side: their sum is made in {max_columns} clocks; frame.width = {} is the most with regions of {side} x {side}",
+            "{columns} regions side by side: their sum is made in {max_columns} clocks; frame.width = {} is the largest with regions of {side} x {side}",
             max_columns * side
         ));
     }

@@ -91,7 +91,7 @@ impl TextForm {
         };
         let length = text.chars().count();
         if length > max_length {
-            return Err(format!("it has {length} characters; {max_length} is the most"));
+            return Err(format!("it has {length} characters; at most {max_length} are allowed"));
         }
         let (is_valid, expected) = match self {
             Self::Word => {

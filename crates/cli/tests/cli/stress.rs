@@ -16,5 +16,5 @@ fn the_short_form_prints_a_row_for_every_case() {
         assert!(rows.iter().any(|row| row["case"] == case), "{case}");
     }
     let text = run_successfully(dir.path(), &["stress", "--short"]);
-    assert!(text.ends_with(&format!("{0} of {0} hold\n", rows.len())), "{text}");
+    assert!(text.ends_with(&format!("{0} of {0} cases hold\n", rows.len())), "{text}");
 }

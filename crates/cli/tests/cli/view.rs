@@ -75,8 +75,8 @@ fn what_cannot_be_shown_is_refused() {
     };
     refused(&["missing.bin"], &["missing.bin"]);
     refused(&["."], &["folder", "packets.bin"]);
-    refused(&["/dev/null"], &["/dev/null", "no serial port"]);
-    refused(&["/dev/zero"], &["/dev/zero", "no serial port"]);
+    refused(&["/dev/null"], &["/dev/null", "not a serial port"]);
+    refused(&["/dev/zero"], &["/dev/zero", "not a serial port"]);
     refused(&["-", "--play", "looped"], &["no file", "--play"]);
     refused(&["packets.bin", "--address", "0.0.0.0:8000"], &["0.0.0.0:8000", "127.0.0.1"]);
 }

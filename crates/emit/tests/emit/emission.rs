@@ -118,6 +118,7 @@ fn module_headers_are_the_port_lists() {
                 };
                 let line = header
                     .lines()
+                    .filter_map(|line| line.split("//").next())
                     .find(|line| line.contains(&format!(" {}", port.name)))
                     .unwrap_or_else(|| panic!("{} is missing: {toml}", port.name));
                 assert!(line.trim_start().starts_with(direction), "{line}");
