@@ -36,7 +36,8 @@ def _parser() -> argparse.ArgumentParser:
     accuracy = studies.add_parser("accuracy", help="accuracy of networks that learn from regions, beside originals")
     savings = studies.add_parser("savings", help="accuracy against bytes and MACs, over thresholds and region sizes")
     for study in (accuracy, savings):
-        study.add_argument("-o", "--output", type=Path, required=True, help="folder of runs, tables and figures; the same command continues an interrupted study")
+        study.add_argument("-o", "--output", type=Path, required=True,
+                           help="folder of runs, tables and figures; the same command continues an interrupted study")
         study.add_argument("--data", type=Path, default=os.environ.get("FOVEATE_DATA"),
                          help="folder of the sets: IDX files or torchvision's layout; default $FOVEATE_DATA; nothing is downloaded")
         study.add_argument("--sets", nargs="+", default=list(SETS), help=f"{', '.join(SETS)} or pictures (DATA/train/CLASS/*, DATA/test/CLASS/*)")
