@@ -258,7 +258,7 @@ def test_a_link_restores_all_settings(still):
         ("region=9", "`region` is not a setting".replace("`", "")),
         ("preset=nothing", "no preset nothing"),
         ("source=scene:nothing", "scene:nothing"),
-        ("size=large", "write 640x480"),
+        ("size=large", "write it as 640x480"),
         ("region.size=x", "x is not a value"),
         # Names that every object has from elsewhere.
         ("__proto__.rgba=1", "__proto__"),
@@ -412,7 +412,7 @@ def test_the_camera_is_shown(camera):
     assert page.locator("#notice").is_hidden()
     assert page.locator("#speed").is_disabled()
     page.evaluate("foveate.source.video.srcObject.getVideoTracks()[0].dispatchEvent(new Event('ended'))")
-    assert "plug it in" in shown(page, "the camera has gone")
+    assert "plug it in" in shown(page, "the camera has been disconnected")
 
 
 def test_a_refused_camera_is_told(still):

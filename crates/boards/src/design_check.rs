@@ -97,7 +97,7 @@ fn check_array(array: PipelinedDesign<'_>) -> Result<(), String> {
         if !length.is_multiple_of(side) {
             let multiple = length.div_ceil(side) * side;
             return Err(format!(
-                "frame.{key} = {length}: the pattern makes whole regions; {multiple} is a multiple of {side}"
+                "frame.{key} = {length}: the pattern makes whole regions; use a multiple of {side}, such as {multiple}"
             ));
         }
     }
