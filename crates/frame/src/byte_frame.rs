@@ -30,7 +30,7 @@ impl FramePixels<'_> {
         match self {
             Self::Bytes(pixels) if bits == 8 => grey.extend_from_slice(pixels),
             Self::Bytes(pixels) => {
-                grey.extend(pixels.iter().map(|&pixel| grey_value(pixel.into())))
+                grey.extend(pixels.iter().map(|&pixel| grey_value(pixel.into())));
             }
             Self::Words(pixels) => grey.extend(pixels.iter().map(|&pixel| grey_value(pixel))),
         }

@@ -32,7 +32,7 @@ impl fmt::Display for Computation {
     }
 }
 
-/// Writes the text of [`Computation::fmt`].
+/// Serializes the text that `Display` writes.
 impl Serialize for Computation {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)

@@ -181,7 +181,7 @@ impl AxisGather {
                 match line_start((start - 1) / line_values) {
                     None => part.fill(padding),
                     Some(at) => {
-                        gather_line(&values[at..], places, run_length, inside, part, padding)
+                        gather_line(&values[at..], places, run_length, inside, part, padding);
                     }
                 }
             }
@@ -211,7 +211,7 @@ fn gather_line<T: TensorNumber>(
         match input_element(places[at / run_length]) {
             None => part.fill(padding),
             Some(place) => {
-                part.copy_from_slice(&values[place * run_length + inside..][..part.len()])
+                part.copy_from_slice(&values[place * run_length + inside..][..part.len()]);
             }
         }
         at += part.len();

@@ -125,7 +125,7 @@ impl Operator for BinaryOperator {
                 self.compute_lines(job, |a: f32, b| a / b);
             }
             (kind, activation) => {
-                self.compute_lines(job, |a, b| activation.apply(kind.apply(a, b)))
+                self.compute_lines(job, |a, b| activation.apply(kind.apply(a, b)));
             }
         }
     }
