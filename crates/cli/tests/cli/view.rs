@@ -77,6 +77,6 @@ fn what_cannot_be_shown_is_refused() {
     refused(&["."], &["folder", "packets.bin"]);
     refused(&["/dev/null"], &["/dev/null", "not a serial port"]);
     refused(&["/dev/zero"], &["/dev/zero", "not a serial port"]);
-    refused(&["-", "--play", "looped"], &["no file", "--play"]);
+    refused(&["-", "--play", "looped"], &["not a file", "--play"]);
     refused(&["packets.bin", "--address", "0.0.0.0:8000"], &["0.0.0.0:8000", "127.0.0.1"]);
 }

@@ -15,7 +15,7 @@ fn damaged_files_are_refused_in_one_line() {
         ("\u{1}\u{2}", vec!["no known format", "COCO"]),
         ("[{\"image_id\": 1}]", vec!["list of results"]),
         ("1,1,1,1,1,1,1,1\n", vec!["line 1", "8 columns", "expected 9"]),
-        ("1,1,1,1,1,1,1,1,1\n2,1,1,x,1,1,1,1,1\n", vec!["line 2", "`x` is no top"]),
+        ("1,1,1,1,1,1,1,1,1\n2,1,1,x,1,1,1,1,1\n", vec!["line 2", "the top `x` is not valid"]),
         (
             "1,1,1,1,1,1,1,1,1\n\n0,1,1,1,1,1,1,1,1\n",
             vec!["line 3", "the frame `0` is not valid", "at least 1"],
@@ -69,7 +69,7 @@ fn a_damaged_file_of_a_yolo_folder_names_itself() {
     for (text, parts) in [
         (&b"0 0.5 0.5 1 1\n0 0.5 0.5 1\n"[..], ["line 2", "4 numbers; expected 5"]),
         (b"0 0.5 0.5 1 1.5\n", ["line 1", "1.5 is not a share"]),
-        (b"0.5 0.5 0.5 1 1\n", ["line 1", "`0.5` is no class"]),
+        (b"0.5 0.5 0.5 1 1\n", ["line 1", "the class `0.5` is not valid"]),
         (b"0 0.5 \xff 1 1\n", ["line 1", "UTF-8"]),
         // A line that is cut at its limit would be two boxes.
         (&long, ["line 1", "4096 bytes or more"]),
