@@ -30,8 +30,8 @@ def opencv_speeds():
         return {(row["size"], row["op"]): row["mpix_s"] for row in json.load(file)}
 
 
-# Other programs on the machine can only make a run slower, so of several rounds the fastest is nearest to the true speed.
-# That holds for both programs.
+# Other programs on the machine can only make a run slower, so the fastest of several rounds is nearest to the true speed, for both
+# programs.
 def fastest(values):
     return max(values)
 

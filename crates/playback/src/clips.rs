@@ -151,12 +151,6 @@ impl RunClips {
         &self.options
     }
 
-    /// Returns the configuration for whose cameras the clips are opened.
-    #[must_use]
-    pub fn camera(&self) -> &CameraConfig {
-        &self.camera
-    }
-
     /// Returns the inputs of all clips as the user named them.
     #[must_use]
     pub fn inputs(&self) -> Vec<String> {

@@ -39,11 +39,7 @@ impl<'a> FrameDepths<'a> {
     /// Fails if the frame does not have the camera's size, or was not converted to its depth.
     pub fn show_to<'e>(&self, engine: &'e mut Engine) -> Result<&'e FrameOutcome, PlaybackError> {
         let bits = engine.camera().pixel_bits();
-        let Some(other) = self.others.get(&bits) else { return self.own.show_to(engine) };
-        if self.own.is_first() {
-            engine.reset();
-        }
-        Ok(engine.step_byte_frame(other)?)
+        self.own.show_pixels_to(engine, self.others.get(&bits).unwrap_or(&self.own.frame))
     }
 }
 

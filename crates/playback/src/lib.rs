@@ -29,6 +29,4 @@ pub use monitor::{MonitoredFrames, RunMonitor};
 pub use parallel::run_in_parallel;
 pub use played_frame::PlayedFrame;
 pub use player::ClipPlayer;
-pub use progress::{
-    LONGEST_REMAINING, ProgressStage, ProgressUnit, RemainingTime, RunProgress, StageAmount,
-};
+pub use progress::{ProgressStage, ProgressUnit, RemainingTime, RunProgress, StageAmount};

@@ -6,6 +6,7 @@ use std::sync::mpsc::Sender;
 
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_footage::{FrameOrigin, SourceFrame, SourceKind};
+use foveate_frame::ByteFrame;
 
 use crate::PlaybackError;
 
@@ -48,10 +49,20 @@ impl PlayedFrame {
     /// # Errors
     /// Fails if the frame does not have the camera's size and depth.
     pub fn show_to<'a>(&self, engine: &'a mut Engine) -> Result<&'a FrameOutcome, PlaybackError> {
+        self.show_pixels_to(engine, &self.frame)
+    }
+
+    /// Shows these pixels, which are the frame in the camera's depth, as [`PlayedFrame::show_to`]
+    /// does.
+    pub(crate) fn show_pixels_to<'a>(
+        &self,
+        engine: &'a mut Engine,
+        pixels: &ByteFrame,
+    ) -> Result<&'a FrameOutcome, PlaybackError> {
         if self.is_first() {
             engine.reset();
         }
-        Ok(engine.step_byte_frame(&self.frame)?)
+        Ok(engine.step_byte_frame(pixels)?)
     }
 }
 

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 const PACE_AFTER: Duration = Duration::from_secs(2);
 /// The longest time that is shown as it is. A longer time is shown as more than this, because no
 /// meaningful run takes so long.
-pub const LONGEST_REMAINING: Duration = Duration::from_secs(7 * 24 * 3600);
+const LONGEST_REMAINING: Duration = Duration::from_secs(7 * 24 * 3600);
 
 /// The unit in which a stage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -125,8 +125,8 @@ fn objective_values(
     }
 }
 
-/// Returns the heights of strips that can run at once. Of several heights that need the same number
-/// of strips, only the lowest is returned.
+/// Returns the heights of strips that can run at once. If several heights need the same number of
+/// strips, only the lowest is returned.
 fn strip_heights(
     height: u64,
     array: &RowStationaryArray,
@@ -157,8 +157,8 @@ fn possible_passes(
     strip: u64,
 ) -> Vec<PassMapping> {
     let sets = set_count(array, parts, strip);
-    // Of several numbers of filter sets that leave room for the same number of channel sets, only
-    // the largest is tried.
+    // Several numbers of filter sets can leave room for the same number of channel sets. Only the
+    // largest of them is tried.
     let all_filter_sets = (1..=sets).filter(|&filters| filters == sets / (sets / filters));
     let mut all = Vec::new();
     for filter_sets in all_filter_sets.filter(|&filters| filters <= products.outputs) {
@@ -168,8 +168,8 @@ fn possible_passes(
                 .min(array.element_sums)
                 .min(products.outputs);
             for filters in 1..=most {
-                // Of several numbers of images that need the same number of parts, only the
-                // smallest is tried.
+                // Several numbers of images can need the same number of parts. Only the smallest of
+                // them is tried.
                 let images = (1..=layer.images).filter(|&images| {
                     images == layer.images.div_ceil(layer.images.div_ceil(images))
                 });

@@ -11,7 +11,7 @@ use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::clock_rates::clock_rates;
 use super::outcome_comparison;
 use super::pass_timer::PassTimer;
-use super::peak_memory::ResidentSizeBefore;
+use super::peak_memory::InitialResidentSize;
 use super::unpacked_inputs::{UnpackedInputs, compare_recording};
 use crate::codec::RecordCodec;
 use crate::error::CosimError;
@@ -30,7 +30,7 @@ pub(super) fn run_cycle_level(
     let decided =
         outcome_comparison::outcome_agreement(design, recording, frames, vectors.streamed_frames)?;
     let again = replay_agreement(design, recording, vectors)?;
-    let before = ResidentSizeBefore::measure();
+    let before = InitialResidentSize::measure();
     let mut core = rcm_model(design);
     let time = timer.time_passes(|| {
         for input in vectors.inputs() {

@@ -11,7 +11,7 @@ use foveate_model::FunctionalCamera;
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::pass_timer::{PassTimer, PassTimes};
-use super::peak_memory::ResidentSizeBefore;
+use super::peak_memory::InitialResidentSize;
 use crate::error::CosimError;
 use crate::timed_run::OutputAgreement;
 
@@ -21,7 +21,7 @@ pub(super) fn run_model(
     frames: &[Frame],
     timer: PassTimer<'_>,
 ) -> Result<LevelRow, CosimError> {
-    let before = ResidentSizeBefore::measure();
+    let before = InitialResidentSize::measure();
     let mut camera = FunctionalCamera::new(design);
     let time = timer.time_passes(|| {
         for frame in frames {
@@ -42,7 +42,7 @@ pub(super) fn run_engine(
     timer: PassTimer<'_>,
 ) -> Result<LevelRow, CosimError> {
     let agreement = engine_agreement(design, frames, frames)?;
-    let before = ResidentSizeBefore::measure();
+    let before = InitialResidentSize::measure();
     let options =
         EngineOptions { threads: 1, skips_identical_regions: false, level: Instructions::detect() };
     let mut engine = Engine::with_options(design, options)?;

@@ -9,9 +9,9 @@ use std::fs;
 
 /// The resident size of this process before a level is made, in kilobytes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ResidentSizeBefore(Option<u64>);
+pub(super) struct InitialResidentSize(Option<u64>);
 
-impl ResidentSizeBefore {
+impl InitialResidentSize {
     pub(super) fn measure() -> Self {
         // A system that cannot reset the peak gives no figure.
         let is_forgotten = fs::write("/proc/self/clear_refs", "5").is_ok();
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn what_is_touched_is_seen() {
-        let before = ResidentSizeBefore::measure();
+        let before = InitialResidentSize::measure();
         let touched = vec![1u8; 64 << 20];
         assert_eq!(touched.iter().map(|&byte| usize::from(byte)).sum::<usize>(), 64 << 20);
         let Some(peak) = before.peak_bytes() else { return };

@@ -11,7 +11,7 @@ use foveate_design::{
     CameraConfig, Decimal, DenoiseFilter, DesignConfig, FeatureKind, IrrelevantRendering,
     Neighborhood, Payload, Pipelining, ReferencePolicy, ThresholdSource, VoteCombination,
 };
-use foveate_toolchain::testing::{Depth, cover};
+use foveate_toolchain::testing::{CoverDepth, cover};
 
 /// The number of pixels per region from which on Verilator's build takes less time than it saves.
 const COMPILED_FROM: u32 = 16 * 16;
@@ -90,7 +90,7 @@ fn matrix() -> Vec<DesignConfig> {
 
 #[test]
 fn every_feature_size_filter_neighborhood_and_reference_agrees() {
-    check_all(&cover(matrix(), Depth::of_run(), |config| {
+    check_all(&cover(matrix(), CoverDepth::of_run(), |config| {
         design(config, (1, 1)).config().to_toml()
     }));
 }

@@ -12,7 +12,7 @@ use foveate_design::{
     Neighborhood, Payload, Pipelining, PixelFeed, ReferencePolicy, ThresholdSource,
     VoteCombination,
 };
-use foveate_toolchain::testing::{Depth, cover};
+use foveate_toolchain::testing::{CoverDepth, cover};
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
 
@@ -71,7 +71,7 @@ fn check_all(cases: &[SerialCase]) {
 fn check_covering(matrix: Vec<SerialCase>) {
     let toml =
         |case: &SerialCase| format!("grid = {:?}\n{}", case.grid, case.design().config().to_toml());
-    check_all(&cover(matrix, Depth::of_run(), toml));
+    check_all(&cover(matrix, CoverDepth::of_run(), toml));
 }
 
 /// Sets the keys that are no axis of a test, in turn.

@@ -6,7 +6,7 @@ use crate::common::in_parallel;
 use foveate_cosim::{Occurrences, ShippedBench, VectorTally};
 use foveate_design::{ArrayStructure, Design, DesignConfig, FeatureKind, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
-use foveate_toolchain::testing::{Depth, cover, require_tools, takes_whole_lists};
+use foveate_toolchain::testing::{CoverDepth, cover, require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 use std::num::NonZero;
 use std::path::Path;
@@ -130,7 +130,7 @@ fn finds_no_corners(design: &Design) -> bool {
 
 #[test]
 fn every_design_shows_active_held_and_blank_regions() {
-    let designs = cover(designs(), Depth::of_run(), |toml| design(toml).config().to_toml());
+    let designs = cover(designs(), CoverDepth::of_run(), |toml| design(toml).config().to_toml());
     let failures = in_parallel(&designs, |toml| {
         let design = design(toml);
         let tops = Top::all_of(&design).iter().filter(|_| !finds_no_corners(&design));

@@ -11,14 +11,14 @@ use super::takes_whole_lists;
 
 /// The density with which a test covers a matrix of designs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Depth {
+pub enum CoverDepth {
     /// Few designs, in which every pair of values of two keys that occurs in the matrix occurs.
     Pairs,
     /// All designs of the matrix.
     Whole,
 }
 
-impl Depth {
+impl CoverDepth {
     /// Returns the depth of this run of the tests: whole if the environment variable
     /// `FOVEATE_WHOLE` is set, and otherwise pairs.
     #[must_use]
@@ -33,8 +33,8 @@ impl Depth {
 /// hardware, so they do not count.
 ///
 /// The choice is greedy: it takes the design that adds most pairs, and of equal ones the first.
-pub fn cover<T>(designs: Vec<T>, depth: Depth, toml: impl Fn(&T) -> String) -> Vec<T> {
-    if depth == Depth::Whole {
+pub fn cover<T>(designs: Vec<T>, depth: CoverDepth, toml: impl Fn(&T) -> String) -> Vec<T> {
+    if depth == CoverDepth::Whole {
         return designs;
     }
     let values: Vec<_> = designs.iter().map(|design| key_values(&toml(design))).collect();
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn few_designs_have_every_pair() {
-        let few = cover(matrix(), Depth::Pairs, toml);
+        let few = cover(matrix(), CoverDepth::Pairs, toml);
         assert!((12..=15).contains(&few.len()), "{few:?}");
         let count = |pair: fn(&MatrixDesign) -> (u32, Option<u32>)| {
             few.iter().map(pair).collect::<BTreeSet<_>>().len()
@@ -127,21 +127,21 @@ mod tests {
 
     #[test]
     fn the_choice_is_in_order_and_always_the_same() {
-        let few = cover(matrix(), Depth::Pairs, toml);
+        let few = cover(matrix(), CoverDepth::Pairs, toml);
         assert!(few.is_sorted());
-        assert_eq!(few, cover(matrix(), Depth::Pairs, toml));
+        assert_eq!(few, cover(matrix(), CoverDepth::Pairs, toml));
     }
 
     #[test]
     fn a_design_with_a_value_of_its_own_is_always_taken() {
         let own: Vec<_> = (0..5).map(|number| (number, 0, None)).collect();
-        assert_eq!(cover(own.clone(), Depth::Pairs, toml), own);
-        assert!(cover(Vec::new(), Depth::Pairs, toml).is_empty());
+        assert_eq!(cover(own.clone(), CoverDepth::Pairs, toml), own);
+        assert!(cover(Vec::new(), CoverDepth::Pairs, toml).is_empty());
     }
 
     #[test]
     fn the_whole_matrix_is_taken_at_the_depth_whole() {
-        assert_eq!(cover(matrix(), Depth::Whole, toml), matrix());
+        assert_eq!(cover(matrix(), CoverDepth::Whole, toml), matrix());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 
 mod cover;
 
-pub use cover::{Depth, cover};
+pub use cover::{CoverDepth, cover};
 
 use std::collections::HashMap;
 use std::ffi::OsString;

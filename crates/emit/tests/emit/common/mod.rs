@@ -2,12 +2,12 @@
 //! Designs to emit: every value of the configuration occurs with every other at least once.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_toolchain::testing::{Depth, cover};
+use foveate_toolchain::testing::{CoverDepth, cover};
 use std::process::{Command, Stdio};
 
 /// Returns the designs of a matrix that cover it at the depth of this run.
 pub(crate) fn covering(matrix: Vec<String>) -> Vec<String> {
-    cover(matrix, Depth::of_run(), |toml| design(toml).config().to_toml())
+    cover(matrix, CoverDepth::of_run(), |toml| design(toml).config().to_toml())
 }
 
 /// Returns whether there is a Tcl interpreter. Prints a message if there is none, and panics if
