@@ -6,6 +6,7 @@
 module raster_decision #(
     parameter HITS = 1,          // features whose score is a count
     parameter VARIANCE = 0,      // 1: regions have the score of `variance`
+    parameter RANGE = 0,         // 1: regions have the score of `range`
     parameter MAD = 0,           // 1: regions have the score of `mad`
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,     // 1: the reference is what was last sent; 0: the previous frame
@@ -15,10 +16,11 @@ module raster_decision #(
     parameter PIXELS = 64,       // pixels of a region
     parameter COUNT_BITS = 7,    // bits of a count, 0..PIXELS
     parameter VARIANCE_BITS = 1, // bits of the score of `variance`
+    parameter RANGE_BITS = 1,    // bits of the score of `range`
     parameter MAD_BITS = 1,      // bits of the score of `mad`
     parameter REGIONS = 32400,   // regions of the frame
     parameter REGION_BITS = 15,  // ceil(log2(REGIONS))
-    parameter SCORE_BITS = 14    // bits of all scores of a region: temporal count lowest, then counts, variance, mad
+    parameter SCORE_BITS = 14    // bits of all scores of a region: temporal count lowest, then counts, variance, range, mad
 ) (
     input  wire                   clk_i,             // clock, rising edge
     input  wire                   rst_i,             // synchronous reset, active high
@@ -47,8 +49,9 @@ module raster_decision #(
 );
 
     localparam VARIANCE_START = (HITS + 1) * COUNT_BITS;
-    localparam MAD_START = VARIANCE_START + VARIANCE * VARIANCE_BITS;
-    localparam FEATURES = HITS + VARIANCE + MAD;
+    localparam RANGE_START = VARIANCE_START + VARIANCE * VARIANCE_BITS;
+    localparam MAD_START = RANGE_START + RANGE * RANGE_BITS;
+    localparam FEATURES = HITS + VARIANCE + RANGE + MAD;
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
@@ -82,6 +85,12 @@ module raster_decision #(
             vote #(.WIDTH(VARIANCE_BITS)) u_vote (
                 .score_i(scores[VARIANCE_START+:VARIANCE_BITS]), .minimum_i(minima_i[VARIANCE_START+:VARIANCE_BITS]),
                 .vote_o(votes[HITS+1])
+            );
+        end
+        if (RANGE) begin : g_range
+            vote #(.WIDTH(RANGE_BITS)) u_vote (
+                .score_i(scores[RANGE_START+:RANGE_BITS]), .minimum_i(minima_i[RANGE_START+:RANGE_BITS]),
+                .vote_o(votes[HITS+VARIANCE+1])
             );
         end
         if (MAD) begin : g_mad

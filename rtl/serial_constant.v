@@ -9,6 +9,7 @@ module serial_constant #(
     parameter MEDIAN = 1,      // 1: pixels are denoised
     parameter MAD = 0,         // 1: the design has the feature `mad`
     parameter VARIANCE = 0,    // 1: the design has the feature `variance`
+    parameter RANGE = 0,       // 1: the design has the feature `range`
     parameter FRACTION = 0,    // fraction bits of the mean of `mad`
     parameter BLOCK = 1,       // pixels of a block whose mean is sent; 1 without summaries
     parameter SUM_BITS = 14,   // bits of the sum of a region
@@ -17,8 +18,9 @@ module serial_constant #(
     parameter ACC_BITS = 11    // bits of the accumulator
 ) (
     input  wire                clk_i,             // clock, rising edge
-    input  wire [        33:0] step_i,            // the step: one bit for each action, in the order of serial_states
+    input  wire [        35:0] step_i,            // the step: one bit for each action, in the order of serial_states
     input  wire                last_center_i,     // the center is the last of its square
+    input  wire                ranges_i,          // the feature under way is `range`
     input  wire                squares_i,         // the feature under way is `variance`
     input  wire [   WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
     input  wire [   WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
@@ -34,7 +36,7 @@ module serial_constant #(
 
     localparam PIXELS = SIDE * SIDE;
     localparam PLACES = WIDTH + COUNT_BITS;  // number of bit places of the sum of `variance`
-    localparam SUMS = MAD || VARIANCE;
+    localparam SUMS = MAD || VARIANCE || RANGE;
     /* verilator lint_off WIDTH */
     localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
     localparam [ACC_BITS-1:0] HALF_BLOCK = BLOCK / 2;
@@ -47,19 +49,19 @@ module serial_constant #(
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
-    wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping;
+    wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping,
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         averaging, returning, storing, showing
     } = step_i;
     wire unused_step = draining || rotating || denoising || bordering || temporal || copying || searching || reading
         || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
-        || returning || storing || showing;
+        || spreading || returning || storing || showing;
 
     // The squares of `variance`: the bits of the result from the highest on, and for each of them all pairs of bits of n and of
     // a word that contribute to it. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
@@ -106,13 +108,14 @@ module serial_constant #(
 
     // The shifted number.
     assign spent_o = scale_q == 0;
-    assign divided_o = scale_q == (squares_i ? UNIT : MAD ? DIVISOR : UNIT);
+    assign divided_o = scale_q == (squares_i || ranges_i ? UNIT : MAD ? DIVISOR : UNIT);
     assign last_place_o = scale_q[0];
 
     always @(posedge clk_i) begin
         // It is set in the states before it is needed, so that it does not depend on the next state.
         if (MEDIAN != 0 && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
         else if (SUMS && summing) scale_q <= squares_i ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
+        else if (RANGE && ranging) scale_q <= UNIT << (WIDTH - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
         else if (starting || adjusting || dividing || place_ends) scale_q <= scale_q >> 1;
     end

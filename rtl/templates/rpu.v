@@ -325,6 +325,22 @@ module rpu (
     wire unused_sum_done = sum_done;
     {%- endif %}
 {%- endif %}
+{%- if range %}
+    {%- if deep %}
+    reg [{= p - 1 =}:0] range_pixel_q;
+    reg range_step_q, range_last_q;
+    always @(posedge clk_i) begin
+        range_pixel_q <= front_pixel;
+        range_step_q  <= front_step && !rst_i;
+        range_last_q  <= front_last;
+    end
+    {%- endif %}
+    wire [{= p - 1 =}:0] range_score;
+    region_range #(.WIDTH({= p =})) u_range (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i({% if deep %}range_step_q{% else %}front_step{% endif %}), .last_i({% if deep %}range_last_q{% else %}front_last{% endif %}),
+        .value_i({% if deep %}range_pixel_q{% else %}front_pixel{% endif %}), .range_o(range_score)
+    );
+{%- endif %}
 {%- if let Some(mad) = mad %}
     wire [{= mad.mean_bits - 1 =}:0] mean;
     region_mean #(

@@ -24,8 +24,9 @@ FEATURES = [
     "{feature='mad',min_score=0}",
     "{feature='mad',min_score=0,mean_fraction_bits=2}",
     "{feature='variance',min_score=0}",
+    "{feature='range',min_score=0}",
     f"{EDGE},{CORNER}",
-    f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}}",
+    f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}},{{feature='range',min_score=0}}",
 ]
 SIZES = [2, 3, 5, 8, 16, 20, 64]
 DEPTHS = [1, 8, 10, 16]

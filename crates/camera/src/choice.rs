@@ -76,6 +76,8 @@ choice! {
         Mad = "mad",
         /// Variance of the region.
         Variance = "variance",
+        /// The largest minus the smallest pixel of the region.
+        Range = "range",
     }
 }
 choice! {

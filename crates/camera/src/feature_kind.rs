@@ -67,7 +67,7 @@ impl FeatureKind {
     pub fn has_window(self) -> bool {
         match self {
             Self::Edge | Self::Corner => true,
-            Self::Mad | Self::Variance => false,
+            Self::Mad | Self::Variance | Self::Range => false,
         }
     }
 
@@ -77,7 +77,7 @@ impl FeatureKind {
     pub fn has_second_pass(self) -> bool {
         match self {
             Self::Mad => true,
-            Self::Edge | Self::Corner | Self::Variance => false,
+            Self::Edge | Self::Corner | Self::Variance | Self::Range => false,
         }
     }
 
@@ -86,7 +86,7 @@ impl FeatureKind {
     pub fn score_unit(self) -> ScoreUnit {
         match self {
             Self::Edge | Self::Corner => ScoreUnit::Pixels,
-            Self::Mad => ScoreUnit::Levels,
+            Self::Mad | Self::Range => ScoreUnit::Levels,
             Self::Variance => ScoreUnit::SquaredLevels,
         }
     }
@@ -98,7 +98,7 @@ impl FeatureKind {
         match self {
             Self::Edge => &[50, 75, 100, 150],
             Self::Corner => &[8, 12, 20, 30],
-            Self::Mad | Self::Variance => &[],
+            Self::Mad | Self::Variance | Self::Range => &[],
         }
     }
 
@@ -108,6 +108,7 @@ impl FeatureKind {
             Self::Corner => (Some(20), 5, None),
             Self::Mad => (None, 5, Some(0)),
             Self::Variance => (None, 50, None),
+            Self::Range => (None, 20, None),
         };
         FeatureDefaults { level, min_score, mean_fraction_bits }
     }
@@ -118,14 +119,14 @@ impl FeatureKind {
         match self {
             Self::Edge => Some(edge_magnitude_max(pixel_max)),
             Self::Corner => Some(pixel_max),
-            Self::Mad | Self::Variance => None,
+            Self::Mad | Self::Variance | Self::Range => None,
         }
     }
 
     /// Returns the number of score units in one unit of `min_score`, for regions of `n` pixels.
     pub(crate) fn unit(self, n: u64, fraction_bits: u32) -> u64 {
         match self {
-            Self::Edge | Self::Corner => 1,
+            Self::Edge | Self::Corner | Self::Range => 1,
             Self::Mad => n << fraction_bits,
             Self::Variance => n * n,
         }
@@ -137,6 +138,7 @@ impl FeatureKind {
             Self::Edge | Self::Corner => n,
             Self::Mad => mad_score_max(n, pixel_max, fraction_bits),
             Self::Variance => variance_score_max(n, pixel_max),
+            Self::Range => pixel_max,
         }
     }
 
@@ -149,7 +151,7 @@ impl FeatureKind {
         fraction_bits: u32,
     ) -> (Option<MeanDivision>, Option<VarianceWidths>) {
         match self {
-            Self::Edge | Self::Corner => (None, None),
+            Self::Edge | Self::Corner | Self::Range => (None, None),
             Self::Mad => (Some(MeanDivision::new(n, pixel_max, fraction_bits)), None),
             Self::Variance => (None, Some(VarianceWidths::new(n, pixel_max))),
         }

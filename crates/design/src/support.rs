@@ -35,9 +35,9 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
 
 /// Returns true if the organization computes the score of the feature.
 fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
-    use FeatureKind::{Corner, Edge, Mad, Variance};
+    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
     match (organization, kind) {
-        (Pipelined | Serial | Raster, Edge | Corner | Mad | Variance) => true,
+        (Pipelined | Serial | Raster, Edge | Corner | Mad | Variance | Range) => true,
     }
 }
 

@@ -12,7 +12,9 @@ pub(crate) fn parameter_prefix(kind: FeatureKind) -> String {
 /// otherwise `None`.
 pub(crate) fn deviation_mean(feature: &SpatialFeature) -> Option<&MeanDivision> {
     match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Variance => None,
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Variance | FeatureKind::Range => {
+            None
+        }
         FeatureKind::Mad => feature.mean(),
     }
 }

@@ -76,6 +76,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "region_mean" => [],
     "deviation_sum" => [],
     "variance_score" => [],
+    "region_range" => [],
     "block_place" => [],
     "block_mean" => ["block_place", "adder", "line_delay"],
     "region_summary" => ["block_mean", "line_delay", "magnitude_above"],
@@ -128,6 +129,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_repeat" => ["raster_memory"],
     "raster_sums" => ["raster_memory", "word_delay", "bit_delay"],
     "raster_variance" => [],
+    "raster_range" => ["raster_memory", "word_delay", "bit_delay"],
     "raster_queue" => ["raster_memory"],
     "raster_pass" => ["raster_queue", "raster_walk", "word_delay", "bit_delay"],
     "raster_readout" => ["raster_queue", "raster_walk"],
@@ -143,7 +145,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_core" => [
         "raster_control", "raster_pad", "bit_delay", "word_delay", "raster_window", "median_columns",
         "raster_edge", "raster_corner", "raster_store", "raster_external", "raster_change", "raster_counts",
-        "raster_moments", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
+        "raster_moments", "raster_range", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
         "raster_repeat", "raster_summary"
     ],
     "packet_crc" => [],
@@ -192,6 +194,7 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
                 need(true, &["region_sum", "region_mean", "deviation_sum", "score_hold"]);
             }
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
+            FeatureKind::Range => need(true, &["region_range"]),
         }
     }
     match design.temporal().reference {

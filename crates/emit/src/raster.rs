@@ -192,7 +192,8 @@ fn score_rank(kind: FeatureKind) -> u32 {
         FeatureKind::Edge => 0,
         FeatureKind::Corner => 1,
         FeatureKind::Variance => 2,
-        FeatureKind::Mad => 3,
+        FeatureKind::Range => 3,
+        FeatureKind::Mad => 4,
     }
 }
 
@@ -255,7 +256,7 @@ fn feature_flag(design: RasterDesign<'_>, kind: FeatureKind) -> (String, String)
 fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
     let sum = ("SUM_BITS", design.pixel_sum_bits());
     match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner => vec![],
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range => vec![],
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");
             vec![
@@ -286,7 +287,7 @@ fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
     let most = match kind {
         FeatureKind::Edge => design.pixel_bits() + 3,
         FeatureKind::Corner => design.pixel_bits(),
-        FeatureKind::Mad | FeatureKind::Variance => return None,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => return None,
     };
     Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
 }

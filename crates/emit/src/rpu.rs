@@ -58,6 +58,7 @@ struct RpuModule {
     sum_bits: u32,
     mad: Option<MadParameters>,
     variance: Option<VarianceWidths>,
+    range: bool,
     compared: Vec<&'static str>,
     references: Vec<ReferenceCandidate>,
     temporal_level: String,
@@ -78,6 +79,7 @@ struct SpatialParts {
     sums: bool,
     mad: Option<MadParameters>,
     variance: Option<VarianceWidths>,
+    range: bool,
 }
 
 /// A feature whose score is the number of hits of a window.
@@ -139,7 +141,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
     let window_side = design.denoised_side();
     let timing = PipelinedTiming::from_design(design);
     let deep = design.pipelining() == Pipelining::Deep;
-    let SpatialParts { windowed, sums, mad, variance } = SpatialParts::of(design);
+    let SpatialParts { windowed, sums, mad, variance, range } = SpatialParts::of(design);
     RpuModule {
         banner: banner(&design),
         summary: scores_text(&design),
@@ -175,6 +177,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         sum_bits: design.pixel_sum_bits(),
         mad,
         variance,
+        range,
         compared: compared_values(reference, second_pass, deep),
         references: reference_candidates(reference, second_pass, deep),
         temporal_level: threshold_signal(&design, PortRole::TemporalLevel),
@@ -221,6 +224,7 @@ impl SpatialParts {
                     let widths = feature.variance().expect("variance has accumulators");
                     own.variance = Some(variance_widths(feature, widths));
                 }
+                FeatureKind::Range => own.range = true,
             }
         }
         own

@@ -245,7 +245,7 @@ fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static 
             let level = given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()));
             Some(("corner_level_i", level))
         }
-        FeatureKind::Mad | FeatureKind::Variance => None,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => None,
     }
 }
 

@@ -6,7 +6,9 @@ use std::ops::Range;
 use foveate_camera::ReferencePolicy;
 
 use crate::denoised::Denoiser;
-use crate::kernel::{SharedSides, WindowRows, WindowSides, corner, edge, mad, sums, temporal};
+use crate::kernel::{
+    SharedSides, WindowRows, WindowSides, corner, edge, mad, range, sums, temporal,
+};
 use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, FeaturePasses};
@@ -197,6 +199,13 @@ impl<T: PixelLane> BandPass<'_, T> {
         if plan.passes.needs_squares {
             sums::add_squares(current, &mut columns.square.blocks_mut()[run.clone()]);
         }
+        if plan.passes.needs_extremes {
+            range::update_extremes(
+                current,
+                &mut columns.smallest.blocks_mut()[run.clone()],
+                &mut columns.largest.blocks_mut()[run.clone()],
+            );
+        }
     }
 
     #[inline(always)]
@@ -210,6 +219,7 @@ impl<T: PixelLane> BandPass<'_, T> {
             has_windows: _,
             needs_sums: sums,
             needs_squares: squares,
+            needs_extremes: extremes,
             mad: _,
         } = self.plan.passes;
         sums::sum_by_region(&columns.changed, side, &mut regions.changed);
@@ -224,6 +234,9 @@ impl<T: PixelLane> BandPass<'_, T> {
         }
         if squares {
             sums::sum_by_region(&columns.square, side, &mut regions.square);
+        }
+        if extremes {
+            range::ranges_by_region(&columns.smallest, &columns.largest, side, &mut regions.range);
         }
     }
 
@@ -273,6 +286,7 @@ impl<T: PixelLane> ColumnSums<T> {
             has_windows: _,
             needs_sums: sums,
             needs_squares: squares,
+            needs_extremes: extremes,
             mad: _,
         } = plan.passes;
         self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
@@ -287,6 +301,10 @@ impl<T: PixelLane> ColumnSums<T> {
         }
         if squares {
             self.square.blocks_mut()[run.clone()].fill([T::SquareSum::default(); BLOCK_LANES]);
+        }
+        if extremes {
+            self.smallest.blocks_mut()[run.clone()].fill([T::MAX; BLOCK_LANES]);
+            self.largest.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
         }
     }
 }

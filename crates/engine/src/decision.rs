@@ -39,6 +39,7 @@ impl<T: PixelLane> CameraPlan<T> {
                         n * sums.square[at] - sums.sum[at] * sums.sum[at]
                     });
                 }
+                FeatureKind::Range => update_affected(scores, affected, |at| sums.range[at]),
             }
         }
         self.update_srs(results);

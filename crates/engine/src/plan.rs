@@ -59,6 +59,8 @@ pub(crate) struct FeaturePasses<T: PixelLane> {
     pub(crate) needs_sums: bool,
     /// True if a feature needs the sum of the squares of the pixels.
     pub(crate) needs_squares: bool,
+    /// A feature needs the smallest and the largest pixel.
+    pub(crate) needs_extremes: bool,
     /// The fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,
 }
@@ -225,6 +227,7 @@ impl<T: PixelLane> FeaturePasses<T> {
             has_windows: camera.has_feature_window(),
             needs_sums: false,
             needs_squares: false,
+            needs_extremes: false,
             mad: None,
         };
         for feature in camera.features() {
@@ -237,6 +240,7 @@ impl<T: PixelLane> FeaturePasses<T> {
                     passes.mad = Some(feature.mean().expect("mad has a mean").fraction_bits);
                 }
                 FeatureKind::Variance => (passes.needs_sums, passes.needs_squares) = (true, true),
+                FeatureKind::Range => passes.needs_extremes = true,
             }
         }
         passes

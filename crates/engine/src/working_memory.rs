@@ -76,6 +76,8 @@ pub(crate) struct ColumnSums<T: PixelLane> {
     pub(crate) corner: AlignedBuffer<T>,
     pub(crate) sum: AlignedBuffer<T::ColumnSum>,
     pub(crate) square: AlignedBuffer<T::SquareSum>,
+    pub(crate) smallest: AlignedBuffer<T>,
+    pub(crate) largest: AlignedBuffer<T>,
     /// The whole part of the mean of each column's region.
     pub(crate) mean: AlignedBuffer<T>,
     pub(crate) above: AlignedBuffer<T::ColumnSum>,
@@ -90,6 +92,7 @@ pub(crate) struct RegionSums {
     pub(crate) corner: Vec<u64>,
     pub(crate) sum: Vec<u64>,
     pub(crate) square: Vec<u64>,
+    pub(crate) range: Vec<u64>,
     pub(crate) above: Vec<u64>,
     pub(crate) count_above: Vec<u64>,
 }
@@ -133,6 +136,8 @@ impl<T: PixelLane> WorkingMemory<T> {
                 corner: AlignedBuffer::new(width),
                 sum: AlignedBuffer::new(width),
                 square: AlignedBuffer::new(width),
+                smallest: AlignedBuffer::new(width),
+                largest: AlignedBuffer::new(width),
                 mean: AlignedBuffer::new(width),
                 above: AlignedBuffer::new(width),
                 count_above: AlignedBuffer::new(width),
@@ -143,6 +148,7 @@ impl<T: PixelLane> WorkingMemory<T> {
                 corner: regions(),
                 sum: regions(),
                 square: regions(),
+                range: regions(),
                 above: regions(),
                 count_above: regions(),
             },

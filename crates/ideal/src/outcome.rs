@@ -18,7 +18,7 @@ pub struct IdealOutcome {
     /// The action that the receiver's screen takes for every region.
     pub actions: Vec<RegionAction>,
     /// The scores by feature, in the order of the camera, and then by region: 0..=n hits for `edge`
-    /// and `corner`, grey levels for `mad`, squared grey levels for `variance`.
+    /// and `corner`, grey levels for `mad` and `range`, squared grey levels for `variance`.
     pub scores: Vec<Vec<f64>>,
     /// The number of changed pixels of every region, 0..=n; n without a valid reference.
     pub changed: Vec<f64>,

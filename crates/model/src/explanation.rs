@@ -93,7 +93,7 @@ pub struct RegionPosition {
 /// A spatial score with its threshold and its vote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpatialExplanation {
-    /// Kind of the feature: `edge`, `corner`, `mad` or `variance`.
+    /// Kind of the feature: `edge`, `corner`, `mad`, `variance` or `range`.
     pub feature: FeatureKind,
     /// Per-pixel threshold, for `edge` and `corner`.
     #[serde(skip_serializing_if = "Option::is_none")]

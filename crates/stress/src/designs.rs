@@ -27,7 +27,7 @@ pub(crate) fn config(
                 spatial.level = Some((1 << bits) / 4);
                 spatial.min_score = Some(Decimal::from_whole(2));
             }
-            FeatureKind::Mad | FeatureKind::Variance => {
+            FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => {
                 spatial.min_score = Decimal::from_f64(0.2);
             }
         }
@@ -42,12 +42,13 @@ pub(crate) fn design(config: &DesignConfig) -> Design {
 
 /// Returns a list of features that contains this one, alone or among others.
 fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
-    use FeatureKind::{Corner, Edge, Mad, Variance};
+    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
     match kind {
         Edge => &[Edge],
         Corner => &[Edge, Corner],
         Mad => &[Mad, Edge],
         Variance => &[Variance, Corner, Edge, Mad],
+        Range => &[Range, Mad],
     }
 }
 
@@ -88,7 +89,7 @@ pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<
                 FeatureKind::Edge | FeatureKind::Corner => {
                     Some(Decimal::from_whole(u64::from(side * side / 2)))
                 }
-                FeatureKind::Mad | FeatureKind::Variance => {
+                FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => {
                     Some(Decimal::from_whole(1 << (bits - 2)))
                 }
             };

@@ -26,6 +26,7 @@ rtl/raster_walk.v
 rtl/raster_repeat.v
 rtl/raster_sums.v
 rtl/raster_variance.v
+rtl/raster_range.v
 rtl/raster_queue.v
 rtl/raster_pass.v
 rtl/raster_readout.v

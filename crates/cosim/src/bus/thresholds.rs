@@ -232,8 +232,8 @@ mod tests {
 
     #[test]
     fn each_threshold_differs_alone_from_one_frame_to_the_next() {
-        let features = ["edge", "corner", "mad", "variance"];
-        let list = features.map(|name| format!("{{feature='{name}'}}")).join(",");
+        let features = FeatureKind::ALL.iter().map(|name| format!("{{feature='{name}'}}"));
+        let list = features.collect::<Vec<_>>().join(",");
         for (bits, combine, irrelevant) in
             [(8, "any", "mean"), (8, "all", "zero"), (2, "any", "hold"), (16, "all", "mean")]
         {

@@ -285,7 +285,7 @@ fn can_refuse_pixels(design: &Design) -> bool {
 pub(super) fn flushed_windows(design: &Design) -> u64 {
     let is_windowed = |kind| match kind {
         FeatureKind::Edge | FeatureKind::Corner => true,
-        FeatureKind::Mad | FeatureKind::Variance => false,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => false,
     };
     let median = match design.filter() {
         DenoiseFilter::Median3x3 => 1,

@@ -125,12 +125,13 @@ impl ThresholdRanges {
 
     /// Sets thresholds that are unrelated to the data.
     pub(crate) fn randomize(&self, thresholds: &mut ThresholdInputs, random: &mut Random) {
-        for (level, &max) in thresholds.level.iter_mut().zip(&self.level) {
+        let count = self.kinds.len();
+        for (level, &max) in thresholds.level[..count].iter_mut().zip(&self.level) {
             let reach = if random.one_in(2) { max } else { max / 16 };
             *level = random.up_to_u32(reach);
         }
         thresholds.temporal_level = random.up_to_u32(self.temporal_level);
-        for (minimum, &max) in thresholds.min_score.iter_mut().zip(&self.min_score) {
+        for (minimum, &max) in thresholds.min_score[..count].iter_mut().zip(&self.min_score) {
             *minimum = random.up_to(max);
         }
         thresholds.temporal_min_count = random.up_to_u32(self.temporal_min_count);

@@ -300,9 +300,9 @@ fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
 }
 
 fn configs() -> Vec<DesignConfig> {
-    use FeatureKind::{Corner, Edge, Mad, Variance};
-    let sets: [&[FeatureKind]; 6] =
-        [&[Edge], &[Corner], &[Mad], &[Variance], FeatureKind::ALL, &[Mad, Edge]];
+    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
+    let sets: [&[FeatureKind]; 7] =
+        [&[Edge], &[Corner], &[Mad], &[Variance], &[Range], FeatureKind::ALL, &[Mad, Edge]];
     let mut configs = Vec::new();
     for (turn, kinds) in sets.into_iter().enumerate() {
         let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();

@@ -146,13 +146,14 @@ fn summaries_agree() {
 /// Designs with several features, other depths, other sizes or constant thresholds agree.
 #[test]
 fn designs_outside_the_matrix_agree() {
-    use FeatureKind::{Corner, Edge, Mad, Variance};
-    let sets: [&[FeatureKind]; 5] = [
+    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
+    let sets: [&[FeatureKind]; 6] = [
         &[Edge, Corner],
         &[Mad, Edge],
         &[Variance, Corner, Edge],
         FeatureKind::ALL,
         &[Mad, Variance],
+        &[Range, Edge],
     ];
     let mut configs = Vec::new();
     for (turn, kinds) in sets.iter().enumerate() {
@@ -172,7 +173,7 @@ fn designs_outside_the_matrix_agree() {
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
         let mut config = DesignConfig::default();
         config.camera.frame.pixel_bits = bits;
-        let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
+        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad]][turn % 3];
         config.camera.spatial = kinds.map(|kind| feature(kind, 4)).to_vec();
         for spatial in &mut config.camera.spatial {
             spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
@@ -184,7 +185,7 @@ fn designs_outside_the_matrix_agree() {
         configs.push(config);
     }
     for (turn, size) in [2, 3, 7, 2, 3, 7, 2, 64, 64].into_iter().enumerate() {
-        let spatial = vec![feature([Edge, Mad, Corner, Variance][turn % 4], size % 3)];
+        let spatial = vec![feature(in_turn(FeatureKind::ALL, turn), size % 3)];
         let mut config = DesignConfig::from(CameraConfig { spatial, ..CameraConfig::default() });
         config.camera.region.size = size;
         config.camera.spatial[0].min_score = Some(Decimal::from_whole(2));
@@ -195,13 +196,13 @@ fn designs_outside_the_matrix_agree() {
         set_irrelevant_in_turn(&mut config.camera, turn + turn / 3);
         configs.push(config);
     }
-    for (turn, &kind) in FeatureKind::ALL.iter().cycle().take(8).enumerate() {
+    for (turn, &kind) in FeatureKind::ALL.iter().cycle().take(2 * FeatureKind::COUNT).enumerate() {
         let mut config = DesignConfig::from(CameraConfig {
             spatial: vec![feature(kind, 3)],
             ..CameraConfig::default()
         });
         config.hardware.thresholds = ThresholdSource::Constant;
-        config.camera.region.size = [4, 5][turn / 4];
+        config.camera.region.size = [4, 5][turn / FeatureKind::COUNT];
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn);
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
         configs.push(config);

@@ -217,9 +217,9 @@ fn matrix() -> Vec<Design> {
 }
 
 fn designs_with_store(store: FrameStoreKind, forward: bool) -> Vec<Design> {
-    use FeatureKind::{Corner, Edge, Mad, Variance};
-    let sets: [&[FeatureKind]; 5] =
-        [&[Edge], &[Mad], &[Edge, Variance], &[Variance], &[Mad, Corner, Variance]];
+    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
+    let sets: [&[FeatureKind]; 6] =
+        [&[Edge], &[Mad], &[Edge, Variance], &[Variance], &[Range], &[Mad, Corner, Variance]];
     let mut designs = Vec::new();
     for kinds in sets {
         for pipelining in [Pipelining::Plain, Pipelining::Deep] {

@@ -14,7 +14,7 @@ use foveate_design::{
 };
 use foveate_toolchain::testing::{CoverDepth, cover};
 
-use FeatureKind::{Corner, Edge, Mad, Variance};
+use FeatureKind::{Corner, Edge, Mad, Range, Variance};
 
 /// A design at a level; the grid of level `rcm` is that of its frame.
 struct SerialCase {
@@ -115,7 +115,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
 /// put every region into one lane. Features are alone and together.
 #[test]
 fn arrays_agree_for_every_feed_neighborhood_and_fold() {
-    let sets: [&[FeatureKind]; 7] = [
+    let sets: [&[FeatureKind]; 8] = [
         &[Edge],
         &[Corner],
         &[Edge, Corner],
@@ -123,6 +123,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
         &[Variance, Corner, Edge],
         FeatureKind::ALL,
         &[Mad, Variance],
+        &[Range, Edge],
     ];
     let mut cases = Vec::new();
     for &feed in PixelFeed::ALL {
@@ -158,7 +159,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
 fn depths_sizes_memories_and_constants_agree() {
     let mut cases = Vec::new();
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
-        let kinds = [[Edge, Mad], [Corner, Variance]][turn % 2];
+        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad]][turn % 3];
         let mut config = serial_config(&kinds.map(|kind| feature(kind, 4)));
         config.camera.frame.pixel_bits = bits;
         for spatial in &mut config.camera.spatial {
@@ -178,7 +179,7 @@ fn depths_sizes_memories_and_constants_agree() {
     for (turn, (size, fold)) in
         [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2)].into_iter().enumerate()
     {
-        let kinds = [[Edge, Variance], [Mad, Corner], [Corner, Edge]][turn % 3];
+        let kinds = [[Edge, Variance], [Mad, Corner], [Range, Edge]][turn % 3];
         let mut config =
             with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
@@ -198,9 +199,9 @@ fn depths_sizes_memories_and_constants_agree() {
         let mut config = with_keys_in_turn(serial_config(&[feature(kind, 3)]), turn);
         config.hardware.thresholds = ThresholdSource::Constant;
         config.camera.region.size = [4, 5][turn % 2];
-        config.hardware.make_serial().fold = [1, 2][turn / 2];
+        config.hardware.make_serial().fold = [1, 2][turn / 2 % 2];
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn);
-        config.camera.temporal.reference = ReferencePolicy::ALL[turn / 2];
+        config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
         cases.push(SerialCase::array_case(config, (2, 2)));
     }
     check_all(&cases);
@@ -210,8 +211,8 @@ fn depths_sizes_memories_and_constants_agree() {
 /// register and without.
 #[test]
 fn deep_arrays_agree() {
-    let sets: [&[FeatureKind]; 5] =
-        [&[Edge], FeatureKind::ALL, &[Corner], &[Variance], &[Mad, Edge]];
+    let sets: [&[FeatureKind]; 6] =
+        [&[Edge], FeatureKind::ALL, &[Corner], &[Variance], &[Mad, Edge], &[Range]];
     let mut cases = Vec::new();
     for &filter in DenoiseFilter::ALL {
         for &reference in ReferencePolicy::ALL {
@@ -254,6 +255,7 @@ fn summaries_agree() {
         (8, 1, 1, &[Edge], 3, block, plain),
         (6, 1, 10, &[Variance], 2, block, deep),
         (4, 2, 16, &[Edge], 6, distributed, deep),
+        (4, 1, 8, &[Range], 2, distributed, deep),
     ]
     .into_iter()
     .enumerate()
@@ -272,7 +274,7 @@ fn summaries_agree() {
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn + turn / 4);
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn % 3);
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
-        config.hardware.thresholds = ThresholdSource::ALL[turn / 6];
+        config.hardware.thresholds = in_turn(ThresholdSource::ALL, turn / 6);
         config.hardware.make_serial().feed = Some(in_turn(PixelFeed::ALL, turn));
         config.hardware.make_serial().memory = Some(memory);
         config.hardware.pipelining = pipelining;

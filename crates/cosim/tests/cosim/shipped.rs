@@ -110,10 +110,11 @@ fn feature_keys(turn: usize, bits: u32, size: u32) -> String {
             size.ilog2()
         ),
         FeatureKind::Variance => "[[spatial]]\nfeature = 'variance'\nmin_score = 0.1\n".to_owned(),
+        FeatureKind::Range => "[[spatial]]\nfeature = 'range'\nmin_score = 1\n".to_owned(),
     };
     let all = FeatureKind::ALL;
     let of = match turn % 6 {
-        4 => all.iter().take(2).map(entry).collect::<String>(),
+        4 => [&all[0], &all[all.len() - 1]].map(entry).concat(),
         5 => all.iter().map(entry).collect(),
         one => entry(&all[one]),
     };

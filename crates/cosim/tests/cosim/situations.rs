@@ -104,7 +104,12 @@ const CHOICES: &[&[&str]] = &[
     &["frame.pixel_bits=1", "frame.pixel_bits=4", "frame.pixel_bits=8", "frame.pixel_bits=12"],
     &["denoise.filter='none'", "denoise.filter='median3x3'"],
     &["region.neighborhood='isolated'", "region.neighborhood='shared'"],
-    &["", "spatial=[{feature='mad'}]", "spatial=[{feature='variance'},{feature='corner'}]"],
+    &[
+        "",
+        "spatial=[{feature='mad'}]",
+        "spatial=[{feature='variance'},{feature='corner'}]",
+        "spatial=[{feature='range'}]",
+    ],
     &["", "decision.combine='all'"],
     &["", LAST_SENT],
     &["render.irrelevant='zero'", "render.irrelevant='hold'", MEAN, MEAN],

@@ -31,9 +31,10 @@ fn equal_seeds_give_equal_vectors() {
 /// Every threshold of a decision is met exactly, missed by one, and passed by one.
 #[test]
 fn decisions_are_made_on_below_and_above_their_thresholds() {
-    let toml = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"corner\"\n\
-                [[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
-    let design = design(&config(toml), (1, 1));
+    let features = FeatureKind::ALL.iter();
+    let toml: String =
+        features.map(|kind| format!("[[spatial]]\nfeature = \"{kind}\"\n")).collect();
+    let design = design(&config(&toml), (1, 1));
     let recording = record(&design, &directed_stimulus(CosimLevel::Rpu, 2));
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let scores = FeatureKind::ALL.iter().map(|&k| (PortRole::MinScore(k), PortRole::Score(k)));

@@ -14,6 +14,8 @@ pub(super) enum FeatureAccumulation<'a> {
     Deviations(&'a MeanDivision),
     /// The sums of the pixels and of their squares.
     Squares(&'a VarianceWidths),
+    /// The smallest and the largest pixel.
+    Extremes,
 }
 
 impl<'a> FeatureAccumulation<'a> {
@@ -25,6 +27,7 @@ impl<'a> FeatureAccumulation<'a> {
             FeatureKind::Variance => {
                 Self::Squares(feature.variance().expect("variance has accumulators"))
             }
+            FeatureKind::Range => Self::Extremes,
         }
     }
 
@@ -35,6 +38,7 @@ impl<'a> FeatureAccumulation<'a> {
             // The latency of the second pass is counted separately.
             Self::Hits | Self::Deviations(_) => 0,
             Self::Squares(_) => 3,
+            Self::Extremes => 1,
         }
     }
 }

@@ -80,7 +80,9 @@ impl MemorySizes {
         let rows = u64::from(timing.buffer_rows * design.region_size());
         let counts = |feature: &&SpatialFeature| match FeatureAccumulation::from_feature(feature) {
             FeatureAccumulation::Hits => true,
-            FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => false,
+            FeatureAccumulation::Deviations(_)
+            | FeatureAccumulation::Squares(_)
+            | FeatureAccumulation::Extremes => false,
         };
         let hits = design.features().iter().filter(counts).count();
         Self {
@@ -148,18 +150,29 @@ impl MemorySizes {
         let sums = column("sums of pixels", design.pixel_sum_bits());
         let of_pixels = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
         {
-            FeatureAccumulation::Hits => None,
+            FeatureAccumulation::Hits | FeatureAccumulation::Extremes => None,
             FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => Some(sums),
         };
         let of_squares = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
         {
-            FeatureAccumulation::Hits | FeatureAccumulation::Deviations(_) => None,
+            FeatureAccumulation::Hits
+            | FeatureAccumulation::Deviations(_)
+            | FeatureAccumulation::Extremes => None,
             FeatureAccumulation::Squares(widths) => {
                 Some(column("sums of squares", widths.square_sum_bits))
             }
         };
+        let extremes = column("smallest and largest pixels", 2 * design.pixel_bits());
+        let of_extremes =
+            |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+                FeatureAccumulation::Hits
+                | FeatureAccumulation::Deviations(_)
+                | FeatureAccumulation::Squares(_) => None,
+                FeatureAccumulation::Extremes => Some(extremes),
+            };
         list.extend(design.features().iter().find_map(of_pixels));
         list.extend(design.features().iter().find_map(of_squares));
+        list.extend(design.features().iter().find_map(of_extremes));
         list
     }
 
@@ -226,13 +239,15 @@ impl MemorySizes {
         let bits = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
             FeatureAccumulation::Hits => design.count_bits(),
             FeatureAccumulation::Deviations(_) => 0,
-            FeatureAccumulation::Squares(_) => feature.score_bits(),
+            FeatureAccumulation::Squares(_) | FeatureAccumulation::Extremes => feature.score_bits(),
         };
         let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let judged = judged + 2 * u32::from(design.periphery().is_some());
         list.extend(design.features().iter().filter_map(|feature| {
             match FeatureAccumulation::from_feature(feature) {
-                FeatureAccumulation::Hits | FeatureAccumulation::Squares(_) => None,
+                FeatureAccumulation::Hits
+                | FeatureAccumulation::Squares(_)
+                | FeatureAccumulation::Extremes => None,
                 FeatureAccumulation::Deviations(mean) => Some(queue(
                     "regions that wait for the second pass",
                     mean.mean_bits + start + judged,

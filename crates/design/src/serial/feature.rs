@@ -21,6 +21,7 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
             let (sum, count) = (u64::from(design.pixel_sum_bits()), u64::from(design.count_bits()));
             n + pixel_bits * n * ones + 2 * sum + pixel_bits + count + 2
         }
+        FeatureKind::Range => 4 * n + pixel_bits + 2,
     }
 }
 
@@ -29,7 +30,7 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
 pub(super) fn has_computed_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => false,
-        FeatureKind::Mad | FeatureKind::Variance => true,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => true,
     }
 }
 
@@ -73,5 +74,11 @@ pub(super) fn feature_register_widths(
                 scale: pixel + design.count_bits(),
             }
         }
+        // The accumulator holds the difference of a pixel from the largest so far.
+        FeatureKind::Range => FeatureRegisterWidths {
+            accumulator: (pixel + 1).max(chain),
+            second: pixel,
+            scale: pixel,
+        },
     }
 }

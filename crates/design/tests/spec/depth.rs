@@ -43,6 +43,7 @@ fn fingerprints_of_8_bits_do_not_change() {
         ("feature corner", "8e01518590eb7e86"),
         ("feature mad", "a981aba3ff9adc74"),
         ("feature variance", "a4010676e4d65b40"),
+        ("feature range", "89dfcf11d0e58a37"),
     ];
     let found: Vec<(String, String)> = base_configs()
         .into_iter()

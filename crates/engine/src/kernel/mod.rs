@@ -14,6 +14,7 @@ pub(crate) mod corner;
 pub(crate) mod edge;
 pub(crate) mod mad;
 pub(crate) mod median;
+pub(crate) mod range;
 pub(crate) mod sums;
 pub(crate) mod temporal;
 

@@ -77,6 +77,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32) -> BoxedStrategy<SpatialConf
         FeatureKind::Corner => (max, small(n).boxed()),
         FeatureKind::Mad => (0, small(max / 3).boxed()),
         FeatureKind::Variance => (0, small(max * (max / 6)).boxed()),
+        FeatureKind::Range => (0, small(max).boxed()),
     };
     let fraction_max = (0..).find(|bits| 1 << bits >= n).unwrap();
     (small(level_max.saturating_sub(1)), minimum, 0u32..=fraction_max)

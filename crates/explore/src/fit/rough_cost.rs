@@ -19,7 +19,10 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
             let features: f64 = kinds
                 .map(|kind| match kind {
                     FeatureKind::Corner => 30.0,
-                    FeatureKind::Edge | FeatureKind::Mad | FeatureKind::Variance => 10.0,
+                    FeatureKind::Edge
+                    | FeatureKind::Mad
+                    | FeatureKind::Variance
+                    | FeatureKind::Range => 10.0,
                 })
                 .sum();
             let unit = 8.0 + features + if median { 37.0 } else { 0.0 };
@@ -31,7 +34,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                 .map(|kind| match kind {
                     FeatureKind::Edge => 2.0,
                     FeatureKind::Corner => 3.5,
-                    FeatureKind::Mad | FeatureKind::Variance => 6.0,
+                    FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => 6.0,
                 })
                 .sum();
             let lanes = f64::from(array.lanes());
@@ -47,7 +50,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                 .map(|kind| match kind {
                     FeatureKind::Edge => 11.0,
                     FeatureKind::Corner => 14.0,
-                    FeatureKind::Mad | FeatureKind::Variance => 6.0,
+                    FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => 6.0,
                 })
                 .sum();
             let pixels = f64::from(own.pixels_per_clock);

@@ -14,7 +14,7 @@ fn scene(scene: Scene, camera: &Camera, frames: u32) -> Vec<ByteFrame> {
     scene.frames(size).map(|frame| ByteFrame::from(&frame)).collect()
 }
 
-/// Returns a configuration with all four features, windows over the whole frame, and an exact mean.
+/// Returns a configuration with all features, windows over the whole frame, and an exact mean.
 fn exact() -> CameraConfig {
     let mut config = config((90, 45), 8, 8);
     config.region.neighborhood = Neighborhood::Shared;
@@ -33,7 +33,7 @@ fn the_engine_of_the_same_design_is_the_ideal() {
     assert!(figures.active > 0.0 && figures.active == figures.ideal_active);
     assert_eq!((figures.psnr_ideal, figures.ssim_ideal), (None, 1.0));
     let names: Vec<&str> = figures.scores.iter().map(|score| score.feature.as_str()).collect();
-    assert_eq!(names, ["edge", "corner", "mad", "variance", "temporal"]);
+    assert_eq!(names, ["edge", "corner", "mad", "variance", "range", "temporal"]);
     for score in &figures.scores {
         assert_eq!((score.max, score.mean, score.rms), (0.0, 0.0, 0.0), "{}", score.feature);
     }
@@ -53,8 +53,10 @@ fn a_cheaper_candidate_differs_where_it_is_cheaper() {
     let errors = |candidate: &Camera| -> Vec<f64> {
         tally(&ideal, candidate, &frames).figures().scores.iter().map(|score| score.max).collect()
     };
-    let [edge, corner, mad, variance, temporal] = errors(&rounded)[..] else { panic!("five") };
-    assert_eq!([edge, corner, variance, temporal], [0.0; 4]);
+    let [edge, corner, mad, variance, range, temporal] = errors(&rounded)[..] else {
+        panic!("six scores")
+    };
+    assert_eq!([edge, corner, variance, range, temporal], [0.0; 5]);
     assert!(mad > 0.0 && mad <= 0.5, "half a quantum of the mean: {mad}");
     assert!(errors(&isolated)[0] > 0.0);
 }

@@ -6,6 +6,7 @@ mod change;
 mod corner;
 mod edge;
 mod mad;
+mod range;
 mod variance;
 
 use foveate_camera::FeatureKind;
@@ -23,8 +24,8 @@ pub(crate) struct ScoreBuffers {
     regions: [Vec<f64>; 2],
 }
 
-/// Scores every region: a number of hits for `edge` and `corner`, grey levels for `mad`, squared
-/// grey levels for `variance`. Only features that count hits use `level`.
+/// Scores every region: a number of hits for `edge` and `corner`, grey levels for `mad`
+/// and `range`, squared grey levels for `variance`. Only features that count hits use `level`.
 pub(crate) fn score(
     (kind, level): (FeatureKind, f64),
     view: &FrameView,
@@ -36,6 +37,7 @@ pub(crate) fn score(
         FeatureKind::Corner => corner::score(level, view, scratch, scores),
         FeatureKind::Mad => mad::score(view, scratch, scores),
         FeatureKind::Variance => variance::score(view, scratch, scores),
+        FeatureKind::Range => range::score(view, scratch, scores),
     }
 }
 

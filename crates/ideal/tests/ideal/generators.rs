@@ -97,6 +97,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrat
         FeatureKind::Corner => (max, 1, n),
         FeatureKind::Mad => (0, 100, max / 3),
         FeatureKind::Variance => (0, 100, max * (max / 6)),
+        FeatureKind::Range => (0, 100, max),
     };
     let log2 = (0_u32..).find(|bits| 1 << bits >= n).unwrap();
     let fraction = if rounded { 0..=log2 } else { log2..=log2 };

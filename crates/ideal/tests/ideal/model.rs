@@ -16,7 +16,7 @@ fn score_in_ideal_unit(camera: &Camera, feature: usize, score: u64) -> f64 {
     let n = f64::from(camera.region_pixels());
     let feature = &camera.features()[feature];
     match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner => score as f64,
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range => score as f64,
         FeatureKind::Mad => {
             let bits = feature.mean().unwrap().fraction_bits;
             score as f64 / (n * f64::from(1_u32 << bits))

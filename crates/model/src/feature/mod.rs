@@ -4,6 +4,7 @@
 pub mod corner;
 pub mod edge;
 pub mod mad;
+pub mod range;
 pub mod variance;
 
 use foveate_camera::{Camera, FeatureKind, SpatialFeature};
@@ -15,6 +16,7 @@ use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
+use range::PixelExtremes;
 
 /// Returns the score of a region. `level` is ignored for a feature that counts no hits.
 pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> u64 {
@@ -31,6 +33,10 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
         FeatureKind::Variance => {
             let square_sum = region.pixels().map(variance::square).sum();
             variance::score(region.pixel_count(), sum(), square_sum)
+        }
+        FeatureKind::Range => {
+            let seen = PixelExtremes::default();
+            region.pixels().fold(seen, PixelExtremes::with).range()
         }
     }
 }
@@ -62,7 +68,7 @@ pub fn is_hit(kind: FeatureKind, window: &PixelWindow, level: u32) -> bool {
         FeatureKind::Corner => {
             corner::corner_strength(window).is_some_and(|strength| level <= strength)
         }
-        FeatureKind::Mad | FeatureKind::Variance => false,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => false,
     }
 }
 
@@ -73,6 +79,6 @@ pub fn decisive_level(kind: FeatureKind, window: &PixelWindow) -> Option<u32> {
     match kind {
         FeatureKind::Edge => Some(edge::edge_magnitude(window)),
         FeatureKind::Corner => corner::corner_strength(window),
-        FeatureKind::Mad | FeatureKind::Variance => None,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => None,
     }
 }

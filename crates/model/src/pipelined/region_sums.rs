@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums over the pixels of a region, for `mad` and `variance`.
+//! Sums and extremes over the pixels of a region, for `mad`, `variance` and `range`.
 //!
 //! ```text
 //! tail step        0    1   ..  n-1   0 (next frame)
 //! sum (after)      x0  x0+x1     0    x0'
-//! mean, variance   (of the frame before)  | of this frame
+//! mean, variance   (of the frame before)  | of this frame, as is the range
 //! ```
 
 use super::rpu_parameters::RpuParameters;
+use crate::feature::range::PixelExtremes;
 use crate::feature::{mad, variance};
 
 /// The accumulators, and the results of the last complete frame.
@@ -15,10 +16,13 @@ use crate::feature::{mad, variance};
 pub(super) struct RegionSums {
     sum: u64,
     square_sum: u64,
+    extremes: PixelExtremes,
     /// The mean of the last complete frame, in units of `2^-f`.
     pub(super) mean: u64,
     /// The variance score of the last complete frame.
     pub(super) variance: u64,
+    /// The range score of the last complete frame.
+    pub(super) range: u64,
 }
 
 impl RegionSums {
@@ -26,11 +30,14 @@ impl RegionSums {
     pub(super) fn step(&mut self, plan: &RpuParameters, pixel: u16, last: bool, n: u64) {
         self.sum += u64::from(pixel);
         self.square_sum += variance::square(pixel);
+        self.extremes = self.extremes.with(pixel);
         if last {
             self.mean = mad::mean(self.sum, n, plan.fraction_bits);
             self.variance = variance::score(n, self.sum, self.square_sum);
             self.sum = 0;
             self.square_sum = 0;
+            self.range = self.extremes.range();
+            self.extremes = PixelExtremes::default();
         }
     }
 }

@@ -53,7 +53,10 @@ impl RpuParameters {
         }
         let timing = PipelinedTiming::from_design(design);
         let deviations = |feature: &SpatialFeature| match feature.kind() {
-            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Variance => None,
+            FeatureKind::Edge
+            | FeatureKind::Corner
+            | FeatureKind::Variance
+            | FeatureKind::Range => None,
             FeatureKind::Mad => feature.mean().map(|mean| mean.fraction_bits),
         };
         let fraction_bits = design.features().iter().find_map(deviations);

@@ -77,6 +77,7 @@ impl RpuScores {
                 Some(FeatureKind::Edge | FeatureKind::Corner) => hits,
                 Some(FeatureKind::Mad) => self.deviations,
                 Some(FeatureKind::Variance) => self.moments.variance,
+                Some(FeatureKind::Range) => self.moments.range,
             };
         }
         scores

@@ -146,6 +146,7 @@ pub(crate) fn oracle_region(
     for (feature, terms) in recipe.features.iter().zip(&terms) {
         let score: i64 = match feature.name {
             "variance" => scaled_variance(&pixels),
+            "range" => largest_difference(&pixels),
             _ => terms.iter().sum(),
         };
         let unit: i128 = match feature.name {
@@ -267,8 +268,8 @@ fn terms(
                 / recipe.region_pixels();
             pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
         }
-        // The variance is not a sum over pixels.
-        "variance" => vec![0; places.len()],
+        // Variance and range are not sums over pixels.
+        "variance" | "range" => vec![0; places.len()],
         other => panic!("the oracle does not know {other}"),
     }
 }
@@ -280,6 +281,12 @@ fn scaled_variance(pixels: &[i64]) -> i64 {
     let squares: i128 = pixels.iter().map(|&pixel| (n * i128::from(pixel) - sum).pow(2)).sum();
     assert_eq!(squares % n, 0);
     (squares / n) as i64
+}
+
+/// Returns the largest difference of two pixels.
+fn largest_difference(pixels: &[i64]) -> i64 {
+    let pairs = pixels.iter().flat_map(|a| pixels.iter().map(move |b| a - b));
+    pairs.max().unwrap()
 }
 
 /// Returns the number of the frame that is the reference of this region for the next frame.

@@ -211,6 +211,7 @@ fn arbitrary_feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<
         "edge" => (6 * max - 1, small_numbers(n).prop_map(|hits| 1000 * hits).boxed()),
         "corner" => (max - 1, small_numbers(n).prop_map(|hits| 1000 * hits).boxed()),
         "mad" => (0, small_numbers(400).prop_map(move |permille| permille * max).boxed()),
+        "range" => (0, small_numbers(900).prop_map(move |permille| permille * max).boxed()),
         "variance" => {
             (0, small_numbers(200).prop_map(move |permille| permille * max * max).boxed())
         }

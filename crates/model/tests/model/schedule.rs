@@ -73,7 +73,10 @@ pub(crate) fn tail_steps(recipe: &DesignParameters, stream: &[Vec<usize>]) -> Ve
 pub(crate) fn tail_delay(recipe: &DesignParameters) -> usize {
     match recipe.deep {
         true => 2,
-        false => usize::from(recipe.has_feature("mad") || recipe.has_feature("variance")),
+        false => {
+            let delaying = ["mad", "variance", "range"];
+            usize::from(delaying.iter().any(|name| recipe.has_feature(name)))
+        }
     }
 }
 
@@ -117,7 +120,7 @@ fn expected_output(
             ("mad", _) => {
                 running.checked_sub(1).map_or(0, |before| partial(&frame(before).terms[index]))
             }
-            ("variance", false) => last(done),
+            ("variance" | "range", false) => last(done),
             (_, true) => last(over),
             (_, false) if counted == 0 => 0,
             (_, false) => partial(&frame(running).terms[index]),

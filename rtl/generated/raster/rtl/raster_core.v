@@ -26,9 +26,10 @@ module raster_core #(
     parameter EDGE = 1,              // 1: regions have the score of `edge`
     parameter CORNER = 0,            // 1: regions have the score of `corner`
     parameter VARIANCE = 0,          // 1: regions have the score of `variance`
+    parameter RANGE = 0,             // 1: regions have the score of `range`
     parameter MAD = 0,               // 1: regions have the score of `mad`
     parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
-    parameter SCORE_BITS = 14,       // bits of all scores of a region: temporal count lowest, then edge, corner, variance, mad
+    parameter SCORE_BITS = 14,       // bits of all scores of a region: temporal count lowest, then edge, corner, variance, range, mad
     // Widths of the features
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of `edge`
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels (VARIANCE, MAD)
@@ -133,8 +134,8 @@ module raster_core #(
         if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
         if (BLOCKS > 0 && !FORWARD) begin : g_forward_means FORWARD_must_be_1_with_BLOCKS u_refused (); end
         if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
-        if ((EDGE | CORNER | VARIANCE | MAD) != 1) begin : g_features
-            EDGE_CORNER_VARIANCE_MAD_must_be_0_or_1_and_one_of_them_1 u_refused ();
+        if ((EDGE | CORNER | VARIANCE | RANGE | MAD) != 1) begin : g_features
+            flags_of_features_must_be_0_or_1_and_one_of_them_1 u_refused ();
         end
     endgenerate
 
@@ -146,7 +147,8 @@ module raster_core #(
     localparam WORD_BITS = $clog2(ROW_WORDS);
     localparam HITS = EDGE + CORNER;  // features that count hits of a window
     localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
-    localparam SETTLED_BITS = COUNTS_BITS + VARIANCE * VARIANCE_BITS;  // bits of all scores except that of mad
+    localparam RANGE_START = COUNTS_BITS + VARIANCE * VARIANCE_BITS;
+    localparam SETTLED_BITS = RANGE_START + RANGE * WIDTH;  // bits of all scores except that of mad
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
     localparam BANKS = MAD ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
@@ -405,12 +407,12 @@ module raster_core #(
         .region_bottom_i(hit_region_bottom), .done_o(done), .counts_o(counts)
     );
 
-    localparam VARIANCE_CLOCKS = VARIANCE ? 3 : 0;
+    localparam SETTLED_CLOCKS = VARIANCE ? 3 : RANGE ? 1 : 0;  // from the sums of a region to the last score made of them
     wire [SUM_BITS-1:0] sum;
     wire settled;  // all scores except that of mad are there
     wire [SETTLED_BITS-1:0] settled_scores;
-    bit_delay #(.DEPTH(VARIANCE_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
-    word_delay #(.WIDTH(COUNTS_BITS), .DEPTH(VARIANCE_CLOCKS)) u_settled_counts (
+    bit_delay #(.DEPTH(SETTLED_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
+    word_delay #(.WIDTH(COUNTS_BITS), .DEPTH(SETTLED_CLOCKS)) u_settled_counts (
         .clk_i(clk_i), .data_i(counts), .data_o(settled_scores[COUNTS_BITS-1:0])
     );
     generate
@@ -435,6 +437,19 @@ module raster_core #(
         end
     endgenerate
 
+    generate
+        if (RANGE) begin : g_range
+            wire [WIDTH-1:0] range;
+            raster_range #(.WIDTH(WIDTH), .LANES(LANES), .COLUMNS(COLUMNS), .DEEP(DEEP)) u_range (
+                .clk_i(clk_i), .rst_i(rst_i), .word_i(center), .step_i(hit_step), .segment_end_i(hit_segment_end),
+                .row_end_i(hit_row_end), .region_top_i(hit_region_top), .range_o(range)
+            );
+            word_delay #(.WIDTH(WIDTH), .DEPTH(SETTLED_CLOCKS - 1)) u_range_delay (
+                .clk_i(clk_i), .data_i(range), .data_o(settled_scores[RANGE_START+:WIDTH])
+            );
+        end
+    endgenerate
+
     // The place in the ring buffer of rows of regions where a word is stored.
     wire [START_BITS-1:0] store_place;
     generate
@@ -452,7 +467,7 @@ module raster_core #(
     localparam OTHER_BITS = SETTLED_BITS + (BLOCKS > 0 ? 2 : 0);
     wire differs, settled_differs, judged_differs;
     wire shown, settled_shown, judged_shown;
-    word_delay #(.WIDTH(2), .DEPTH(VARIANCE_CLOCKS)) u_settled_summary (
+    word_delay #(.WIDTH(2), .DEPTH(SETTLED_CLOCKS)) u_settled_summary (
         .clk_i(clk_i), .data_i({differs, shown}), .data_o({settled_differs, settled_shown})
     );
 
@@ -473,7 +488,7 @@ module raster_core #(
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
                 .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(MAD_BITS),
-                .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
+                .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(SETTLED_CLOCKS), .DEEP(DEEP)
             ) u_deviation (
                 .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
                 .done_i(done), .sum_i(sum), .settled_i(settled), .other_i(entering[OTHER_BITS-1:0]),
@@ -500,9 +515,9 @@ module raster_core #(
     wire lost_mark;
 
     raster_decision #(
-        .HITS(HITS), .VARIANCE(VARIANCE), .MAD(MAD), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS),
+        .HITS(HITS), .VARIANCE(VARIANCE), .RANGE(RANGE), .MAD(MAD), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS),
         .SUMMARIES(BLOCKS > 0 ? 1 : 0), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS),
-        .VARIANCE_BITS(VARIANCE_BITS), .MAD_BITS(MAD_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS),
+        .VARIANCE_BITS(VARIANCE_BITS), .RANGE_BITS(WIDTH), .MAD_BITS(MAD_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS),
         .SCORE_BITS(SCORE_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i(minima_i),

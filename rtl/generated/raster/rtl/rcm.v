@@ -89,7 +89,8 @@ module rcm #(
         .EDGE(1),
         .CORNER(0),
         .MAD(0),
-        .VARIANCE(0)
+        .VARIANCE(0),
+        .RANGE(0)
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(beat), .pixel_i(pixel_i), .ready_o(open),
         .temporal_level_i(temporal_level_i),

@@ -92,7 +92,8 @@ module rcm #(
         .EDGE_INDEX(1),
         .CORNER_INDEX(0),
         .MAD_INDEX(0),
-        .VARIANCE_INDEX(0)
+        .VARIANCE_INDEX(0),
+        .RANGE_INDEX(0)
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
         .temporal_level_i(temporal_level_i),

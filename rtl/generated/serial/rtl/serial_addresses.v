@@ -22,7 +22,7 @@ module serial_addresses #(
     parameter POSITION_BITS = 6     // bits of the number of a pixel in the larger square of centers
 ) (
     input  wire                     clk_i,          // clock, rising edge
-    input  wire [             33:0] step_i,         // the step: one bit for each action, in the order of serial_states
+    input  wire [             35:0] step_i,         // the step: one bit for each action, in the order of serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor that is read
     input  wire [              1:0] part_i,         // which half of a gradient, part of a ring's step, or side of the border
     input  wire                     walks_i,        // the next step works on the next center
@@ -84,7 +84,7 @@ module serial_addresses #(
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
-    wire [8:0] unused_sums;
+    wire [10:0] unused_sums;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,

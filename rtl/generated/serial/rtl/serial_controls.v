@@ -8,28 +8,28 @@
 module serial_controls #(
     parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
     parameter RASTER = 0,     // 1: pixels leave through the chain of scores
-    parameter KEEPS = 0       // 1: the score can take the accumulator, for `mad`, `variance` or the sum of a block
+    parameter KEEPS = 0       // 1: the score can take the accumulator, for `mad`, `variance`, `range` or the sum of a block
 ) (
-    input  wire [33:0] step_i,     // the step: one bit for each action, in the order of serial_states
+    input  wire [35:0] step_i,     // the step: one bit for each action, in the order of serial_states
     input  wire [ 3:0] tap_i,      // number of the neighbor that is read
     input  wire [ 1:0] part_i,     // which half of a gradient, part of a ring's step, or side of the border
     input  wire        counts_i,   // the center is a pixel of the region
     input  wire        spent_i,    // the shifted number has no bits left
-    output wire [26:0] controls_o  // the control word
+    output wire [27:0] controls_o  // the control word
 );
 
     // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
-    wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping;
+    wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping,
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         averaging, returning, storing, showing
     } = step_i;
     wire unused_step = denoising || averaging || returning || |tap_i;
@@ -49,18 +49,19 @@ module serial_controls #(
 
     // Controls for the word read: the choice of the operand, which is the constant without any of these.
     wire from_memory = !tests && !starting && !adjusting && !halving && !dividing;  // the operand is the word
-    wire deviate = deviating;                                  // the operand is |2^FRACTION * word - aux|
+    wire deviate = deviating || (ranging && spreading);        // the operand is |2^FRACTION * word - aux|
     wire masked = squaring || correcting;                      // take the sum only if the bit of the operand under the constant is 1
-    wire from_aux = correcting;                                // the operand is aux
+    wire from_aux = correcting || (ranging && spreading);      // the operand is aux; with deviate: |word - aux|
 
     // Controls for the accumulator, which takes the sum of itself and the operand.
-    wire subtract = compares || writing || relating || dividing || correcting  // invert the operand
+    wire subtract = compares || writing || relating || dividing || correcting || (ranging && !part_i[0])  // invert the operand
         || (gradient && !gradient_test && part_i[0] == tap_i[2]) || (ring && part_i[0]);
+    wire larger = ranging;                                     // keep the larger: first compare, then take the operand if it is
     wire by_sign = tests;                                      // invert the operand if the accumulator is not negative
     wire by_run = adjusting;                                   // invert the operand if five were counted
     wire carry = (!tests && !searching) || (adjusting && !spent_i);  // add one to an inverted operand
     wire enable = starting || adjusting || reading || takes_old || relating || gradient || ring || summing
-        || doubling || halving || dividing || deviating || squaring || correcting;  // take the sum
+        || doubling || halving || dividing || deviating || squaring || correcting || (ranging && part_i[0]);  // take the sum
     wire clear = idle || tests || (writing && !temporal) || clearing || keeping;    // clear the accumulator
 
     // Controls for the counts.
@@ -83,7 +84,7 @@ module serial_controls #(
     assign controls_o = {
         write_active, write_border, side, write_mean,
         from_memory, deviate, masked, from_aux,
-        subtract, by_sign, by_run, carry, enable, clear,
+        larger, subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner,
         twice, divide, shift, keep, fetch, unload, unload_mean
     };

@@ -10,7 +10,11 @@
 // clear the bit. `run_q` counts to five in unary, which takes no logic but its enable. For `edge` its lowest bit says that
 // one of the two comparisons of a pixel was a hit; for `corner` it is the length of the run.
 //
-// With DEEP the word read is in a register. The operand is, too, before it is inverted, if `mad` or `variance` compute it
+// The range is found with two passes. The first keeps the larger of the accumulator and each word: a step compares them and
+// clears the accumulator if the word is larger, and the next step then takes the word. The second pass does the same with the
+// distances from the largest word, which is in `aux`.
+//
+// With DEEP the word read is in a register. The operand is, too, before it is inverted, if `mad`, `variance` or `range` compute it
 // from the word. A hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
 `default_nettype none
 
@@ -32,10 +36,11 @@ module serial_lane #(
     parameter CORNER = 0,        // 1: the design has the feature `corner`
     parameter MAD = 0,           // 1: the design has the feature `mad`
     parameter VARIANCE = 0,      // 1: the design has the feature `variance`
+    parameter RANGE = 0,         // 1: the design has the feature `range`
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
-    parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 with `mad` or `variance`
-    parameter AUX_BITS = 1       // bits of the second word of `mad` and `variance`
+    parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 with `mad`, `variance` or `range`
+    parameter AUX_BITS = 1       // bits of the second word of `mad`, `variance` and `range`
 ) (
     input  wire                    clk_i,            // clock, rising edge
     // Memory.
@@ -48,7 +53,7 @@ module serial_lane #(
     input  wire [             3:0] sides_i,          // sides of the region on the frame's border: {bottom, top, right, left}
     // Controls.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
-    input  wire [            26:0] controls_i,       // the control word, see serial_controls
+    input  wire [            27:0] controls_i,       // the control word, see serial_controls
     // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane before
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane before: active or TRS; then SRS so far or sent
@@ -59,7 +64,7 @@ module serial_lane #(
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
-    localparam SUMS = MAD != 0 || VARIANCE != 0;
+    localparam SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0;
     localparam KEEPS = SUMS || SUMMARIES != 0;  // 1: the score can take sums
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
@@ -87,14 +92,14 @@ module serial_lane #(
 
     // The bits of the control word.
     wire write_active, write_border, from_memory, deviate, masked, from_aux;
-    wire subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner;
+    wire larger, subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner;
     wire twice, divide, shift, keep, fetch, unload, unload_mean;
     wire write_mean;
     wire [1:0] side;
     assign {
         write_active, write_border, side, write_mean,
         from_memory, deviate, masked, from_aux,
-        subtract, by_sign, by_run, carry, enable, clear,
+        larger, subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner,
         twice, divide, shift, keep, fetch, unload, unload_mean
     } = controls_i;
@@ -169,12 +174,13 @@ module serial_lane #(
             localparam MEAN_BITS = WIDTH + FRACTION;
             wire [ACC_BITS-1:0] deviation;
             wire [ACC_BITS-1:0] choice;
-            wire                deviates = MAD != 0 && deviate;
+            wire                deviates = (MAD != 0 || RANGE != 0) && deviate;
             wire                negative;
             wire                takes;     // the accumulator takes the sum, if `enable` is 1 as well
 
-            if (MAD != 0) begin : g_deviation
-                wire [MEAN_BITS:0] scaled = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word} << FRACTION;
+            if (MAD != 0 || RANGE != 0) begin : g_deviation
+                wire [MEAN_BITS:0] whole = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word};
+                wire [MEAN_BITS:0] scaled = RANGE != 0 && from_aux ? whole : whole << FRACTION;
                 wire [MEAN_BITS:0] difference = scaled - {1'b0, aux[MEAN_BITS-1:0]};
                 wire unused_aux = |aux;  // a mean has one bit, and this signal two
                 assign negative = difference[MEAN_BITS];
@@ -198,22 +204,22 @@ module serial_lane #(
                     assign takes = chosen;
                 end
             end else begin : g_plain
-                wire unused_masked = masked || from_aux;
+                wire unused_masked = masked || from_aux;  // from_aux is used by `range` with `mad` only
                 assign choice = from_memory ? wide_word : constant_i;
                 assign takes  = 1'b1;
             end
 
             assign found = deviates ? deviation : choice;
 
-            // A negative difference is inverted as well, in the bits of a mean. The bits above are 0 and stay so, because nothing
-            // else is inverted while deviations are added.
+            // A negative difference is inverted as well, in the bits of a mean. The bits above are those of a deviation, which is
+            // not negative, and are inverted where it is subtracted.
             wire turned;
-            if (DEEP != 0 && MAD != 0) begin : g_below
+            if (DEEP != 0 && (MAD != 0 || RANGE != 0)) begin : g_below
                 reg below_q;
                 always @(posedge clk_i) below_q <= deviates && negative;
-                assign turned = invert || below_q;
+                assign turned = invert ^ below_q;
             end else begin : g_at_once
-                assign turned = deviates ? negative : invert;
+                assign turned = invert ^ (deviates && negative);
             end
 
             wire [ACC_BITS-1:0] inverted =
@@ -231,12 +237,24 @@ module serial_lane #(
             end
             assign aux = aux_q;
 
-            always @(posedge clk_i) begin
-                if (clear) acc_q <= {ACC_BITS{1'b0}};
-                else if (enable && takes && (!divide || stays)) acc_q <= sum;
+            wire taken = enable && takes && (!divide || stays);
+            if (RANGE != 0) begin : g_range
+                reg larger_q;  // the operand was larger than the accumulator in the step before
+                wire replaces = larger && !enable && !stays;
+                always @(posedge clk_i) begin
+                    larger_q <= replaces;
+                    if (clear || replaces) acc_q <= {ACC_BITS{1'b0}};
+                    else if (taken && (!larger || larger_q)) acc_q <= sum;
+                end
+            end else begin : g_no_range
+                wire unused_larger = larger;
+                always @(posedge clk_i) begin
+                    if (clear) acc_q <= {ACC_BITS{1'b0}};
+                    else if (taken) acc_q <= sum;
+                end
             end
         end else begin : g_no_sums
-            wire unused_sums = twice || divide || deviate || masked || from_aux;
+            wire unused_sums = larger || twice || divide || deviate || masked || from_aux;
             wire unused_aux = |aux;
             assign aux = {AUX_BITS{1'b0}};
             assign found = from_memory ? wide_word : constant_i;

@@ -11,6 +11,7 @@ module serial_regions #(
     parameter CORNER_INDEX = 0,     // number of the score of `corner`; 0: there is none
     parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
     parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
+    parameter RANGE_INDEX = 0,      // number of the score of `range`; 0: there is none
     parameter MEANS = 0,            // blocks of a region whose means are sent: 1, 4 or 16; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
@@ -33,6 +34,8 @@ module serial_regions #(
     output wire                   last_block_o,  // the block is the last of the region
     output wire                   next_edge_o,   // the feature that comes next is `edge`
     output wire                   next_corner_o, // the feature that comes next is `corner`
+    output wire                   next_range_o,  // the feature that comes next is `range`
+    output wire                   ranges_o,      // the feature under way is `range`
     output wire                   squares_o,     // the feature under way is `variance`
     output wire [REGION_BITS-1:0] region_o,      // number of the region whose score passes
     output wire                   last_lane_o    // the region is that of the last lane
@@ -45,11 +48,12 @@ module serial_regions #(
     localparam [INDEX_BITS-1:0] BEFORE_EDGE = EDGE_INDEX - 1;
     localparam [INDEX_BITS-1:0] BEFORE_CORNER = CORNER_INDEX - 1;
     localparam [INDEX_BITS-1:0] BEFORE_VARIANCE = VARIANCE_INDEX - 1;
+    localparam [INDEX_BITS-1:0] BEFORE_RANGE = RANGE_INDEX - 1;
     /* verilator lint_on WIDTH */
 
     // Scores.
     reg [INDEX_BITS-1:0] index_q;
-    reg squares_q;
+    reg squares_q, ranges_q;
     wire next_variance = VARIANCE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_VARIANCE);
 
     // With means, the temporal count is done only when the sums of all blocks have passed.
@@ -60,13 +64,16 @@ module serial_regions #(
     assign last_score_o = index_q == LAST_SCORE;
     assign next_edge_o = EDGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_EDGE);
     assign next_corner_o = CORNER_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_CORNER);
-    assign squares_o = VARIANCE_INDEX != 0 && (MAD_INDEX == 0 || squares_q);
+    assign next_range_o = RANGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_RANGE);
+    assign ranges_o = RANGE_INDEX != 0 && ((MAD_INDEX == 0 && VARIANCE_INDEX == 0) || ranges_q);
+    assign squares_o = VARIANCE_INDEX != 0 && ((MAD_INDEX == 0 && RANGE_INDEX == 0) || squares_q);
 
     always @(posedge clk_i) begin
         if (loading_i || slot_ends_i) index_q <= {INDEX_BITS{1'b0}};
         else if (rotating_i && last_lane_o && !last_score_o && !waits) begin
             index_q   <= index_q + 1'b1;
             squares_q <= next_variance;
+            ranges_q  <= next_range_o;
         end
     end
 

@@ -16,6 +16,7 @@ module serial_states #(
     parameter CORNER = 0,     // 1: the design has the feature `corner`
     parameter MAD = 0,        // 1: the design has the feature `mad`
     parameter VARIANCE = 0,   // 1: the design has the feature `variance`
+    parameter RANGE = 0,      // 1: the design has the feature `range`
     parameter FRACTION = 0,   // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0   // 1: irrelevant regions send the means of their blocks
 ) (
@@ -32,6 +33,8 @@ module serial_states #(
     input  wire        last_slot_i,    // the slot is the last of the frame
     input  wire        next_edge_i,    // the feature that comes next is `edge`
     input  wire        next_corner_i,  // the feature that comes next is `corner`
+    input  wire        next_range_i,   // the feature that comes next is `range`
+    input  wire        ranges_i,       // the feature under way is `range`
     input  wire        squares_i,      // the feature under way is `variance`
     // State of the constant.
     input  wire        spent_i,        // the shifted number has no bits left
@@ -41,7 +44,7 @@ module serial_states #(
     input  wire        any_pairs_i,    // `variance`: the squares of words have pairs of bits at this place
     input  wire        more_pairs_i,   // `variance`: another pair of bits follows at this place
     // The step.
-    output wire [33:0] step_o,         // the step: one bit for each action
+    output wire [35:0] step_o,         // the step: one bit for each action
     output wire [ 3:0] tap_o,          // number of the neighbor that is read
     output wire [ 1:0] part_o,         // which half of a gradient, part of a ring's step, or side of the border
     output wire        walks_o,        // the next step works on the next center
@@ -77,6 +80,7 @@ module serial_states #(
     localparam [4:0] SETTLE = 5'd25;   // one clock until the score is whole
     localparam [4:0] STORE = 5'd26;    // writes a mean that has come back
     localparam [4:0] SHOW = 5'd27;     // a mean leaves
+    localparam [4:0] RANGE_STEP = 5'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
     localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
     localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
     localparam [4:0] RETURNED = LATE == 0 ? STORE : BEHIND;
@@ -86,7 +90,7 @@ module serial_states #(
     localparam [1:0] BORDER = 2'b01;
     localparam [1:0] COPY = 2'b10;
 
-    localparam SUMS = MAD || VARIANCE;
+    localparam SUMS = MAD || VARIANCE || RANGE;
     /* verilator lint_off WIDTH */
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
     /* verilator lint_on WIDTH */
@@ -138,6 +142,8 @@ module serial_states #(
     wire squaring = VARIANCE && state_q == SQUARE;
     wire correcting = VARIANCE && state_q == CORRECT;
     wire keeping = (SUMS || SUMMARIES) && state_q == KEEP;
+    wire ranging = RANGE && state_q == RANGE_STEP;
+    wire spreading;  // the distances from the largest pixel are compared
 
     // Steps of a mean.
     wire is_averaging;  // blocks are summed, and their sums pass
@@ -150,7 +156,7 @@ module serial_states #(
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping,
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         is_averaging, is_returning, storing, showing
     };
     assign tap_o = tap_q;
@@ -158,7 +164,7 @@ module serial_states #(
 
     assign walks_o = testing || (writing && !temporal)
         || (gradient_test && part_q[0]) || (ring_test && ring_last)
-        || summing || deviating || squaring
+        || summing || deviating || squaring || (ranging && part_q[0])
         || (unloading && RASTER == 0) || (shifting && last_lane_i && !is_returning);
     wire pass_ends = walks_o && last_center_i;
     wire unloaded = pass_ends && (unloading || shifting);
@@ -209,6 +215,7 @@ module serial_states #(
                 else if (last_score_i) state = LAST_SENT != 0 ? READ : UNLOAD;
                 else if (EDGE && next_edge_i) state = GRADIENT;
                 else if (CORNER && next_corner_i) state = RING;
+                else if (RANGE && next_range_i) state = RANGE_STEP;
                 else state = SUM;
             end
             GRADIENT, RING: if (pass_ends) state = SCORED;
@@ -219,10 +226,11 @@ module serial_states #(
             end
             HALF: state = is_averaging ? SUM : DIVIDE;
             DIVIDE: if (divided_i) state = CLEAR;
-            CLEAR: state = squares_i ? DOUBLE : DEVIATE;
+            CLEAR: state = squares_i ? DOUBLE : ranges_i ? RANGE_STEP : DEVIATE;
             DEVIATE: if (pass_ends) state = KEEP;
             SQUARE: if (last_center_i && !more_pairs_i) state = corrects_i ? CORRECT : DOUBLE;
             CORRECT: state = last_place_i ? KEEP : DOUBLE;
+            RANGE_STEP: if (pass_ends) state = spreading ? KEEP : DIVIDE;
             KEEP: state = SCORED;
             UNLOAD: begin
                 if (RASTER != 0) state = SHIFT;
@@ -274,6 +282,20 @@ module serial_states #(
         end
     endgenerate
 
+    generate
+        if (RANGE) begin : g_range
+            reg spreading_q;
+            assign spreading = spreading_q;
+
+            always @(posedge clk_i) begin
+                if (rotating) spreading_q <= 1'b0;
+                else if (clearing) spreading_q <= 1'b1;
+            end
+        end else begin : g_no_range
+            assign spreading = 1'b0;
+        end
+    endgenerate
+
     // Steps inside the work of a pixel.
     always @(posedge clk_i) begin
         if (gradient) begin
@@ -285,6 +307,9 @@ module serial_states #(
         end else if (ring) begin
             part_q <= ring_test ? 2'd0 : part_q + 2'd1;
             if (ring_test) tap_q <= ring_last ? 4'd0 : tap_q + 4'd1;
+        end else if (ranging) begin
+            part_q <= {1'b0, !part_q[0]};
+            tap_q <= 4'd0;
         end else if (bordering) begin
             tap_q <= 4'd0;
             if (writing && last_column_i) part_q <= part_q + 2'd1;

@@ -27,15 +27,16 @@ pub(crate) fn design(toml: &str) -> Design {
     DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
-const FEATURES: [&str; 7] = [
+const FEATURES: [&str; 8] = [
     "[{feature='edge',level=4,min_score=1}]",
     "[{feature='corner',level=0,min_score=1}]",
     "[{feature='mad',min_score=0}]",
     "[{feature='mad',min_score=0,mean_fraction_bits=2}]",
     "[{feature='variance',min_score=0}]",
+    "[{feature='range',min_score=0}]",
     "[{feature='edge',level=4,min_score=1},{feature='corner',level=0,min_score=1}]",
     "[{feature='mad',min_score=0},{feature='edge',level=4,min_score=1},\
-      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0}]",
+      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0}]",
 ];
 const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];

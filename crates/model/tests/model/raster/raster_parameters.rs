@@ -126,12 +126,16 @@ impl RasterParameters {
     /// Returns the clocks from the tail to the decision, D.
     pub(crate) fn decision_latency(&self) -> i64 {
         let stored = self.store_latency() - self.misread.stored;
-        self.misread.decided + stored + if self.deep { 6 } else { 4 } + self.variance_latency()
+        self.misread.decided + stored + if self.deep { 6 } else { 4 } + self.score_latency()
     }
 
-    /// Returns the clocks that the variance adds.
-    fn variance_latency(&self) -> i64 {
-        if self.base.has_feature("variance") { 3 } else { 0 }
+    /// Returns the clocks from the counts of a region to the last of its other scores.
+    fn score_latency(&self) -> i64 {
+        if self.base.has_feature("variance") {
+            3
+        } else {
+            i64::from(self.base.has_feature("range"))
+        }
     }
 
     /// Returns the clocks from e(a(i)) to the first edge of the second pass, if the pass does not
@@ -140,7 +144,7 @@ impl RasterParameters {
         self.misread.pass
             + self.store_latency()
             + if self.deep { 9 } else { 8 }
-            + self.variance_latency()
+            + self.score_latency()
     }
 
     /// Returns the clocks from the last edge of the second pass to the decision.

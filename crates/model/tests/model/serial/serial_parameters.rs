@@ -79,7 +79,8 @@ impl SerialParameters {
             slot *= 2;
         }
         let luts = i64::from(self.base.bits) * ((self.fold * slot + 63) / 64);
-        let sums = self.base.features.iter().any(|f| matches!(f.name, "mad" | "variance"));
+        let sums =
+            self.base.features.iter().any(|f| matches!(f.name, "mad" | "variance" | "range"));
         i64::from(luts > 128) + i64::from(self.base.deep) * if sums { 2 } else { 1 }
     }
 
@@ -130,6 +131,7 @@ impl SerialParameters {
             "edge" => 14 * n,
             "corner" => 36 * n,
             "mad" => 2 * n + p + 2 * i64::from(feature.fraction_bits) + 3,
+            "range" => 4 * n + p + 2,
             "variance" => {
                 let ones = (0..13).filter(|bit| n >> bit & 1 == 1).count() as i64;
                 n + p * n * ones + 2 * bits(n * self.base.pixel_max()) + p + bits(n) + 2
