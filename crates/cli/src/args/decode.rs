@@ -34,5 +34,5 @@ pub(crate) struct DecodeArgs {
     pub(crate) quiet: bool,
     // The flattened group is last, because clap lists later options under its heading.
     #[command(flatten)]
-    pub(crate) view: ReceiverOutputArgs,
+    pub(crate) receiver: ReceiverOutputArgs,
 }

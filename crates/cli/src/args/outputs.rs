@@ -37,7 +37,7 @@ pub(crate) struct ReceiverOutputArgs {
 #[command(next_help_heading = "Outputs")]
 pub(crate) struct OutputArgs {
     #[command(flatten)]
-    pub(crate) view: ReceiverOutputArgs,
+    pub(crate) receiver: ReceiverOutputArgs,
     /// Write what the camera sends as a stream of packets, packets.bin, which `foveate decode`
     /// reads; on request with the scores of all regions
     #[arg(long, value_enum, value_name = "CONTENT", num_args = 0..=1, require_equals = true, default_missing_value = "plain")]
@@ -115,7 +115,7 @@ impl OutputArgs {
                 PacketContent::Plain => foveate_simulator::PacketContent::Plain,
                 PacketContent::Scores => foveate_simulator::PacketContent::WithScores,
             }),
-            ..self.view.options()
+            ..self.receiver.options()
         }
     }
 }

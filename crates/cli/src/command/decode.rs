@@ -19,7 +19,7 @@ pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
     let config = args.design.config()?;
     let name = args.stream.display().to_string();
     let mut stream = open(&args.stream)?;
-    let options = RunOptions { overwrite: args.force, ..args.view.options() };
+    let options = RunOptions { overwrite: args.force, ..args.receiver.options() };
     let hooks = RunTerminal::new(args.quiet)?;
     let recording = PacketRecording { config: &config, stream: &mut stream, name: &name };
     let decoded = recording.decode(&args.output, &options, &hooks);

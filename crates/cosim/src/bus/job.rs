@@ -347,8 +347,8 @@ impl BusJob {
     /// Writes the packets of a run to the file, in order.
     fn write_packets(&self, record: &BusRecord) -> Result<(), CosimError> {
         let Some(file) = &self.packets else { return Ok(()) };
-        let parcels = record.sessions.iter().flat_map(|heard| &heard.packets);
-        let bytes: Vec<u8> = parcels.flat_map(|parcel| parcel.bytes.iter().copied()).collect();
+        let recorded = record.sessions.iter().flat_map(|heard| &heard.packets);
+        let bytes: Vec<u8> = recorded.flat_map(|packet| packet.bytes.iter().copied()).collect();
         Ok(write_file(file, &bytes)?)
     }
 }

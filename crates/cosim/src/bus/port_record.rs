@@ -110,19 +110,19 @@ impl BusRecord {
 
     fn add_word(&mut self, clock: u64, rest: &str) -> Option<()> {
         let (word, last) = rest.split_once(' ')?;
-        let parcels = &mut self.sessions.last_mut()?.packets;
-        if parcels.last().is_none_or(|parcel| parcel.is_whole) {
-            parcels.push(RecordedPacket {
+        let packets = &mut self.sessions.last_mut()?.packets;
+        if packets.last().is_none_or(|packet| packet.is_whole) {
+            packets.push(RecordedPacket {
                 first_clock: clock,
                 last_clock: clock,
                 bytes: Vec::new(),
                 is_whole: false,
             });
         }
-        let parcel = parcels.last_mut()?;
-        parcel.bytes.extend(u64::from_str_radix(word, 16).ok()?.to_le_bytes());
-        parcel.last_clock = clock;
-        parcel.is_whole = last == "1";
+        let packet = packets.last_mut()?;
+        packet.bytes.extend(u64::from_str_radix(word, 16).ok()?.to_le_bytes());
+        packet.last_clock = clock;
+        packet.is_whole = last == "1";
         Some(())
     }
 }

@@ -27,7 +27,7 @@ pub(super) struct ScoredRasterRegion {
     pub(super) row: u64,
     /// The number of the frame since reset.
     pub(super) frame: u64,
-    pub(super) verdict: RegionDecision,
+    pub(super) decision: RegionDecision,
     /// The scored pixels in row-major order.
     pub(super) scored: Vec<u16>,
     /// The pixels that the region forwards if it is active.
@@ -41,7 +41,7 @@ pub(super) struct ScoredRasterRegion {
 /// A region of one frame with its action.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DecidedRasterRegion {
-    pub(super) judged: ScoredRasterRegion,
+    pub(super) scored_region: ScoredRasterRegion,
     pub(super) action: RegionAction,
 }
 
@@ -70,7 +70,7 @@ impl DecisionQueue {
     }
 
     /// Appends a scored region, whose last word came to the tail at edge `came`.
-    pub(super) fn push(&mut self, came: u64, judged: ScoredRasterRegion) {
+    pub(super) fn push(&mut self, came: u64, scored_region: ScoredRasterRegion) {
         let due = match self.timing.second_pass {
             None => came + u64::from(self.timing.decision_latency),
             Some(pass) => {
@@ -81,7 +81,7 @@ impl DecisionQueue {
                 last + u64::from(pass.decision_latency)
             }
         };
-        self.due.push_back((due, judged));
+        self.due.push_back((due, scored_region));
     }
 
     /// Returns the region whose decision is on the ports after edge `now`, or `None`.

@@ -49,11 +49,11 @@ impl DepartingRegion {
         camera: &Camera,
         word_pixels: u32,
     ) -> Self {
-        let DecidedRasterRegion { judged, action } = decided;
+        let DecidedRasterRegion { scored_region, action } = decided;
         let mut words = match (action, camera.periphery()) {
-            (RegionAction::Forward, _) => pixel_words(judged, word_pixels),
+            (RegionAction::Forward, _) => pixel_words(scored_region, word_pixels),
             (RegionAction::Summarize, Some(periphery)) => {
-                mean_words(judged, periphery, word_pixels)
+                mean_words(scored_region, periphery, word_pixels)
             }
             (RegionAction::Summarize, None) | (RegionAction::Hold | RegionAction::Blank, _) => {
                 VecDeque::new()
@@ -62,41 +62,47 @@ impl DepartingRegion {
         if let Some(last) = words.back_mut() {
             last.is_last = true;
         }
-        Self { region: judged.region, row: judged.row, frame: judged.frame, words }
+        Self {
+            region: scored_region.region,
+            row: scored_region.row,
+            frame: scored_region.frame,
+            words,
+        }
     }
 }
 
-fn pixel_words(judged: &ScoredRasterRegion, word_pixels: u32) -> VecDeque<ForwardWord> {
+fn pixel_words(scored_region: &ScoredRasterRegion, word_pixels: u32) -> VecDeque<ForwardWord> {
     let size = index(word_pixels);
-    let words = judged.payload.chunks_exact(size).zip(judged.scored.chunks_exact(size));
+    let words =
+        scored_region.payload.chunks_exact(size).zip(scored_region.scored.chunks_exact(size));
     let positions = (0..).step_by(size);
     let word = |((pixels, scored), position): ((&[u16], &[u16]), u32)| ForwardWord {
         pixels: pixels.to_vec(),
         scored: scored.to_vec(),
         is_mean: false,
-        ..empty_word(judged, position)
+        ..empty_word(scored_region, position)
     };
     words.zip(positions).map(word).collect()
 }
 
 fn mean_words(
-    judged: &ScoredRasterRegion,
+    scored_region: &ScoredRasterRegion,
     periphery: &Periphery,
     word_pixels: u32,
 ) -> VecDeque<ForwardWord> {
     let word = |(&mean, block): (&u16, u32)| ForwardWord {
         pixels: vec![mean; index(word_pixels)],
         is_mean: true,
-        ..empty_word(judged, first_position_of_block(periphery, block))
+        ..empty_word(scored_region, first_position_of_block(periphery, block))
     };
-    judged.means.iter().zip(0..).map(word).collect()
+    scored_region.means.iter().zip(0..).map(word).collect()
 }
 
 /// Makes a word of a region without pixels.
-fn empty_word(judged: &ScoredRasterRegion, position: u32) -> ForwardWord {
+fn empty_word(scored_region: &ScoredRasterRegion, position: u32) -> ForwardWord {
     ForwardWord {
-        region: judged.region,
-        frame: judged.frame,
+        region: scored_region.region,
+        frame: scored_region.frame,
         position,
         pixels: Vec::new(),
         scored: Vec::new(),

@@ -120,13 +120,14 @@ impl RasterOutput {
 
     /// Sets the decision ports to the decision of a region, or to no decision.
     pub(super) fn set_decision_ports(&mut self, decided: Option<&DecidedRasterRegion>) {
-        let judged = decided.map(|decided| &decided.judged);
-        let verdict = judged.map(|judged| judged.verdict).unwrap_or_default();
-        self.decision_valid = judged.is_some();
-        self.region = judged.map_or(0, |judged| judged.region);
-        (self.srs, self.trs, self.active) = (verdict.srs, verdict.trs, verdict.is_active());
+        let scored_region = decided.map(|decided| &decided.scored_region);
+        let decision =
+            scored_region.map(|scored_region| scored_region.decision).unwrap_or_default();
+        self.decision_valid = scored_region.is_some();
+        self.region = scored_region.map_or(0, |scored_region| scored_region.region);
+        (self.srs, self.trs, self.active) = (decision.srs, decision.trs, decision.is_active());
         self.summary = decided.is_some_and(|decided| decided.action == RegionAction::Summarize);
-        (self.scores, self.temporal_count) = (verdict.scores, verdict.temporal_count);
+        (self.scores, self.temporal_count) = (decision.scores, decision.temporal_count);
     }
 
     /// Sets the forward ports to a word that leaves, or to no word.

@@ -73,7 +73,7 @@ impl RasterRegions {
         self.scorer.load(stream.into_iter(), region_border(&self.camera, region));
         let taken = taken.map(|frame| self.region_pixels_of(frame, region));
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
-        let verdict =
+        let decision =
             RegionDecision::from_scorer(&self.camera, &self.scorer, reference, thresholds);
         let scored: Vec<u16> = self.scorer.pixels().collect();
         match self.camera.temporal().reference {
@@ -86,16 +86,16 @@ impl RasterRegions {
         let payload: Vec<u16> = self.scorer.payload().collect();
         let frame = row / u64::from(self.camera.rows());
         let (means, summary_level) = (self.scorer.means(), thresholds.summary_level);
-        ScoredRasterRegion { region, row, frame, verdict, scored, payload, means, summary_level }
+        ScoredRasterRegion { region, row, frame, decision, scored, payload, means, summary_level }
     }
 
     /// Decides a region: returns its action, and updates its reference and its summary.
-    pub(super) fn decide(&mut self, judged: ScoredRasterRegion) -> DecidedRasterRegion {
-        let summary = &mut self.summaries[index(judged.region)];
-        let ScoredRasterRegion { verdict, means, summary_level, .. } = &judged;
+    pub(super) fn decide(&mut self, scored_region: ScoredRasterRegion) -> DecidedRasterRegion {
+        let summary = &mut self.summaries[index(scored_region.region)];
+        let ScoredRasterRegion { decision, means, summary_level, .. } = &scored_region;
         let (irrelevant, level) = (self.camera.irrelevant(), *summary_level);
-        let action = summary.decide(irrelevant, verdict.srs, verdict.trs, means, level);
-        let referenced = &mut self.has_reference[index(judged.region)];
+        let action = summary.decide(irrelevant, decision.srs, decision.trs, means, level);
+        let referenced = &mut self.has_reference[index(scored_region.region)];
         match (self.camera.temporal().reference, action) {
             (ReferencePolicy::Previous, _) | (ReferencePolicy::LastSent, RegionAction::Hold) => {}
             (ReferencePolicy::LastSent, RegionAction::Forward) => *referenced = true,
@@ -104,7 +104,7 @@ impl RasterRegions {
                 *referenced = false;
             }
         }
-        DecidedRasterRegion { judged, action }
+        DecidedRasterRegion { scored_region, action }
     }
 
     /// Returns the words that leave of a region that was decided.

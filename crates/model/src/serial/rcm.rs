@@ -247,15 +247,15 @@ impl SerialRcm {
     }
 
     fn show_score(&mut self, region: u32, number: u32, decides: bool) {
-        let DecidedSerialRegion { verdict, action, .. } = self.regions.decided(index(region));
+        let DecidedSerialRegion { decision, action, .. } = self.regions.decided(index(region));
         let output = &mut self.output;
         output.score_valid = true;
         (output.region, output.score_index) = (region, number);
-        output.score = verdict.score(number);
+        output.score = decision.score(number);
         if decides {
             output.decision_valid = true;
             (output.srs, output.trs, output.active) =
-                (verdict.srs, verdict.trs, verdict.is_active());
+                (decision.srs, decision.trs, decision.is_active());
             output.summary = *action == RegionAction::Summarize;
         }
     }

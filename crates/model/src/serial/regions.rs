@@ -31,7 +31,7 @@ pub(super) struct SerialRegions {
 /// The scores, the decision and the values to send of a region in the last frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DecidedSerialRegion {
-    pub(super) verdict: RegionDecision,
+    pub(super) decision: RegionDecision,
     pub(super) action: RegionAction,
     /// The pixels that the region forwards, in row-major order.
     payload: Vec<u16>,
@@ -43,7 +43,7 @@ impl DecidedSerialRegion {
     /// Makes the state before the first frame.
     fn before_first_frame() -> Self {
         let (payload, means) = (Vec::new(), Vec::new());
-        Self { verdict: RegionDecision::default(), action: RegionAction::Hold, payload, means }
+        Self { decision: RegionDecision::default(), action: RegionAction::Hold, payload, means }
     }
 }
 
@@ -126,7 +126,7 @@ impl SerialRegions {
         thresholds: &ThresholdInputs,
     ) {
         self.scorer.load(stream, border);
-        let verdict = RegionDecision::from_scorer(
+        let decision = RegionDecision::from_scorer(
             &self.camera,
             &self.scorer,
             self.reference(region),
@@ -135,9 +135,9 @@ impl SerialRegions {
         let means = self.scorer.means();
         let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level);
         let summary = &mut self.summaries[region];
-        let action = summary.decide(irrelevant, verdict.srs, verdict.trs, &means, level);
+        let action = summary.decide(irrelevant, decision.srs, decision.trs, &means, level);
         let payload = self.scorer.payload().collect();
-        self.decided[region] = DecidedSerialRegion { verdict, action, payload, means };
+        self.decided[region] = DecidedSerialRegion { decision, action, payload, means };
         let pixel_range = region * self.pixels..(region + 1) * self.pixels;
         for (scored, pixel) in self.scored[pixel_range.clone()].iter_mut().zip(self.scorer.pixels())
         {
