@@ -9,7 +9,8 @@
 //! alone, never from the Verilog, so that agreement with the Verilog is evidence for both. The
 //! models share only arithmetic without a state: that of one 3x3 window in [`window`],
 //! [`denoising`] and [`feature`], and the scores and the decision of one region. All arithmetic is
-//! in integers. The crate reads no files and no Verilog.
+//! in integers. The crate reads no files and no Verilog, and makes no packets: crate `cosim`
+//! compares the packets of a core with the outcomes of [`functional`].
 #![forbid(unsafe_code)]
 
 mod conversions;

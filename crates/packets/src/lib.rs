@@ -4,7 +4,8 @@
 //! A [`PacketLayout`] gives the length of every packet of a design. [`packet_writer`] makes
 //! packets, [`PacketSplitter`] finds them in bytes that may be damaged, and [`FrameAssembler`]
 //! makes frames from them, with a list of losses. The crate accesses no files and does not depend
-//! on the code that computes a frame.
+//! on the code that computes a frame: `write_packets` of crate `simulator` makes packets of what an
+//! engine has computed.
 
 mod error;
 mod frame_assembler;

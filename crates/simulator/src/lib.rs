@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Simulations: a design runs over frames, and arrays, tables, events and rendered frames are
-//! written.
+//! Simulations: a design runs over frames, and arrays, tables, events, rendered frames and packets
+//! are written.
 //!
 //! A [`Simulation`] runs a design over a source of footage and writes a folder of NumPy arrays,
 //! PNGs and a summary. The folder appears at the end, and states whether it is complete.
-//! [`run_batch`] does so for many clips. A [`PacketRecording`] is a stream of packets that becomes
-//! such a folder. A [`PacketStream`] is a stream of packets whose frames are used as they arrive.
+//! [`run_batch`] does so for many clips. [`write_packets`] makes the packets of a frame. The other
+//! direction has two types: a [`PacketRecording`] is a stream of packets that becomes such a
+//! folder, and a [`PacketStream`] is a stream of packets whose frames are used as they arrive.
 //! Memory does not grow with the number of frames. The library never prints: progress and
 //! cancellation go through [`foveate_playback::RunHooks`].
 

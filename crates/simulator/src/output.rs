@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The outputs of a run: arrays, tables, pictures, pixel events and a summary.
+//! The outputs of a run: arrays, tables, pictures, pixel events, packets and a summary.
 //!
 //! An output that takes frames one at a time and writes them at once is a [`sink::FrameSink`]; the
 //! recorder feeds all of them. A new kind of output is a new sink and a line in the recorder.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate simulate`: video or images in; arrays, tables, pictures and video out.
+//! `foveate simulate`: video or images in; arrays, tables, pictures, video and packets out.
 
 use std::path::Path;
 

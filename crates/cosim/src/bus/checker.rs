@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The comparison of packets and registers with what the model says of the frames that came.
+//!
+//! A packet is decoded, and its fields are encoded again, so that every byte of it is compared.
+//! Then the fields are compared with the [`FunctionalOutcome`] of its frame.
 
 use super::bus_mismatch::BusMismatch;
 use super::lossy_model::LossyModel;
@@ -171,11 +174,11 @@ impl<'a> SessionChecker<'a> {
         heard: &SessionRecord,
         end: u64,
     ) -> Result<BusAgreement, BusMismatch> {
-        for parcel in &heard.packets {
+        for recorded in &heard.packets {
             let frame =
                 self.open.as_ref().map_or(self.next_frame as u64, |open| open.number.into());
-            self.check_packet(parcel).map_err(|wrong| BusMismatch {
-                clock: parcel.last_clock,
+            self.check_packet(recorded).map_err(|wrong| BusMismatch {
+                clock: recorded.last_clock,
                 frame,
                 ..wrong
             })?;
@@ -191,33 +194,33 @@ impl<'a> SessionChecker<'a> {
         Ok(self.agreement)
     }
 
-    fn check_packet(&mut self, parcel: &RecordedPacket) -> Result<(), BusMismatch> {
+    fn check_packet(&mut self, recorded: &RecordedPacket) -> Result<(), BusMismatch> {
         let is_cut = self.session.frames.iter().any(|sent| sent.fate == FrameFate::CutByReset);
-        if !parcel.is_whole && is_cut {
+        if !recorded.is_whole && is_cut {
             self.facts.cut += 1;
             return Ok(());
         }
         let mut splitter = PacketSplitter::default();
-        splitter.feed(&parcel.bytes);
+        splitter.feed(&recorded.bytes);
         splitter.mark_complete();
         let found = splitter.next(Some(&self.checker.layout));
         let StreamItem::Packet { frame, packet } = found else {
             return Err(BusMismatch::from_presence("a packet of this design", true));
         };
-        if !parcel.is_whole || splitter.next(Some(&self.checker.layout)) != StreamItem::Pending {
+        if !recorded.is_whole || splitter.next(Some(&self.checker.layout)) != StreamItem::Pending {
             return Err(BusMismatch::from_presence(
                 "tlast with the last word of a packet, and no other",
                 true,
             ));
         }
         let bytes = encode_packet(&self.checker.layout, frame, &packet);
-        if let Some(at) = bytes.iter().zip(&parcel.bytes).position(|(own, other)| own != other) {
+        if let Some(at) = bytes.iter().zip(&recorded.bytes).position(|(own, other)| own != other) {
             let what = format!("byte {at} of a packet of {} bytes", bytes.len());
-            return Err(BusMismatch::from_numbers(what, bytes[at], parcel.bytes[at]));
+            return Err(BusMismatch::from_numbers(what, bytes[at], recorded.bytes[at]));
         }
         self.agreement.comparisons += 1;
         match packet {
-            Packet::Frame(info) => self.begin_frame(frame, &info, parcel.first_clock),
+            Packet::Frame(info) => self.begin_frame(frame, &info, recorded.first_clock),
             Packet::Row(row) => self.check_row(frame, &row),
             Packet::Region(region) => self.check_region(frame, &region),
             Packet::End(end) => self.check_end(frame, end),

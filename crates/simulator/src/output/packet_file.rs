@@ -41,8 +41,8 @@ impl PacketFileSink {
 }
 
 /// Appends the packets of the frame that an engine computed last, in an order in which a core can
-/// send them. `time` is the time of the frame in ticks, with true if the frame is the first one
-/// after a reset.
+/// send them. `source` has the raw pixels of that frame, and `number` is its number. `time` is its
+/// time in ticks. `is_first` is true if it is the first frame after a reset.
 ///
 /// # Errors
 /// Fails if the layout belongs to another design.
@@ -52,9 +52,9 @@ pub fn write_packets(
     engine: &Engine,
     source: &ByteFrame,
     number: u32,
-    time: (u64, bool),
+    (time, is_first): (u64, bool),
 ) -> Result<(), PacketError> {
-    packet_writer::append_frame(out, layout, number, time);
+    packet_writer::append_frame(out, layout, number, (time, is_first));
     let mut regions_sent = 0;
     for row in 0..engine.camera().rows() {
         regions_sent += write_row(out, layout, engine, source, (number, row))?;
@@ -69,17 +69,17 @@ fn write_row(
     layout: &PacketLayout,
     engine: &Engine,
     source: &ByteFrame,
-    (frame, row): (u32, u32),
+    (number, row): (u32, u32),
 ) -> Result<u32, PacketError> {
     let (camera, outcome) = (engine.camera(), engine.outcome());
     let start = row * camera.columns();
     let regions = start..start + camera.columns();
     let decisions: Vec<RegionDecision> =
         regions.clone().map(|region| region_decision(outcome, region as usize)).collect();
-    packet_writer::append_row(out, layout, frame, row, &decisions)?;
+    packet_writer::append_row(out, layout, number, row, &decisions)?;
     if layout.info().has_scores {
         let scores = regions.clone().map(|region| region_scores(outcome, region as usize));
-        packet_writer::append_scores(out, layout, frame, row, scores)?;
+        packet_writer::append_scores(out, layout, number, row, scores)?;
     }
     let (mut sent, mut values) = (0, Vec::new());
     for region in regions {
@@ -97,7 +97,7 @@ fn write_row(
         }
         let flags = RegionFlags { raw: layout.info().raw, summary: is_summary };
         let place = (row, region - start);
-        packet_writer::append_region(out, layout, frame, place, (flags, &values))?;
+        packet_writer::append_region(out, layout, number, place, (flags, &values))?;
         sent += 1;
     }
     Ok(sent)
@@ -131,12 +131,13 @@ fn append_raw_region(camera: &Camera, frame: &ByteFrame, region: u32, pixels: &m
 
 impl FrameSink for PacketFileSink {
     fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        // Only the frames of a recording have no engine, and a recording refuses this output.
         let Some(engine) = step.engine else { return Ok(()) };
         // The 32-bit numbers of frames wrap around.
-        let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
+        let number = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
         let time = (step.source.time_us, step.is_first);
         let source = &step.source.frame;
-        Ok(write_packets(self.file.pending_mut(), &self.layout, engine, source, frame, time)?)
+        Ok(write_packets(self.file.pending_mut(), &self.layout, engine, source, number, time)?)
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
@@ -144,7 +145,8 @@ impl FrameSink for PacketFileSink {
     }
 
     fn max_bytes_owed(&self, camera: &Camera) -> u64 {
-        // This is the size of the last frame if every region sends its pixels.
+        // These are the ROW, SCORES and REGION packets of a frame whose regions all send pixels.
+        // The buffers have room for its FRAME and END.
         let rows = self.layout.row_bytes() + self.layout.scores_bytes();
         let regions = u64::from(camera.regions()) * self.layout.region_bytes(false) as u64;
         regions + u64::from(camera.rows()) * rows as u64
