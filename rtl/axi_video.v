@@ -50,7 +50,7 @@ module axi_video #(
     localparam [2:0] DROP = 3'd4;  // the rest of a long line is dropped
 
     // The input register. It makes ready_o independent of all inputs.
-    reg come_q, sof_q, eol_q;
+    reg come_q, sof_q, eol_q;  // the register holds a word; it is the first of a frame; it is the last of a line
     reg [LANES*WIDTH-1:0] come_pixel_q;
     wire take;
     always @(posedge clk_i) begin
@@ -67,7 +67,7 @@ module axi_video #(
     reg [2:0] state_q;
     reg [WORD_BITS-1:0] word_q;
     reg [LINE_BITS-1:0] line_q;
-    reg complete_q;  // all words of a frame have left (DROP, SEEK)
+    reg complete_q;  // in DROP and SEEK: all words of the frame have left
     reg damaged_q;   // the frame has been found to be damaged
     reg [WIDTH-1:0] last_q;
     wire first_word = word_q == {WORD_BITS{1'b0}};

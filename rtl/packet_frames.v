@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Follows the frames that are under way, and what each of them has still to send. At most two frames are: one whose packets
-// leave, and one that is taken. The FRAME packet of the second waits for the END packet of the first. Outputs follow the
-// registers; an event counts from the edge at which its input is 1.
+// Follows the frames that are under way, and what each of them has still to send. At most two are under way: one whose
+// packets leave, and one that is taken. The FRAME packet of the second waits for the END packet of the first. Outputs depend
+// on registers alone, so they show an event after the edge at which its input is 1.
 `default_nettype none
 
 module packet_frames #(
@@ -26,7 +26,7 @@ module packet_frames #(
     input  wire                 opened_i,         // the FRAME packet has left
     input  wire                 ended_i,          // the END packet has left
     output wire                 admit_o,          // a frame may begin
-    output wire                 behind_o,         // packets of two frames wait, so that no frame may begin soon
+    output wire                 behind_o,         // the FRAME packet of a decided frame has not left, so that no frame may begin soon
     output wire                 busy_o,           // a frame is under way
     output wire                 announced_o,      // a FRAME packet waits, or leaves
     output wire                 first_o,          // the next FRAME packet is the first since reset

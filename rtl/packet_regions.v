@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Collects the words of a region, so that its REGION packet (docs/packets.md) is sent whole or not at all. It keeps up to
-// 2^PLACE_BITS regions. A region that is lost in the middle gives its place back. A part of the oldest whole region is on
-// part_o one clock after its read.
+// Collects the words of a region, so that its REGION packet (docs/packets.md) is sent whole or not at all. Its memory
+// has 2^PLACE_BITS places, each for one region. A region that is lost in the middle gives its place back. A part of the
+// oldest whole region is on part_o one clock after its read.
 `default_nettype none
 
 module packet_regions #(
@@ -53,10 +53,10 @@ module packet_regions #(
     localparam ADDRESSES = (PIXELS + ROW - 1) / ROW;
     localparam AT_BITS = ADDRESSES > 1 ? $clog2(ADDRESSES) : 1;
     localparam PER_PART = BITS / LANE;                                 // values of a part
-    localparam PLACE_ROW_BITS = REGION_BITS - COLUMN_BITS + 1;
+    localparam PLACE_ROW_BITS = REGION_BITS - COLUMN_BITS + 1;         // bits of a row of regions, as packet_place gives it
     localparam ENTRY_BITS = 2 + PLACE_ROW_BITS + COLUMN_BITS;
 
-    // Places are used in turn. These counters say how many regions have been kept, and how many have been taken.
+    // Places are used in turn. The counters of kept and taken regions have one bit more than a place, to tell full from empty.
     reg [PLACE_BITS:0] kept_q, taken_q;
     wire full = kept_q == {!taken_q[PLACE_BITS], taken_q[PLACE_BITS-1:0]};
     reg ending_q;  // all words of a region have come, but its row and column are not known yet
@@ -98,8 +98,8 @@ module packet_regions #(
     always @(posedge clk_i) if (whole_o) entries_q[kept_q[PLACE_BITS-1:0]] <= {frame_q, summary_q, row, column};
     assign {valid_frame_o, summary_o, row_o, column_o} = entries_q[taken_q[PLACE_BITS-1:0]];
 
-    // The values. A mean is on all pixels of a word, so any one of them may be kept. `at` and `from` are wide enough for every
-    // value and part: the lower bits number a value within an address or a part within it, the bits above are 0.
+    // The values. A mean is on all pixels of a word, so any one of them may be kept. The lowest bits of `at` and `from` number a
+    // value or a part within an address, the next ones are the address, and more zeros are above, so that both always exist.
     localparam SPLIT = $clog2(ROW / PER_PART);
     wire [VALUE_BITS+AT_BITS+ROW_LOG:0] at = {{(AT_BITS + ROW_LOG) {1'b0}}, value};
     wire [PART_BITS+AT_BITS+SPLIT-1:0] from = {{(AT_BITS + SPLIT) {1'b0}}, part_i};

@@ -88,7 +88,7 @@ module packet_writer #(
     localparam [1:0] IDLE = 2'd0, HEAD = 2'd1, BODY = 2'd2, TAIL = 2'd3;
     localparam [3:0] FRAME = 4'd1, ROW = 4'd2, REGION = 4'd4, END = 4'd5;
     localparam [3:0] MEANS = 4'd0;  // a REGION with means; this value is used in this module only
-    localparam [63:0] FRAME_5 = {
+    localparam [63:0] FRAME_5 = {  // FRAME_5, frame_4 and end_1 are words with the numbers of docs/packets.md
         ROWS[15:0], COLUMNS[15:0], 3'd0, RAW != 0, IRRELEVANT[3:0], MEANS_SIDE[7:0], WIDTH[7:0], SIDE[7:0]
     };
 
@@ -177,7 +177,7 @@ module packet_writer #(
     wire [63:0] end_1 = {{(31 - REGION_BITS) {1'b0}}, dropped_i, {(31 - REGION_BITS) {1'b0}}, sent_q};
     wire [63:0] frame_4 = {FRAME_HEIGHT[15:0], FRAME_WIDTH[15:0], rate_i};
     wire [63:0] tail = {32'd0, number_i};
-    wire [2:0] word = part_q[IN_WORD_BITS+:3];
+    wire [2:0] word = part_q[IN_WORD_BITS+:3];  // number of the word in the payload, from 0: one less than in docs/packets.md
     reg [BITS-1:0] other;
     always @* begin
         other = end_1[in_bits+:BITS];

@@ -128,7 +128,7 @@ module rcm_axi #(
         .eol_early_o(eol_early), .eol_late_o(eol_late)
     );
 
-    // The array.
+    // The array, which docs/raster.md calls the core.
     wire decision_valid, srs, trs, active, summary;
     wire forward_valid, forward_ready, forward_first, forward_last, forward_abort, forward_summary, lost_valid;
     wire [REGION_BITS-1:0] forward_region;
