@@ -51,8 +51,8 @@ impl ArraySink {
 }
 
 impl FrameSink for ArraySink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let outcome = step.outcome;
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let outcome = sink_frame.outcome;
         self.srs.push(outcome.srs.iter().copied().map(u64::from));
         self.trs.push(outcome.trs.iter().copied().map(u64::from));
         self.active.push(outcome.active.iter().copied().map(u64::from));

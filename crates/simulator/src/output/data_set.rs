@@ -77,8 +77,8 @@ struct LabelNumberSink {
 }
 
 impl FrameSink for LabelNumberSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let number = self.labels.number(step.source.label.as_deref());
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let number = self.labels.number(sink_frame.source.label.as_deref());
         self.file.push(std::iter::once(number.cast_unsigned()));
         Ok(())
     }

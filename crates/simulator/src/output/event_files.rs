@@ -42,9 +42,9 @@ pub(super) fn event_sinks(
 }
 
 impl FrameSink for EventFileSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let SinkFrame { camera, number, outcome, .. } = *step;
-        let frame = EventFrame { camera, number, time_us: step.source.time_us, outcome };
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let SinkFrame { camera, number, outcome, .. } = *sink_frame;
+        let frame = EventFrame { camera, number, time_us: sink_frame.source.time_us, outcome };
         self.writer.rows(&self.table, &frame);
         Ok(())
     }

@@ -56,10 +56,10 @@ impl HeatmapPainter {
         all.map(|map| (format!("heatmap_{}", map.title), map)).collect()
     }
 
-    fn score_of_region(&self, step: &SinkFrame<'_>, region: usize) -> u64 {
+    fn score_of_region(&self, sink_frame: &SinkFrame<'_>, region: usize) -> u64 {
         match self.score {
-            MappedScore::Spatial(index, _) => step.outcome.scores[index][region],
-            MappedScore::Temporal => step.outcome.temporal_count[region].into(),
+            MappedScore::Spatial(index, _) => sink_frame.outcome.scores[index][region],
+            MappedScore::Temporal => sink_frame.outcome.temporal_count[region].into(),
         }
     }
 
@@ -103,8 +103,8 @@ impl HeatmapPainter {
 }
 
 impl PicturePainter for HeatmapPainter {
-    fn paint(&mut self, step: &SinkFrame<'_>) -> PictureCanvas {
-        let (camera, frame) = (step.camera, &step.source.frame);
+    fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
+        let (camera, frame) = (sink_frame.camera, &sink_frame.source.frame);
         let layout = PictureLayout::new(frame.width(), frame.height());
         let footer = (font::SIZE.1 + 4) * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, layout.frame_height + footer);
@@ -113,7 +113,8 @@ impl PicturePainter for HeatmapPainter {
             let (left, top) = (region % camera.columns() * cell, region / camera.columns() * cell);
             let width = cell.min(layout.frame_width - left);
             let height = cell.min(layout.frame_height - top);
-            let colour = scale_colour(self.scale_step(self.score_of_region(step, region as usize)));
+            let colour =
+                scale_colour(self.scale_step(self.score_of_region(sink_frame, region as usize)));
             canvas.fill_rectangle(left, top, width, height, colour);
         }
         self.draw_bar(&mut canvas, layout);

@@ -25,16 +25,16 @@ pub(super) struct OverlayPainter {
 }
 
 impl PicturePainter for OverlayPainter {
-    fn paint(&mut self, step: &SinkFrame<'_>) -> PictureCanvas {
-        let frame = &step.source.frame;
+    fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
+        let frame = &sink_frame.source.frame;
         let layout = PictureLayout::new(frame.width(), frame.height());
         let legend = (font::SIZE.1 + 4) * layout.dot;
         let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, height);
-        draw_frame(&mut canvas, frame, step, layout);
-        let regions = step.camera.regions();
-        let active = step.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
-        draw_legend(&mut canvas, layout, active, step.camera);
+        draw_frame(&mut canvas, frame, sink_frame, layout);
+        let regions = sink_frame.camera.regions();
+        let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
+        draw_legend(&mut canvas, layout, active, sink_frame.camera);
         self.strip.push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
         self.strip.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);
         canvas
@@ -44,16 +44,16 @@ impl PicturePainter for OverlayPainter {
 fn draw_frame(
     canvas: &mut PictureCanvas,
     frame: &ByteFrame,
-    step: &SinkFrame<'_>,
+    sink_frame: &SinkFrame<'_>,
     layout: PictureLayout,
 ) {
-    let side = step.camera.region_size();
+    let side = sink_frame.camera.region_size();
     let cell = side * layout.scale;
     for y in 0..frame.height() {
         for x in 0..frame.width() {
-            let region = y / side * step.camera.columns() + x / side;
+            let region = y / side * sink_frame.camera.columns() + x / side;
             let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
-            let colour = tinted(grey, region_tint(step, region));
+            let colour = tinted(grey, region_tint(sink_frame, region));
             let scale = layout.scale;
             canvas.fill_rectangle(x * scale, y * scale, scale, scale, colour);
         }
@@ -61,19 +61,19 @@ fn draw_frame(
     if cell < SMALLEST_GRID {
         return;
     }
-    for (column, row) in (0..step.camera.rows())
-        .flat_map(|row| (0..step.camera.columns()).map(move |column| (column, row)))
+    for (column, row) in (0..sink_frame.camera.rows())
+        .flat_map(|row| (0..sink_frame.camera.columns()).map(move |column| (column, row)))
     {
         let (left, top) = (column * cell, row * cell);
         let width = cell.min(layout.frame_width - left);
         let height = cell.min(layout.frame_height - top);
         lighten_line(canvas, [left, top, width, 1]);
         lighten_line(canvas, [left, top, 1, height]);
-        let region = (row * step.camera.columns() + column) as usize;
-        if step.outcome.active[region] {
+        let region = (row * sink_frame.camera.columns() + column) as usize;
+        if sink_frame.outcome.active[region] {
             canvas.draw_border([left, top, width, height], 1 + cell / 40, ACTIVE_BRIGHT);
         }
-        if step.outcome.actions[region] == RegionAction::Summarize {
+        if sink_frame.outcome.actions[region] == RegionAction::Summarize {
             canvas.draw_border([left, top, width, height], 1, TEXT);
         }
     }
@@ -110,9 +110,9 @@ fn draw_legend(canvas: &mut PictureCanvas, layout: PictureLayout, active: u32, c
     }
 }
 
-fn region_tint(step: &SinkFrame<'_>, region: u32) -> Option<Colour> {
+fn region_tint(sink_frame: &SinkFrame<'_>, region: u32) -> Option<Colour> {
     let region = region as usize;
-    match (step.outcome.srs[region], step.outcome.trs[region]) {
+    match (sink_frame.outcome.srs[region], sink_frame.outcome.trs[region]) {
         (true, true) => Some(ACTIVE),
         (true, false) => Some(RELEVANT),
         (false, true) => Some(CHANGED),

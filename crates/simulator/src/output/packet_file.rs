@@ -130,13 +130,13 @@ fn append_raw_region(camera: &Camera, frame: &ByteFrame, region: u32, pixels: &m
 }
 
 impl FrameSink for PacketFileSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         // Only the frames of a recording have no engine, and a recording refuses this output.
-        let Some(engine) = step.engine else { return Ok(()) };
+        let Some(engine) = sink_frame.engine else { return Ok(()) };
         // The 32-bit numbers of frames wrap around.
-        let number = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
-        let time = (step.source.time_us, step.is_first);
-        let source = &step.source.frame;
+        let number = u32::try_from(sink_frame.number & u64::from(u32::MAX)).unwrap_or_default();
+        let time = (sink_frame.source.time_us, sink_frame.is_first);
+        let source = &sink_frame.source.frame;
         Ok(write_packets(self.file.pending_mut(), &self.layout, engine, source, number, time)?)
     }
 

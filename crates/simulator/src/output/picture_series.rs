@@ -17,7 +17,7 @@ use crate::SimulatorError;
 
 /// Draws a picture of a frame and its outcome.
 pub(super) trait PicturePainter: Send {
-    fn paint(&mut self, step: &SinkFrame<'_>) -> PictureCanvas;
+    fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas;
 }
 
 /// The height of the largest legend and chart below a painted frame in pixels.
@@ -61,14 +61,14 @@ impl PictureSeriesSink {
 }
 
 impl FrameSink for PictureSeriesSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let picture = match &mut self.painter {
-            Some(painter) => painter.paint(step).into(),
-            None => RawImage::of_screen(step, self.series.take_spare_buffer()),
+            Some(painter) => painter.paint(sink_frame).into(),
+            None => RawImage::of_screen(sink_frame, self.series.take_spare_buffer()),
         };
         match &mut self.series {
             SeriesFiles::Folder(series) => series.push(picture),
-            SeriesFiles::Video(video) => video.push(picture, step.source.time_us)?,
+            SeriesFiles::Video(video) => video.push(picture, sink_frame.source.time_us)?,
         }
         Ok(())
     }

@@ -53,12 +53,12 @@ impl PixelEventFiles {
         })
     }
 
-    pub(super) fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+    pub(super) fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let Self { camera, npz, csv, events, bytes } = self;
-        let time = step.source.time_us;
+        let time = sink_frame.source.time_us;
         let before = *events;
         bytes.clear();
-        camera.step(&step.source.frame.to_frame()?, |event| {
+        camera.step(&sink_frame.source.frame.to_frame()?, |event| {
             *events += 1;
             let polarity = u8::from(event.brighter);
             if npz.is_some() {

@@ -33,12 +33,12 @@ impl From<PictureCanvas> for RawImage {
 impl RawImage {
     /// Makes a picture of the screen, at the depth of [`display_depth`]. It reuses the memory of
     /// `bytes`.
-    pub(super) fn of_screen(step: &SinkFrame<'_>, mut bytes: Vec<u8>) -> Self {
-        let bits = step.camera.pixel_bits();
+    pub(super) fn of_screen(sink_frame: &SinkFrame<'_>, mut bytes: Vec<u8>) -> Self {
+        let bits = sink_frame.camera.pixel_bits();
         let depth = display_depth(bits);
         let shown = |value: u16| convert_depth(value, bits, depth);
         bytes.clear();
-        let samples = match step.screen {
+        let samples = match sink_frame.screen {
             FramePixels::Bytes(pixels) if bits == depth => {
                 bytes.extend_from_slice(pixels);
                 SampleFormat::Grey8
@@ -52,7 +52,12 @@ impl RawImage {
                 SampleFormat::Grey16
             }
         };
-        Self { width: step.camera.width(), height: step.camera.height(), samples, bytes }
+        Self {
+            width: sink_frame.camera.width(),
+            height: sink_frame.camera.height(),
+            samples,
+            bytes,
+        }
     }
 }
 

@@ -121,7 +121,7 @@ impl RunRecorder {
         engine: &Engine,
         is_first: bool,
     ) -> Result<(), SimulatorError> {
-        self.push_step(&SinkFrame::new(engine, self.totals.frames, source, is_first))
+        self.push_to_sinks(&SinkFrame::new(engine, self.totals.frames, source, is_first))
     }
 
     /// Writes a received frame with the screen after it.
@@ -132,7 +132,7 @@ impl RunRecorder {
         (camera, screen): (&Camera, FramePixels<'_>),
     ) -> Result<(), SimulatorError> {
         let number = self.totals.frames;
-        self.push_step(&SinkFrame {
+        self.push_to_sinks(&SinkFrame {
             camera,
             number,
             source,
@@ -143,13 +143,13 @@ impl RunRecorder {
         })
     }
 
-    fn push_step(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+    fn push_to_sinks(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         self.write_out(false)?;
-        self.add_to_table(step.source, step.outcome);
+        self.add_to_table(sink_frame.source, sink_frame.outcome);
         let Self { pixel_events: pixels, sinks, .. } = self;
         let (pixels, sinks) = rayon::join(
-            || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(step)),
-            || sinks.par_iter_mut().try_for_each(|sink| sink.push(step)),
+            || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(sink_frame)),
+            || sinks.par_iter_mut().try_for_each(|sink| sink.push(sink_frame)),
         );
         pixels.and(sinks)
     }

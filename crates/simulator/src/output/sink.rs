@@ -46,7 +46,7 @@ impl<'a> SinkFrame<'a> {
 /// written.
 pub(super) trait FrameSink: Send {
     /// Takes the next frame.
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError>;
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError>;
 
     /// Writes the buffered data if there is much of it, or in any case with `all`.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;

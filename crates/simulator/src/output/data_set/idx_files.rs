@@ -48,14 +48,14 @@ struct IdxImageSink {
 }
 
 impl FrameSink for IdxImageSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let byte = |value: u16| to_byte(convert_depth(value, step.camera.pixel_bits(), BITS));
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let byte = |value: u16| to_byte(convert_depth(value, sink_frame.camera.pixel_bits(), BITS));
         self.bytes.clear();
-        match step.screen {
+        match sink_frame.screen {
             FramePixels::Bytes(pixels) => self.bytes.extend(pixels.iter().map(|&p| byte(p.into()))),
             FramePixels::Words(pixels) => self.bytes.extend(pixels.iter().map(|&p| byte(p))),
         }
-        self.size = (step.camera.width(), step.camera.height());
+        self.size = (sink_frame.camera.width(), sink_frame.camera.height());
         self.count += 1;
         self.file.write(&self.bytes);
         Ok(())
@@ -78,8 +78,8 @@ struct IdxLabelSink {
 }
 
 impl FrameSink for IdxLabelSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let label = step.source.label.as_deref().and_then(|label| label.parse().ok());
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let label = sink_frame.source.label.as_deref().and_then(|label| label.parse().ok());
         self.count += 1;
         self.file.write(&[label.expect("the reader of IDX makes text of a byte for every image")]);
         Ok(())

@@ -45,17 +45,17 @@ impl ImageTreeSink {
     }
 
     /// Creates a new file for an image. Returns its path below the folder of the run.
-    fn create_image_file(&self, step: &SinkFrame<'_>) -> Result<PathBuf, SimulatorError> {
+    fn create_image_file(&self, sink_frame: &SinkFrame<'_>) -> Result<PathBuf, SimulatorError> {
         let mut relative = PathBuf::from(FOLDER);
-        if let Some(label) = &step.source.label {
+        if let Some(label) = &sink_frame.source.label {
             relative.push(folder_name_of_label(label));
         }
         let folder = self.folder.join(&relative);
         fs::create_dir_all(&folder).map_err(cannot_write(&folder))?;
-        let number = format!("{:06}", step.number);
+        let number = format!("{:06}", sink_frame.number);
         let stem = match self.naming {
             FileNaming::OfInputFile => {
-                Path::new(&step.source.name).file_stem().and_then(OsStr::to_str)
+                Path::new(&sink_frame.source.name).file_stem().and_then(OsStr::to_str)
             }
             FileNaming::Numbers => None,
         };
@@ -78,12 +78,16 @@ impl ImageTreeSink {
 }
 
 impl FrameSink for ImageTreeSink {
-    fn push(&mut self, step: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let relative = self.create_image_file(step)?;
-        let picture = RawImage::of_screen(step, self.writers.take_spare_buffer());
+    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
+        let relative = self.create_image_file(sink_frame)?;
+        let picture = RawImage::of_screen(sink_frame, self.writers.take_spare_buffer());
         self.writers.push(self.folder.join(&relative), picture);
-        let label = step.source.label.as_deref().unwrap_or_default();
-        self.table.quoted_line([&step.number.to_string(), &relative.display().to_string(), label]);
+        let label = sink_frame.source.label.as_deref().unwrap_or_default();
+        self.table.quoted_line([
+            &sink_frame.number.to_string(),
+            &relative.display().to_string(),
+            label,
+        ]);
         Ok(())
     }
 
