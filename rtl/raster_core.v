@@ -147,6 +147,8 @@ module raster_core #(
     localparam WORD_BITS = $clog2(ROW_WORDS);
     localparam HITS = EDGE + CORNER;  // features that count hits of a window
     localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
+    // Scores are in the order in which they are known, in raster_decision, too: counts, those made of the sums or extremes of a
+    // region, and that of mad, which needs a second pass.
     localparam RANGE_START = COUNTS_BITS + VARIANCE * VARIANCE_BITS;
     localparam SETTLED_BITS = RANGE_START + RANGE * WIDTH;  // bits of all scores except that of mad
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
@@ -407,7 +409,8 @@ module raster_core #(
         .region_bottom_i(hit_region_bottom), .done_o(done), .counts_o(counts)
     );
 
-    localparam SETTLED_CLOCKS = VARIANCE ? 3 : RANGE ? 1 : 0;  // from the sums of a region to the last score made of them
+    // A leaf that looks at all pixels takes `center`, which comes two clocks before hit_step.
+    localparam SETTLED_CLOCKS = VARIANCE ? 3 : RANGE ? 1 : 0;  // from the counts to the last of the other scores: v in docs/raster.md
     wire [SUM_BITS-1:0] sum;
     wire settled;  // all scores except that of mad are there
     wire [SETTLED_BITS-1:0] settled_scores;
