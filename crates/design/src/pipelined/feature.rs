@@ -16,9 +16,11 @@ pub(super) fn score_latency(kind: FeatureKind, pipelining: Pipelining) -> u32 {
         (FeatureKind::Mad, Pipelining::Plain | Pipelining::Deep) => 2,
         // Two registers: the sums, the score.
         (FeatureKind::Variance, Pipelining::Plain) => 2,
-        // Two registers: the extremes, the score.
-        (FeatureKind::Range, Pipelining::Plain | Pipelining::Deep) => 2,
         // Three registers: the square, the sums, the score.
         (FeatureKind::Variance, Pipelining::Deep) => 3,
+        // Two registers: the extremes, the score.
+        (FeatureKind::Range, Pipelining::Plain) => 2,
+        // Three registers: the pixel, the extremes, the score.
+        (FeatureKind::Range, Pipelining::Deep) => 3,
     }
 }
