@@ -126,8 +126,9 @@ pub struct SpatialConfig {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// Per-region threshold: hits for `edge` and `corner` (default 5), grey levels for `mad`
-    /// (default 5), squared grey levels for `variance` (default 50), grey levels for `range` (default 20). That of `mad`, `variance` and `range`
-    /// may be decimal; its default is that of 8 bits, and is scaled to the depth.
+    /// (default 5) and `range` (default 20), squared grey levels for `variance` (default 50). That
+    /// of `mad`, `variance` and `range` may be decimal; its default is that of 8 bits, and is
+    /// scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
     /// Fraction bits of the mean of `mad`, 0..=ceil(log2 n). The default is 0.

@@ -167,14 +167,14 @@ impl<T: PixelLane> BandPass<'_, T> {
                 denoiser.ensure_rows(top + rows.start..top + rows.end);
             }
             for row in rows {
-                self.compare_row(denoiser.row(top + row), row, columns, run);
+                self.take_row(denoiser.row(top + row), row, columns, run);
             }
         }
     }
 
-    /// Compares a row with its reference, stores it, and adds it to the column sums.
+    /// Compares a row with its reference, stores it, and adds it to the values of the columns.
     #[inline(always)]
-    fn compare_row(
+    fn take_row(
         &mut self,
         current: &[Block<T>],
         row: usize,

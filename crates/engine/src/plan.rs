@@ -59,7 +59,7 @@ pub(crate) struct FeaturePasses<T: PixelLane> {
     pub(crate) needs_sums: bool,
     /// True if a feature needs the sum of the squares of the pixels.
     pub(crate) needs_squares: bool,
-    /// A feature needs the smallest and the largest pixel.
+    /// True if a feature needs the smallest and the largest pixel.
     pub(crate) needs_extremes: bool,
     /// The fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,

@@ -68,7 +68,7 @@ pub(crate) struct DenoisedRow<T: PixelLane> {
     pub(crate) pixels: BlockRow<T>,
 }
 
-/// The column sums of one band.
+/// The sums and extremes of the columns of one band.
 #[derive(Clone, Debug)]
 pub(crate) struct ColumnSums<T: PixelLane> {
     pub(crate) changed: AlignedBuffer<T>,
@@ -84,7 +84,7 @@ pub(crate) struct ColumnSums<T: PixelLane> {
     pub(crate) count_above: AlignedBuffer<T>,
 }
 
-/// The sums of one band by region.
+/// The sums and ranges of one band by region.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RegionSums {
     pub(crate) changed: Vec<u64>,

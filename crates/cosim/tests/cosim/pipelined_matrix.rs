@@ -58,7 +58,7 @@ fn set_irrelevant_in_turn(camera: &mut CameraConfig, turn: usize) {
     }
 }
 
-/// Returns the 160 designs. Keys outside the five axes take turns.
+/// Returns the designs of five axes. Keys outside them take turns.
 fn matrix() -> Vec<DesignConfig> {
     let mut configs = Vec::new();
     for &kind in FeatureKind::ALL {

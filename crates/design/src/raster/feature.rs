@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sums that a raster core stores per region for the score of a feature, and the latency of the
-//! score.
+//! The sums or extremes that a raster core stores per region for the score of a feature, and the
+//! latency of the score.
 
 use foveate_camera::{FeatureKind, MeanDivision, SpatialFeature, VarianceWidths};
 
-/// The sum over the pixels of a region that a feature needs. It is formed while the pixels come, or
-/// in a second pass.
+/// The numbers that a feature needs of all pixels of a region. They are formed while the pixels
+/// come, or in a second pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FeatureAccumulation<'a> {
     /// The number of pixels whose window is a hit.
@@ -19,7 +19,7 @@ pub(super) enum FeatureAccumulation<'a> {
 }
 
 impl<'a> FeatureAccumulation<'a> {
-    /// Returns the sum that a feature needs.
+    /// Returns the numbers that a feature needs.
     pub(super) fn from_feature(feature: &'a SpatialFeature) -> Self {
         match feature.kind() {
             FeatureKind::Edge | FeatureKind::Corner => Self::Hits,
@@ -31,8 +31,7 @@ impl<'a> FeatureAccumulation<'a> {
         }
     }
 
-    /// Returns the clocks from the sums of a region to its score, or 0 if the score is one of the
-    /// sums.
+    /// Returns the clocks from these numbers to the score, or 0 if the score is one of them.
     pub(super) fn score_latency(self) -> u32 {
         match self {
             // The latency of the second pass is counted separately.

@@ -73,8 +73,8 @@ impl SerialDesign<'_> {
         number_bits(self.fold())
     }
 
-    /// Returns the number of scores of a region: the temporal count and those of the features,
-    /// 2..=5.
+    /// Returns the number of scores of a region: the temporal count and those of the features. It
+    /// is at least 2.
     #[must_use]
     pub fn score_count(&self) -> u32 {
         self.features().iter().fold(1, |count, _| count + 1)

@@ -2,9 +2,9 @@
 //! Sums and extremes over the pixels of a region, for `mad`, `variance` and `range`.
 //!
 //! ```text
-//! tail step        0    1   ..  n-1   0 (next frame)
-//! sum (after)      x0  x0+x1     0    x0'
-//! mean, variance   (of the frame before)  | of this frame, as is the range
+//! tail step               0    1   ..  n-1   0 (next frame)
+//! sum (after)             x0  x0+x1     0    x0'
+//! mean, variance, range   (of the frame before)  | of this frame
 //! ```
 
 use super::rpu_parameters::RpuParameters;

@@ -20,7 +20,7 @@ use crate::feature::mad;
 #[derive(Clone, Debug, Default)]
 pub(super) struct RpuScores {
     hits: [u64; MAX_FEATURES],
-    moments: RegionSums,
+    sums: RegionSums,
     /// The score of `mad`, which the second pass sums up over the frame before.
     deviations: u64,
     hold_registers: [u64; MAX_FEATURES],
@@ -41,9 +41,9 @@ impl RpuScores {
             *count += crate::conversions::bool_as_count(hit);
         }
         if let Some(before) = before {
-            self.deviations += mad::deviation(before, self.moments.mean, plan.fraction_bits);
+            self.deviations += mad::deviation(before, self.sums.mean, plan.fraction_bits);
         }
-        self.moments.step(plan, step.pixel.scored, last, n);
+        self.sums.step(plan, step.pixel.scored, last, n);
     }
 
     /// Applies the edge after done.
@@ -76,8 +76,8 @@ impl RpuScores {
                 None => 0,
                 Some(FeatureKind::Edge | FeatureKind::Corner) => hits,
                 Some(FeatureKind::Mad) => self.deviations,
-                Some(FeatureKind::Variance) => self.moments.variance,
-                Some(FeatureKind::Range) => self.moments.range,
+                Some(FeatureKind::Variance) => self.sums.variance,
+                Some(FeatureKind::Range) => self.sums.range,
             };
         }
         scores
