@@ -23,6 +23,9 @@ wire [63:0] f_thresholds_now = {
 `ifdef HAS_VARIANCE_MIN_I
     variance_min_i,
 `endif
+`ifdef HAS_RANGE_MIN_I
+    range_min_i,
+`endif
     temporal_level_i, temporal_min_i
 };
 always @(posedge clk_i) f_thresholds <= f_thresholds_now;
@@ -95,7 +98,7 @@ always @* begin
 end
 
 integer f_row, f_column, f_gx, f_gy, f_start, f_run, f_c, f_pixel, f_mean;
-integer f_edges, f_corners, f_sum, f_squares, f_deviation, f_changes;
+integer f_edges, f_corners, f_sum, f_squares, f_deviation, f_low, f_high, f_changes;
 reg f_brighter, f_darker, f_hit;
 reg [8*F_P-1:0] f_ring;
 reg [F_FRAME-1:0] f_reference;
@@ -105,11 +108,15 @@ always @* begin
     f_corners = 0;
     f_sum = 0;
     f_squares = 0;
+    f_low = F_MAX;
+    f_high = 0;
     f_changes = 0;
     for (f_row = 0; f_row < F_N; f_row = f_row + 1) for (f_column = 0; f_column < F_N; f_column = f_column + 1) begin
         f_c = f_at(f_frame, f_row, f_column);
         f_sum = f_sum + f_c;
         f_squares = f_squares + f_c * f_c;
+        if (f_c < f_low) f_low = f_c;
+        if (f_c > f_high) f_high = f_c;
         f_ring = {
             f_at(f_frame, f_row - 1, f_column - 1), f_at(f_frame, f_row - 1, f_column), f_at(f_frame, f_row - 1, f_column + 1),
             f_at(f_frame, f_row, f_column + 1), f_at(f_frame, f_row + 1, f_column + 1), f_at(f_frame, f_row + 1, f_column),
@@ -148,7 +155,7 @@ always @* begin
     end
 `endif
 end
-wire [3:0] f_votes_any = {
+wire [4:0] f_votes_any = {
 `ifdef HAS_EDGE_LEVEL_I
     f_edges >= edge_min_i,
 `else
@@ -165,12 +172,17 @@ wire [3:0] f_votes_any = {
     1'b0,
 `endif
 `ifdef HAS_VARIANCE_MIN_I
-    F_PIXELS * f_squares - f_sum * f_sum >= variance_min_i
+    F_PIXELS * f_squares - f_sum * f_sum >= variance_min_i,
+`else
+    1'b0,
+`endif
+`ifdef HAS_RANGE_MIN_I
+    f_high - f_low >= range_min_i
 `else
     1'b0
 `endif
 };
-wire [3:0] f_voters = {
+wire [4:0] f_voters = {
 `ifdef HAS_EDGE_LEVEL_I
     1'b1,
 `else
@@ -187,6 +199,11 @@ wire [3:0] f_voters = {
     1'b0,
 `endif
 `ifdef HAS_VARIANCE_MIN_I
+    1'b1,
+`else
+    1'b0,
+`endif
+`ifdef HAS_RANGE_MIN_I
     1'b1
 `else
     1'b0
@@ -299,6 +316,9 @@ always @* if (started) begin
 `endif
 `ifdef HAS_VARIANCE_MIN_I
         assert(variance_score_o == F_PIXELS * f_squares - f_sum * f_sum);
+`endif
+`ifdef HAS_RANGE_MIN_I
+        assert(range_score_o == f_high - f_low);
 `endif
     end
     assert(forward_valid_o == f_leaves);

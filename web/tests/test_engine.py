@@ -8,7 +8,7 @@ import camera_clip
 from compare import assert_same_results
 from PIL import Image
 
-FOUR_FEATURES = """[[spatial]]
+ALL_FEATURES = """[[spatial]]
 feature = "edge"
 level = 40
 [[spatial]]
@@ -21,6 +21,9 @@ mean_fraction_bits = 2
 [[spatial]]
 feature = "variance"
 min_score = 90
+[[spatial]]
+feature = "range"
+min_score = 30
 """
 RENDERINGS = {
     "zero": "",
@@ -40,8 +43,8 @@ def toml_at_depth(toml, bits):
 def cameras():
     """Name, TOML, size: every preset, then features x references x what is shown x depths x sides of a region x sizes, each
     value with many of the others."""
-    one = [f'[[spatial]]\nfeature = "{feature}"\n' for feature in ["edge", "corner", "mad", "variance"]]
-    features = [*one, FOUR_FEATURES, FOUR_FEATURES + '[decision]\ncombine = "all"\n']
+    one = [f'[[spatial]]\nfeature = "{feature}"\n' for feature in ["edge", "corner", "mad", "variance", "range"]]
+    features = [*one, ALL_FEATURES, ALL_FEATURES + '[decision]\ncombine = "all"\n']
     depths = [8, 10, 8, 5, 8, 16, 8, 1, 12]
     sides = [8, 16, 5, 4, 12, 64]
     number = 0
@@ -118,7 +121,7 @@ def test_explanations(page, native):
     files = native.pictures(decoded(frames), size)
     folder = native.folders.mktemp("explain")
     means = '[temporal]\nreference = "last-sent"\n[render]\nirrelevant = "mean"\n'
-    for toml in [FOUR_FEATURES, means, "[frame]\npixel_bits = 12\n[region]\nsize = 20\n"]:
+    for toml in [ALL_FEATURES, means, "[frame]\npixel_bits = 12\n[region]\nsize = 20\n"]:
         config = folder / "design.toml"
         config.write_text(toml)
         regions = [(0, 0), (2, 1), (3, 2)]

@@ -72,13 +72,13 @@ mod tests {
     /// Validation accepts both ends of every bound and refuses the next value beyond the upper end.
     #[test]
     fn bounds_are_what_is_taken() {
-        const FOUR: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"}]";
+        const ALL: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"},{feature=\"range\"}]";
         let mut keys = 0;
         for overrides in [
             vec![],
-            vec![FOUR, "render.irrelevant=\"mean\""],
-            vec![FOUR, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
-            vec![FOUR, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
+            vec![ALL, "render.irrelevant=\"mean\""],
+            vec![ALL, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
+            vec![ALL, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
             vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
         ] {
             let camera = |more: &str| {
@@ -115,6 +115,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 11 + 11 + 9 + 4);
+        assert_eq!(keys, 4 + 12 + 12 + 10 + 4);
     }
 }

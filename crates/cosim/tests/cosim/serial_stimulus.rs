@@ -243,7 +243,7 @@ fn decisions_are_made_on_below_and_above_their_minima() {
 #[test]
 fn regions_of_a_frame_are_in_different_states() {
     for design in designs() {
-        let recording = record(&design, &directed_stimulus(LEVEL, 1));
+        let recording = record(&design, &directed_stimulus(LEVEL, 3));
         let verdicts = region_outputs(&design, &recording);
         let all = u64::from(design.region_pixels());
         let frames = verdicts.last().unwrap().frame;

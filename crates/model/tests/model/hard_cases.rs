@@ -176,6 +176,7 @@ fn recipe_with_all_features(
             feature("corner", max / 2, 1000),
             feature("mad", 0, 250 * max),
             feature("edge", 2 * max, 1000 * side),
+            feature("range", 0, 600 * max),
         ],
         all_must_vote: false,
         temporal_level: max / 2,

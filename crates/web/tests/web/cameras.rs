@@ -7,15 +7,15 @@ use foveate_model::FunctionalCamera;
 use foveate_web::PageCameras;
 
 pub(crate) const SIZE: (u32, u32) = (61, 43);
-const FOUR: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"}]";
+const FIVE: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"},{feature=\"range\"}]";
 
 /// Returns the presets, and configurations for what they do not reach: other depths, sizes with
 /// padding, means of raw pixels.
 pub(crate) fn configurations() -> Vec<String> {
     let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
     let more = [
-        &[FOUR, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
-        &[FOUR, "frame.pixel_bits=5", "region.size=7", "temporal.reference=\"last-sent\""],
+        &[FIVE, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
+        &[FIVE, "frame.pixel_bits=5", "region.size=7", "temporal.reference=\"last-sent\""],
         &[
             "region.size=12",
             "render.irrelevant=\"mean\"",

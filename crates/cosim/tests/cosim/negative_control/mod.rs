@@ -37,7 +37,7 @@ fn run_with_fault(fault: &PlantedFault, output: &Path) -> Result<CosimReport, St
             count
         });
     };
-    let stimulus = directed_stimulus(design.level(), 1);
+    let stimulus = directed_stimulus(design.level(), 2);
     let report = cosimulate(&design.design(), design.simulator(), stimulus, output, edit);
     match found {
         Some(1) => report.map_err(|error| error.to_string()),
@@ -91,7 +91,7 @@ fn every_design_passes_without_a_fault() {
     let numbered: Vec<(usize, FaultDesign)> = designs.into_iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, planted)| {
         let folder = output.path().join(number.to_string());
-        let stimulus = directed_stimulus(planted.level(), 1);
+        let stimulus = directed_stimulus(planted.level(), 2);
         let name = format!("{planted:?}");
         check_agreement(&name, &planted.design(), planted.simulator(), stimulus, &folder)
     });

@@ -118,9 +118,10 @@ pub(super) fn recipe(number: usize) -> RasterParameters {
         feature("mad", 0, 9000),
         feature("corner", 12, 2000),
         feature("variance", 0, 300_000),
+        feature("range", 0, 60_000),
     ];
-    let count = 1 + number % 4;
-    let features = (0..count).map(|turn| all[(number / 4 + turn) % 4].clone()).collect();
+    let count = 1 + number % 5;
+    let features = (0..count).map(|turn| all[(number / 5 + turn) % 5].clone()).collect();
     let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
     let columns = 4.max((16 * pixels + side - 1) / side);
     let periphery = PeripheryParameters::from_number(number / 3, side, 255)
