@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Decides when the `raster` core advances, and follows its place in the frame (docs/raster.md).
 //
-// The flags of a word leave with its advance. Those of the windows and of the tail are the flags of earlier words, delayed
-// by as many advances and rows as the windows lag behind.
+// The flags of a word leave with its advance. The flags of the windows and of the tail belong to earlier words: they are
+// delayed by as many advances and rows as the windows lag behind.
 `default_nettype none
 
 module raster_control #(
@@ -27,7 +27,7 @@ module raster_control #(
     input  wire busy_i,           // the next frame may not begin yet
     output reg  ready_o,          // the offered word is taken
     output wire step_o,           // the core advances at this edge; the ports below belong to this advance
-    output wire pad_o,            // the word is a copy of the last pixel of its row
+    output wire pad_o,            // the advance takes no word; right of the frame, the word is a copy of the last pixel of its row
     output wire taken_end_o,      // the word is the last that is taken of its row
     output wire repeat_o,         // the word is a copy of the word above it
     output wire [1:0] left_o,     // one bit per window: the center has nothing on its left

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The whole camera for a frame that comes row by row, LANES pixels per clock: windows, scores, decisions, the pixels of
-// active regions, and the means of irrelevant ones. docs/raster.md defines each output at each clock.
+// The whole core of organization `raster`. A frame comes row by row, LANES pixels per clock; decisions, the pixels of active
+// regions, and the means of irrelevant ones leave. docs/raster.md defines each output at each clock.
 //
-//     word -> rows -> median -> rows -> edge, corner -> counts -> votes -> decision
-//                                  `-> center -> change <-> frame store
-//                                          `-> buffer -> readout of active regions
+//     raster_pad -> raster_window -> median_columns -> raster_window -> raster_edge -> raster_counts -> raster_decision
+//                                                     center `-> raster_change, with the references of raster_store
+//                                                            `-> raster_forward: a buffer, and raster_readout
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
@@ -71,7 +71,7 @@ module raster_core #(
     input  wire [          WIDTH-1:0] corner_level_i,      // a neighbor differs from its center above this level (`corner`)
     input  wire [          WIDTH-1:0] temporal_level_i,    // a pixel has changed above this difference
     input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more than this level is sent again (BLOCKS)
-    input  wire [     SCORE_BITS-1:0] minima_i,            // smallest value of each score that votes; the lowest belongs to TRS
+    input  wire [     SCORE_BITS-1:0] minima_i,            // smallest value at which each score votes; the lowest bits belong to TRS
     // Decisions
     output wire                       decision_valid_o,    // the decision for region_o is on the ports
     output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
@@ -147,6 +147,8 @@ module raster_core #(
     localparam WORD_BITS = $clog2(ROW_WORDS);
     localparam HITS = EDGE + CORNER;  // features that count hits of a window
     localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
+    // Scores are in the order in which they are known, in raster_decision, too: counts, those made of the sums or extremes of a
+    // region, and that of mad, which needs a second pass.
     localparam RANGE_START = COUNTS_BITS + VARIANCE * VARIANCE_BITS;
     localparam SETTLED_BITS = RANGE_START + RANGE * WIDTH;  // bits of all scores except that of mad
     localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
@@ -163,8 +165,8 @@ module raster_core #(
     localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to its column of the window
     localparam MEDIAN_CLOCKS = MEDIAN ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
     localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (HITS > 0 ? COLUMN_CLOCKS : 0);  // from a word to the center of the last window
-    localparam STORE_CLOCKS = 2 + DEEP;                                // from the center to the stores
-    localparam HIT_CLOCKS = 4 + DEEP;                                  // from the center to the hits
+    localparam STORE_CLOCKS = 2 + DEEP;                                // from center_word to `center`, which is stored
+    localparam HIT_CLOCKS = 4 + DEEP;                                  // from center_word to its hits
 
     // With DEEP a large store is made of groups of banks. References come in order, so a reference can be requested early
     // enough to pass the groups: at the earliest at the advance with which its word reaches the tail.
@@ -322,7 +324,7 @@ module raster_core #(
     endgenerate
 
     // ---- The center of the last window, its place in the frame, and its reference
-    wire [WORD-1:0] center;
+    wire [WORD-1:0] center;  // center_word, STORE_CLOCKS later: the word of store_step
     wire center_step, store_step, arriving_step, hit_step;
 
     word_delay #(.WIDTH(WORD), .DEPTH(STORE_CLOCKS)) u_center (.clk_i(clk_i), .data_i(center_word), .data_o(center));
@@ -407,7 +409,8 @@ module raster_core #(
         .region_bottom_i(hit_region_bottom), .done_o(done), .counts_o(counts)
     );
 
-    localparam SETTLED_CLOCKS = VARIANCE ? 3 : RANGE ? 1 : 0;  // from the sums of a region to the last score made of them
+    // A leaf that looks at all pixels takes `center`, which comes two clocks before hit_step.
+    localparam SETTLED_CLOCKS = VARIANCE ? 3 : RANGE ? 1 : 0;  // from the counts to the last of the other scores: v in docs/raster.md
     wire [SUM_BITS-1:0] sum;
     wire settled;  // all scores except that of mad are there
     wire [SETTLED_BITS-1:0] settled_scores;
@@ -418,7 +421,7 @@ module raster_core #(
     generate
         if (MAD || VARIANCE) begin : g_moments
             wire [VARIANCE_BITS-1:0] variance;
-            // Hits come two clocks after the center.
+            // A word is on `center` with its store_step, two clocks before its hit_step.
             raster_moments #(
                 .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .COLUMNS(COLUMNS), .VARIANCE(VARIANCE),
                 .SUM_BITS(SUM_BITS), .SQUARE_SUM_BITS(SQUARE_SUM_BITS), .PRODUCT_BITS(PRODUCT_BITS),

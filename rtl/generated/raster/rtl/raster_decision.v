@@ -26,7 +26,7 @@ module raster_decision #(
     input  wire                   rst_i,             // synchronous reset, active high
     input  wire                   judged_i,          // all scores of a region are there
     input  wire [ SCORE_BITS-1:0] scores_i,          // scores of that region; the temporal count assumes a valid reference
-    input  wire [ SCORE_BITS-1:0] minima_i,          // from which on each votes, that of the changed pixels for TRS
+    input  wire [ SCORE_BITS-1:0] minima_i,          // smallest value at which each score votes; the lowest bits belong to TRS
     input  wire                   shown_i,           // the screen shows the summary of this region (SUMMARIES)
     input  wire                   differs_i,         // a mean of this region differs from the one that was sent last (SUMMARIES)
     input  wire                   lost_i,            // a region is lost, so that its reference is no longer valid

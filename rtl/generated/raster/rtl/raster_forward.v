@@ -55,7 +55,7 @@ module raster_forward #(
     output wire [   FRAME_BITS-1:0] frame_o,                  // number since reset of the frame of the word's region
     output wire                     summary_o,                // the word on the port is a mean (BLOCKS)
     output reg                      lost_o,                   // at least one region was lost since reset
-    output reg  [             15:0] lost_count_o,             // how many, up to the largest number
+    output reg  [             15:0] lost_count_o,             // number of lost regions, up to the largest number of this width
     output reg                      lost_valid_o,             // a region was lost at the last edge
     output wire [  REGION_BITS-1:0] lost_region_o,            // number of the lost region
     output wire [   FRAME_BITS-1:0] lost_frame_o,             // number since reset of the frame of the lost region
@@ -222,9 +222,9 @@ module raster_forward #(
         end
     endgenerate
 
-    // The means. The low bits of its number distinguish the regions of a row. The word for the port is selected behind the
-    // registers, because the word that a memory has read comes late in a clock. A fetch of a region that sends pixels also
-    // writes where its sent means are kept. The screen shows no summary of such a region, so these means are not used.
+    // The means. lost_region_o also numbers the held region; its low bits distinguish the regions of a row. The word for the port
+    // is selected behind registers, because a memory shows late in a clock what it has read. A fetch of a region that sends
+    // pixels also writes where its sent means are kept; the screen shows no summary of it, so these means are not used.
     generate
         if (BLOCKS > 0) begin : g_means
             localparam WIDTH = WORD_BITS / LANES;

@@ -24,7 +24,7 @@ module serial_addresses #(
     input  wire                     clk_i,          // clock, rising edge
     input  wire [             35:0] step_i,         // the step: one bit for each action, in the order of serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor that is read
-    input  wire [              1:0] part_i,         // which half of a gradient, part of a ring's step, or side of the border
+    input  wire [              1:0] part_i,         // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
     input  wire                     walks_i,        // the next step works on the next center
     input  wire                     slot_ends_i,    // the next step works on the next slot
     input  wire                     last_lane_i,    // the score of the last lane passes

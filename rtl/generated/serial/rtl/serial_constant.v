@@ -107,6 +107,8 @@ module serial_constant #(
     endgenerate
 
     // The shifted number.
+    // A division ends when the divisor is back at its own places. `mad` divides by the pixels of a region, `variance` and
+    // `range` divide by 1.
     assign spent_o = scale_q == 0;
     assign divided_o = scale_q == (squares_i || ranges_i ? UNIT : MAD ? DIVISOR : UNIT);
     assign last_place_o = scale_q[0];

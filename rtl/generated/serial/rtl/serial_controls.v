@@ -2,7 +2,8 @@
 // Makes the control word: what the lanes of the serial array do in a step. Combinational.
 //
 // serial_group knows which designs use which control, and serial_lane takes the word apart. Both use the order of this file:
-// controls for the address first, then those for the word read, then those for the accumulator.
+// controls for the address first, then those for the word read, then those for the accumulator. serial_sequencer and
+// serial_array pass the word on.
 `default_nettype none
 
 module serial_controls #(
@@ -12,7 +13,7 @@ module serial_controls #(
 ) (
     input  wire [35:0] step_i,     // the step: one bit for each action, in the order of serial_states
     input  wire [ 3:0] tap_i,      // number of the neighbor that is read
-    input  wire [ 1:0] part_i,     // which half of a gradient, part of a ring's step, or side of the border
+    input  wire [ 1:0] part_i,     // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
     input  wire        counts_i,   // the center is a pixel of the region
     input  wire        spent_i,    // the shifted number has no bits left
     output wire [27:0] controls_o  // the control word

@@ -125,6 +125,7 @@ module serial_group #(
         RASTER != 0, RASTER == 0, RETURNS                 // fetch, unload, unload_mean
     };
 
+    // The three parts of the control word. Its lowest bit is unload_mean.
     serial_control #(.WIDTH(5), .USED(WITH_ADDRESS)) u_with_address (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[27:23]), .bits_o(controls_o[27:23])
     );

@@ -64,7 +64,7 @@ module serial_lane #(
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
-    localparam SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0;
+    localparam SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0;  // 1: the lane has `aux`, and its score can take the accumulator
     localparam KEEPS = SUMS || SUMMARIES != 0;  // 1: the score can take sums
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
@@ -204,7 +204,7 @@ module serial_lane #(
                     assign takes = chosen;
                 end
             end else begin : g_plain
-                wire unused_masked = masked || from_aux;  // from_aux is used by `range` with `mad` only
+                wire unused_masked = masked || from_aux;  // from_aux is used where `mad` scales the word and `range` does not
                 assign choice = from_memory ? wide_word : constant_i;
                 assign takes  = 1'b1;
             end

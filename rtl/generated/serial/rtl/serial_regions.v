@@ -65,6 +65,8 @@ module serial_regions #(
     assign next_edge_o = EDGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_EDGE);
     assign next_corner_o = CORNER_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_CORNER);
     assign next_range_o = RANGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_RANGE);
+    // `mad` and `variance` begin with the same step, so nothing asks which of them comes next. Only their steps and those of
+    // `range` ask which of the three is under way, so a design that has one of them needs no register.
     assign ranges_o = RANGE_INDEX != 0 && ((MAD_INDEX == 0 && VARIANCE_INDEX == 0) || ranges_q);
     assign squares_o = VARIANCE_INDEX != 0 && ((MAD_INDEX == 0 && RANGE_INDEX == 0) || squares_q);
 

@@ -2,7 +2,8 @@
 // The sequencer's states: which step follows which in the serial array, one step per clock, the same for all lanes. In some
 // states a step does a part of a pixel's work: `tap` says which neighbor is read, `part` which half of the work is done.
 //
-// step_o has one bit for each action of the step. docs/serial.md defines the steps.
+// step_o has one bit for each action of the step. docs/serial.md defines the steps. serial_addresses, serial_constant and
+// serial_controls take step_o apart by the same list of names, and serial_sequencer takes the first and the last of them.
 `default_nettype none
 
 module serial_states #(
@@ -46,7 +47,7 @@ module serial_states #(
     // The step.
     output wire [35:0] step_o,         // the step: one bit for each action
     output wire [ 3:0] tap_o,          // number of the neighbor that is read
-    output wire [ 1:0] part_o,         // which half of a gradient, part of a ring's step, or side of the border
+    output wire [ 1:0] part_o,         // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
     output wire        walks_o,        // the next step works on the next center
     output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
     output wire        slot_ends_o     // the next step works on the next slot
@@ -67,7 +68,7 @@ module serial_states #(
     localparam [4:0] SUM = 5'd12;
     localparam [4:0] DOUBLE = 5'd13;
     localparam [4:0] HALF = 5'd14;     // adds half of the divisor
-    localparam [4:0] DIVIDE = 5'd15;
+    localparam [4:0] DIVIDE = 5'd15;   // finds a bit of the quotient; a division by 1 moves the accumulator to `aux`
     localparam [4:0] CLEAR = 5'd16;
     localparam [4:0] DEVIATE = 5'd17;
     localparam [4:0] SQUARE = 5'd18;   // adds words whose bit is set
@@ -90,7 +91,7 @@ module serial_states #(
     localparam [1:0] BORDER = 2'b01;
     localparam [1:0] COPY = 2'b10;
 
-    localparam SUMS = MAD || VARIANCE || RANGE;
+    localparam SUMS = MAD || VARIANCE || RANGE;  // 1: a feature divides, and its score is the accumulator
     /* verilator lint_off WIDTH */
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
     /* verilator lint_on WIDTH */
@@ -143,7 +144,7 @@ module serial_states #(
     wire correcting = VARIANCE && state_q == CORRECT;
     wire keeping = (SUMS || SUMMARIES) && state_q == KEEP;
     wire ranging = RANGE && state_q == RANGE_STEP;
-    wire spreading;  // the distances from the largest pixel are compared
+    wire spreading;  // second pass of `range`: the distances from the largest pixel are compared, not the pixels
 
     // Steps of a mean.
     wire is_averaging;  // blocks are summed, and their sums pass
