@@ -239,10 +239,7 @@ impl<'a> NetworkAgreement<'a> {
         asked: usize,
     ) -> Result<AgreementEstimate, ExploreError> {
         let samples = &self.samples[part as usize];
-        // Frames that the network has not seen yet count with their best possible agreement.
-        let mut frames: Vec<OutputAgreement> =
-            samples.iter().flatten().map(|sample| sample.best_agreement.clone()).collect();
-        let mut looked = 0;
+        let mut seen: Vec<OutputAgreement> = Vec::new();
         let stage = |_| network_progress(asked);
         let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
         for (clip, own) in samples.iter().enumerate() {
@@ -250,22 +247,25 @@ impl<'a> NetworkAgreement<'a> {
             let mut looking = self.witness.start_run(frame_format_of(camera));
             let mut engine = Engine::new(camera);
             let mut player = self.footage.clips.open(clip)?.limited_to(last.number + 1);
-            let mut samples = own.iter().peekable();
+            let mut unseen = own.iter().peekable();
             for current in monitor.watch(&mut player) {
                 let current = current?;
                 FrameDepths::from_frame(&current, [camera.pixel_bits()])?.show_to(&mut engine)?;
-                let sample = samples.next_if(|sample| sample.number == current.number);
+                let sample = unseen.next_if(|sample| sample.number == current.number);
                 let Some(sample) = sample else { continue };
                 let screen = looking.outcome(engine.rendered());
-                frames[looked] = self.witness.compare(&sample.findings, &screen);
-                looked += 1;
-                let share = frames.iter().sum::<OutputAgreement>().share();
+                seen.push(self.witness.compare(&sample.findings, &screen));
+                // Frames that the network has not seen yet count with their best possible
+                // agreement. A clip that ended early has no such frames.
+                let unseen = unseen.clone().chain(samples[clip + 1..].iter().flatten());
+                let best = unseen.map(|sample| &sample.best_agreement);
+                let share = seen.iter().chain(best).sum::<OutputAgreement>().share();
                 if least.is_some_and(|least| share < least) {
-                    return Ok(AgreementEstimate::upper_bound(share, looked as u64));
+                    return Ok(AgreementEstimate::upper_bound(share, seen.len() as u64));
                 }
             }
         }
-        let agreed = AgreementEstimate::from_frames(&frames[..looked]);
+        let agreed = AgreementEstimate::from_frames(&seen);
         let no_interval = agreed.detections.is_none() && has_class_map(self.witness.network());
         Ok(if no_interval {
             AgreementEstimate { intervals: ConfidenceIntervals::default(), ..agreed }
@@ -284,7 +284,72 @@ fn spread_evenly(range: Range<u64>, most: u64) -> Vec<u64> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use foveate_footage::InputOptions;
+    use foveate_inference::{Framing, PixelMapping};
+    use foveate_playback::SilentHooks;
+
     use super::*;
+
+    /// Writes frames of 48x32 pixels, in which a square moves over a background of a few levels.
+    fn write_clip(folder: &Path, frames: u32) {
+        std::fs::create_dir(folder).unwrap();
+        for number in 0..frames {
+            let square = 3 * number % 40..3 * number % 40 + 8;
+            let pixel = |(x, y): (u32, u32)| {
+                let is_inside = square.contains(&x) && (10..18).contains(&y);
+                if is_inside { 170 } else { [60, 65, 70, 75, 80][((x / 4 + y / 4) % 5) as usize] }
+            };
+            let pixels = (0..32).flat_map(|y| (0..48).map(move |x| (x, y))).map(pixel);
+            let file = [b"P5\n48 32\n255\n".to_vec(), pixels.collect()].concat();
+            std::fs::write(folder.join(format!("{number:02}.pgm")), file).unwrap();
+        }
+    }
+
+    /// Two clips are measured after the first one has lost frames that the network saw in it. Once
+    /// that clip has ended, the bounds are those of a network that never saw the lost frames.
+    #[test]
+    fn frames_that_a_clip_has_lost_are_not_part_of_the_bounds_of_the_next_clip() {
+        const LEFT_FRAMES: u32 = 4;
+        let dir = tempfile::tempdir().unwrap();
+        let inputs: [PathBuf; 2] = ["first", "second"].map(|name| dir.path().join(name));
+        inputs.iter().for_each(|folder| write_clip(folder, 24));
+        let task = CameraConfig::from_toml("[frame]\nwidth = 48\nheight = 32\n").unwrap();
+        let options = InputOptions::default();
+        let footage =
+            ExplorationFootage::new((&inputs, &[]), &options, &task, &SilentHooks).unwrap();
+        let halves = ClipHalves { frames: vec![(12, 24); 2], ..ClipHalves::default() };
+        let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
+        let viewing = VisionOptions { framing: Framing::Same, mapping, detector: None };
+        let goal = NetworkGoal {
+            path: Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx")),
+            viewing: &viewing,
+            min_agreement: 0.9,
+            cheapest: CostObjective::Bytes,
+            frames: 48,
+        };
+        let network = || NetworkAgreement::new(goal, &footage, &halves, &task).unwrap();
+        let with_lost_frames = network();
+        for number in LEFT_FRAMES..24 {
+            std::fs::remove_file(inputs[0].join(format!("{number:02}.pgm"))).unwrap();
+        }
+        let without_lost_frames = network();
+        let camera = task.validate().unwrap();
+        let bound = |network: &NetworkAgreement<'_>, least: f64| {
+            network.measure_agreement(&camera, ClipPart::Search, Some(least), 0).unwrap()
+        };
+        let mut bounds_of_second_clip = 0;
+        for percent in 0..100 {
+            let least = f64::from(percent) / 100.0;
+            let expected = bound(&without_lost_frames, least);
+            if expected.is_upper_bound && expected.frames >= LEFT_FRAMES.into() {
+                bounds_of_second_clip += 1;
+                assert_eq!(bound(&with_lost_frames, least), expected, "{percent} %");
+            }
+        }
+        assert!(bounds_of_second_clip > 0, "no bound was decided in the second clip");
+    }
 
     /// Every frame but the first is in one part, the confirming frames come after those of the
     /// search, and no part is empty.
