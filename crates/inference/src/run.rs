@@ -69,7 +69,7 @@ struct BegunClip {
     /// The index of the clip's first frame among the frames of all clips.
     first: usize,
     /// The `index_in_run` of the clip's first frame.
-    place: u64,
+    first_index_in_run: u64,
 }
 
 /// A run in progress.
@@ -90,12 +90,11 @@ pub(crate) struct InferenceRun<'a> {
 
 impl FrameConsumer for InferenceRun<'_> {
     fn begin_clip(&mut self, clip: &str, black: Option<&[f32]>) {
-        let last = self.frames.iter().rev().find(|frame| frame.is_counted);
         self.clips.push(BegunClip {
             name: clip.to_owned(),
             problem: None,
             first: self.frames.len(),
-            place: last.map_or(0, |frame| frame.index_in_run + 1),
+            first_index_in_run: self.frames.last().map_or(0, |last| last.index_in_run + 1),
         });
         self.player.begin(black);
         if let Some(reference) = &mut self.reference {
@@ -169,7 +168,7 @@ impl<'a> InferenceRun<'a> {
         }
         let regions = u64::from(self.design.regions());
         let frame = FrameFigures {
-            index_in_run: clip.place + seen.number,
+            index_in_run: clip.first_index_in_run + seen.number,
             clip: clip.name.clone(),
             number: seen.number,
             name: seen.name.to_owned(),

@@ -62,6 +62,23 @@ fn a_run_over_clips_equals_runs_over_each_clip() {
     }
 }
 
+/// A clip with a single frame, which is not counted, takes a place among the frames of all clips. So
+/// the counted frames of three clips with 4, 1 and 4 frames are 1 to 3 and 6 to 8.
+#[test]
+fn a_clip_with_a_single_frame_has_a_place_in_the_run() {
+    let dir = tempfile::tempdir().unwrap();
+    let single = dir.path().join("single");
+    std::fs::create_dir(&single).unwrap();
+    let pixels = vec![90; 64 * 48];
+    std::fs::write(single.join("0.pgm"), [b"P5\n64 48\n255\n".to_vec(), pixels].concat()).unwrap();
+    let inputs = ["scene:street", single.to_str().unwrap(), "scene:fade"];
+    let summary = RunSetup { inputs: &inputs, ..RunSetup::default() }.write(dir.path()).unwrap();
+    assert_eq!(summary.clips.iter().map(|clip| clip.frames).collect::<Vec<_>>(), [4, 1, 4]);
+    let page = std::fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    let has_row = |index: &u32| page.contains(&format!("id=\"pf{index}\""));
+    assert_eq!((0..12).filter(has_row).collect::<Vec<_>>(), [1, 2, 3, 6, 7, 8]);
+}
+
 /// Limits are chosen on the first half of the clips, rounded up, and only the other clips are
 /// reported.
 #[test]
