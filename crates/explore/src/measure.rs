@@ -83,6 +83,10 @@ impl MeasuredClip<'_> {
             // An error of the engines explains why nobody took the frames, so it comes first.
             seen.and(problem)
         })?;
+        if problem.is_some() {
+            // An interrupt may have ended ffmpeg, which then looks like a damaged clip.
+            self.monitor.check()?;
+        }
         let measured = |candidate: MeasuredCamera| {
             let parts = candidate.fidelity.into_iter().zip(candidate.objects);
             let one = |(fidelity, objects): (Fidelity, ObjectCounts)| CameraMeasurement {
@@ -168,5 +172,58 @@ impl MeasuredCamera {
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
         self.objects[part].add_frame(&self.camera, &judged.objects, &outcome.active);
         Ok(self.fidelity[part].add(&judged.frame.frame, &judged.ideal, outcome, screen)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use foveate_footage::InputOptions;
+    use foveate_playback::{PlaybackError, RunHooks, RunProgress};
+
+    use super::*;
+
+    /// Hooks that cancel after they have been asked a number of times.
+    struct PatientHooks {
+        patience: usize,
+        questions: AtomicUsize,
+    }
+
+    impl RunHooks for PatientHooks {
+        fn progress(&self, _progress: &RunProgress<'_>) {}
+
+        fn is_cancelled(&self) -> bool {
+            self.questions.fetch_add(1, Ordering::Relaxed) >= self.patience
+        }
+    }
+
+    /// A clip has two frames and a part of a third one. If the run is cancelled after the second
+    /// frame, the clip may have ended for that reason.
+    #[test]
+    fn a_clip_that_ends_early_in_a_cancelled_run_is_an_interruption() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("clip.y4m");
+        let frame = [b"FRAME\n".to_vec(), vec![90; 16 * 16]].concat();
+        let file = [&b"YUV4MPEG2 W16 H16 F30:1 Cmono\n"[..], &frame, &frame, &frame[..50]].concat();
+        std::fs::write(&path, file).unwrap();
+        let ideal = CameraConfig::from_toml("[frame]\nwidth = 16\nheight = 16\n").unwrap();
+        let options = InputOptions::default();
+        let clips = RunClips::new(&[path], &[], &ideal, &options).unwrap();
+        let measured = |patience| {
+            let hooks = PatientHooks { patience, questions: AtomicUsize::new(0) };
+            let monitor = &RunMonitor::of_frames(&hooks, None);
+            let parts = std::slice::from_ref(&(0..u64::MAX));
+            let clip = MeasuredClip { clips: &clips, clip: 0, ideal: &ideal, parts, monitor };
+            clip.measure(&[ideal.validate().unwrap()])
+        };
+        let ended_early = measured(usize::MAX).unwrap();
+        assert!(ended_early[0][0].problem.is_some());
+        assert_eq!(ended_early[0][0].tally.figures().frames, 2);
+        let interrupted = measured(2).unwrap_err();
+        assert!(
+            matches!(interrupted, ExploreError::Playback(PlaybackError::Interrupted)),
+            "{interrupted}"
+        );
     }
 }

@@ -19,8 +19,8 @@ use super::{DesignArgs, at_least_one};
 /// over whole frames, and candidates are compared with it. The first half of every clip is used to
 /// choose a design, and the second half to report on it. The search covers region size, features,
 /// thresholds, pixel bits, windows, denoising, reference, organization, feed and fold. The exit
-/// code is 1 if no design meets the limits, or if the second half does not confirm the choice; the
-/// nearest design is still written.
+/// code is 1 if no design meets the limits, if the second half does not confirm the choice, or if a
+/// clip was not read to its end; the nearest design is still written.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100

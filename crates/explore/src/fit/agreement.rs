@@ -36,8 +36,11 @@ pub struct AgreementEstimate {
 }
 
 impl AgreementEstimate {
-    /// Returns the agreement over some frames.
+    /// Returns the agreement over some frames. Without frames there is no agreement.
     pub(super) fn from_frames(frames: &[OutputAgreement]) -> Self {
+        if frames.is_empty() {
+            return Self { is_upper_bound: false, ..Self::upper_bound(0.0, 0) };
+        }
         let all: OutputAgreement = frames.iter().sum();
         let share = all.share();
         let by_groups = (share - shortfall(frames)).max(0.0);
@@ -122,5 +125,12 @@ mod tests {
         }
         assert!(least_share_of_others(0.98, 99) < least_share_of_others(0.98, 990));
         assert_eq!((least_share_of_others(0.0, 9), least_share_of_others(0.9, 0)), (0.0, 0.9));
+    }
+
+    #[test]
+    fn no_frames_do_not_agree() {
+        let found = AgreementEstimate::from_frames(&[]);
+        assert_eq!((found.frames, found.share, found.expected), (0, 0.0, 0.0));
+        assert!(!found.is_upper_bound);
     }
 }

@@ -28,6 +28,8 @@ mod report;
 mod rough_cost;
 mod search;
 mod target;
+#[cfg(test)]
+mod test_clip;
 
 use std::path::PathBuf;
 

@@ -290,22 +290,8 @@ mod tests {
     use foveate_inference::{Framing, PixelMapping};
     use foveate_playback::SilentHooks;
 
+    use super::super::test_clip::{remove_frames, write_clip};
     use super::*;
-
-    /// Writes frames of 48x32 pixels, in which a square moves over a background of a few levels.
-    fn write_clip(folder: &Path, frames: u32) {
-        std::fs::create_dir(folder).unwrap();
-        for number in 0..frames {
-            let square = 3 * number % 40..3 * number % 40 + 8;
-            let pixel = |(x, y): (u32, u32)| {
-                let is_inside = square.contains(&x) && (10..18).contains(&y);
-                if is_inside { 170 } else { [60, 65, 70, 75, 80][((x / 4 + y / 4) % 5) as usize] }
-            };
-            let pixels = (0..32).flat_map(|y| (0..48).map(move |x| (x, y))).map(pixel);
-            let file = [b"P5\n48 32\n255\n".to_vec(), pixels.collect()].concat();
-            std::fs::write(folder.join(format!("{number:02}.pgm")), file).unwrap();
-        }
-    }
 
     /// Two clips are measured after the first one has lost frames that the network saw in it. Once
     /// that clip has ended, the bounds are those of a network that never saw the lost frames.
@@ -331,9 +317,7 @@ mod tests {
         };
         let network = || NetworkAgreement::new(goal, &footage, &halves, &task).unwrap();
         let with_lost_frames = network();
-        for number in LEFT_FRAMES..24 {
-            std::fs::remove_file(inputs[0].join(format!("{number:02}.pgm"))).unwrap();
-        }
+        remove_frames(&inputs[0], LEFT_FRAMES..24);
         let without_lost_frames = network();
         let camera = task.validate().unwrap();
         let bound = |network: &NetworkAgreement<'_>, least: f64| {

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::build::SynthesizedDesigns;
 use super::constraints::{ConstraintCheck, all_met};
 use super::network::FittedNetwork;
-use super::search::CameraSearch;
+use super::search::{CameraSearch, SecondHalfResult};
 use super::{FitRequest, frames_of_halves, reasons};
 use crate::cost::DesignArea;
 use crate::row::bytes_per_frame;
@@ -84,7 +84,7 @@ pub struct FitResult {
     pub design: FittedDesign,
     /// The reasons why this design was chosen.
     pub why: Vec<String>,
-    /// The clips that ended early, with the reasons.
+    /// The clips that ended early, with the reasons, and the clips that lost frames during the fit.
     pub problems: Vec<String>,
 }
 
@@ -94,12 +94,10 @@ pub(super) fn fit_result(
     (asked, mut reasons): (usize, Vec<String>),
     built: &SynthesizedDesigns,
     target: Option<ActivityTarget>,
-    ((held_out, mut held), network): (
-        (FidelityFigures, Vec<ConstraintCheck>),
-        Option<FittedNetwork>,
-    ),
+    (second, network): (SecondHalfResult, Option<FittedNetwork>),
     halves: &ClipHalves,
 ) -> FitResult {
+    let SecondHalfResult { figures: held_out, checks: mut held, problems: lost } = second;
     let chosen = built.chosen();
     reasons.extend(reasons::reason_lines(search, built, chosen, request));
     held.extend(request.constraints.check_speed(chosen.speed.as_ref()));
@@ -125,7 +123,7 @@ pub(super) fn fit_result(
         borne_out: all_met(&held),
         binding: reasons::binding_limits(built),
         why: reasons,
-        problems: halves.problems.clone(),
+        problems: [halves.problems.clone(), lost].concat(),
         network,
         design: FittedDesign {
             toml: config.to_toml(),

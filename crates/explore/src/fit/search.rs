@@ -35,6 +35,14 @@ pub(super) struct ExaminedCamera {
     pub(super) checks: Vec<ConstraintCheck>,
 }
 
+/// A camera's figures on the second halves.
+pub(super) struct SecondHalfResult {
+    pub(super) figures: FidelityFigures,
+    pub(super) checks: Vec<ConstraintCheck>,
+    /// The clips that have fewer frames than at the start of the fit.
+    pub(super) problems: Vec<String>,
+}
+
 /// The search and the cameras that it has examined.
 pub(super) struct CameraSearch<'a> {
     constraints: &'a Constraints,
@@ -206,19 +214,26 @@ impl<'a> CameraSearch<'a> {
         Ok(looks.collect())
     }
 
-    /// Returns the figures of a camera on the second halves, which influenced no choice.
+    /// Returns the figures of a camera on the second halves, which influenced no choice. This is the
+    /// last measurement of a fit, so it also finds the clips that have lost frames meanwhile.
     pub(super) fn measure_second_half(
         &self,
         look: &ExaminedCamera,
-    ) -> Result<(FidelityFigures, Vec<ConstraintCheck>), ExploreError> {
+    ) -> Result<SecondHalfResult, ExploreError> {
         let camera = look.config.validate()?;
-        let mut measured = Vec::new();
+        let (mut measured, mut problems) = (Vec::new(), Vec::new());
         for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
             let stage = |_| measuring_progress(0, 1);
             let cameras = std::slice::from_ref(&camera);
-            let mut parts =
-                self.footage.measure_parts(clip, cameras, &[0..half, half..all], &stage)?;
-            measured.extend(parts.pop().and_then(|mut parts| parts.pop()));
+            let parts = self.footage.measure_parts(clip, cameras, &[0..half, half..all], &stage)?;
+            let mut parts: Vec<_> = parts.into_iter().flatten().collect();
+            let left = parts.iter().map(|part| part.tally.figures().frames).sum::<u64>();
+            if left < all {
+                let name = &self.footage.clips.clips()[clip].name;
+                problems
+                    .push(format!("{name}: it had {all} frames at first, and later only {left}"));
+            }
+            measured.extend(parts.pop());
         }
         let all: Vec<_> = measured.iter().collect();
         let figures = sum_tallies(&all).map(|tally| tally.figures());
@@ -226,8 +241,8 @@ impl<'a> CameraSearch<'a> {
         let mut objects = ObjectCounts::default();
         measured.iter().for_each(|part| objects.merge(part.objects));
         let recall = self.recall(objects, "second")?;
-        let held = self.constraints.check_figures(&camera, &figures, recall);
-        Ok((figures, held))
+        let checks = self.constraints.check_figures(&camera, &figures, recall);
+        Ok(SecondHalfResult { figures, checks, problems })
     }
 
     /// Returns the share of the objects of a half that is sent, if it is limited.
@@ -329,4 +344,35 @@ fn trial_thresholds_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
     };
     let of = |level| scores.iter().map(move |&score| entry(level, score));
     levels.into_iter().flat_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use foveate_footage::InputOptions;
+    use foveate_playback::{RunMonitor, SilentHooks};
+
+    use super::super::test_clip::{remove_frames, write_clip};
+    use super::*;
+
+    /// A clip of 12 frames loses its second half while the fit runs.
+    #[test]
+    fn a_clip_that_has_lost_frames_is_a_problem() {
+        let dir = tempfile::tempdir().unwrap();
+        let inputs = ["whole", "shortened"].map(|name| dir.path().join(name));
+        inputs.iter().for_each(|folder| write_clip(folder, 12));
+        let task = CameraConfig::from_toml("[frame]\nwidth = 48\nheight = 32\n").unwrap();
+        let (options, constraints) = (InputOptions::default(), Constraints::default());
+        let footage =
+            ExplorationFootage::new((&inputs, &[]), &options, &task, &SilentHooks).unwrap();
+        let monitor = RunMonitor::of_frames(&SilentHooks, None);
+        let halves = ClipHalves::count(&footage.clips, 4, &monitor).unwrap();
+        let mut search = CameraSearch::new(&constraints, &footage, &halves, &task).unwrap();
+        let chosen = search.examine(std::slice::from_ref(&task)).unwrap().remove(0);
+        let second = search.measure_second_half(&chosen).unwrap();
+        assert_eq!((second.figures.frames, second.problems), (12, Vec::new()));
+        remove_frames(&inputs[1], 6..12);
+        let second = search.measure_second_half(&chosen).unwrap();
+        assert_eq!(second.figures.frames, 6);
+        assert_eq!(second.problems, ["shortened: it had 12 frames at first, and later only 6"]);
+    }
 }
