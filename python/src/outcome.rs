@@ -16,7 +16,7 @@ use crate::camera::Camera;
 use crate::design::Design;
 
 /// A frame and its results, as numbers.
-pub(crate) struct Taken {
+pub(crate) struct FrameRecord {
     pub(crate) design: Arc<foveate_design::Design>,
     pub(crate) result: FrameOutcome,
     pub(crate) number: u64,
@@ -84,7 +84,7 @@ fn untyped<T: Element + Copy>(
 ///     The design that the frame was shown to.
 #[pyclass(frozen, module = "foveate")]
 pub(crate) struct Outcome {
-    taken: Taken,
+    record: FrameRecord,
     /// The frame itself, if it was read from footage.
     frame: Option<Screen>,
     /// The camera whose screen shows the rendered frame, and the number of its step.
@@ -101,7 +101,7 @@ pub(crate) struct Outcome {
 impl Outcome {
     fn new(
         py: Python<'_>,
-        taken: Taken,
+        record: FrameRecord,
         frame: Option<Screen>,
         camera: Option<(Py<Camera>, u64)>,
         screen: Option<Screen>,
@@ -111,7 +111,7 @@ impl Outcome {
             rendered.get_or_init(py, || screen);
         }
         Self {
-            taken,
+            record,
             frame,
             camera,
             rendered,
@@ -127,25 +127,30 @@ impl Outcome {
     /// Makes the outcome of a camera's step, which reads the rendered frame later unless it is kept.
     pub(crate) fn of_camera(
         py: Python<'_>,
-        taken: Taken,
+        record: FrameRecord,
         camera: Py<Camera>,
         step: u64,
         screen: Option<Screen>,
     ) -> Self {
-        Self::new(py, taken, None, Some((camera, step)), screen)
+        Self::new(py, record, None, Some((camera, step)), screen)
     }
 
     /// Makes the outcome of a run, with frame and rendered frame.
-    pub(crate) fn of_run(py: Python<'_>, taken: Taken, frame: Screen, screen: Screen) -> Self {
-        Self::new(py, taken, Some(frame), None, Some(screen))
+    pub(crate) fn of_run(
+        py: Python<'_>,
+        record: FrameRecord,
+        frame: Screen,
+        screen: Screen,
+    ) -> Self {
+        Self::new(py, record, Some(frame), None, Some(screen))
     }
 
-    pub(crate) fn taken(&self) -> &Taken {
-        &self.taken
+    pub(crate) fn record(&self) -> &FrameRecord {
+        &self.record
     }
 
     fn size(&self) -> [usize; 2] {
-        [self.taken.design.rows() as usize, self.taken.design.columns() as usize]
+        [self.record.design.rows() as usize, self.record.design.columns() as usize]
     }
 
     /// Returns an array of regions, which is made once.
@@ -164,61 +169,61 @@ impl Outcome {
     /// The design that the frame was shown to.
     #[getter]
     fn design(&self) -> Design {
-        foveate_design::Design::clone(&self.taken.design).into()
+        foveate_design::Design::clone(&self.record.design).into()
     }
 
     /// Number of the frame, from 0.
     #[getter]
     fn number(&self) -> u64 {
-        self.taken.number
+        self.record.number
     }
 
     /// Time of the frame in microseconds since the first.
     #[getter]
     fn time_us(&self) -> u64 {
-        self.taken.time_us
+        self.record.time_us
     }
 
     /// Name of the frame; None for a frame given as an array.
     #[getter]
     fn name(&self) -> Option<&str> {
-        self.taken.name.as_deref()
+        self.record.name.as_deref()
     }
 
     /// Class of the image; None without a label.
     #[getter]
     fn label(&self) -> Option<&str> {
-        self.taken.label.as_deref()
+        self.record.label.as_deref()
     }
 
     /// Spatial relevance: array of bool, shape (rows, columns).
     #[getter]
     fn srs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.once(py, &self.srs, self.taken.result.srs.iter().copied())
+        self.once(py, &self.srs, self.record.result.srs.iter().copied())
     }
 
     /// Temporal relevance: array of bool, shape (rows, columns).
     #[getter]
     fn trs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.once(py, &self.trs, self.taken.result.trs.iter().copied())
+        self.once(py, &self.trs, self.record.result.trs.iter().copied())
     }
 
     /// Regions that are relevant in space and in time, whose pixels are sent: array of bool, shape (rows, columns).
     #[getter]
     fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.once(py, &self.active, self.taken.result.active.iter().copied())
+        self.once(py, &self.active, self.record.result.active.iter().copied())
     }
 
     /// The action of each region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
     #[getter]
     fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
-        self.once(py, &self.action, self.taken.result.actions.iter().map(|&action| code(action)))
+        self.once(py, &self.action, self.record.result.actions.iter().map(|&action| code(action)))
     }
 
     /// Number of changed pixels of a region, all of its pixels without a valid reference: array of int64, shape (rows, columns).
     #[getter]
     fn changed(&self, py: Python<'_>) -> Py<PyArray2<i64>> {
-        let counts = self.taken.result.temporal_count.iter();
+        let counts = self.record.result.temporal_count.iter();
         self.once(py, &self.changed, counts.map(|&count| count.into()))
     }
 
@@ -227,8 +232,8 @@ impl Outcome {
     fn scores(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
         let make = || -> PyResult<Py<PyDict>> {
             let found = PyDict::new(py);
-            let features = self.taken.design.features().iter();
-            for (feature, scores) in features.zip(&self.taken.result.scores) {
+            let features = self.record.design.features().iter();
+            for (feature, scores) in features.zip(&self.record.result.scores) {
                 let signed = |&score: &u64| i64::try_from(score).expect("scores are below 2^54");
                 let scores = array(py, scores.iter().map(signed), self.size());
                 found.set_item(feature.kind().to_string(), scores)?;
@@ -256,7 +261,7 @@ impl Outcome {
     }
 
     fn __repr__(&self) -> String {
-        let Taken { result, number, .. } = &self.taken;
+        let FrameRecord { result, number, .. } = &self.record;
         let [rows, columns] = self.size();
         let active = result.active.iter().filter(|&&active| active).count();
         format!("<foveate.Outcome of frame {number}: {active} of {columns}x{rows} regions active>")

@@ -44,15 +44,15 @@ pub(crate) fn decisions_png<'py>(
     outcome: &Bound<'py, Outcome>,
 ) -> PyResult<Bound<'py, PyBytes>> {
     const NOTHING: [u8; 3] = [64, 64, 64];
-    let taken = outcome.get().taken();
-    let bits = taken.result.srs.iter().zip(&taken.result.trs);
+    let record = outcome.get().record();
+    let bits = record.result.srs.iter().zip(&record.result.trs);
     let colour = bits.flat_map(|bits| match bits {
         (true, true) => ACTIVE,
         (true, false) => RELEVANT,
         (false, true) => CHANGED,
         (false, false) => NOTHING,
     });
-    let size = (taken.design.columns() as usize, taken.design.rows() as usize);
+    let size = (record.design.columns() as usize, record.design.rows() as usize);
     png(py, &colour.collect::<Vec<u8>>(), size, ExtendedColorType::Rgb8)
 }
 

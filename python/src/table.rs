@@ -9,7 +9,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::outcome::{Outcome, Taken};
+use crate::outcome::{FrameRecord, Outcome};
 
 /// The values of a column.
 enum Values {
@@ -75,21 +75,21 @@ pub(crate) fn event_columns<'py>(
         let outcome = outcome.cast::<Outcome>().map_err(|_| {
             PyTypeError::new_err("events are made of outcomes, those of Camera.step or simulate")
         })?;
-        let taken = outcome.get().taken();
+        let record = outcome.get().record();
         let (design, rows, values) = table.get_or_insert_with(|| {
-            let rows = EventTable::new(&taken.design, only_active);
+            let rows = EventTable::new(&record.design, only_active);
             let values =
                 rows.columns().iter().map(|column| Values::of(column.value_type)).collect();
-            (Arc::clone(&taken.design), rows, values)
+            (Arc::clone(&record.design), rows, values)
         });
-        if **design != *taken.design {
+        if **design != *record.design {
             return Err(PyValueError::new_err(format!(
                 "the outcomes are of two designs, {} and {}; make a table of each",
                 design.fingerprint(),
-                taken.design.fingerprint()
+                record.design.fingerprint()
             )));
         }
-        let Taken { result: outcome, number, time_us, .. } = taken;
+        let FrameRecord { result: outcome, number, time_us, .. } = record;
         let moment =
             EventFrame { camera: design.camera(), number: *number, time_us: *time_us, outcome };
         rows.rows(&moment, |row| {

@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh --static)
 # Templates are not shell scripts yet; rtl/generated has scripts made of them.
-mapfile -t shell < <(git ls-files '*.sh' .ci/run scripts/checks/keeping ':!tb' ':!crates/*/templates/*')
+mapfile -t shell < <(git ls-files '*.sh' .ci/run scripts/checks/tool_wrappers ':!tb' ':!crates/*/templates/*')
 shellcheck "${shell[@]}"
 mapfile -t python < <(git ls-files '*.py')
 "$tools/ruff" check --quiet "${python[@]}"

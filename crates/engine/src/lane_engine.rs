@@ -15,7 +15,7 @@ use crate::plan::CameraPlan;
 use crate::policy::{SAMPLE_DISTANCE, SearchPolicy, SearchStep};
 use crate::screens::KeptScreen;
 use crate::state_copy::{EngineState, StateCopy};
-use crate::strip::{BandStrip, KeptPart, SkippedWork};
+use crate::strip::{BandStrip, KeptStripResults, SkippedWork};
 use crate::workers::Workers;
 use crate::working_memory::WorkingMemory;
 use foveate_lanes::AlignedBuffer;
@@ -253,12 +253,13 @@ impl<T: PixelLane> LaneEngine<T> {
         let screens = screens.map(|screen| (&mut screen.pixels[..], &mut screen.black_regions[..]));
         let screens = screens.chain(iter::repeat_with(|| (&mut [][..], &mut [][..])));
         let kept = outcomes.iter_mut().map(FrameOutcome::results).zip(screens);
-        let mut kept: Vec<_> =
-            kept.map(|(results, (screen, black))| KeptPart { results, screen, black }).collect();
+        let mut kept: Vec<_> = kept
+            .map(|(results, (screen, black))| KeptStripResults { results, screen, black })
+            .collect();
         let bands = divide_bands(plan.rows, self.scratch.len());
         let strips = bands.zip(&mut self.scratch).map(|(bands, (scratch, skipped))| {
             let (rows, regions) = (bands.len() * plan.side, bands.len() * plan.columns);
-            let kept = kept.iter_mut().map(|kept| KeptPart {
+            let kept = kept.iter_mut().map(|kept| KeptStripResults {
                 results: kept.results.split_off(regions),
                 screen: split_off(&mut kept.screen, rows * plan.width),
                 black: split_off(&mut kept.black, regions),

@@ -37,7 +37,7 @@ impl AddAssign for SkippedWork {
 
 /// A strip's part of the results that are kept of one frame.
 #[derive(Debug)]
-pub(crate) struct KeptPart<'a, T> {
+pub(crate) struct KeptStripResults<'a, T> {
     pub(crate) results: RegionResults<'a>,
     /// The screen, or empty if screens are not kept.
     pub(crate) screen: &'a mut [T],
@@ -65,7 +65,7 @@ pub(crate) struct BandStrip<'a, T: PixelLane> {
     /// The results of the last frame.
     pub(crate) results: RegionResults<'a>,
     /// The kept results of each frame, or empty.
-    pub(crate) kept: Vec<KeptPart<'a, T>>,
+    pub(crate) kept: Vec<KeptStripResults<'a, T>>,
     pub(crate) scratch: &'a mut WorkingMemory<T>,
     pub(crate) changes: KnownChanges<'a>,
     /// The skipped work of each frame.

@@ -105,16 +105,18 @@ impl MeasuredClip<'_> {
         candidates: &mut [MeasuredCamera],
         frames: Receiver<IdealFrame>,
     ) -> Result<(), ExploreError> {
-        for judged in frames {
+        for ideal_frame in frames {
             self.monitor.add_frame();
             self.monitor.check()?;
-            let part = self.parts.iter().position(|part| part.contains(&judged.frame.number));
+            let part = self.parts.iter().position(|part| part.contains(&ideal_frame.frame.number));
             let Some(part) = part else { continue };
             let frames = FrameDepths::from_frame(
-                &judged.frame,
+                &ideal_frame.frame,
                 candidates.iter().map(|one| one.camera.pixel_bits()),
             )?;
-            candidates.par_iter_mut().try_for_each(|one| one.add_frame(&judged, &frames, part))?;
+            candidates
+                .par_iter_mut()
+                .try_for_each(|one| one.add_frame(&ideal_frame, &frames, part))?;
         }
         Ok(())
     }
@@ -161,17 +163,22 @@ impl MeasuredCamera {
 
     fn add_frame(
         &mut self,
-        judged: &IdealFrame,
+        ideal_frame: &IdealFrame,
         frames: &FrameDepths<'_>,
         part: usize,
     ) -> Result<(), ExploreError> {
-        if judged.frame.kind == SourceKind::Set {
+        if ideal_frame.frame.kind == SourceKind::Set {
             self.fidelity[part].next_clip();
         }
         frames.show_to(&mut self.engine)?;
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
-        self.objects[part].add_frame(&self.camera, &judged.objects, &outcome.active);
-        Ok(self.fidelity[part].add(&judged.frame.frame, &judged.ideal, outcome, screen)?)
+        self.objects[part].add_frame(&self.camera, &ideal_frame.objects, &outcome.active);
+        Ok(self.fidelity[part].add(
+            &ideal_frame.frame.frame,
+            &ideal_frame.ideal,
+            outcome,
+            screen,
+        )?)
     }
 }
 

@@ -46,7 +46,7 @@ struct OutcomeTally {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CameraSetup<'a> {
     pub(crate) design: &'a Design,
-    pub(crate) witness: &'a VisionNetwork,
+    pub(crate) vision_network: &'a VisionNetwork,
     /// True if the network also runs on the frames before the camera.
     pub(crate) with_originals: bool,
 }
@@ -101,8 +101,8 @@ pub fn frame_format_of(camera: &foveate_design::Camera) -> FrameFormat {
 
 impl ReceiverCamera {
     pub(crate) fn new(shown: CameraSetup<'_>, kind: SourceKind) -> Self {
-        let CameraSetup { design, witness, with_originals } = shown;
-        let picture = witness.black_input(frame_format_of(design));
+        let CameraSetup { design, vision_network, with_originals } = shown;
+        let picture = vision_network.black_input(frame_format_of(design));
         let black = (kind == SourceKind::Set).then(|| picture.clone());
         let engine = Engine::new(design);
         Self {

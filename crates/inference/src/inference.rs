@@ -56,7 +56,7 @@ pub struct InferenceOptions {
 /// A camera, a network and the clips of a run.
 pub struct Inference {
     design: Design,
-    witness: VisionNetwork,
+    vision_network: VisionNetwork,
     viewing: VisionOptions,
     path: PathBuf,
     clips: RunClips,
@@ -105,9 +105,9 @@ impl Inference {
         clips: RunClips,
     ) -> Result<Self, InferenceError> {
         let CommonFormat { size, frames } = clips.common_format(ClipReading::Once)?;
-        let witness = VisionNetwork::read(network, size, &viewing)?;
+        let vision_network = VisionNetwork::read(network, size, &viewing)?;
         let design = config.validate_for_frames(size.0, size.1)?;
-        Ok(Self { design, witness, viewing, path: network.to_owned(), clips, frames })
+        Ok(Self { design, vision_network, viewing, path: network.to_owned(), clips, frames })
     }
 
     /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when
@@ -137,8 +137,8 @@ impl Inference {
         options: &InferenceOptions,
         hooks: &dyn RunHooks,
     ) -> Result<InferenceSummary, InferenceError> {
-        let Self { design, witness, viewing, path, clips, frames } = self;
-        let network = witness.network();
+        let Self { design, vision_network, viewing, path, clips, frames } = self;
+        let network = vision_network.network();
         let accelerator = options.accelerator.as_ref();
         let costs =
             accelerator.map(|(_, accelerator)| NodeCosts::new(accelerator, network)).transpose();
@@ -149,12 +149,12 @@ impl Inference {
         };
         let (all, inputs) = (clips.clips().len(), clips.inputs());
         let with_truth = clips.boxes(0).is_some();
-        let judge = options
-            .with_whole_frames
-            .then(|| WholeFrameComparison::new(&witness, &design, &options.noise, with_truth));
+        let judge = options.with_whole_frames.then(|| {
+            WholeFrameComparison::new(&vision_network, &design, &options.noise, with_truth)
+        });
         let shown = CameraSetup {
             design: &design,
-            witness: &witness,
+            vision_network: &vision_network,
             with_originals: options.with_whole_frames,
         };
         let playback = ClipPlayback {

@@ -18,14 +18,14 @@ const ROAD: (i64, i64) = (142, 206);
 #[derive(Clone, Debug)]
 pub(crate) struct Street {
     backdrop: Canvas,
-    mood: TimeOfDay,
+    time_of_day: TimeOfDay,
 }
 
 impl Street {
-    pub(crate) fn new(width: u32, height: u32, mood: TimeOfDay) -> Self {
+    pub(crate) fn new(width: u32, height: u32, time_of_day: TimeOfDay) -> Self {
         let mut backdrop = Canvas::new(width, height);
-        paint_backdrop(&mut backdrop, mood);
-        Self { backdrop, mood }
+        paint_backdrop(&mut backdrop, time_of_day);
+        Self { backdrop, time_of_day }
     }
 
     /// Returns the canvas with everything that does not move.
@@ -36,26 +36,26 @@ impl Street {
     /// Returns the canvas of the street in frame `t`.
     pub(crate) fn canvas_at(&self, t: u32) -> Canvas {
         let mut canvas = self.backdrop.clone();
-        traffic::paint(&mut canvas, self.mood, t);
-        if self.mood == TimeOfDay::Night {
+        traffic::paint(&mut canvas, self.time_of_day, t);
+        if self.time_of_day == TimeOfDay::Night {
             weather::rain(&mut canvas, t);
         }
         canvas
     }
 }
 
-fn paint_backdrop(canvas: &mut Canvas, mood: TimeOfDay) {
+fn paint_backdrop(canvas: &mut Canvas, time_of_day: TimeOfDay) {
     let canvas_width = canvas.parts_wide() / UNIT + 1;
-    let mut pen = ShapePainter { canvas, origin: (0, 0), facing: 1, light: mood.light() };
+    let mut pen = ShapePainter { canvas, origin: (0, 0), facing: 1, light: time_of_day.light() };
     for step in 0..GROUND / 4 {
         let shade = u32::try_from(196 + step).expect("a shade");
         // Each band overlaps the next one, so that no seam is visible.
         pen.rect(0, 4 * step, canvas_width, 4 * step + 8, shade);
     }
-    weather::sky(&mut pen, canvas_width, mood);
-    buildings::paint(&mut pen, canvas_width, mood);
+    weather::sky(&mut pen, canvas_width, time_of_day);
+    buildings::paint(&mut pen, canvas_width, time_of_day);
     paint_road(&mut pen, canvas_width);
-    weather::lamps(&mut pen, canvas_width, mood);
+    weather::lamps(&mut pen, canvas_width, time_of_day);
 }
 
 fn paint_road(pen: &mut ShapePainter<'_>, canvas_width: i64) {

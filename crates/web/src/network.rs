@@ -48,7 +48,7 @@ pub struct PageNetwork {
 /// A network for frames of one size and depth.
 #[derive(Debug)]
 struct OpenNetwork {
-    witness: VisionNetwork,
+    vision_network: VisionNetwork,
     frames: FrameFormat,
     /// The bits of a pixel.
     bits: u32,
@@ -145,12 +145,12 @@ impl OpenNetwork {
         let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
         let viewing = VisionOptions { framing, mapping, detector: None };
         let path = Path::new(&wishes.name);
-        let witness = VisionNetwork::parse(file, path, (width, height), &viewing)?;
-        let (needed, most) = (witness.network().kept_bytes(), MAX_NETWORK_BYTES);
+        let vision_network = VisionNetwork::parse(file, path, (width, height), &viewing)?;
+        let (needed, most) = (vision_network.network().kept_bytes(), MAX_NETWORK_BYTES);
         if needed > most {
             return Err(WebError::NetworkMemory { needed, most });
         }
-        let usual = witness.guess_defaults();
+        let usual = vision_network.guess_defaults();
         let mean = wishes.mean.as_deref().unwrap_or(usual.mean);
         let scale = wishes.scale.as_deref().unwrap_or(usual.scale);
         let mapping = PixelMapping {
@@ -162,16 +162,16 @@ impl OpenNetwork {
             Some("") => None,
             Some(text) => Some(parse_detector(text).map_err(wrong("detections"))?),
         };
-        let witness = witness.with_mapping_and_detector(mapping, detector)?;
-        let detector = witness.detector();
-        let mut told = network_facts(witness.network(), &usual, detector);
-        told["classes"] = json!(witness.class_count());
+        let vision_network = vision_network.with_mapping_and_detector(mapping, detector)?;
+        let detector = vision_network.detector();
+        let mut told = network_facts(vision_network.network(), &usual, detector);
+        told["classes"] = json!(vision_network.class_count());
         told["options"] = json!(command_options(&framing.to_string(), mean, scale, detector));
         (told["framing"], told["mean"], told["scale"]) =
             (json!(framing), json!(mean), json!(scale));
         let frames =
             FrameFormat { width, height, pixel_max: (1 << bits) - 1, region_side: REGION_SIDE };
-        Ok((Self { witness, frames, bits }, told))
+        Ok((Self { vision_network, frames, bits }, told))
     }
 
     /// Runs the network on both frames and compares the outputs.
@@ -198,12 +198,12 @@ impl OpenNetwork {
         }
         // One executor runs both frames. It is made for every call, so that its tensors take no
         // memory between calls.
-        let mut looking = self.witness.start_run(self.frames);
+        let mut looking = self.vision_network.start_run(self.frames);
         let [whole, seen] = [whole, seen].map(|plane| {
             looking.run(plane);
             looking.findings()
         });
-        let pairs = self.witness.match_detections(&whole, &seen);
+        let pairs = self.vision_network.match_detections(&whole, &seen);
         let sums = AgreementSums::from_frame(&whole, &seen, pairs.as_ref());
         let is_class = |shape: &[usize]| matches!(shape, [1, n] | [1, n, 1, 1] if *n > 1);
         let outputs = whole.outputs.iter().zip(&seen.outputs);

@@ -27,7 +27,7 @@ STAGES = ((1, 1), (3, 2))
 LONG_STAGE = 1
 TIME_FACTOR = 12
 # The script that is called in place of Icarus.
-RECORDER_FOLDER = os.path.abspath("scripts/checks/keeping")
+WRAPPER_FOLDER = os.path.abspath("scripts/checks/tool_wrappers")
 
 
 class Design:
@@ -67,8 +67,8 @@ class Design:
 
     def simulate(self, stage_folder, rounds, seed):
         """Co-simulates without a mutant, and keeps the files that are needed to repeat that."""
-        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=stage_folder, FOVEATE_IVERILOG=os.path.join(RECORDER_FOLDER, "iverilog"),
-                   FOVEATE_VVP=os.path.join(RECORDER_FOLDER, "vvp"))
+        env = dict(os.environ, FOVEATE_CACHE="off", KEEP=stage_folder, FOVEATE_IVERILOG=os.path.join(WRAPPER_FOLDER, "iverilog"),
+                   FOVEATE_VVP=os.path.join(WRAPPER_FOLDER, "vvp"))
         command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
                    "--replay", os.path.join(stage_folder, "replay"), *self.options]
         if "--rounds" not in self.options:

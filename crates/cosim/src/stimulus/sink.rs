@@ -55,9 +55,9 @@ impl StimulusSink {
         let row = timing.words() / u64::from(design.rows());
         let long = (u64::from(timing.buffer_rows) + 2) * row;
         let first = if is_brief { LOSSY_TURN_OFFSET } else { 0 };
-        let mood = ReadyPattern::Always;
+        let pattern = ReadyPattern::Always;
         timing.has_forwarding.then_some(Self {
-            pattern: mood,
+            pattern,
             is_ready: false,
             clocks_left: 0,
             row_clocks: row,
@@ -69,7 +69,7 @@ impl StimulusSink {
     /// Begins a sequence. A sink that stalls does so for up to two rows of regions more than the
     /// buffer holds.
     pub(super) fn begin(&mut self, stalls: bool, turn: usize) {
-        let mood = match (stalls, (turn + self.turn_offset) % 4) {
+        let pattern = match (stalls, (turn + self.turn_offset) % 4) {
             (true, 0) => ReadyPattern::FewClocks,
             (true, 1 | 2) => ReadyPattern::StallingInRegions(self.longest_stall),
             (true, _) => ReadyPattern::Alternating(self.longest_stall),
@@ -78,7 +78,7 @@ impl StimulusSink {
             (false, 2) => ReadyPattern::Alternating(self.row_clocks / 2),
             (false, _) => ReadyPattern::Alternating(9),
         };
-        *self = Self { pattern: mood, is_ready: false, clocks_left: 0, ..*self };
+        *self = Self { pattern, is_ready: false, clocks_left: 0, ..*self };
     }
 
     /// Makes the sink ready at every clock from now on.

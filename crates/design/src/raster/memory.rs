@@ -241,8 +241,8 @@ impl MemorySizes {
             FeatureAccumulation::Deviations(_) => 0,
             FeatureAccumulation::Squares(_) | FeatureAccumulation::Extremes => feature.score_bits(),
         };
-        let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
-        let judged = judged + 2 * u32::from(design.periphery().is_some());
+        let decision_bits = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
+        let decision_bits = decision_bits + 2 * u32::from(design.periphery().is_some());
         list.extend(design.features().iter().filter_map(|feature| {
             match FeatureAccumulation::from_feature(feature) {
                 FeatureAccumulation::Hits
@@ -250,7 +250,7 @@ impl MemorySizes {
                 | FeatureAccumulation::Extremes => None,
                 FeatureAccumulation::Deviations(mean) => Some(queue(
                     "regions that wait for the second pass",
-                    mean.mean_bits + start + judged,
+                    mean.mean_bits + start + decision_bits,
                 )),
             }
         }));

@@ -16,7 +16,7 @@ use crate::error::EstimateError;
 pub(super) struct NetGraph<'a> {
     pub(super) arcs: Vec<TimingArc<'a>>,
     pub(super) starts: Vec<PathStart>,
-    pub(super) ends: Vec<PathSink<'a>>,
+    pub(super) ends: Vec<PathEndpoint<'a>>,
     nets: Vec<GraphNet<'a>>,
 }
 
@@ -28,12 +28,14 @@ pub(super) struct TimingArc<'a> {
     pub(super) cell: Option<&'a str>,
 }
 
+/// The output of a register or memory, or an input port, at which a path starts.
 pub(super) struct PathStart {
     pub(super) net: u32,
     pub(super) weight: PathWeight,
 }
 
-pub(super) struct PathSink<'a> {
+/// The input of a register or memory, or an output port, at which a path ends.
+pub(super) struct PathEndpoint<'a> {
     pub(super) net: u32,
     /// The type of the cell and its pin; `None` for an output port.
     pub(super) pin: Option<(&'a str, String)>,
@@ -82,7 +84,7 @@ impl<'a> NetGraph<'a> {
         builder.fill(&mut graph, &instance, &mut nets)?;
         for local in port_nets(instance.module, true) {
             let net = graph.net(&instance, &mut nets, local);
-            graph.ends.push(PathSink { net, pin: None, named_net: net });
+            graph.ends.push(PathEndpoint { net, pin: None, named_net: net });
         }
         Ok(graph)
     }
@@ -149,7 +151,7 @@ impl<'a> GraphBuilder<'a> {
             for (net, pin) in &timing.ends {
                 let net = graph.net(instance, nets, *net);
                 let named_net = output.map_or(net, |output| graph.net(instance, nets, output));
-                graph.ends.push(PathSink { net, pin: Some((*kind, pin.clone())), named_net });
+                graph.ends.push(PathEndpoint { net, pin: Some((*kind, pin.clone())), named_net });
             }
         }
         for (name, cell) in &instance.module.cells {

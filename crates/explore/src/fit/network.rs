@@ -113,7 +113,7 @@ struct WholeFrameSample {
 
 /// The network, and its findings in whole frames.
 pub(super) struct NetworkAgreement<'a> {
-    witness: VisionNetwork,
+    vision_network: VisionNetwork,
     pub(super) goal: NetworkGoal<'a>,
     footage: &'a ExplorationFootage<'a>,
     halves: &'a ClipHalves,
@@ -131,7 +131,7 @@ impl<'a> NetworkAgreement<'a> {
         halves: &'a ClipHalves,
         task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
-        let witness = VisionNetwork::read(goal.path, footage.size, goal.viewing)
+        let vision_network = VisionNetwork::read(goal.path, footage.size, goal.viewing)
             .map_err(InferenceError::from)?;
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
@@ -144,7 +144,7 @@ impl<'a> NetworkAgreement<'a> {
         for (clip, &frames) in halves.frames.iter().enumerate() {
             let parts = [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut];
             let wanted = parts.map(|part| (part, spread_evenly(part.frames(frames), most)));
-            let mut looking = witness.start_run(frame_format_of(&camera));
+            let mut looking = vision_network.start_run(frame_format_of(&camera));
             let mut player = footage.clips.open(clip)?.limited_to(frames.1);
             let mut found = [const { Vec::new() }; 3];
             for current in monitor.watch(&mut player) {
@@ -157,9 +157,13 @@ impl<'a> NetworkAgreement<'a> {
                             let frame = current.frame.borrowed_pixels().to_words();
                             let at = (clip as u64, number);
                             let findings = looking.findings();
-                            noise.add_frame((&witness, &mut looking), (&frame, &findings), at);
+                            noise.add_frame(
+                                (&vision_network, &mut looking),
+                                (&frame, &findings),
+                                at,
+                            );
                         }
-                        let best = witness.compare(&whole, &whole);
+                        let best = vision_network.compare(&whole, &whole);
                         found.push(WholeFrameSample {
                             number,
                             findings: whole,
@@ -170,7 +174,7 @@ impl<'a> NetworkAgreement<'a> {
             }
             samples.iter_mut().zip(found).for_each(|(part, found)| part.push(found));
         }
-        Ok(Self { witness, goal, footage, halves, samples, noise })
+        Ok(Self { vision_network, goal, footage, halves, samples, noise })
     }
 
     /// Returns the bytes per frame that cameras send on the first halves. `asked` is the number of
@@ -244,7 +248,7 @@ impl<'a> NetworkAgreement<'a> {
         let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
         for (clip, own) in samples.iter().enumerate() {
             let Some(last) = own.last() else { continue };
-            let mut looking = self.witness.start_run(frame_format_of(camera));
+            let mut looking = self.vision_network.start_run(frame_format_of(camera));
             let mut engine = Engine::new(camera);
             let mut player = self.footage.clips.open(clip)?.limited_to(last.number + 1);
             let mut unseen = own.iter().peekable();
@@ -254,7 +258,7 @@ impl<'a> NetworkAgreement<'a> {
                 let sample = unseen.next_if(|sample| sample.number == current.number);
                 let Some(sample) = sample else { continue };
                 let screen = looking.outcome(engine.rendered());
-                seen.push(self.witness.compare(&sample.findings, &screen));
+                seen.push(self.vision_network.compare(&sample.findings, &screen));
                 // Frames that the network has not seen yet count with their best possible
                 // agreement. A clip that ended early has no such frames.
                 let unseen = unseen.clone().chain(samples[clip + 1..].iter().flatten());
@@ -266,7 +270,8 @@ impl<'a> NetworkAgreement<'a> {
             }
         }
         let agreed = AgreementEstimate::from_frames(&seen);
-        let no_interval = agreed.detections.is_none() && has_class_map(self.witness.network());
+        let no_interval =
+            agreed.detections.is_none() && has_class_map(self.vision_network.network());
         Ok(if no_interval {
             AgreementEstimate { intervals: ConfidenceIntervals::default(), ..agreed }
         } else {

@@ -75,9 +75,9 @@ fn plot(
         ..PagePlot::default()
     };
     let label = |ideal: f64| format!("ideal camera, {} %", percent(ideal / 100.0));
-    plot.rules =
+    plot.horizontal_rules =
         ideals.iter().take(3).filter_map(|y| field.horizontal_line(*y, label(*y))).collect();
-    plot.posts = threshold
+    plot.vertical_rules = threshold
         .and_then(|x| field.vertical_line(x, format!("{name} of the ideal")))
         .into_iter()
         .collect();

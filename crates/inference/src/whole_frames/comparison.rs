@@ -17,7 +17,7 @@ use foveate_network::vision::{
 
 /// The network on whole frames, and its agreement with the network behind the camera.
 pub(crate) struct WholeFrameComparison<'a> {
-    witness: &'a VisionNetwork,
+    vision_network: &'a VisionNetwork,
     /// The network that runs on whole frames.
     whole_frame_network: VisionRun<'a>,
     sums: AgreementSums,
@@ -64,14 +64,14 @@ impl<'a> WholeFrameComparison<'a> {
     /// Creates the comparison before its first frame. `noise` has standard deviations in grey
     /// levels of 8 bits; `with_truth` says whether there are ground-truth objects.
     pub(crate) fn new(
-        witness: &'a VisionNetwork,
+        vision_network: &'a VisionNetwork,
         camera: &Camera,
         noise: &[f64],
         with_truth: bool,
     ) -> Self {
         Self {
-            witness,
-            whole_frame_network: witness.start_run(frame_format_of(camera)),
+            vision_network,
+            whole_frame_network: vision_network.start_run(frame_format_of(camera)),
             sums: AgreementSums::default(),
             noise: NoiseComparison::new(noise, camera.pixel_max()),
             received: ReceiverTally::new(camera),
@@ -94,8 +94,9 @@ impl<'a> WholeFrameComparison<'a> {
         let original = seen.original?;
         let seconds =
             self.whole_frame_network.run(FramePixels::Words(original.frame)).as_secs_f64();
-        let (whole, found) = (self.whole_frame_network.findings(), self.witness.findings(other));
-        let pairs = self.witness.match_detections(&whole, &found);
+        let (whole, found) =
+            (self.whole_frame_network.findings(), self.vision_network.findings(other));
+        let pairs = self.vision_network.match_detections(&whole, &found);
         let sums = AgreementSums::from_frame(&whole, &found, pairs.as_ref());
         let squared_error = squared_error(original.frame, seen.screen);
         let frame = FrameAgreement {
@@ -110,7 +111,7 @@ impl<'a> WholeFrameComparison<'a> {
             self.seconds += seconds;
             self.add_truth(original, &whole, &found);
             let at = (clip_number, seen.number);
-            let network = (self.witness, &mut self.whole_frame_network);
+            let network = (self.vision_network, &mut self.whole_frame_network);
             self.noise.add_frame(network, (original.frame, &whole), at);
             if let Some(pairs) = pairs {
                 self.add_rows(clip, seen, &pairs);
@@ -126,7 +127,7 @@ impl<'a> WholeFrameComparison<'a> {
         whole: &FrameFindings,
         seen: &FrameFindings,
     ) {
-        let Some(detector) = self.witness.detector() else { return };
+        let Some(detector) = self.vision_network.detector() else { return };
         let Some((curves, objects)) = self.truth_curves.as_mut().zip(original.objects) else {
             return;
         };
@@ -156,13 +157,13 @@ impl<'a> WholeFrameComparison<'a> {
 
     /// Returns the detections, if they were read.
     pub(crate) fn into_detections(self) -> Option<CountedDetections> {
-        let Self { witness, kept_screens: shots, rows, .. } = self;
-        witness.detector().is_some().then_some(CountedDetections { shots, rows })
+        let Self { vision_network, kept_screens: shots, rows, .. } = self;
+        vision_network.detector().is_some().then_some(CountedDetections { shots, rows })
     }
 
     /// Returns the comparison of all counted frames.
     pub(crate) fn summary(&self) -> WholeFrameAgreement {
-        let detector = self.witness.detector();
+        let detector = self.vision_network.detector();
         let score = detector.map_or(0.0, |detector| detector.score);
         let truth = self.truth_curves.as_ref().map(|[whole, seen]| GroundTruthFigures {
             objects: whole.objects(),

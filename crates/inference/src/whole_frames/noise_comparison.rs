@@ -65,7 +65,7 @@ impl NoiseComparison {
     /// in it. Every frame gets its own noise, which is larger at larger levels.
     pub fn add_frame(
         &mut self,
-        (witness, looking): (&VisionNetwork, &mut VisionRun<'_>),
+        (vision_network, looking): (&VisionNetwork, &mut VisionRun<'_>),
         (frame, whole): (&[u16], &FrameFindings),
         (clip, number): (u64, u64),
     ) {
@@ -83,7 +83,7 @@ impl NoiseComparison {
             sums.push(AgreementSums::from_frame(
                 whole,
                 &found,
-                witness.match_detections(whole, &found).as_ref(),
+                vision_network.match_detections(whole, &found).as_ref(),
             ));
         }
         self.samples.push((place, sums));

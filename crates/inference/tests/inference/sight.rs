@@ -199,18 +199,18 @@ fn half_of_the_objects_give_an_agreement_of_one_half() {
         mapping: foveate_inference::PixelMapping { mean: vec![0.0], scale: vec![1.0] },
         detector: Some(squares()),
     };
-    let witness = VisionNetwork::read(&network, (64, 48), &viewing).unwrap();
+    let vision_network = VisionNetwork::read(&network, (64, 48), &viewing).unwrap();
     let mut config = foveate_design::CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(64), Some(48));
     let camera = config.validate().unwrap();
     let bright: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 16 { 250 } else { 10 }).collect();
     let half: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 8 { 250 } else { 10 }).collect();
-    let mut looking = witness.start_run(frame_format_of(&camera));
+    let mut looking = vision_network.start_run(frame_format_of(&camera));
     let [whole, other] =
         [&bright, &half].map(|pixels| looking.outcome(foveate_frame::FramePixels::Bytes(pixels)));
-    let same = witness.compare(&whole, &whole);
+    let same = vision_network.compare(&whole, &whole);
     assert_eq!((same.share(), same.detection_counts().unwrap().whole), (1.0, 12));
-    let less = witness.compare(&whole, &other);
+    let less = vision_network.compare(&whole, &other);
     assert_eq!((less.share(), less.detection_counts().unwrap().kept), (0.5, 6));
     let both: OutputAgreement = [&less, &same].into_iter().sum();
     assert_eq!(both.share(), 0.75);

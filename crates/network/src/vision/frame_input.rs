@@ -50,7 +50,7 @@ enum PixelConversion {
     /// pixel value, one table per channel.
     Lookup(Vec<Vec<f32>>),
     /// A pixel of the input is interpolated between pixels of the frame.
-    Interpolated { lens: Box<FrameScaling>, mapping: PixelMapping, channels: usize, max: f64 },
+    Interpolated { scaling: Box<FrameScaling>, mapping: PixelMapping, channels: usize, max: f64 },
 }
 
 impl FrameInput {
@@ -72,7 +72,7 @@ impl FrameInput {
                 PixelConversion::Lookup((0..channels).map(table).collect())
             }
             Some(scaling) => PixelConversion::Interpolated {
-                lens: Box::new(scaling.clone()),
+                scaling: Box::new(scaling.clone()),
                 mapping: mapping.clone(),
                 channels,
                 max,
@@ -166,10 +166,10 @@ impl FrameInput {
                     }
                 }
             }
-            PixelConversion::Interpolated { lens, mapping, channels, max } => {
+            PixelConversion::Interpolated { scaling, mapping, channels, max } => {
                 let places = self.values.len() / channels;
                 let is_fresh = |column, row| self.changed_by_region[row * self.columns + column];
-                lens.for_each_pixel_of_regions(
+                scaling.for_each_pixel_of_regions(
                     &self.frame,
                     self.side,
                     is_fresh,

@@ -54,7 +54,7 @@ pub struct OutputAgreement(AgreementSums);
 /// A run of a network over the frames of one camera.
 #[derive(Debug)]
 pub struct VisionRun<'a> {
-    witness: &'a VisionNetwork,
+    vision_network: &'a VisionNetwork,
     picture: FrameInput,
     executor: Executor<'a>,
     full: Mask,
@@ -138,7 +138,7 @@ impl VisionNetwork {
     pub fn start_run(&self, frames: FrameFormat) -> VisionRun<'_> {
         let input = self.network.input();
         VisionRun {
-            witness: self,
+            vision_network: self,
             picture: self.black_input(frames),
             executor: Executor::new(&self.network, ExecutionMode::Dense),
             full: Mask::full(input.height(), input.width()),
@@ -205,7 +205,7 @@ impl VisionRun<'_> {
     /// The outputs for the last frame.
     #[must_use]
     pub fn findings(&self) -> FrameFindings {
-        self.witness.findings(&self.executor)
+        self.vision_network.findings(&self.executor)
     }
 }
 

@@ -35,9 +35,9 @@ pub struct PagePlot {
     /// The ticks of the vertical axis.
     pub y_ticks: Vec<AxisPosition>,
     /// The dashed horizontal lines, for comparison.
-    pub rules: Vec<AxisPosition>,
+    pub horizontal_rules: Vec<AxisPosition>,
     /// The dashed vertical lines.
-    pub posts: Vec<AxisPosition>,
+    pub vertical_rules: Vec<AxisPosition>,
     /// The lines through marks.
     pub lines: Vec<PlotLine>,
     /// The measured points.

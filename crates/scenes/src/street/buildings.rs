@@ -8,7 +8,7 @@ use crate::noise::pick;
 
 const SEED: u64 = 0xB01D;
 
-pub(super) fn paint(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay) {
+pub(super) fn paint(pen: &mut ShapePainter<'_>, canvas_width: i64, time_of_day: TimeOfDay) {
     let mut left = -14;
     let mut number = 0;
     while left < canvas_width {
@@ -17,7 +17,7 @@ pub(super) fn paint(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfD
             left += 18;
         }
         let width = 7 * i64::from(5 + pick(SEED, number, 0, 0, 3)) + 5;
-        House { number, left, right: left + width, mood }.paint(pen);
+        House { number, left, right: left + width, time_of_day }.paint(pen);
         left += width;
         number += 1;
     }
@@ -27,7 +27,7 @@ struct House {
     number: u32,
     left: i64,
     right: i64,
-    mood: TimeOfDay,
+    time_of_day: TimeOfDay,
 }
 
 impl House {
@@ -86,7 +86,7 @@ impl House {
             return;
         }
         pen.rect(x - 1, y - 1, x + 7, bottom + 1, (wall + 52).min(244));
-        let is_lit = self.mood == TimeOfDay::Night && self.choose(place, 5) < 2;
+        let is_lit = self.time_of_day == TimeOfDay::Night && self.choose(place, 5) < 2;
         if is_lit {
             let shade = 150 + 30 * self.choose(place + 1, 3);
             pen.glow_rect([x, y, x + 6, bottom], shade, OPAQUE);

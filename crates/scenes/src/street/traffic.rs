@@ -30,15 +30,15 @@ const LANES: [TrafficLane; 3] = [
 /// Length of the longest car with the light of its headlights, in units.
 const REACH: i64 = 120;
 
-pub(super) fn paint(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
+pub(super) fn paint(canvas: &mut Canvas, time_of_day: TimeOfDay, t: u32) {
     for (number, lane) in (0..).zip(&LANES) {
-        lane.paint(canvas, mood, t, number);
+        lane.paint(canvas, time_of_day, t, number);
     }
-    pedestrians(canvas, mood, t);
+    pedestrians(canvas, time_of_day, t);
 }
 
 impl TrafficLane {
-    fn paint(&self, canvas: &mut Canvas, mood: TimeOfDay, t: u32, number: u32) {
+    fn paint(&self, canvas: &mut Canvas, time_of_day: TimeOfDay, t: u32, number: u32) {
         let canvas_width = canvas.parts_wide();
         let spacing = self.spacing * UNIT;
         let shift = self.start * UNIT + self.facing * self.speed * i64::from(t);
@@ -48,7 +48,8 @@ impl TrafficLane {
         for car in first..=last {
             let origin = (shift + car * spacing, self.ground * UNIT);
             let car_number = u32::try_from(car.rem_euclid(1 << 20)).expect("20 bits");
-            let mut pen = ShapePainter { canvas, origin, facing: self.facing, light: mood.light() };
+            let mut pen =
+                ShapePainter { canvas, origin, facing: self.facing, light: time_of_day.light() };
             let body_shade =
                 [218, 44, 160, 232, 92][pick(0xCA2, number, car_number, 0, 5) as usize];
             let distance = i64::from(t) * self.speed / UNIT;
@@ -57,7 +58,7 @@ impl TrafficLane {
             } else {
                 car_body(&mut pen, body_shade, distance);
             }
-            if mood == TimeOfDay::Night {
+            if time_of_day == TimeOfDay::Night {
                 headlights(&mut pen);
             }
         }
@@ -122,7 +123,7 @@ fn headlights(pen: &mut ShapePainter<'_>) {
 }
 
 /// Paints the pedestrians on the pavement in front, one every 380 units.
-fn pedestrians(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
+fn pedestrians(canvas: &mut Canvas, time_of_day: TimeOfDay, t: u32) {
     const SPACING: i64 = 380 * UNIT;
     let canvas_width = canvas.parts_wide();
     let shift = 58 * UNIT + 44 * i64::from(t);
@@ -130,7 +131,7 @@ fn pedestrians(canvas: &mut Canvas, mood: TimeOfDay, t: u32) {
     let last = (canvas_width + 20 * UNIT - shift).div_euclid(SPACING);
     for person in first..=last {
         let origin = (shift + person * SPACING, 220 * UNIT);
-        let mut pen = ShapePainter { canvas, origin, facing: 1, light: mood.light() };
+        let mut pen = ShapePainter { canvas, origin, facing: 1, light: time_of_day.light() };
         pedestrian(&mut pen, i64::from(t) * 44);
     }
 }

@@ -8,8 +8,8 @@ use crate::noise::pick;
 
 const SEED: u64 = 0x3EA7;
 
-pub(super) fn sky(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay) {
-    match mood {
+pub(super) fn sky(pen: &mut ShapePainter<'_>, canvas_width: i64, time_of_day: TimeOfDay) {
+    match time_of_day {
         TimeOfDay::Day => {
             for cloud in 0..=canvas_width / 90 {
                 let number = u32::try_from(cloud).expect("few clouds");
@@ -32,13 +32,13 @@ pub(super) fn sky(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay
 }
 
 /// Paints the street lamps on the far pavement.
-pub(super) fn lamps(pen: &mut ShapePainter<'_>, canvas_width: i64, mood: TimeOfDay) {
+pub(super) fn lamps(pen: &mut ShapePainter<'_>, canvas_width: i64, time_of_day: TimeOfDay) {
     for lamp in 0..=canvas_width / 112 {
         let x = 112 * lamp + 66;
         pen.rect(x, GROUND - 62, x + 2, GROUND + 10, 46);
         pen.rect(x - 9, GROUND - 63, x + 2, GROUND - 61, 46);
         pen.rect(x - 12, GROUND - 63, x - 5, GROUND - 59, 70);
-        if mood == TimeOfDay::Night {
+        if time_of_day == TimeOfDay::Night {
             pen.glow_rect([x - 12, GROUND - 60, x - 5, GROUND - 58], 255, OPAQUE);
             for radius in [26, 18, 11, 6] {
                 pen.glow_disc(x - 8, GROUND - 58, radius * UNIT, 230, 22);

@@ -21,7 +21,7 @@ const SMALLEST_GRID: u32 = 6;
 /// The painter of overlays. It records the share of active regions so far.
 #[derive(Default)]
 pub(super) struct OverlayPainter {
-    strip: ActivityChart,
+    activity_chart: ActivityChart,
 }
 
 impl PicturePainter for OverlayPainter {
@@ -35,8 +35,9 @@ impl PicturePainter for OverlayPainter {
         let regions = sink_frame.camera.regions();
         let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, sink_frame.camera);
-        self.strip.push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
-        self.strip.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);
+        self.activity_chart
+            .push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
+        self.activity_chart.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);
         canvas
     }
 }
