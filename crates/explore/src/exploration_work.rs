@@ -18,7 +18,7 @@ pub(crate) struct ExplorationWork<'a> {
     pub(crate) refused: Vec<RefusedCombination>,
     /// The different cameras of the designs.
     pub(crate) cameras: Vec<Camera>,
-    /// The index into `looks` of the camera of each point.
+    /// The index into `cameras` of the camera of each point.
     pub(crate) camera_of_point: Vec<usize>,
 }
 
@@ -42,15 +42,15 @@ impl<'a> ExplorationWork<'a> {
             let RefusedCombination { settings, reason } = first;
             return Err(ExploreError::NoPoints { settings, reason });
         }
-        let (looks, look_of) = distinct_cameras(&points)?;
-        Ok(Self { footage, points, refused, cameras: looks, camera_of_point: look_of })
+        let (cameras, camera_of_point) = distinct_cameras(&points)?;
+        Ok(Self { footage, points, refused, cameras, camera_of_point })
     }
 
     /// Returns, for each camera, the first point that has it.
     pub(crate) fn first_point_of_cameras(&self) -> Vec<&DesignPoint> {
         let mut found = Vec::with_capacity(self.cameras.len());
-        for (point, &look) in self.points.iter().zip(&self.camera_of_point) {
-            if look == found.len() {
+        for (point, &camera) in self.points.iter().zip(&self.camera_of_point) {
+            if camera == found.len() {
                 found.push(point);
             }
         }
@@ -59,15 +59,15 @@ impl<'a> ExplorationWork<'a> {
 }
 
 fn distinct_cameras(points: &[DesignPoint]) -> Result<(Vec<Camera>, Vec<usize>), ExploreError> {
-    let (mut looks, mut numbers, mut of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
+    let (mut cameras, mut numbers, mut camera_of_point) = (Vec::new(), BTreeMap::new(), Vec::new());
     for point in points {
         let camera = &point.config.camera;
         let next = numbers.len();
         let number = *numbers.entry(camera.to_toml()).or_insert(next);
         if number == next {
-            looks.push(camera.validate()?);
+            cameras.push(camera.validate()?);
         }
-        of_point.push(number);
+        camera_of_point.push(number);
     }
-    Ok((looks, of_point))
+    Ok((cameras, camera_of_point))
 }

@@ -40,7 +40,7 @@ pub fn explore(
     let space = request.space;
     // The files of designs are not known before the clips have been opened.
     open_continued(output)?.check_files(TABLES.into_iter().chain([MARK_FILE]))?;
-    let ExplorationWork { footage, points, refused, cameras: looks, camera_of_point: look_of } =
+    let ExplorationWork { footage, points, refused, cameras, camera_of_point } =
         ExplorationWork::new(request, None, hooks)?;
     // The names are checked now, because writing the files may come hours later.
     let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));
@@ -51,14 +51,14 @@ pub fn explore(
     let store = MeasurementStore::open(output)?;
     let designs =
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
-    let measured = footage.measure_clips(&looks, &store)?;
+    let measured = footage.measure_clips(&cameras, &store)?;
     let (synthesized, failed) = synthesize_all(request.synthesizer, &designs, hooks)?;
     let mut rows = Vec::new();
     for (index, (point, (design, synthesized))) in
         points.iter().zip(designs.iter().zip(synthesized)).enumerate()
     {
         let of_point: Vec<&CameraMeasurement> =
-            measured.iter().map(|clip| &clip[look_of[index]]).collect();
+            measured.iter().map(|clip| &clip[camera_of_point[index]]).collect();
         let settings = point.settings.clone();
         let clock = space.clock_mhz;
         rows.extend(DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock));
@@ -94,7 +94,7 @@ pub fn explore(
             .chain(failed)
             .collect(),
     };
-    write(&exploration, &measured, &look_of, output)?;
+    write(&exploration, &measured, &camera_of_point, output)?;
     Ok(exploration)
 }
 
@@ -116,7 +116,7 @@ fn synthesize_all(
 fn write(
     exploration: &Exploration,
     measured: &[Vec<CameraMeasurement>],
-    look_of: &[usize],
+    camera_of_point: &[usize],
     output: &Path,
 ) -> Result<(), ExploreError> {
     let rows = &exploration.rows;
@@ -129,7 +129,7 @@ fn write(
     let pareto = table(&mut rows.iter().filter(|row| row.front.all));
     let clips = exploration.clips.iter().zip(measured).flat_map(|(clip, measured)| {
         rows.iter().map(move |row| {
-            let figures = measured[look_of[row.number - 1]].tally.figures();
+            let figures = measured[camera_of_point[row.number - 1]].tally.figures();
             let mut cells = crate::table::name_cells(row.number, &clip.name);
             cells.extend(error_cells(&figures));
             cells

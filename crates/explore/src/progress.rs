@@ -8,7 +8,8 @@ pub(crate) fn reading_progress(frames: u64) -> RunProgress<'static> {
     RunProgress::frames(frames, None, "reading the clips")
 }
 
-/// Reports that designs run over clips: so many pairs of a clip and a design are done, of all pairs.
+/// Reports that designs run over clips: so many pairs of a clip and a design are done, of all
+/// pairs.
 pub(crate) fn measuring_progress(done_pairs: usize, all: usize) -> RunProgress<'static> {
     RunProgress::steps("designs over clips", done_pairs as u64, all as u64)
 }

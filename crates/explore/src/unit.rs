@@ -50,7 +50,7 @@ struct PlannedUnit {
     unit: WorkUnit,
     /// The number of the clip.
     clip: usize,
-    looks: Range<usize>,
+    cameras: Range<usize>,
     keys: Vec<String>,
 }
 
@@ -91,12 +91,12 @@ pub fn measure_unit(
     let part = part.ok_or_else(|| ExploreError::NoUnit { unit: name.to_owned() })?;
     claim_folder(output)?;
     let store = MeasurementStore::open(output)?;
-    let looks = &work.cameras[part.looks.clone()];
+    let cameras = &work.cameras[part.cameras.clone()];
     let measured = work.footage.measure_clip(
         part.clip,
-        looks,
+        cameras,
         &store,
-        &MeasurementCount::from_total(looks.len()),
+        &MeasurementCount::from_total(cameras.len()),
     )?;
     if let Some(problem) = measured.into_iter().find_map(|one| one.problem) {
         return Err(ExploreError::IncompleteClip { clip: part.unit.clip, problem });
@@ -122,18 +122,21 @@ fn planned_units<'a>(
         let keys = work.footage.measurement_keys(clip, &work.cameras);
         let starts = (0..keys.len()).step_by(CAMERAS_PER_UNIT);
         starts.map(move |start| {
-            let looks = start..(start + CAMERAS_PER_UNIT).min(keys.len());
-            let keys = keys[looks.clone()].to_vec();
+            let cameras = start..(start + CAMERAS_PER_UNIT).min(keys.len());
+            let keys = keys[cameras.clone()].to_vec();
             let unit = sha256_hex(keys.join("\n"))[..KEY_DIGITS].to_owned();
             let file = output.join(UNITS_FOLDER).join(format!("{unit}.json"));
             let unit = WorkUnit {
                 name: unit,
                 clip: subject.name.clone(),
                 inputs: subject.inputs.iter().map(|path| input_without_secrets(path)).collect(),
-                combinations: points[looks.clone()].iter().map(|point| point.combination).collect(),
+                combinations: points[cameras.clone()]
+                    .iter()
+                    .map(|point| point.combination)
+                    .collect(),
                 file: file.display().to_string(),
             };
-            PlannedUnit { unit, clip, looks, keys }
+            PlannedUnit { unit, clip, cameras, keys }
         })
     })
 }

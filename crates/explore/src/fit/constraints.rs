@@ -96,16 +96,58 @@ impl ConstraintCheck {
             if self.is_minimum { (self.limit, self.value) } else { (self.value, self.limit) };
         (more.max(LEAST) / less.max(LEAST)).log2().max(LEAST)
     }
+
+    /// Returns the figure and its limit as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let side = if self.is_minimum { "at least" } else { "at most" };
+        let number = |value: f64| match self.name {
+            "max-flips" | "max-missed" | "min-recall" | "min-agreement" => {
+                format!("{:.2} %", value * 100.0)
+            }
+            "min-psnr" if value.is_infinite() => "identical".to_owned(),
+            "min-psnr" => format!("{value:.1} dB"),
+            "min-fps" | "max-bram" => hundredths(value),
+            _ => format!("{value:.0}"),
+        };
+        let what = match self.name {
+            "max-flips" => "flips",
+            "max-missed" => "missed",
+            "min-psnr" => "PSNR",
+            "max-stale-frames" => "stale frames",
+            "max-bytes" => "bytes per frame",
+            "min-recall" => "objects sent by half",
+            "min-agreement" => "agreement of the network",
+            "min-fps" => "frames/s",
+            "max-lut" => "LUTs of a unit",
+            "max-ff" => "flip-flops of a unit",
+            "max-array-lut" => "LUTs of the array",
+            _ => "RAMB36",
+        };
+        let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
+        let clock = clock.unwrap_or_default();
+        let what = if self.is_expected {
+            format!("{what} expected for other frames")
+        } else {
+            what.to_owned()
+        };
+        format!("{what} {}{clock} ({side} {})", number(self.value), number(self.limit))
+    }
+}
+
+/// Formats a number with at most two digits after the decimal point.
+fn hundredths(value: f64) -> String {
+    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Returns whether all limits are met.
-pub(super) fn all_met(held: &[ConstraintCheck]) -> bool {
-    held.iter().all(|held| held.holds)
+pub(super) fn all_met(checks: &[ConstraintCheck]) -> bool {
+    checks.iter().all(|check| check.holds)
 }
 
 /// Returns the sum of the distances of all figures from their limits.
-pub(super) fn total_excess(held: &[ConstraintCheck]) -> f64 {
-    held.iter().map(ConstraintCheck::excess).sum()
+pub(super) fn total_excess(checks: &[ConstraintCheck]) -> f64 {
+    checks.iter().map(ConstraintCheck::excess).sum()
 }
 
 impl Constraints {
@@ -156,11 +198,11 @@ impl Constraints {
     pub fn check_speed(&self, speed: Option<&FrameRate>) -> Vec<ConstraintCheck> {
         let rate = speed.map_or(0.0, |speed| speed.low_frames_per_second);
         let clock_mhz = speed.map(|speed| speed.low_clock_mhz);
-        let held = |limit| ConstraintCheck {
+        let check = |limit| ConstraintCheck {
             clock_mhz,
             ..ConstraintCheck::check_at_least("min-fps", rate, limit)
         };
-        self.min_fps.map(held).into_iter().collect()
+        self.min_fps.map(check).into_iter().collect()
     }
 
     /// Returns the constraints on area.

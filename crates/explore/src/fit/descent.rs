@@ -11,20 +11,21 @@
 //! descent compares the agreement that is to be expected of other frames. A camera that agrees
 //! enough must also be confirmed by later frames, which are used for nothing else.
 
-use std::collections::BTreeMap;
-
 use foveate_camera::{
     Camera, CameraConfig, DenoiseFilter, FeatureKind, IrrelevantRendering, PeripheryConfig,
     ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 use foveate_design::HardwareConfig;
 
-use super::agreement::AgreementEstimate;
-use super::build::least_rough_cost;
+use super::agreement_estimate::AgreementEstimate;
+use super::camera_search::CameraSearch;
+use super::clip_part::ClipPart;
 use super::constraints::ConstraintCheck;
-use super::network::{ClipPart, CostObjective, NetworkAgreement};
-use super::search::CameraSearch;
-use super::target::scale_thresholds_by;
+use super::known_agreements::{KnownAgreements, known_or_measured};
+use super::network_agreement::NetworkAgreement;
+use super::network_goal::CostObjective;
+use super::possible_designs::least_rough_cost;
+use super::threshold_scaling::scale_thresholds_by;
 use crate::ExploreError;
 
 /// The sides of regions that are tried besides the task's.
@@ -43,21 +44,23 @@ pub(super) struct Descent<'s, 'a> {
     search: &'s mut CameraSearch<'a>,
     network: &'s NetworkAgreement<'a>,
     hardware: &'s HardwareConfig,
+    /// The agreements that were measured so far.
     known: KnownAgreements,
 }
 
 impl<'s, 'a> Descent<'s, 'a> {
     pub(super) fn new(
         search: &'s mut CameraSearch<'a>,
-        jury: &'s NetworkAgreement<'a>,
+        network: &'s NetworkAgreement<'a>,
         hardware: &'s HardwareConfig,
     ) -> Self {
-        Self { search, network: jury, hardware, known: KnownAgreements::default() }
+        Self { search, network, hardware, known: KnownAgreements::default() }
     }
 
-    /// Descends from the task and from a camera that sends nearly all pixels, until nothing is
-    /// cheaper. The search then contains the camera where the descent ends, or the camera that
-    /// sends nearly all pixels if none meets the limits.
+    /// Descends from the task and from a camera that sends nearly all pixels, until no cheaper
+    /// camera agrees enough. If no start agrees enough, the descent tries the cameras around the one
+    /// that sends nearly all pixels. The search then contains the camera where the descent ends, or
+    /// the camera that sends nearly all pixels if none meets the limits.
     pub(super) fn run(mut self) -> Result<KnownAgreements, ExploreError> {
         let all = nearly_all_sent(self.search.task());
         let mut starts = irrelevant_variants(self.search.task());
@@ -143,8 +146,9 @@ impl<'s, 'a> Descent<'s, 'a> {
         camera: &Camera,
         least: Option<f64>,
     ) -> Result<AgreementEstimate, ExploreError> {
-        let asked = self.known.count();
-        let ask = || self.network.measure_agreement(camera, ClipPart::Search, least, asked);
+        let cameras_before = self.known.count();
+        let ask =
+            || self.network.measure_agreement(camera, ClipPart::Search, least, cameras_before);
         known_or_measured(&mut self.known.searched, camera, least, ask)
     }
 
@@ -154,8 +158,10 @@ impl<'s, 'a> Descent<'s, 'a> {
         camera: &Camera,
         least: Option<f64>,
     ) -> Result<AgreementEstimate, ExploreError> {
-        let asked = self.known.count();
-        let ask = || self.network.measure_agreement(camera, ClipPart::Confirmation, least, asked);
+        let cameras_before = self.known.count();
+        let ask = || {
+            self.network.measure_agreement(camera, ClipPart::Confirmation, least, cameras_before)
+        };
         known_or_measured(&mut self.known.confirmed, camera, least, ask)
     }
 
@@ -167,34 +173,16 @@ impl<'s, 'a> Descent<'s, 'a> {
         expected: f64,
     ) -> Result<bool, ExploreError> {
         let mut holds = false;
-        for mut look in self.search.examine(std::slice::from_ref(config))? {
-            look.checks.push(ConstraintCheck::check_expected_agreement(
+        for mut examined in self.search.examine(std::slice::from_ref(config))? {
+            examined.checks.push(ConstraintCheck::check_expected_agreement(
                 expected,
                 self.network.goal.min_agreement,
             ));
-            holds = look.meets_limits();
-            self.search.replace(look);
+            holds = examined.meets_limits();
+            self.search.replace(examined);
         }
         Ok(holds)
     }
-}
-
-/// Returns the known agreement of a camera, or calls `ask`. Without `least`, a known upper bound is
-/// not enough.
-fn known_or_measured(
-    known: &mut BTreeMap<String, AgreementEstimate>,
-    camera: &Camera,
-    least: Option<f64>,
-    ask: impl FnOnce() -> Result<AgreementEstimate, ExploreError>,
-) -> Result<AgreementEstimate, ExploreError> {
-    let key = camera.config().to_toml();
-    let enough = |agreed: &&AgreementEstimate| least.is_some() || !agreed.is_upper_bound;
-    if let Some(agreed) = known.get(&key).filter(enough) {
-        return Ok(*agreed);
-    }
-    let agreed = ask()?;
-    known.insert(key, agreed);
-    Ok(agreed)
 }
 
 /// Returns a camera that sends much more than the task's. If the network disagrees behind this
@@ -271,90 +259,4 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
 fn periphery_level_at(level: u32, bits: u32) -> Option<u32> {
     let periphery = PeripheryConfig { level: Some(level), ..PeripheryConfig::default() };
     CameraConfig { periphery, ..CameraConfig::default() }.scaled_to_depth(bits).periphery.level
-}
-
-/// The agreement of the network behind cameras, by their configurations.
-#[derive(Debug, Default)]
-pub(super) struct KnownAgreements {
-    /// The agreement on the frames of the search.
-    searched: BTreeMap<String, AgreementEstimate>,
-    /// The agreement on later frames, for cameras that agreed enough before.
-    confirmed: BTreeMap<String, AgreementEstimate>,
-}
-
-impl KnownAgreements {
-    /// Returns the number of cameras.
-    pub(super) fn count(&self) -> usize {
-        self.searched.len()
-    }
-
-    /// Returns the exact agreement of a camera, and its agreement on later frames if it is known.
-    pub(super) fn agreements_of(
-        &self,
-        config: &CameraConfig,
-    ) -> (AgreementEstimate, Option<AgreementEstimate>) {
-        let text = config.to_toml();
-        (self.searched[&text], self.confirmed.get(&text).copied())
-    }
-
-    /// Returns the reasons of the network for choosing this camera; `least` is the agreement that
-    /// was to be reached.
-    pub(super) fn reasons(&self, chosen: &CameraConfig, least: f64) -> Vec<String> {
-        self.not_confirmed(least).into_iter().chain(self.step_lines(chosen)).collect()
-    }
-
-    /// Returns a sentence with the number of cameras that later frames did not confirm.
-    fn not_confirmed(&self, least: f64) -> Option<String> {
-        let failed = |agreed: &&AgreementEstimate| agreed.is_upper_bound || agreed.expected < least;
-        let count = self.confirmed.values().filter(failed).count();
-        let all = self.confirmed.len();
-        (count > 0).then(|| {
-            format!(
-                "later frames did not confirm {count} of {all} cameras whose agreement was sufficient before"
-            )
-        })
-    }
-
-    /// Returns a line for each camera that differs from the chosen one in one setting, in the order
-    /// of the keys.
-    fn step_lines(&self, chosen: &CameraConfig) -> Vec<String> {
-        let own = settings_of_toml(&chosen.to_toml());
-        let step = |(text, agreed): (&String, &AgreementEstimate)| {
-            let other = settings_of_toml(text);
-            let mut changed = other.iter().filter(|setting| !own.contains(setting));
-            let lost = own.iter().filter(|setting| !other.contains(setting)).count();
-            let setting = changed.next().filter(|_| lost <= 1 && changed.next().is_none())?;
-            let bound = if agreed.is_upper_bound { "at most " } else { "" };
-            let share = 100.0 * agreed.share;
-            let expected = 100.0 * agreed.expected;
-            let elsewhere =
-                (!agreed.is_upper_bound).then(|| format!(", {expected:.1} % elsewhere"));
-            let elsewhere = elsewhere.unwrap_or_default();
-            Some(format!("{setting}: agreement {bound}{share:.1} %{elsewhere}"))
-        };
-        self.searched.iter().filter_map(step).collect()
-    }
-}
-
-/// Returns the settings of a configuration, each with the names of its tables.
-fn settings_of_toml(toml: &str) -> Vec<String> {
-    let table: toml::Table = toml.parse().expect("a configuration is written as TOML");
-    let mut found = Vec::new();
-    collect_settings("", &toml::Value::Table(table), &mut found);
-    found
-}
-
-fn collect_settings(name: &str, value: &toml::Value, found: &mut Vec<String>) {
-    match value {
-        toml::Value::Table(table) => {
-            for (key, value) in table {
-                let name = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
-                collect_settings(&name, value, found);
-            }
-        }
-        toml::Value::Array(entries) => {
-            entries.iter().for_each(|entry| collect_settings(name, entry, found));
-        }
-        value => found.push(format!("{name} = {value}")),
-    }
 }

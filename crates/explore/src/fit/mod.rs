@@ -2,38 +2,47 @@
 //! A fit: the search for the cheapest design that a scene needs. The design is fitted on the first
 //! half of every clip and reported on the second half.
 //!
-//! 1. If a share of active regions is wanted, the task's thresholds are set for it ([`target`]).
+//! 1. If a share of active regions is wanted, the task's thresholds are set for it
+//!    ([`activity_target`]).
 //! 2. The search tries cameras. A camera says what is computed, and not how it is built. The search
 //!    tries region sizes and features, each with the thresholds that agree best with the ideal. For
-//!    the best of them it tries all depths, windows, filters and references ([`search`]). With a
-//!    network, the search is a descent from the task instead: the network must agree, behind the
-//!    camera, with its outputs for whole frames ([`descent`], [`network`]).
+//!    the best of them it tries all depths, windows, filters and references ([`camera_search`]).
+//!    With a network, the search is a descent from the task instead: the network must agree, behind
+//!    the camera, with its outputs for whole frames ([`descent`], [`network_agreement`]).
 //! 3. Of the cameras that meet the limits, only the simplest are built: a camera is dropped if a
-//!    simpler one also meets the limits. Each is built with every feed and with the folds that are
-//!    fast enough and may be the cheapest, or pipelined if no serial array is fast enough; and as a
-//!    raster core, if one is fast enough ([`build`]). The most promising designs are synthesized
-//!    first ([`rough_cost`]). If no clock is given, a planned clock decides which designs are
-//!    tried. The clock that is estimated from the netlist decides whether they are fast enough, and
-//!    which are folded again ([`plan`]).
-//! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`reasons`]).
+//!    simpler one also meets the limits. If the fewest bytes are wanted, only the cameras that send
+//!    the fewest are built ([`simplest_cameras`]). Each is built with every feed and with the folds
+//!    that are fast enough and may be the cheapest, or pipelined if no serial array is fast enough;
+//!    and as a raster core, if one is fast enough ([`possible_designs`]). The most promising
+//!    designs are synthesized first ([`rough_cost`], [`synthesis`]). If no clock is given, a
+//!    planned clock decides which designs are tried. The clock that is estimated from the netlist
+//!    decides whether they are fast enough, and which are folded again ([`slower_designs`]).
+//! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`reasons`]),
+//!    and measured on the second half ([`fit_result`]).
 
-mod agreement;
-mod build;
+mod activity_target;
+mod agreement_estimate;
+mod camera_search;
+mod clip_part;
 mod constraints;
 mod descent;
-mod network;
-mod plan;
+mod fit_result;
+mod known_agreements;
+mod network_agreement;
+mod network_goal;
+mod possible_designs;
 mod reasons;
-mod report;
 mod rough_cost;
-mod search;
-mod target;
+mod simplest_cameras;
+mod slower_designs;
+mod synthesis;
 #[cfg(test)]
 mod test_clip;
+mod threshold_scaling;
 
 use std::path::PathBuf;
 
-use foveate_design::{DesignConfig, HardwareConfig, OrganizationConfig};
+use foveate_design::{DesignConfig, HardwareConfig, LaneMemoryKind, OrganizationConfig};
 use foveate_footage::InputOptions;
 use foveate_playback::{ClipHalves, RunHooks, RunMonitor};
 
@@ -41,15 +50,20 @@ use crate::ExploreError;
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
 use crate::progress::reading_progress;
-use build::build_designs;
-use descent::{Descent, KnownAgreements};
-use network::{ClipPart, NetworkAgreement};
-use search::CameraSearch;
+use activity_target::task_for_target;
+use camera_search::CameraSearch;
+use clip_part::ClipPart;
+use descent::Descent;
+use fit_result::FitFindings;
+use known_agreements::KnownAgreements;
+use network_agreement::NetworkAgreement;
+use synthesis::synthesize_promising_designs;
 
-pub use agreement::AgreementEstimate;
+pub use activity_target::ActivityTarget;
+pub use agreement_estimate::AgreementEstimate;
 pub use constraints::{ConstraintCheck, Constraints};
-pub use network::{CostObjective, FittedNetwork, NetworkGoal};
-pub use report::{ActivityTarget, FitResult, FittedDesign};
+pub use fit_result::{FitResult, FittedDesign};
+pub use network_goal::{CostObjective, FittedNetwork, NetworkGoal};
 
 /// The least number of frames of a clip: each half needs a first frame, and one that can change.
 const MIN_FRAMES: u64 = 4;
@@ -77,8 +91,8 @@ pub struct FitRequest<'a> {
     pub network: Option<NetworkGoal<'a>>,
     /// The synthesizer, for areas.
     pub synthesizer: &'a Synthesizer,
-    /// The most designs that are synthesized: of those that meet all other limits, or of the
-    /// nearest ones.
+    /// The most designs that are synthesized. If none of them meets all limits, up to 16 more are
+    /// synthesized, to find the nearest one and the binding limits.
     pub max_designs: usize,
 }
 
@@ -89,50 +103,48 @@ pub struct FitRequest<'a> {
 /// Fails if an input cannot be read or is too short to be halved, if Yosys is missing or fails, or
 /// if `hooks` cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, ExploreError> {
-    // The hardware settings of the task do not affect what the camera computes, so they are
-    // dropped. `thresholds` and `sync` stay, because every candidate design takes them over;
-    // `memory` goes to `build`.
-    let HardwareConfig { ref organization, thresholds, sync, .. } = request.task.hardware;
-    let memory = match organization {
-        OrganizationConfig::Serial(own) => own.memory,
-        OrganizationConfig::Pipelined | OrganizationConfig::Raster(_) => None,
-    };
-    let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
-    let task = DesignConfig { hardware, ..request.task.clone() };
+    let (task, lane_memory) = task_without_hardware(request.task);
     let request = &FitRequest { task: &task, ..request.clone() };
-    let (inputs, camera) = ((request.inputs, request.boxes), &request.task.camera);
-    let footage = ExplorationFootage::new(inputs, request.input, camera, hooks)?;
-    let least = if request.network.is_some() { ClipPart::MIN_FRAMES } else { MIN_FRAMES };
+    let inputs = (request.inputs, request.boxes);
+    let footage = ExplorationFootage::new(inputs, request.input, &request.task.camera, hooks)?;
+    let least_frames = if request.network.is_some() { ClipPart::MIN_FRAMES } else { MIN_FRAMES };
     let monitor = RunMonitor::of_stage(hooks, &reading_progress);
-    let lengths = ClipHalves::count(&footage.clips, least, &monitor)?;
-    let (task, target) = target::task_for_target(request, &footage, &lengths)?;
+    let halves = ClipHalves::count(&footage.clips, least_frames, &monitor)?;
+    let (task, target) = task_for_target(request, &footage, &halves)?;
     let footage = footage.with_ideal(&task);
-    let mut search = CameraSearch::new(request.constraints, &footage, &lengths, &task)?;
-    let jury =
-        request.network.map(|goal| NetworkAgreement::new(goal, &footage, &lengths, search.task()));
-    let jury = jury.transpose()?;
-    let asked = match &jury {
+    let mut search = CameraSearch::new(request.constraints, &footage, &halves, &task)?;
+    let network =
+        request.network.map(|goal| NetworkAgreement::new(goal, &footage, &halves, search.task()));
+    let network = network.transpose()?;
+    let agreements = match &network {
         None => {
             search.run()?;
             KnownAgreements::default()
         }
-        Some(jury) => Descent::new(&mut search, jury, &request.task.hardware).run()?,
+        Some(network) => Descent::new(&mut search, network, &request.task.hardware).run()?,
     };
-    let built = build_designs(&search, request, memory, hooks)?;
-    let chosen = built.chosen();
-    let camera = &chosen.look.config;
-    let least = request.network.map_or(0.0, |goal| goal.min_agreement);
-    let steps = (asked.count(), asked.reasons(camera, least));
-    let second = search.measure_second_half(&chosen.look)?;
-    let network =
-        jury.map(|jury| jury.fitted_network(camera, asked.agreements_of(camera))).transpose()?;
-    Ok(report::fit_result(request, &search, steps, &built, target, (second, network), &lengths))
+    let synthesized = synthesize_promising_designs(&search, request, lane_memory, hooks)?;
+    let chosen = &synthesized.chosen().examined;
+    let second_half = search.measure_second_half(chosen)?;
+    let network = network.map(|network| {
+        network.fitted_network(&chosen.config, agreements.agreements_of(&chosen.config))
+    });
+    let network = network.transpose()?;
+    let (search, halves) = (&search, &halves);
+    let findings =
+        FitFindings { target, search, agreements, synthesized, second_half, network, halves };
+    Ok(findings.into_result(request))
 }
 
-/// Returns the number of frames of the first halves and of the second halves of all clips.
-fn frames_of_halves(halves: &ClipHalves) -> (u64, u64) {
-    halves
-        .frames
-        .iter()
-        .fold((0, 0), |(first, second), (half, all)| (first + half, second + all - half))
+/// Returns the task without the hardware settings that do not affect what the camera computes, and
+/// the kind of lane memory that a serial task asks for. `thresholds` and `sync` stay in the task,
+/// because every candidate design takes them over.
+fn task_without_hardware(task: &DesignConfig) -> (DesignConfig, Option<LaneMemoryKind>) {
+    let HardwareConfig { ref organization, thresholds, sync, .. } = task.hardware;
+    let lane_memory = match organization {
+        OrganizationConfig::Serial(own) => own.memory,
+        OrganizationConfig::Pipelined | OrganizationConfig::Raster(_) => None,
+    };
+    let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
+    (DesignConfig { hardware, ..task.clone() }, lane_memory)
 }

@@ -10,9 +10,9 @@ use foveate_design::{Design, Organization};
 use foveate_estimate::{FrameRate, ramb36};
 
 use super::FitRequest;
-use super::build::{SynthesizedDesign, SynthesizedDesigns};
+use super::camera_search::{CameraSearch, ExaminedCamera};
 use super::constraints::ConstraintCheck;
-use super::search::{CameraSearch, ExaminedCamera};
+use super::synthesis::{SynthesizedDesign, SynthesizedDesigns};
 
 /// Describes a design in a few words.
 pub(super) fn design_text(design: &Design) -> String {
@@ -49,10 +49,10 @@ pub(super) fn reason_lines(
     request: &FitRequest<'_>,
 ) -> Vec<String> {
     let mut lines = Vec::new();
-    for (step, config) in simpler_cameras(&chosen.look.config) {
+    for (step, config) in simpler_cameras(&chosen.examined.config) {
         // The search has examined only some of these steps; the others are left out.
-        if let Some(look) = search.get(&config) {
-            lines.push(format!("{step}: {}", limits_or_cost_text(look, built)));
+        if let Some(examined) = search.get(&config) {
+            lines.push(format!("{step}: {}", limits_or_cost_text(examined, built)));
         }
     }
     lines.extend(other_features(search, built, chosen));
@@ -81,7 +81,7 @@ pub(super) fn binding_limits(built: &SynthesizedDesigns) -> Vec<&'static str> {
     let mut found: Vec<&'static str> = Vec::new();
     for candidate in built.designs() {
         let broken: Vec<&ConstraintCheck> =
-            candidate.checks.iter().filter(|held| !held.holds).collect();
+            candidate.checks.iter().filter(|check| !check.holds).collect();
         if let [one] = broken.as_slice()
             && !found.contains(&one.name)
         {
@@ -119,14 +119,15 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
 }
 
 /// Returns the limits that a camera misses, or its cost if it meets them.
-fn limits_or_cost_text(look: &ExaminedCamera, built: &SynthesizedDesigns) -> String {
+fn limits_or_cost_text(examined: &ExaminedCamera, built: &SynthesizedDesigns) -> String {
     let broken: Vec<String> =
-        look.checks.iter().filter(|held| !held.holds).map(ConstraintCheck::text).collect();
+        examined.checks.iter().filter(|check| !check.holds).map(ConstraintCheck::text).collect();
     if !broken.is_empty() {
         return broken.join(", ");
     }
-    let flips = look.figures.action_flips * 100.0;
-    let own = built.designs().iter().filter(|candidate| candidate.look.config == look.config);
+    let flips = examined.figures.action_flips * 100.0;
+    let own =
+        built.designs().iter().filter(|candidate| candidate.examined.config == examined.config);
     match own.min_by(|one, other| one.cost().total_cmp(&other.cost())) {
         Some(candidate) => format!("{flips:.2} % flips; {}", cost_text(candidate)),
         None => format!(
@@ -145,25 +146,28 @@ fn other_features(
         let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
         (names.join(" and "), config.region.size)
     };
-    let synthesized = |look: &ExaminedCamera| {
-        built.designs().iter().any(|candidate| candidate.look.config == look.config)
+    let synthesized = |examined: &ExaminedCamera| {
+        built.designs().iter().any(|candidate| candidate.examined.config == examined.config)
     };
-    let rank = |look: &ExaminedCamera| (look.excess(), !synthesized(look));
-    let own = of(&chosen.look.config);
+    let rank = |examined: &ExaminedCamera| (examined.excess(), !synthesized(examined));
+    let own = of(&chosen.examined.config);
     let mut best: Vec<((String, u32), &ExaminedCamera)> = Vec::new();
-    for look in search.all().filter(|look| of(&look.config) != own) {
-        let key = of(&look.config);
+    for examined in search.all().filter(|examined| of(&examined.config) != own) {
+        let key = of(&examined.config);
         match best.iter_mut().find(|(other, _)| *other == key) {
-            Some((_, found)) if rank(found) <= rank(look) => {}
-            Some((_, found)) => *found = look,
-            None => best.push((key, look)),
+            Some((_, found)) if rank(found) <= rank(examined) => {}
+            Some((_, found)) => *found = examined,
+            None => best.push((key, examined)),
         }
     }
     // Readers ask for cameras that differ in one setting only.
     best.retain(|((features, size), _)| *features == own.0 || *size == own.1);
     best.sort_by(|one, other| one.1.excess().total_cmp(&other.1.excess()));
-    let line = |((features, size), look): ((String, u32), &ExaminedCamera)| {
-        format!("{features} in {size}x{size} regions: at best {}", limits_or_cost_text(look, built))
+    let line = |((features, size), examined): ((String, u32), &ExaminedCamera)| {
+        format!(
+            "{features} in {size}x{size} regions: at best {}",
+            limits_or_cost_text(examined, built)
+        )
     };
     best.into_iter().map(line).collect()
 }
@@ -185,14 +189,14 @@ fn deeper_fold_line(chosen: &SynthesizedDesign, request: &FitRequest<'_>) -> Opt
     let deeper = chosen.design.with_fold(fold).ok()?;
     let speed = chosen.speed?;
     let at_low = FrameRate::at_given_clock(speed.low_clock_mhz, deeper.timing().clocks_per_frame());
-    let [held] = request.constraints.check_speed(Some(&at_low)).try_into().ok()?;
+    let [check] = request.constraints.check_speed(Some(&at_low)).try_into().ok()?;
     let whose = if speed.estimated { ", if its clock is the same" } else { "" };
-    (!held.holds).then(|| format!("fold {fold}: {}{whose}", held.text()))
+    (!check.holds).then(|| format!("fold {fold}: {}{whose}", check.text()))
 }
 
 /// Returns the cost of a design, and the limits that it misses.
 fn cost_text(candidate: &SynthesizedDesign) -> String {
-    let broken = candidate.checks.iter().filter(|held| !held.holds).map(ConstraintCheck::text);
+    let broken = candidate.checks.iter().filter(|check| !check.holds).map(ConstraintCheck::text);
     iter::once(area_text(candidate)).chain(broken).collect::<Vec<_>>().join("; ")
 }
 
@@ -205,48 +209,4 @@ fn area_text(candidate: &SynthesizedDesign) -> String {
         ramb36(area.bram18),
         candidate.cost() * 100.0
     )
-}
-
-/// Formats a number with at most two digits after the decimal point.
-fn hundredths(value: f64) -> String {
-    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-impl ConstraintCheck {
-    /// Returns the figure and its limit as text.
-    #[must_use]
-    pub fn text(&self) -> String {
-        let side = if self.is_minimum { "at least" } else { "at most" };
-        let number = |value: f64| match self.name {
-            "max-flips" | "max-missed" | "min-recall" | "min-agreement" => {
-                format!("{:.2} %", value * 100.0)
-            }
-            "min-psnr" if value.is_infinite() => "identical".to_owned(),
-            "min-psnr" => format!("{value:.1} dB"),
-            "min-fps" | "max-bram" => hundredths(value),
-            _ => format!("{value:.0}"),
-        };
-        let what = match self.name {
-            "max-flips" => "flips",
-            "max-missed" => "missed",
-            "min-psnr" => "PSNR",
-            "max-stale-frames" => "stale frames",
-            "max-bytes" => "bytes per frame",
-            "min-recall" => "objects sent by half",
-            "min-agreement" => "agreement of the network",
-            "min-fps" => "frames/s",
-            "max-lut" => "LUTs of a unit",
-            "max-ff" => "flip-flops of a unit",
-            "max-array-lut" => "LUTs of the array",
-            _ => "RAMB36",
-        };
-        let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
-        let clock = clock.unwrap_or_default();
-        let what = if self.is_expected {
-            format!("{what} expected for other frames")
-        } else {
-            what.to_owned()
-        };
-        format!("{what} {}{clock} ({side} {})", number(self.value), number(self.limit))
-    }
 }

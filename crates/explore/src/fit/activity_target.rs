@@ -5,17 +5,29 @@
 //! scaled. This goes from nearly all regions to none in small steps. Then `temporal.min_count` is
 //! set, because whole grey levels are too coarse for some shares.
 
-use foveate_camera::{CameraConfig, Decimal, Neighborhood};
+use foveate_camera::{CameraConfig, Neighborhood};
 use foveate_design::DesignConfig;
 use foveate_playback::ClipHalves;
+use serde::Serialize;
 
 use super::FitRequest;
-use super::report::ActivityTarget;
+use super::threshold_scaling::scale_thresholds;
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 
 /// The steps of the factor: quarters of a power of two, from 1/32 to 32.
 const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
+
+/// The thresholds for a wanted share of active regions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ActivityTarget {
+    /// The wanted share, 0..=1.
+    pub wanted: f64,
+    /// The nearest share that was possible, on the first half.
+    pub found: f64,
+    /// The task with these thresholds, as TOML.
+    pub task: String,
+}
 
 /// Returns the task with thresholds for the wanted share, and the share that was found. Without a
 /// wanted share it returns the task unchanged.
@@ -51,6 +63,7 @@ fn nearest_task(
     wanted: f64,
 ) -> Result<(CameraConfig, f64), ExploreError> {
     let (width, height) = footage.size;
+    // The ideal camera has shared windows, whatever the windows of the task are.
     let camera = |task: &CameraConfig| {
         let mut exact = task.clone();
         exact.region.neighborhood = Neighborhood::Shared;
@@ -67,46 +80,6 @@ fn nearest_task(
         settings: "every scale of the thresholds".to_owned(),
         reason: "none of them gives a valid design".to_owned(),
     })
-}
-
-/// Multiplies every threshold of the task in grey levels by `2^octaves`.
-fn scale_thresholds(task: &CameraConfig, octaves: f64) -> CameraConfig {
-    scale_thresholds_by(task, octaves, octaves)
-}
-
-/// Multiplies the thresholds of features by `2^spatial` and the temporal level by `2^temporal`.
-pub(super) fn scale_thresholds_by(
-    task: &CameraConfig,
-    spatial: f64,
-    temporal: f64,
-) -> CameraConfig {
-    let scale = |octaves: f64| move |level: u32| round_to_level(f64::from(level) * octaves.exp2());
-    let (level, changed) = (scale(spatial), scale(temporal));
-    let factor = spatial.exp2();
-    let mut config = task.clone();
-    let bits = task.frame.pixel_bits;
-    config.temporal.level = Some(changed(config.temporal.level_or_default(bits)));
-    for entry in &mut config.spatial {
-        *entry = entry.with_defaults(bits);
-        let measure = entry.feature.score_unit();
-        entry.level = entry.level.map(level);
-        if !measure.is_count() {
-            // Deviations scale with the contrast, and their squares with its square.
-            let factor = (0..measure.scaling_exponent()).map(|_| factor).product::<f64>();
-            let scale = |score: Decimal| {
-                let score: f64 = score.to_string().parse().expect("a decimal is a number");
-                Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)
-            };
-            entry.min_score = entry.min_score.and_then(scale);
-        }
-    }
-    config
-}
-
-/// Returns the nearest whole number, within the range of a level.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
-fn round_to_level(value: f64) -> u32 {
-    value.round().clamp(0.0, f64::from(u32::MAX)) as u32
 }
 
 #[cfg(test)]
@@ -154,16 +127,5 @@ mod tests {
             target.found
         };
         assert!(share(0.1) < share(0.25) && share(0.25) < share(0.6));
-    }
-
-    #[test]
-    fn scaling_is_of_grey_levels_and_of_their_squares() {
-        let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
-        let twice = scale_thresholds(&CameraConfig::from_toml(text).unwrap(), 1.0);
-        assert_eq!((twice.temporal.level, twice.temporal.min_count), (Some(16), 5));
-        assert_eq!(twice.spatial[0].level, Some(200));
-        let scores: Vec<String> =
-            twice.spatial.iter().map(|entry| entry.min_score.unwrap().to_string()).collect();
-        assert_eq!(scores, ["5", "10", "200"]);
     }
 }

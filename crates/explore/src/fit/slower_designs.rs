@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folds of a design before and after its clock is known. A clock is estimated from a netlist,
-//! which a design does not have before its synthesis. So a planned clock decides which folds are
-//! tried; no frame rate is reported at it.
+//! The slower and cheaper designs that follow from a synthesized design, whose clock is known:
+//! deeper folds of a serial array, and fewer pixels per clock of a raster core.
 
 use foveate_design::{Design, Hardware};
 use foveate_estimate::{Area, FpgaDevice, FrameRate, most_clocks_per_frame};
 
-use super::FitRequest;
 use crate::cost::DesignArea;
-use crate::row::count_to_f64;
-
-/// The planned clock in Hz. It is below the low ends of the serial arrays in `docs/area.md`, of
-/// which the slowest is at 56 MHz. A faster design is folded again for its own clock.
-const PLANNED_HZ: u64 = 50_000_000;
-
-/// Returns the most clocks that a frame may take, at the clock of the request or at the planned
-/// one.
-pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
-    let hertz = count_to_f64(request.clock_hz.unwrap_or(PLANNED_HZ));
-    request.constraints.min_fps.map(|fps| most_clocks_per_frame(hertz, fps))
-}
 
 /// Returns the deeper folds of a serial design that are fast enough at the low end of its clock and
 /// may be the cheapest, or a raster design with half the pixels per clock, if it is fast enough.
@@ -68,8 +54,10 @@ pub(super) fn expected_cost(design: &Design, silicon: &DesignArea) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use foveate_design::DesignConfig;
+
+    use super::*;
+    use crate::row::count_to_f64;
 
     #[test]
     fn a_design_is_folded_as_deep_as_the_low_end_of_its_clock_allows() {

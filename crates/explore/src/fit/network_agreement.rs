@@ -1,107 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A network that must agree, behind the camera, with its outputs for whole frames.
 //!
-//! The network first runs on some whole frames of every part of the clips, spread evenly. A camera
-//! is dropped as soon as it cannot reach the wanted agreement, even if it agreed on all other
-//! frames.
-
-use std::ops::Range;
-use std::path::Path;
+//! The network first runs on some whole frames of every part of the clips, spread evenly. Later it
+//! runs on the same frames behind a camera. If a least agreement is wanted, this ends as soon as
+//! the camera could not reach it even if the outputs for all later frames were equal.
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    ConfidenceIntervals, FrameOutcome, InferenceError, NOISE_LEVELS, NoiseAgreement,
-    NoiseComparison, OutputAgreement, VisionNetwork, VisionOptions, frame_format_of, has_class_map,
+    ConfidenceIntervals, FrameOutcome, InferenceError, NOISE_LEVELS, NoiseComparison,
+    OutputAgreement, VisionNetwork, frame_format_of, has_class_map,
 };
 use foveate_playback::{ClipHalves, FrameDepths, RunMonitor};
 use rayon::prelude::*;
-use serde::Serialize;
 
-use super::agreement::AgreementEstimate;
+use super::agreement_estimate::AgreementEstimate;
+use super::clip_part::{ClipPart, spread_evenly};
+use super::network_goal::{FittedNetwork, NetworkGoal};
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 use crate::progress::network_progress;
 use crate::row::count_to_f64;
-
-/// The goal of a fit with a network: the network must agree, behind the camera, with its outputs
-/// for whole frames.
-#[derive(Clone, Copy, Debug)]
-pub struct NetworkGoal<'a> {
-    /// The network's file.
-    pub path: &'a Path,
-    /// The options for reading the network and for showing it frames.
-    pub viewing: &'a VisionOptions,
-    /// The least agreement, 0..=1, defined as by `foveate infer --whole-frames`.
-    pub min_agreement: f64,
-    /// The cost that is minimized.
-    pub cheapest: CostObjective,
-    /// The most frames of each part of all clips that the network sees: of the part that cameras
-    /// are searched by, of the part that confirms a camera, and of the second halves.
-    pub frames: u64,
-}
-
-/// The cost of designs behind which a network agrees enough.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum CostObjective {
-    /// The bytes that leave the camera; area decides between cameras with equal bytes.
-    Bytes,
-    /// The area.
-    Area,
-}
-
-/// The agreement of a network behind the chosen design with the network on whole frames.
-#[derive(Clone, Debug, Serialize)]
-pub struct FittedNetwork {
-    /// The network's file.
-    pub network: String,
-    /// The format of the detections, if they are read.
-    pub detector: Option<String>,
-    /// The least agreement that was wanted, 0..=1.
-    pub min_agreement: f64,
-    /// The cost that was minimized.
-    pub cheapest: CostObjective,
-    /// The agreement on the frames of the search: the first two thirds of the first half.
-    pub fitted: AgreementEstimate,
-    /// The agreement on the rest of the first half, which had no part in the search and confirmed
-    /// its result.
-    pub confirmed: AgreementEstimate,
-    /// The agreement on the second half, which influenced no choice.
-    pub held_out: AgreementEstimate,
-    /// The agreement with whole frames of the second half under noise, level by level.
-    pub noise: Vec<NoiseAgreement>,
-    /// The size of a whole frame in bytes.
-    pub bytes_per_whole_frame: f64,
-}
-
-/// A part of every clip.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ClipPart {
-    /// The first two thirds of the first half, which cameras are searched by.
-    Search,
-    /// The rest of the first half, which comes later, has no part in the search, and confirms its
-    /// result.
-    Confirmation,
-    /// The second half.
-    HeldOut,
-}
-
-impl ClipPart {
-    /// The fewest frames of a clip with which each part has a frame.
-    pub(super) const MIN_FRAMES: u64 = 6;
-
-    /// Returns the frames of this part of a clip with `all` frames, of which `half` are the first
-    /// half. The first frame belongs to no part, because every camera sends it whole.
-    fn frames(self, (half, all): (u64, u64)) -> Range<u64> {
-        let searched = (2 * half).div_ceil(3);
-        match self {
-            Self::Search => 1..searched,
-            Self::Confirmation => searched..half,
-            Self::HeldOut => half..all,
-        }
-    }
-}
 
 /// A frame that the network sees, and its findings.
 struct WholeFrameSample {
@@ -117,7 +36,7 @@ pub(super) struct NetworkAgreement<'a> {
     pub(super) goal: NetworkGoal<'a>,
     footage: &'a ExplorationFootage<'a>,
     halves: &'a ClipHalves,
-    /// The frames that the network saw, by part and by clip.
+    /// The frames that the network saw, by the number of their [`ClipPart`] and by clip.
     samples: [Vec<Vec<WholeFrameSample>>; 3],
     /// The agreement under noise on the whole frames of the second halves.
     noise: NoiseComparison,
@@ -142,50 +61,42 @@ impl<'a> NetworkAgreement<'a> {
         let monitor = RunMonitor::of_stage(footage.hooks, &stage);
         monitor.report();
         for (clip, &frames) in halves.frames.iter().enumerate() {
-            let parts = [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut];
-            let wanted = parts.map(|part| (part, spread_evenly(part.frames(frames), most)));
-            let mut looking = vision_network.start_run(frame_format_of(&camera));
+            let wanted = ClipPart::ALL.map(|part| spread_evenly(part.frames(frames), most));
+            let mut run = vision_network.start_run(frame_format_of(&camera));
             let mut player = footage.clips.open(clip)?.limited_to(frames.1);
-            let mut found = [const { Vec::new() }; 3];
+            let mut samples_of_clip = [const { Vec::new() }; 3];
             for current in monitor.watch(&mut player) {
                 let current = current?;
                 let number = current.number;
-                for (found, (part, wanted)) in found.iter_mut().zip(&wanted) {
-                    if wanted.contains(&number) {
-                        let whole = looking.outcome(current.frame.borrowed_pixels());
-                        if *part == ClipPart::HeldOut {
-                            let frame = current.frame.borrowed_pixels().to_words();
-                            let at = (clip as u64, number);
-                            let findings = looking.findings();
-                            noise.add_frame(
-                                (&vision_network, &mut looking),
-                                (&frame, &findings),
-                                at,
-                            );
-                        }
-                        let best = vision_network.compare(&whole, &whole);
-                        found.push(WholeFrameSample {
-                            number,
-                            findings: whole,
-                            best_agreement: best,
-                        });
+                let is_wanted = |part: &ClipPart| wanted[*part as usize].contains(&number);
+                let Some(part) = ClipPart::ALL.into_iter().find(is_wanted) else { continue };
+                let findings = run.outcome(current.frame.borrowed_pixels());
+                match part {
+                    ClipPart::Search | ClipPart::Confirmation => {}
+                    ClipPart::HeldOut => {
+                        let frame = current.frame.borrowed_pixels().to_words();
+                        let (whole, at) = (run.findings(), (clip as u64, number));
+                        noise.add_frame((&vision_network, &mut run), (&frame, &whole), at);
                     }
                 }
+                let best_agreement = vision_network.compare(&findings, &findings);
+                let sample = WholeFrameSample { number, findings, best_agreement };
+                samples_of_clip[part as usize].push(sample);
             }
-            samples.iter_mut().zip(found).for_each(|(part, found)| part.push(found));
+            samples.iter_mut().zip(samples_of_clip).for_each(|(part, own)| part.push(own));
         }
         Ok(Self { vision_network, goal, footage, halves, samples, noise })
     }
 
-    /// Returns the bytes per frame that cameras send on the first halves. `asked` is the number of
-    /// cameras that the network was run behind so far, for progress.
+    /// Returns the bytes per frame that cameras send on the first halves. `cameras_before` is the
+    /// number of cameras that the network was run behind before, for progress.
     pub(super) fn bytes_per_frame_of(
         &self,
         cameras: &[Camera],
-        asked: usize,
+        cameras_before: usize,
     ) -> Result<Vec<f64>, ExploreError> {
         let (mut values, mut frames) = (vec![0; cameras.len()], 0);
-        let stage = |_| network_progress(asked);
+        let stage = |_| network_progress(cameras_before);
         let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
         for (clip, &(half, _)) in self.halves.frames.iter().enumerate() {
             let mut engines: Vec<Engine> = cameras.iter().map(Engine::new).collect();
@@ -233,22 +144,23 @@ impl<'a> NetworkAgreement<'a> {
         })
     }
 
-    /// Returns the agreement behind a camera on a part. `asked` is the number of cameras so far,
-    /// for progress. With `least` it stops as soon as `least` cannot be reached.
+    /// Returns the agreement behind a camera on a part. `cameras_before` is the number of cameras
+    /// that the network was run behind before, for progress. With `least` the run ends as soon as
+    /// `least` cannot be reached, and the agreement is an upper bound.
     pub(super) fn measure_agreement(
         &self,
         camera: &Camera,
         part: ClipPart,
         least: Option<f64>,
-        asked: usize,
+        cameras_before: usize,
     ) -> Result<AgreementEstimate, ExploreError> {
         let samples = &self.samples[part as usize];
         let mut seen: Vec<OutputAgreement> = Vec::new();
-        let stage = |_| network_progress(asked);
+        let stage = |_| network_progress(cameras_before);
         let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
         for (clip, own) in samples.iter().enumerate() {
             let Some(last) = own.last() else { continue };
-            let mut looking = self.vision_network.start_run(frame_format_of(camera));
+            let mut run = self.vision_network.start_run(frame_format_of(camera));
             let mut engine = Engine::new(camera);
             let mut player = self.footage.clips.open(clip)?.limited_to(last.number + 1);
             let mut unseen = own.iter().peekable();
@@ -257,7 +169,7 @@ impl<'a> NetworkAgreement<'a> {
                 FrameDepths::from_frame(&current, [camera.pixel_bits()])?.show_to(&mut engine)?;
                 let sample = unseen.next_if(|sample| sample.number == current.number);
                 let Some(sample) = sample else { continue };
-                let screen = looking.outcome(engine.rendered());
+                let screen = run.outcome(engine.rendered());
                 seen.push(self.vision_network.compare(&sample.findings, &screen));
                 // Frames that the network has not seen yet count with their best possible
                 // agreement. A clip that ended early has no such frames.
@@ -280,21 +192,15 @@ impl<'a> NetworkAgreement<'a> {
     }
 }
 
-/// Returns at most `most` numbers of a range, spread evenly.
-fn spread_evenly(range: Range<u64>, most: u64) -> Vec<u64> {
-    let length = range.end.saturating_sub(range.start);
-    let count = most.min(length);
-    (0..count).map(|index| range.start + (2 * index + 1) * length / (2 * count)).collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
 
     use foveate_footage::InputOptions;
-    use foveate_inference::{Framing, PixelMapping};
+    use foveate_inference::{Framing, PixelMapping, VisionOptions};
     use foveate_playback::SilentHooks;
 
+    use super::super::network_goal::CostObjective;
     use super::super::test_clip::{remove_frames, write_clip};
     use super::*;
 
@@ -338,33 +244,5 @@ mod tests {
             }
         }
         assert!(bounds_of_second_clip > 0, "no bound was decided in the second clip");
-    }
-
-    /// Every frame but the first is in one part, the confirming frames come after those of the
-    /// search, and no part is empty.
-    #[test]
-    fn parts_follow_each_other() {
-        for all in ClipPart::MIN_FRAMES..200 {
-            let [searched, confirmed, held_out] =
-                [ClipPart::Search, ClipPart::Confirmation, ClipPart::HeldOut]
-                    .map(|part| part.frames((all / 2, all)));
-            let ends = (searched.start, held_out.end);
-            assert_eq!(
-                (ends, searched.end, confirmed.end),
-                ((1, all), confirmed.start, held_out.start)
-            );
-            assert!(!searched.is_empty() && !confirmed.is_empty() && !held_out.is_empty(), "{all}");
-        }
-        assert_eq!(ClipPart::Confirmation.frames((90, 180)), 60..90);
-        let one_fewer = ClipPart::MIN_FRAMES - 1;
-        assert!(ClipPart::Confirmation.frames((one_fewer / 2, one_fewer)).is_empty());
-    }
-
-    #[test]
-    fn frames_are_spread_evenly() {
-        assert_eq!(spread_evenly(1..5, 10), [1, 2, 3, 4]);
-        assert_eq!(spread_evenly(0..100, 4), [12, 37, 62, 87]);
-        assert_eq!(spread_evenly(50..60, 1), [55]);
-        assert!(spread_evenly(1..1, 4).is_empty());
     }
 }

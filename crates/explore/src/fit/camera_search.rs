@@ -86,8 +86,8 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Replaces a camera that was examined.
-    pub(super) fn replace(&mut self, look: ExaminedCamera) {
-        self.examined.insert(look.config.to_toml(), look);
+    pub(super) fn replace(&mut self, examined: ExaminedCamera) {
+        self.examined.insert(examined.config.to_toml(), examined);
     }
 
     /// Returns a camera, if it was examined.
@@ -99,8 +99,9 @@ impl<'a> CameraSearch<'a> {
         &self.task
     }
 
-    /// Searches the region sizes and features with the thresholds that agree best, and then depths,
-    /// windows, filters and references.
+    /// Examines each pair of a region size and features with all thresholds worth trying. Then it
+    /// examines every cheaper version of the pairs with the fewest flips: other depths, windows,
+    /// filters and references.
     pub(super) fn run(&mut self) -> Result<(), ExploreError> {
         let mut bases = Vec::new();
         for side in self.sides() {
@@ -112,7 +113,7 @@ impl<'a> CameraSearch<'a> {
         }
         bases.sort_by(by_flips);
         let wanted = self.constraints.max_flips.unwrap_or(0.0) * FLIP_FACTOR;
-        let near = bases.iter().filter(|look| look.figures.action_flips <= wanted).count();
+        let near = bases.iter().filter(|examined| examined.figures.action_flips <= wanted).count();
         bases.truncate(near.max(MIN_EXAMINED_PAIRS));
         for base in bases {
             self.examine(&self.cheaper_cameras(&base.config))?;
@@ -197,30 +198,29 @@ impl<'a> CameraSearch<'a> {
             .map(|camera| (camera.config().to_toml(), camera.clone()))
             .filter(|(text, _)| !self.examined.contains_key(text))
             .collect();
-        let cameras_new: Vec<_> = new.values().cloned().collect();
+        let new_cameras: Vec<_> = new.values().cloned().collect();
         let figures = self.footage.measure_first_halves(
-            &cameras_new,
+            &new_cameras,
             &self.halves.frames,
             self.examined.len(),
         )?;
         for ((text, camera), (figures, objects)) in new.iter().zip(figures) {
             let recall = self.recall(objects, "first")?;
-            let held = self.constraints.check_figures(camera, &figures, recall);
+            let checks = self.constraints.check_figures(camera, &figures, recall);
             let config = camera.config().clone();
-            let look = ExaminedCamera { config, figures, checks: held };
-            self.examined.insert(text.clone(), look);
+            let examined = ExaminedCamera { config, figures, checks };
+            self.examined.insert(text.clone(), examined);
         }
-        let looks = cameras.iter().filter_map(|camera| self.get(camera.config()).cloned());
-        Ok(looks.collect())
+        Ok(cameras.iter().filter_map(|camera| self.get(camera.config()).cloned()).collect())
     }
 
-    /// Returns the figures of a camera on the second halves, which influenced no choice. This is the
-    /// last measurement of a fit, so it also finds the clips that have lost frames meanwhile.
+    /// Returns the figures of a camera on the second halves, which influenced no choice. This is
+    /// the last measurement of a fit, so it also finds the clips that have lost frames meanwhile.
     pub(super) fn measure_second_half(
         &self,
-        look: &ExaminedCamera,
+        examined: &ExaminedCamera,
     ) -> Result<SecondHalfResult, ExploreError> {
-        let camera = look.config.validate()?;
+        let camera = examined.config.validate()?;
         let (mut measured, mut problems) = (Vec::new(), Vec::new());
         for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
             let stage = |_| measuring_progress(0, 1);

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The result of a fit, for people and programs.
+
+use foveate_design::DesignConfig;
+use foveate_estimate::FrameRate;
+use foveate_fidelity::FidelityFigures;
+use foveate_playback::ClipHalves;
+use serde::Serialize;
+
+use super::activity_target::ActivityTarget;
+use super::camera_search::{CameraSearch, SecondHalfResult};
+use super::constraints::{ConstraintCheck, all_met};
+use super::known_agreements::KnownAgreements;
+use super::network_goal::FittedNetwork;
+use super::synthesis::{SynthesizedDesign, SynthesizedDesigns};
+use super::{FitRequest, reasons};
+use crate::cost::DesignArea;
+use crate::row::bytes_per_frame;
+
+/// The chosen design.
+#[derive(Clone, Debug, Serialize)]
+pub struct FittedDesign {
+    /// The configuration, for `generate`.
+    #[serde(skip)]
+    pub config: DesignConfig,
+    /// The configuration as TOML.
+    pub toml: String,
+    /// A summary in a few words.
+    pub summary: String,
+    /// The number of clocks from one frame to the next.
+    pub clocks_per_frame: u64,
+    /// The frames per second, at the clock of the request or at the clock that is estimated from
+    /// the netlist.
+    pub speed: Option<FrameRate>,
+    /// The area.
+    pub silicon: DesignArea,
+    /// The bytes per frame that the camera sends, on the first half and on the second half.
+    pub bytes_per_frame: (f64, f64),
+    /// The figures on the first half, on which the design was fitted.
+    pub fitted: FidelityFigures,
+    /// The constraints on the first half.
+    pub fitted_held: Vec<ConstraintCheck>,
+    /// The figures on the second half, which influenced no choice.
+    pub held_out: FidelityFigures,
+    /// The constraints on the second half.
+    pub held_out_held: Vec<ConstraintCheck>,
+}
+
+/// The result of a fit.
+#[derive(Clone, Debug, Serialize)]
+pub struct FitResult {
+    /// The version of the JSON format; it changes if a field changes its meaning or is removed.
+    pub format_version: u32,
+    /// The numbers of frames of the first halves and of the second halves.
+    pub frames: (u64, u64),
+    /// The camera that designs are compared with, as TOML.
+    pub task: String,
+    /// The thresholds of the task, if a share of active regions was wanted.
+    pub target: Option<ActivityTarget>,
+    /// The clock in Hz, if one was given.
+    pub clock_hz: Option<u64>,
+    /// The numbers of candidate cameras, of synthesized designs, and of less promising designs that
+    /// were skipped.
+    pub considered: (usize, usize, usize),
+    /// True if the design meets all limits on the first half.
+    pub feasible: bool,
+    /// True if the design meets all limits on the second half.
+    pub borne_out: bool,
+    /// The binding limits: without any one of them there would be a design. Empty if there is a
+    /// design, or if every design exceeds more than one limit.
+    pub binding: Vec<&'static str>,
+    /// The agreement of a network, if one was given.
+    pub network: Option<FittedNetwork>,
+    /// The cheapest design, or the nearest one if no design meets all limits.
+    pub design: FittedDesign,
+    /// The reasons why this design was chosen.
+    pub why: Vec<String>,
+    /// The clips that ended early, with the reasons, and the clips that lost frames during the fit.
+    pub problems: Vec<String>,
+}
+
+/// The findings of all steps of a fit.
+pub(super) struct FitFindings<'a> {
+    pub(super) target: Option<ActivityTarget>,
+    pub(super) search: &'a CameraSearch<'a>,
+    /// The agreements of the network, if one was given.
+    pub(super) agreements: KnownAgreements,
+    pub(super) synthesized: SynthesizedDesigns,
+    /// The figures of the chosen camera on the second halves.
+    pub(super) second_half: SecondHalfResult,
+    pub(super) network: Option<FittedNetwork>,
+    pub(super) halves: &'a ClipHalves,
+}
+
+impl FitFindings<'_> {
+    /// Returns the result for people and programs.
+    pub(super) fn into_result(self, request: &FitRequest<'_>) -> FitResult {
+        let Self { target, search, agreements, synthesized, second_half, network, halves } = self;
+        let chosen = synthesized.chosen();
+        let SecondHalfResult { figures: held_out, mut checks, problems: lost_frames } = second_half;
+        checks.extend(request.constraints.check_speed(chosen.speed.as_ref()));
+        checks.extend(request.constraints.check_area(&chosen.silicon));
+        let agreement = |network: &FittedNetwork| {
+            ConstraintCheck::check_agreement(network.held_out.share, network.min_agreement)
+        };
+        checks.extend(network.as_ref().map(agreement));
+        let least_agreement = request.network.map_or(0.0, |goal| goal.min_agreement);
+        let mut why = agreements.reasons(&chosen.examined.config, least_agreement);
+        why.extend(reasons::reason_lines(search, &synthesized, chosen, request));
+        FitResult {
+            format_version: 3,
+            frames: frames_of_halves(halves),
+            task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }
+                .to_toml(),
+            target,
+            clock_hz: request.clock_hz,
+            considered: (
+                // A descent examines only some of the cameras that the network ran behind.
+                search.all().count().max(agreements.count()),
+                synthesized.designs().len(),
+                synthesized.left_out_designs,
+            ),
+            feasible: chosen.meets_limits(),
+            borne_out: all_met(&checks),
+            binding: reasons::binding_limits(&synthesized),
+            why,
+            problems: [halves.problems.clone(), lost_frames].concat(),
+            network,
+            design: FittedDesign::new(chosen, held_out, checks),
+        }
+    }
+}
+
+impl FittedDesign {
+    /// Returns the chosen design with its figures and checks on the second half.
+    fn new(
+        chosen: &SynthesizedDesign,
+        held_out: FidelityFigures,
+        held_out_checks: Vec<ConstraintCheck>,
+    ) -> Self {
+        let config = chosen.design.config();
+        let fitted = chosen.examined.figures.clone();
+        let bytes = |figures: &FidelityFigures| bytes_per_frame(&chosen.design, figures);
+        Self {
+            toml: config.to_toml(),
+            summary: reasons::design_text(&chosen.design),
+            clocks_per_frame: chosen.clocks_per_frame,
+            speed: chosen.speed,
+            silicon: chosen.silicon.clone(),
+            bytes_per_frame: (bytes(&fitted), bytes(&held_out)),
+            fitted,
+            fitted_held: chosen.checks.clone(),
+            held_out,
+            held_out_held: held_out_checks,
+            config,
+        }
+    }
+}
+
+/// Returns the number of frames of the first halves and of the second halves of all clips.
+fn frames_of_halves(halves: &ClipHalves) -> (u64, u64) {
+    halves
+        .frames
+        .iter()
+        .fold((0, 0), |(first, second), (half, all)| (first + half, second + all - half))
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The designs that can build a camera, before any of them is synthesized.
+
+use foveate_design::{
+    CameraConfig, Design, DesignConfig, HardwareConfig, LaneMemoryKind, Organization,
+    OrganizationConfig, PixelFeed, RasterConfig, SerialConfig,
+};
+use foveate_estimate::most_clocks_per_frame;
+
+use super::FitRequest;
+use super::rough_cost::rough_cost;
+use crate::row::count_to_f64;
+
+/// The planned clock in Hz. It decides which folds are tried, because a design has no netlist and
+/// so no estimated clock before its synthesis. No frame rate is reported at it. It is below the low
+/// ends of the serial arrays in `docs/area.md`, of which the slowest is at 56 MHz. A faster design
+/// is folded again for its own clock.
+const PLANNED_HZ: u64 = 50_000_000;
+
+/// The bounds on the designs of a camera.
+#[derive(Clone, Copy)]
+pub(super) struct BuildBounds {
+    /// The most clocks that a frame may take.
+    max_clocks: Option<u64>,
+    /// True if the bound comes from a planned clock, so that a design with a faster clock may take
+    /// more clocks.
+    is_planned: bool,
+    /// The kind of lane memory to build. If it is `None`, each design follows its own rule.
+    memory: Option<LaneMemoryKind>,
+}
+
+impl BuildBounds {
+    /// Returns the bounds for the frame rate of the request, at its clock or at the planned one.
+    pub(super) fn of_request(request: &FitRequest<'_>, memory: Option<LaneMemoryKind>) -> Self {
+        let hertz = count_to_f64(request.clock_hz.unwrap_or(PLANNED_HZ));
+        let max_clocks = request.constraints.min_fps.map(|fps| most_clocks_per_frame(hertz, fps));
+        Self { max_clocks, is_planned: request.clock_hz.is_none(), memory }
+    }
+
+    /// Returns the bounds for any frame rate.
+    pub(super) fn at_any_speed(self) -> Self {
+        Self { max_clocks: None, ..self }
+    }
+}
+
+/// Returns the possible designs of a camera. For each feed of a serial array these are the folds
+/// that are fast enough and may be the cheapest, and halvings of the deepest fold, because only a
+/// synthesis shows which one is the cheapest. If no fold is fast enough, the pipelined array is
+/// possible, and at a planned clock also fold 1. A raster core has the fewest pixels per clock that
+/// are fast enough; at a planned clock it has the most, if none is fast enough.
+pub(super) fn possible_designs(
+    camera: &CameraConfig,
+    task_hardware: &HardwareConfig,
+    bounds: BuildBounds,
+) -> Vec<Design> {
+    let (arrays, is_fast) = serial_arrays(camera, task_hardware, bounds);
+    let of = |organization| match organization {
+        Organization::Serial => arrays.clone(),
+        Organization::Pipelined if is_fast => Vec::new(),
+        Organization::Pipelined => {
+            let array = possible_design(camera, task_hardware, OrganizationConfig::Pipelined);
+            array.into_iter().collect()
+        }
+        Organization::Raster => {
+            let core = |pixels| {
+                let pixels_per_clock = Some(pixels);
+                let own = RasterConfig { pixels_per_clock, ..RasterConfig::default() };
+                possible_design(camera, task_hardware, OrganizationConfig::Raster(own))
+            };
+            let cores = [1, 2, 4].into_iter().filter_map(core).collect();
+            fewest_pixels_per_clock(cores, bounds).into_iter().collect()
+        }
+    };
+    Organization::ALL.iter().flat_map(|&organization| of(organization)).collect()
+}
+
+/// Returns a design of that organization with the thresholds and `sync` of the task; `None` if it
+/// is not valid.
+fn possible_design(
+    camera: &CameraConfig,
+    task_hardware: &HardwareConfig,
+    organization: OrganizationConfig,
+) -> Option<Design> {
+    let &HardwareConfig { thresholds, sync, .. } = task_hardware;
+    let hardware = HardwareConfig { organization, thresholds, sync, ..HardwareConfig::default() };
+    DesignConfig { camera: camera.clone(), hardware }.validate().ok()
+}
+
+/// Returns the serial arrays of every feed, and whether one is fast enough.
+fn serial_arrays(
+    camera: &CameraConfig,
+    task_hardware: &HardwareConfig,
+    bounds: BuildBounds,
+) -> (Vec<Design>, bool) {
+    let (mut found, mut is_fast) = (Vec::new(), false);
+    let fed = |&feed| {
+        let own = SerialConfig { fold: 1, feed: Some(feed), memory: bounds.memory };
+        possible_design(camera, task_hardware, OrganizationConfig::Serial(own))
+    };
+    for single in PixelFeed::ALL.iter().filter_map(fed) {
+        let (folds, enough) = folded_arrays(&single, bounds);
+        is_fast |= enough;
+        found.extend(folds);
+    }
+    (found, is_fast)
+}
+
+/// Returns the folds of a serial array, and whether one is fast enough.
+fn folded_arrays(single: &Design, bounds: BuildBounds) -> (Vec<Design>, bool) {
+    let folds = single.pareto_folds(bounds.max_clocks.unwrap_or(u64::MAX));
+    let is_fast = !folds.is_empty();
+    let folds = if folds.is_empty() && bounds.is_planned { vec![1] } else { folds };
+    let deepest = folds.first().map_or(0, |deepest| deepest / 2);
+    let halvings = std::iter::successors(Some(deepest), |fold| Some(fold / 2));
+    let halvings = halvings.take_while(|fold| *fold > 0).filter(|fold| !folds.contains(fold));
+    let all = folds.iter().copied().chain(halvings);
+    (all.filter_map(|fold| single.with_fold(fold).ok()).collect(), is_fast)
+}
+
+/// Returns the first raster core that is fast enough; `cores` have rising numbers of pixels per
+/// clock.
+fn fewest_pixels_per_clock(
+    cores: Vec<Design>,
+    BuildBounds { max_clocks, is_planned: planned, .. }: BuildBounds,
+) -> Option<Design> {
+    let is_fast = |design: &Design| {
+        max_clocks.is_none_or(|clocks| design.timing().clocks_per_frame() <= clocks)
+    };
+    let most = cores.last().filter(|_| planned).cloned();
+    cores.into_iter().find(is_fast).or(most)
+}
+
+/// Returns roughly the least share of the device that a camera takes, however it is built; infinite
+/// if it cannot be built.
+pub(super) fn least_rough_cost(camera: &CameraConfig, task_hardware: &HardwareConfig) -> f64 {
+    let bounds = BuildBounds { max_clocks: None, is_planned: true, memory: None };
+    let designs = possible_designs(camera, task_hardware, bounds);
+    designs.iter().map(rough_cost).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the pixels per clock of the raster designs among the designs of a camera of 64x48
+    /// pixels, and whether one of them is pipelined.
+    fn words(max_clocks: u64, planned: bool) -> (Vec<u32>, bool) {
+        let task = DesignConfig::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
+        let bounds =
+            BuildBounds { max_clocks: Some(max_clocks), is_planned: planned, memory: None };
+        let designs = possible_designs(&task.camera, &task.hardware, bounds);
+        let of = |organization| designs.iter().filter(move |d| d.organization() == organization);
+        let words =
+            of(Organization::Raster).map(|d| d.as_raster().unwrap().pixels_per_clock()).collect();
+        (words, of(Organization::Pipelined).next().is_some())
+    }
+
+    /// There are 784 regions. At most 17 regions per lane are fast enough; 16 and 8 take fewer
+    /// block RAMs.
+    #[test]
+    fn lanes_share_as_many_regions_as_may_be_cheapest_and_halvings_of_the_most() {
+        let task = DesignConfig::from_toml("").unwrap();
+        let bounds = BuildBounds { max_clocks: Some(210_623), is_planned: true, memory: None };
+        let designs = possible_designs(&task.camera, &task.hardware, bounds);
+        let arrays = designs.iter().filter_map(Design::as_serial);
+        let folds =
+            arrays.filter(|array| array.feed() == PixelFeed::Raster).map(|array| array.fold());
+        assert_eq!(folds.collect::<Vec<_>>(), [17, 16, 8, 4, 2, 1]);
+    }
+
+    /// The 3,072 pixels take 3,072, 1,536 or 768 clocks, and some more between frames.
+    #[test]
+    fn a_raster_core_has_the_fewest_pixels_per_clock_that_are_fast_enough() {
+        assert_eq!(words(1_000_000, false), (vec![1], false));
+        assert_eq!(words(3_072, false), (vec![2], true));
+        assert_eq!(words(1_536, false), (vec![4], true));
+        assert_eq!(words(64, false), (vec![], true));
+        assert_eq!(words(64, true), (vec![4], true));
+    }
+}
