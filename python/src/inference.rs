@@ -194,7 +194,7 @@ pub(crate) fn infer(
         return Err(PyIsADirectoryError::new_err(message));
     }
     let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
-    let (chosen, viewing, boxes) = chosen(&options)?;
+    let (chosen, vision_options, boxes) = chosen(&options)?;
     let input = input_options("infer", &OWN, Some(&options))?;
     let config = config::read(camera, None)?;
     let shown = shown(inputs, config.camera.frame.pixel_bits)?;
@@ -204,12 +204,12 @@ pub(crate) fn infer(
     let summary = interruptible(py, |cancel| {
         let inference = match shown {
             Shown::Paths(paths) => {
-                Inference::new(&config, &network, viewing, (&paths, &boxes), &input)
+                Inference::new(&config, &network, vision_options, (&paths, &boxes), &input)
             }
             Shown::Frames(frames) => source_from_memory("array", frames, &input)
                 .map_err(|error| PlaybackError::from(error).into())
                 .and_then(|source| {
-                    Inference::from_player(&config, &network, viewing, (source, &boxes))
+                    Inference::from_player(&config, &network, vision_options, (source, &boxes))
                 }),
         }
         .map_err(raise)?;

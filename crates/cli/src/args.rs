@@ -17,13 +17,13 @@ mod infer;
 mod input;
 mod link;
 mod live;
-mod network_framing;
 mod outputs;
 #[cfg(test)]
 mod page;
 mod stress;
 mod threads;
 mod view;
+mod vision;
 
 use std::path::PathBuf;
 

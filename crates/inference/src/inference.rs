@@ -57,7 +57,7 @@ pub struct InferenceOptions {
 pub struct Inference {
     design: Design,
     vision_network: VisionNetwork,
-    viewing: VisionOptions,
+    vision_options: VisionOptions,
     path: PathBuf,
     clips: RunClips,
     /// The number of frames of all clips, if it is known.
@@ -76,12 +76,12 @@ impl Inference {
     pub fn new(
         config: &DesignConfig,
         network: &Path,
-        viewing: VisionOptions,
+        vision_options: VisionOptions,
         (inputs, boxes): (&[PathBuf], &[PathBuf]),
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
         let clips = RunClips::new(inputs, boxes, &config.camera, input)?;
-        Self::from_clips(config, network, viewing, clips)
+        Self::from_clips(config, network, vision_options, clips)
     }
 
     /// Creates a run over one clip or data set that is already open.
@@ -91,23 +91,23 @@ impl Inference {
     pub fn from_player(
         config: &DesignConfig,
         network: &Path,
-        viewing: VisionOptions,
+        vision_options: VisionOptions,
         (player, boxes): (impl Into<ClipPlayer>, &[PathBuf]),
     ) -> Result<Self, InferenceError> {
         let clips = RunClips::from_player(player.into(), boxes)?;
-        Self::from_clips(config, network, viewing, clips)
+        Self::from_clips(config, network, vision_options, clips)
     }
 
     fn from_clips(
         config: &DesignConfig,
         network: &Path,
-        viewing: VisionOptions,
+        vision_options: VisionOptions,
         clips: RunClips,
     ) -> Result<Self, InferenceError> {
         let CommonFormat { size, frames } = clips.common_format(ClipReading::Once)?;
-        let vision_network = VisionNetwork::read(network, size, &viewing)?;
+        let vision_network = VisionNetwork::read(network, size, &vision_options)?;
         let design = config.validate_for_frames(size.0, size.1)?;
-        Ok(Self { design, vision_network, viewing, path: network.to_owned(), clips, frames })
+        Ok(Self { design, vision_network, vision_options, path: network.to_owned(), clips, frames })
     }
 
     /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when
@@ -137,7 +137,7 @@ impl Inference {
         options: &InferenceOptions,
         hooks: &dyn RunHooks,
     ) -> Result<InferenceSummary, InferenceError> {
-        let Self { design, vision_network, viewing, path, clips, frames } = self;
+        let Self { design, vision_network, vision_options, path, clips, frames } = self;
         let network = vision_network.network();
         let accelerator = options.accelerator.as_ref();
         let costs =
@@ -208,8 +208,8 @@ impl Inference {
             problem,
             network: path.display().to_string(),
             inputs,
-            mapping: viewing.mapping,
-            framing: viewing.framing,
+            mapping: vision_options.mapping,
+            framing: vision_options.framing,
             every: options.frame_interval,
         })?;
         write_tables_and_charts(staging, &ended)?;

@@ -143,9 +143,9 @@ impl OpenNetwork {
         let wrong = |what| move |problem| WebError::Setting { what, problem };
         let framing = parse_framing(&wishes.framing).map_err(wrong("framing"))?;
         let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
-        let viewing = VisionOptions { framing, mapping, detector: None };
+        let vision_options = VisionOptions { framing, mapping, detector: None };
         let path = Path::new(&wishes.name);
-        let vision_network = VisionNetwork::parse(file, path, (width, height), &viewing)?;
+        let vision_network = VisionNetwork::parse(file, path, (width, height), &vision_options)?;
         let (needed, most) = (vision_network.network().kept_bytes(), MAX_NETWORK_BYTES);
         if needed > most {
             return Err(WebError::NetworkMemory { needed, most });

@@ -9,8 +9,8 @@ use foveate_inference::VisionOptions;
 
 use super::check::{ClockFrequency, FramesPerSecond};
 use super::input::InputArgs;
-use super::network_framing::NetworkFramingArgs;
 use super::threads::ThreadArgs;
+use super::vision::VisionArgs;
 use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips
@@ -85,7 +85,7 @@ pub(crate) struct NetworkArgs {
     #[arg(long, value_name = "FRAMES", default_value_t = 48, value_parser = at_least_one(), requires = "network")]
     pub(crate) look_at: u32,
     #[command(flatten)]
-    pub(crate) viewing: NetworkFramingArgs,
+    pub(crate) vision: VisionArgs,
 }
 
 /// The cost by which designs are compared.
@@ -97,14 +97,14 @@ pub(crate) enum DesignCost {
 
 impl NetworkArgs {
     /// Returns the goal of the search with a network, if a network is given.
-    pub(crate) fn goal<'a>(&'a self, viewing: &'a VisionOptions) -> Option<NetworkGoal<'a>> {
+    pub(crate) fn goal<'a>(&'a self, vision_options: &'a VisionOptions) -> Option<NetworkGoal<'a>> {
         let path = self.network.as_deref()?;
         let cheapest = match self.cheapest {
             DesignCost::Bytes => CostObjective::Bytes,
             DesignCost::Area => CostObjective::Area,
         };
         let (min_agreement, frames) = (self.min_agreement, self.look_at.into());
-        Some(NetworkGoal { path, viewing, min_agreement, cheapest, frames })
+        Some(NetworkGoal { path, vision_options, min_agreement, cheapest, frames })
     }
 }
 

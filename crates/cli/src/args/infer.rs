@@ -14,8 +14,8 @@ use foveate_network::ExecutionMode;
 
 use super::DesignArgs;
 use super::input::InputArgs;
-use super::network_framing::NetworkFramingArgs;
 use super::threads::ThreadArgs;
+use super::vision::VisionArgs;
 use crate::error::CliError;
 
 /// Run a network on what a camera sends, and count what its masks save, layer by layer
@@ -103,7 +103,7 @@ pub(crate) struct InferArgs {
     #[arg(long, short)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) viewing: NetworkFramingArgs,
+    pub(crate) vision: VisionArgs,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
     /// The options for reading the inputs. They are last, because clap lists later options under
@@ -148,7 +148,7 @@ impl InferArgs {
 
     /// Returns true if the network runs on whole frames, too.
     pub(crate) fn runs_on_whole_frames(&self) -> bool {
-        self.whole_frames || self.noise.is_some() || self.viewing.detect.is_some()
+        self.whole_frames || self.noise.is_some() || self.vision.detect.is_some()
     }
 
     /// Returns the standard deviations of the noise on whole frames, in grey levels of 8 bits.

@@ -28,8 +28,8 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     warn_about_inputs(&args.inputs, &input);
     let terminal = RunTerminal::new(args.quiet)?;
     let synthesizer = terminal.synthesizer()?;
-    let viewing = args.network.viewing.viewing();
-    let network = args.network.goal(&viewing);
+    let vision_options = args.network.vision.options();
+    let network = args.network.goal(&vision_options);
     let request = FitRequest {
         task: &task,
         inputs: &args.inputs,
@@ -74,7 +74,7 @@ fn check_result(found: &FitResult) -> Result<(), CliError> {
         return Err(CliError::Failed("no design meets all limits".to_owned()));
     }
     if !found.borne_out {
-        let broken = found.design.held_out_held.iter().filter(|held| !held.holds);
+        let broken = found.design.held_out_held.iter().filter(|check| !check.holds);
         let broken: Vec<String> = broken.map(ConstraintCheck::text).collect();
         return Err(CliError::Failed(format!(
             "the second half of the clips does not confirm the design: {}",
@@ -87,11 +87,11 @@ fn check_result(found: &FitResult) -> Result<(), CliError> {
 fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     let mut text = String::new();
     let design = &found.design;
-    let (looks, designs, left_out) = found.considered;
+    let (cameras, designs, left_out) = found.considered;
     let (first, second) = found.frames;
     let _ = writeln!(
         text,
-        "{looks} candidate cameras, {designs} designs synthesized, {left_out} less promising ones skipped; fitted on {first} frames, {second} held out."
+        "{cameras} candidate cameras, {designs} designs synthesized, {left_out} less promising ones skipped; fitted on {first} frames, {second} held out."
     );
     if let Some(target) = &found.target {
         let _ = writeln!(
@@ -123,12 +123,12 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
         ("fitted", &design.fitted, &design.fitted_held),
         ("held out", &design.held_out, &design.held_out_held),
     ];
-    for (name, figures, held) in halves {
+    for (name, figures, checks) in halves {
         text.push('\n');
         paragraph(&mut text, &format!("{name}: {}", figures_text(figures)), width, "  ");
-        for held in held {
-            let sign = if held.holds { "ok  " } else { "NOT " };
-            let _ = writeln!(text, "  {sign}{}", held.text());
+        for check in checks {
+            let sign = if check.holds { "ok  " } else { "NOT " };
+            let _ = writeln!(text, "  {sign}{}", check.text());
         }
     }
     if let Some(network) = &found.network {

@@ -36,8 +36,7 @@ fn run_clips(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), 
     let (config, input) = (args.design.config()?, args.input.options(ImageRelation::Clip));
     warn_about_inputs(&args.inputs, &input);
     let footage = (&args.inputs[..], &args.boxes[..]);
-    let inference =
-        Inference::new(&config, &args.network, args.viewing.viewing(), footage, &input)?;
+    let inference = Inference::new(&config, &args.network, args.vision.options(), footage, &input)?;
     let options = InferenceOptions {
         computation: args.computation(),
         accelerator: args.accelerator()?,

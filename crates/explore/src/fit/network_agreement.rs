@@ -50,7 +50,7 @@ impl<'a> NetworkAgreement<'a> {
         halves: &'a ClipHalves,
         task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
-        let vision_network = VisionNetwork::read(goal.path, footage.size, goal.viewing)
+        let vision_network = VisionNetwork::read(goal.path, footage.size, goal.vision_options)
             .map_err(InferenceError::from)?;
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
@@ -130,7 +130,7 @@ impl<'a> NetworkAgreement<'a> {
         let of_pixels = f64::from(camera.width()) * f64::from(camera.height());
         Ok(FittedNetwork {
             network: self.goal.path.display().to_string(),
-            detector: self.goal.viewing.detector.as_ref().map(ToString::to_string),
+            detector: self.goal.vision_options.detector.as_ref().map(ToString::to_string),
             min_agreement: self.goal.min_agreement,
             cheapest: self.goal.cheapest,
             fitted,
@@ -218,10 +218,10 @@ mod tests {
             ExplorationFootage::new((&inputs, &[]), &options, &task, &SilentHooks).unwrap();
         let halves = ClipHalves { frames: vec![(12, 24); 2], ..ClipHalves::default() };
         let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
-        let viewing = VisionOptions { framing: Framing::Same, mapping, detector: None };
+        let vision_options = VisionOptions { framing: Framing::Same, mapping, detector: None };
         let goal = NetworkGoal {
             path: Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx")),
-            viewing: &viewing,
+            vision_options: &vision_options,
             min_agreement: 0.9,
             cheapest: CostObjective::Bytes,
             frames: 48,

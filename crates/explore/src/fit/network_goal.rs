@@ -15,7 +15,7 @@ pub struct NetworkGoal<'a> {
     /// The network's file.
     pub path: &'a Path,
     /// The options for reading the network and for showing it frames.
-    pub viewing: &'a VisionOptions,
+    pub vision_options: &'a VisionOptions,
     /// The least agreement, 0..=1, defined as by `foveate infer --whole-frames`.
     pub min_agreement: f64,
     /// The cost that is minimized.

@@ -67,7 +67,7 @@ fn fit_to_denoiser(
 ) -> FitResult {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
     let mapping = PixelMapping { mean: vec![0.0], scale: vec![1.0] };
-    let viewing = VisionOptions { framing: Framing::Same, mapping, detector: None };
+    let vision_options = VisionOptions { framing: Framing::Same, mapping, detector: None };
     let task = "[frame]\nwidth = 48\nheight = 32\n[temporal]\nreference = \"last-sent\"\n";
     let request = FitRequest {
         task: &DesignConfig::from_toml(task).unwrap(),
@@ -79,7 +79,7 @@ fn fit_to_denoiser(
         boxes: &[],
         network: Some(NetworkGoal {
             path: Path::new(path),
-            viewing: &viewing,
+            vision_options: &vision_options,
             min_agreement,
             cheapest,
             frames: frames.into(),

@@ -84,7 +84,7 @@ impl RunSetup<'_> {
             command: Vec::new(),
             overwrite: true,
         };
-        let viewing = VisionOptions {
+        let vision_options = VisionOptions {
             framing: self.framing,
             mapping: PixelMapping { mean: vec![0.0], scale: vec![1.0] },
             detector: self.detector.clone(),
@@ -92,7 +92,7 @@ impl RunSetup<'_> {
         Inference::new(
             &config,
             self.network.unwrap_or(Path::new(DENOISER)),
-            viewing,
+            vision_options,
             (&inputs, self.boxes),
             &input,
         )?

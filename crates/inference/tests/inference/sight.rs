@@ -194,12 +194,12 @@ fn precision_is_against_ground_truth() {
 fn half_of_the_objects_give_an_agreement_of_one_half() {
     let dir = tempfile::tempdir().unwrap();
     let network = bright_squares(dir.path());
-    let viewing = VisionOptions {
+    let vision_options = VisionOptions {
         framing: Framing::Same,
         mapping: foveate_inference::PixelMapping { mean: vec![0.0], scale: vec![1.0] },
         detector: Some(squares()),
     };
-    let vision_network = VisionNetwork::read(&network, (64, 48), &viewing).unwrap();
+    let vision_network = VisionNetwork::read(&network, (64, 48), &vision_options).unwrap();
     let mut config = foveate_design::CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(64), Some(48));
     let camera = config.validate().unwrap();
@@ -215,14 +215,15 @@ fn half_of_the_objects_give_an_agreement_of_one_half() {
     let both: OutputAgreement = [&less, &same].into_iter().sum();
     assert_eq!(both.share(), 0.75);
     assert!(
-        VisionNetwork::read(&network, (32, 48), &viewing)
+        VisionNetwork::read(&network, (32, 48), &vision_options)
             .unwrap_err()
             .to_string()
             .contains("letterbox")
     );
-    let viewing = VisionOptions { detector: Some(parse_detector("ssd").unwrap()), ..viewing };
+    let vision_options =
+        VisionOptions { detector: Some(parse_detector("ssd").unwrap()), ..vision_options };
     assert!(
-        VisionNetwork::read(&network, (64, 48), &viewing)
+        VisionNetwork::read(&network, (64, 48), &vision_options)
             .unwrap_err()
             .to_string()
             .contains("`found` [1, 7, 6, 8]")

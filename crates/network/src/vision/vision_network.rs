@@ -69,9 +69,9 @@ impl VisionNetwork {
     pub fn read(
         path: &Path,
         frame: (u32, u32),
-        viewing: &VisionOptions,
+        vision_options: &VisionOptions,
     ) -> Result<Self, VisionError> {
-        Self::read_with(|size| Network::read(path, size), frame, viewing)
+        Self::read_with(|size| Network::read(path, size), frame, vision_options)
     }
 
     /// Reads a network as [`VisionNetwork::read`] does, from the content of the file `path`.
@@ -82,21 +82,23 @@ impl VisionNetwork {
         bytes: &[u8],
         path: &Path,
         frame: (u32, u32),
-        viewing: &VisionOptions,
+        vision_options: &VisionOptions,
     ) -> Result<Self, VisionError> {
-        Self::read_with(|size| Network::parse(bytes, path, size), frame, viewing)
+        Self::read_with(|size| Network::parse(bytes, path, size), frame, vision_options)
     }
 
     fn read_with(
         read: impl FnOnce(Option<FrameSize>) -> Result<Network, NetworkError>,
         frame: (u32, u32),
-        viewing: &VisionOptions,
+        vision_options: &VisionOptions,
     ) -> Result<Self, VisionError> {
-        let (network, scaling) = viewing.framing.read_network(read, frame)?;
+        let (network, scaling) = vision_options.framing.read_network(read, frame)?;
         let reader = FindingsReader::new(&network, frame, scaling.as_ref());
-        let mapping = viewing.mapping.clone();
-        Self { network, scaling, mapping, reader }
-            .with_mapping_and_detector(viewing.mapping.clone(), viewing.detector.clone())
+        let mapping = vision_options.mapping.clone();
+        Self { network, scaling, mapping, reader }.with_mapping_and_detector(
+            vision_options.mapping.clone(),
+            vision_options.detector.clone(),
+        )
     }
 
     /// Replaces the mapping and the detector, which may be `None`.

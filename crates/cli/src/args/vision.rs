@@ -10,7 +10,7 @@ use foveate_inference::{
 
 /// The options that say how a network is shown frames and how its outputs are read.
 #[derive(Args, Debug)]
-pub(crate) struct NetworkFramingArgs {
+pub(crate) struct VisionArgs {
     /// Fit of frames to the size of the network's input: same, no change; letterbox, scaled as a
     /// whole into the upper left, the rest grey; stretch, width and height scaled separately.
     /// Networks that take any size need a size here, as in letterbox=416x416
@@ -33,8 +33,8 @@ pub(crate) struct NetworkFramingArgs {
     pub(crate) detect: Option<Detector>,
 }
 
-impl NetworkFramingArgs {
-    pub(crate) fn viewing(&self) -> VisionOptions {
+impl VisionArgs {
+    pub(crate) fn options(&self) -> VisionOptions {
         let mapping = PixelMapping { mean: self.mean.clone(), scale: self.scale.clone() };
         VisionOptions { framing: self.framing, mapping, detector: self.detect.clone() }
     }
