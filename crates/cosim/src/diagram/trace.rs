@@ -2,15 +2,16 @@
 //! The ports of the model during a frame and after it, clock by clock.
 
 use crate::error::CosimError;
+use crate::layout::RecordLayout;
 use crate::level::CosimLevel;
-use crate::shipped_bench::{ClockRecord, CoreSimulation, TestPattern};
-use crate::stimulus::Random;
+use crate::shipped_bench::TestPattern;
+use crate::stimulus::{
+    ClockReceiver, FrameFeed, FrameLimit, GapPattern, ModelDriver, Random, UnusedInputs,
+};
 use foveate_design::{ArrayStructure, CoreInterface, CoreStream, Design, Port, PortDirection};
 use foveate_emit::Top;
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, ThresholdInputs};
-use foveate_toolchain::ToolError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// The largest number of regions of an array whose model is played. Of a larger array only one lane
 /// is played.
@@ -52,21 +53,20 @@ impl PortTrace {
             ArrayStructure::RpuCopies => Top::Rpu,
             ArrayStructure::SharedLogic => Top::Rcm,
         };
-        let mut take = TraceRecorder::new(&part, top, title, cancel);
+        let mut recorder = TraceRecorder::new(&part, top, title);
+        let unused = UnusedInputs::Constant { refused_clocks: 0 };
+        let (feed, random) = (FrameFeed::for_design(&part), Random::new(1));
+        let mut driver =
+            ModelDriver::new((&part, top), feed, unused, &mut recorder, random, cancel);
         let frame = traced_frame(&part);
-        for _ in 0..=take.simulation.frames_behind() {
-            let beats = take.simulation.beats(&frame);
-            take.wait_until_ready()?;
-            take.trace.frame_edges.push(take.edge);
-            for (number, pixels) in beats.iter().enumerate() {
-                take.wait_until_ready()?;
-                take.clock(Some(pixels), number == 0)?;
-            }
+        for _ in 0..=driver.drain_timing().frames_behind {
+            driver.wait_until_ready(None)?;
+            driver.receiver().begin_frame();
+            driver.send_frame(&frame, FrameLimit::WholeFrame, GapPattern::None)?;
         }
-        take.wait_until_ready()?;
-        let settling = take.simulation.settling_clocks();
-        (0..settling.max(2)).try_for_each(|_| take.clock(None, false))?;
-        Ok(take.trace)
+        driver.wait_until_ready(None)?;
+        driver.idle(driver.drain_timing().settling_clocks.max(2))?;
+        Ok(recorder.trace)
     }
 }
 
@@ -109,88 +109,71 @@ fn traced_frame(part: &Design) -> Frame {
 }
 
 /// A trace that is being made.
-struct TraceRecorder<'a> {
-    simulation: CoreSimulation<'a>,
-    record: ClockRecord,
-    thresholds: ThresholdInputs,
-    garbage: Vec<u16>,
+struct TraceRecorder {
+    inputs: RecordLayout,
+    outputs: RecordLayout,
     edge: u64,
     trace: PortTrace,
     interface: CoreInterface,
-    cancel: &'a AtomicBool,
 }
 
-impl<'a> TraceRecorder<'a> {
-    fn new(part: &'a Design, top: Top, title: String, cancel: &'a AtomicBool) -> Self {
+impl TraceRecorder {
+    fn new(part: &Design, top: Top, title: String) -> Self {
         let interface = top.interface(part);
-        let record = ClockRecord::for_ports(&interface.ports());
-        let rig = CoreSimulation::new(part, top);
-        let shown =
-            record.inputs.fields().iter().chain(record.outputs.fields()).map(|field| &field.port);
+        let ports = interface.ports();
+        let (inputs, outputs) = (RecordLayout::inputs(&ports), RecordLayout::outputs(&ports));
+        let shown = inputs.fields().iter().chain(outputs.fields()).map(|field| &field.port);
         let signals = shown.filter(|port| is_shown(&interface, port)).map(diagram_signal).collect();
         Self {
-            garbage: vec![0; rig.beat_width()],
-            record,
-            simulation: rig,
-            thresholds: ThresholdInputs::from_camera(part),
+            inputs,
+            outputs,
             edge: 0,
             trace: PortTrace { title, signals, stretches: Vec::new(), frame_edges: Vec::new() },
             interface,
-            cancel,
         }
     }
 
-    /// Lets clocks pass until a pixel can be taken.
-    fn wait_until_ready(&mut self) -> Result<(), CosimError> {
-        while !self.simulation.is_ready() {
-            match self.simulation.quiet_clocks() {
-                0 | 1 => self.clock(None, false)?,
-                quiet => {
-                    let applied = CoreInput::idle(&self.garbage, &self.thresholds);
-                    self.simulation.skip_quiet_clocks(&applied, &mut self.record);
-                    self.add_clocks(quiet);
-                }
-            }
-        }
-        Ok(())
+    /// Marks the next edge as the one that takes the first pixel of a frame.
+    fn begin_frame(&mut self) {
+        self.trace.frame_edges.push(self.edge);
+    }
+}
+
+impl ClockReceiver for TraceRecorder {
+    fn inputs(&self) -> &RecordLayout {
+        &self.inputs
     }
 
-    fn clock(&mut self, pixels: Option<&[u16]>, sof: bool) -> Result<(), CosimError> {
-        if self.cancel.load(Ordering::Relaxed) {
-            return Err(ToolError::Interrupted.into());
-        }
-        let idle = CoreInput::idle(pixels.unwrap_or(&self.garbage), &self.thresholds);
-        let applied = CoreInput { valid: pixels.is_some(), sof, ..idle };
-        self.simulation.clock(&applied, &mut self.record);
-        self.add_clocks(1);
-        Ok(())
+    fn outputs(&self) -> &RecordLayout {
+        &self.outputs
     }
 
-    fn add_clocks(&mut self, clocks: u64) {
-        let ClockRecord { inputs, outputs, input, expected } = &self.record;
+    fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) -> Result<(), CosimError> {
+        let Self { inputs, outputs, .. } = self;
         let is_high = |role| {
             let valid = inputs.fields().iter().find(|field| field.port.role == role);
             valid.is_some_and(|field| field.get(input, 0) == 1)
         };
         let interface = &self.interface;
         let shown = inputs.fields().iter().filter(|field| is_shown(interface, &field.port));
-        let input = shown.map(|field| {
+        let input_values = shown.map(|field| {
             let role = field.port.role;
             let valid = interface.stream_with_port(role).map(|stream| stream.valid.role);
             let says = valid.is_none_or(|valid| valid == role || is_high(valid));
             says.then(|| field.get(input, 0))
         });
-        let output = outputs.fields().iter().map(|field| {
-            let says = outputs.compared_lanes(field, expected).next() == Some(0);
-            says.then(|| field.get(expected, 0))
+        let output_values = outputs.fields().iter().map(|field| {
+            let says = outputs.compared_lanes(field, output).next() == Some(0);
+            says.then(|| field.get(output, 0))
         });
-        let values: Vec<_> = input.chain(output).collect();
+        let values: Vec<_> = input_values.chain(output_values).collect();
         let first_edge = self.edge;
         self.edge += clocks;
         match self.trace.stretches.last_mut() {
             Some(last) if last.values == values => last.clocks += clocks,
             _ => self.trace.stretches.push(ClockStretch { first_edge, clocks, values }),
         }
+        Ok(())
     }
 }
 

@@ -7,15 +7,12 @@
 //! of the design. The [`tally`] counts what the vectors contain, and a bench whose vectors miss
 //! something never prints `PASS`.
 
-mod core_simulation;
-mod delivery;
 mod drawn_places;
 mod drawn_region;
 mod grid;
 mod picture_scorer;
 mod player;
 mod script;
-mod surroundings;
 mod tally;
 mod test_pattern;
 mod vector_recorder;
@@ -23,7 +20,6 @@ mod vector_recorder;
 use crate::error::CosimError;
 use crate::harness::{annotated_bench, bench_file};
 use crate::level::CosimLevel;
-pub(crate) use core_simulation::{ClockRecord, CoreSimulation};
 use foveate_design::{ArrayStructure, Design, Port, StreamRole};
 use foveate_emit::{Prefix, SourceFile, Top};
 use player::ScriptPlayer;

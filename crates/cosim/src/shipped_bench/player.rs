@@ -1,45 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The player of a script: it drives the cycle-level model clock by clock, and records the result.
+//! The player of a script: it offers the frames to the cycle-level model, and records the result.
 
-use super::core_simulation::CoreSimulation;
-use super::delivery::BenchDelivery;
-use super::script::{BenchFrame, BenchScript, BenchSequence, BenchSequenceEnd, BenchSinkMode};
+use super::script::{BenchFrame, BenchScript, BenchSequence, MIN_FRAMES_PER_SCRIPT};
 use super::vector_recorder::VectorRecorder;
 use crate::error::CosimError;
-use foveate_design::Design;
+use crate::stimulus::{
+    FrameFeed, FrameLimit, GapPattern, ModelDriver, Random, SequenceEnd, SequenceSurroundings,
+    SinkPattern, StoreFault, ThresholdAim, UnusedInputs,
+};
+use foveate_design::{Design, Hardware, RasterTiming};
 use foveate_emit::Top;
-use foveate_model::{CoreInput, ThresholdInputs};
-use foveate_toolchain::ToolError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use foveate_model::region_border;
+use std::sync::atomic::AtomicBool;
 
-/// The number of pixels of a frame that a reset discards.
+/// The number of beats of a frame that a reset discards.
 const DISCARDED_BEATS: usize = 3;
 /// The period of pauses, in beats. Long frames have fewer pauses, because a pause takes two lines
 /// of the vectors.
 const PAUSE_PERIOD: usize = 29;
 const LONG_FRAME_PAUSE_PERIOD: usize = 997;
 const LONG_FRAME_BEATS: usize = 20_000;
-/// The number of clocks after a frame at which pixels are offered that a busy array must not take.
-const REFUSED_CLOCKS: usize = 3;
-
+/// The number of clocks of a frame at which pixels are offered that a busy array must not take.
+const REFUSED_CLOCKS: u64 = 3;
 /// The number of clocks between two frames after which no window has flushed: the smallest window
 /// has four pixels.
 const CLOCKS_WITHIN_FLUSH: u64 = 2;
-/// The number of clocks that a word waits for a sink that delays words.
-const SINK_DELAY: u32 = 2;
-/// The largest number of clocks to wait for a pixel or mean to leave.
-const MAX_WAIT_CLOCKS: usize = 1 << 20;
 
 /// A player of scripts.
 pub(super) struct ScriptPlayer<'a> {
-    simulation: CoreSimulation<'a>,
-    recorder: &'a mut VectorRecorder,
-    cancel: &'a AtomicBool,
-    /// The pixels at the port while they mean nothing.
-    garbage: Vec<u16>,
-    sink: BenchSinkMode,
-    /// The number of clocks that a word has waited for a sink that delays words.
-    waited_clocks: u32,
+    driver: ModelDriver<'a, VectorRecorder>,
+    surroundings: SequenceSurroundings,
+    gaps: GapPattern,
     /// True if a frame waits for the sink, which must then not stall between frames.
     frames_wait_for_sink: bool,
 }
@@ -48,253 +39,117 @@ impl<'a> ScriptPlayer<'a> {
     pub(super) fn new(
         part: &'a Design,
         top: Top,
-        tape: &'a mut VectorRecorder,
+        recorder: &'a mut VectorRecorder,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let rig = CoreSimulation::new(part, top);
-        let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-        let waits = part.timing().departure().buffered_rows.is_none();
+        let unused = UnusedInputs::Constant { refused_clocks: REFUSED_CLOCKS };
+        let (feed, random) = (FrameFeed::for_design(part), Random::new(1));
         Self {
-            garbage: vec![max; rig.beat_width()],
-            simulation: rig,
-            recorder: tape,
-            cancel,
-            sink: BenchSinkMode::AlwaysReady,
-            waited_clocks: 0,
-            frames_wait_for_sink: waits,
+            driver: ModelDriver::new((part, top), feed, unused, recorder, random, cancel),
+            surroundings: SequenceSurroundings {
+                aim: ThresholdAim::Configured,
+                sink: (false, 0),
+                store_fault: store_fault(part),
+                border: region_border(part, 0),
+            },
+            gaps: gaps(part),
+            frames_wait_for_sink: part.timing().departure().buffered_rows.is_none(),
         }
     }
 
     /// Plays all sequences. The first sequence begins twice: a reset discards the first attempt.
     pub(super) fn play(&mut self, script: &BenchScript) -> Result<(), CosimError> {
         for (number, sequence) in script.sequences.iter().enumerate() {
-            let Some(first) = sequence.frames.first() else { continue };
+            let (Some(first), Some(last)) = (sequence.frames.first(), sequence.frames.last())
+            else {
+                continue;
+            };
             if number == 0 {
-                self.reset(first)?;
-                let beats = self.simulation.beats(&first.frame);
-                self.send_frame(&beats[..DISCARDED_BEATS.min(beats.len())], &first.thresholds)?;
+                self.begin(first)?;
+                let limit = FrameLimit::Beat(DISCARDED_BEATS);
+                self.driver.send_frame(&first.frame, limit, GapPattern::None)?;
             }
-            self.reset(first)?;
-            self.play_sequence(sequence)?;
+            self.begin(first)?;
+            self.play_frames(sequence)?;
+            self.driver.end_sequence(sequence.end, &last.frame, self.gaps)?;
         }
-        if self.recorder.has_frame_sync() {
-            self.play_damaged(&script.damaged)?;
+        if self.driver.has_frame_sync() { self.play_damaged(script) } else { Ok(()) }
+    }
+
+    /// Begins a sequence with a reset.
+    fn begin(&mut self, first: &BenchFrame) -> Result<(), CosimError> {
+        self.driver.configure_thresholds(first.thresholds);
+        self.driver.begin_sequence(self.surroundings)
+    }
+
+    /// Plays the frames of a sequence; before an end with pixels that leave, up to the first one.
+    fn play_frames(&mut self, sequence: &BenchSequence) -> Result<(), CosimError> {
+        let limit = match matches!(sequence.end, SequenceEnd::Leaving(_)) {
+            true => FrameLimit::Leaving,
+            false => FrameLimit::WholeFrame,
+        };
+        let mut before: Option<&BenchFrame> = None;
+        for (number, shown) in sequence.frames.iter().enumerate() {
+            if let (Some(before), FrameLimit::WholeFrame) = (before, limit) {
+                self.pause(number, before, before.thresholds != shown.thresholds)?;
+            }
+            self.driver.configure_thresholds(shown.thresholds);
+            self.driver.set_sink(shown.sink);
+            self.driver.send_frame(&shown.frame, limit, self.gaps)?;
+            before = Some(shown);
         }
         Ok(())
+    }
+
+    /// Pauses before a frame: in turn until everything has settled, not at all, and while windows
+    /// flush. New thresholds wait until everything has settled, because a decision is made with the
+    /// thresholds of its own clock.
+    fn pause(
+        &mut self,
+        number: usize,
+        before: &BenchFrame,
+        has_new_thresholds: bool,
+    ) -> Result<(), CosimError> {
+        if self.frames_wait_for_sink && before.sink == SinkPattern::StallingUntilLoss {
+            self.driver.set_sink(SinkPattern::Always);
+        }
+        self.driver.wait_until_ready(None)?;
+        if has_new_thresholds || number.is_multiple_of(3) {
+            self.driver.idle(self.driver.drain_timing().settling_clocks)?;
+        }
+        self.driver.idle(if number % 3 == 2 { CLOCKS_WITHIN_FLUSH } else { 0 })
     }
 
     /// Plays damaged frames, and the whole frames behind them.
-    fn play_damaged(&mut self, shots: &[BenchFrame]) -> Result<(), CosimError> {
-        let (Some(first), Some(last)) = (shots.first(), shots.last()) else { return Ok(()) };
-        self.sink = BenchSinkMode::AlwaysReady;
-        self.reset(first)?;
-        for (shot, delivery) in shots.iter().zip(BenchDelivery::ALL) {
-            let beats = self.simulation.beats(&shot.frame);
-            for (sof, pixels) in delivery.delivered_beats(&beats, &self.garbage.clone()) {
-                self.send_beat(pixels, sof, &shot.thresholds)?;
-            }
-        }
-        self.drain(last)
-    }
-
-    fn reset(&mut self, shot: &BenchFrame) -> Result<(), CosimError> {
-        let garbage = self.garbage.clone();
-        for valid in [true, false] {
-            let applied = CoreInput::idle(&garbage, &shot.thresholds);
-            self.clock(&CoreInput { reset: true, valid, ..applied })?;
-        }
-        Ok(())
-    }
-
-    fn play_sequence(&mut self, sequence: &BenchSequence) -> Result<(), CosimError> {
-        if sequence.ending == BenchSequenceEnd::Leaving {
-            return self.play_until_leaving(&sequence.frames);
-        }
-        let mut before: Option<&BenchFrame> = None;
-        for (number, shot) in sequence.frames.iter().enumerate() {
-            if let Some(before) = before {
-                // A decision is made with the thresholds of its own clock.
-                let is_new = before.thresholds != shot.thresholds;
-                self.settle_between_frames(&before.thresholds, is_new || number % 3 == 0)?;
-                // In turn, a frame follows at once, after everything has settled, and while windows
-                // flush.
-                if number % 3 == 2 {
-                    self.idle(CLOCKS_WITHIN_FLUSH, &before.thresholds)?;
-                }
-            }
-            let beats = self.simulation.beats(&shot.frame);
-            self.sink = shot.sink;
-            self.send_frame(&beats, &shot.thresholds)?;
-            before = Some(shot);
-        }
-        match (before, sequence.ending) {
-            (Some(last), BenchSequenceEnd::Drained) => self.drain(last),
-            (Some(last), BenchSequenceEnd::MeanLeaving)
-                if self.simulation.distinguishes_means() =>
-            {
-                self.wait_until_leaving(last, true)
-            }
-            (Some(last), BenchSequenceEnd::MeanLeaving | BenchSequenceEnd::Leaving) => {
-                self.drain(last)
-            }
-            (None, _) => Ok(()),
-        }
-    }
-
-    /// Plays frames up to the first pixel that leaves.
-    fn play_until_leaving(&mut self, shots: &[BenchFrame]) -> Result<(), CosimError> {
-        for shot in shots {
-            self.sink = shot.sink;
-            for (number, pixels) in self.simulation.beats(&shot.frame).iter().enumerate() {
-                self.send_beat(pixels, number == 0, &shot.thresholds)?;
-                if self.simulation.is_sending() {
-                    return Ok(());
-                }
-            }
-        }
-        shots.last().map_or(Ok(()), |last| self.wait_until_leaving(last, false))
-    }
-
-    /// Continues until a pixel or a mean leaves, for `MAX_WAIT_CLOCKS` clocks at most. If that
-    /// needs another frame, the same one is played again.
-    fn wait_until_leaving(&mut self, last: &BenchFrame, is_mean: bool) -> Result<(), CosimError> {
-        let (beats, thresholds) = (self.simulation.beats(&last.frame), &last.thresholds);
-        let frames = self.simulation.frames_behind();
-        // A core with a `ready` output has sent everything by the time it is ready.
-        if frames > 0 {
-            self.settle_between_frames(thresholds, true)?;
-        }
-        let mut left = (0..frames).flat_map(|_| beats.iter().enumerate());
-        for _ in 0..MAX_WAIT_CLOCKS {
-            let has_left = match is_mean {
-                true => self.simulation.is_sending_mean(),
-                false => self.simulation.is_sending(),
-            };
-            if has_left {
-                break;
-            }
-            match (left.next(), self.simulation.quiet_clocks()) {
-                (Some((number, pixels)), _) => self.send_beat(pixels, number == 0, thresholds)?,
-                (None, 0 | 1) => self.idle(1, thresholds)?,
-                (None, quiet) => self.skip_quiet_clocks(quiet, thresholds)?,
-            }
-        }
-        Ok(())
-    }
-
-    fn send_frame(
-        &mut self,
-        beats: &[Vec<u16>],
-        thresholds: &ThresholdInputs,
-    ) -> Result<(), CosimError> {
-        let every =
-            if beats.len() < LONG_FRAME_BEATS { PAUSE_PERIOD } else { LONG_FRAME_PAUSE_PERIOD };
-        let every = every.min(beats.len());
-        for (number, pixels) in beats.iter().enumerate() {
-            if number % every == every - 1 {
-                self.idle(1, thresholds)?;
-            }
-            self.send_beat(pixels, number == 0, thresholds)?;
-        }
-        Ok(())
-    }
-
-    /// Plays one beat as soon as the core takes it; `sof` marks the first beat of a frame.
-    fn send_beat(
-        &mut self,
-        pixels: &[u16],
-        sof: bool,
-        thresholds: &ThresholdInputs,
-    ) -> Result<(), CosimError> {
-        self.wait_until_ready(thresholds)?;
-        self.clock(&CoreInput { sof, ..CoreInput::valid(pixels, thresholds) })
-    }
-
-    /// Plays the time between two frames. Pixels that are offered while the core is busy are
-    /// refused. With `is_long` everything is decided before the next frame.
-    fn settle_between_frames(
-        &mut self,
-        thresholds: &ThresholdInputs,
-        is_long: bool,
-    ) -> Result<(), CosimError> {
-        if self.frames_wait_for_sink && self.sink == BenchSinkMode::Stalling {
-            self.sink = BenchSinkMode::AlwaysReady;
-        }
-        let garbage = self.garbage.clone();
-        for _ in 0..REFUSED_CLOCKS {
-            if !self.simulation.is_ready() {
-                self.clock(&CoreInput::valid(&garbage, thresholds))?;
-            }
-        }
-        self.wait_until_ready(thresholds)?;
-        if is_long {
-            self.idle(self.simulation.settling_clocks(), thresholds)?;
-        }
-        Ok(())
-    }
-
-    /// Waits until all pixels have left.
-    fn drain(&mut self, last: &BenchFrame) -> Result<(), CosimError> {
-        self.settle_between_frames(&last.thresholds, true)?;
-        let beats = self.simulation.beats(&last.frame);
-        for _ in 0..self.simulation.frames_behind() {
-            self.send_frame(&beats, &last.thresholds)?;
-            self.settle_between_frames(&last.thresholds, true)?;
-        }
-        self.idle(2, &last.thresholds)
-    }
-
-    /// Waits until a pixel can be taken.
-    fn wait_until_ready(&mut self, thresholds: &ThresholdInputs) -> Result<(), CosimError> {
-        while !self.simulation.is_ready() {
-            match self.simulation.quiet_clocks() {
-                0 | 1 => self.idle(1, thresholds)?,
-                quiet => self.skip_quiet_clocks(quiet, thresholds)?,
-            }
-        }
-        Ok(())
-    }
-
-    fn idle(&mut self, clocks: u64, thresholds: &ThresholdInputs) -> Result<(), CosimError> {
-        let garbage = self.garbage.clone();
-        for _ in 0..clocks {
-            // A start mark without a valid pixel means nothing.
-            self.clock(&CoreInput { sof: true, ..CoreInput::idle(&garbage, thresholds) })?;
-        }
-        Ok(())
-    }
-
-    fn clock(&mut self, applied: &CoreInput<'_>) -> Result<(), CosimError> {
-        if self.cancel.load(Ordering::Relaxed) {
-            return Err(ToolError::Interrupted.into());
-        }
-        let forward_ready = match self.sink {
-            BenchSinkMode::AlwaysReady => true,
-            BenchSinkMode::Stalling => self.simulation.is_stalling_sink_ready(),
-            BenchSinkMode::Delaying => self.is_delayed_sink_ready(),
+    fn play_damaged(&mut self, script: &BenchScript) -> Result<(), CosimError> {
+        let (Some((first, _)), Some((last, _))) = (script.damaged.first(), script.damaged.last())
+        else {
+            return Ok(());
         };
-        let applied = CoreInput { forward_ready, ..*applied };
-        self.simulation.clock(&applied, &mut self.recorder.record);
-        self.recorder.push(1)
-    }
-
-    /// Returns true if a word has waited long enough.
-    fn is_delayed_sink_ready(&mut self) -> bool {
-        self.waited_clocks = if self.simulation.is_sending() { self.waited_clocks + 1 } else { 0 };
-        let takes = self.waited_clocks > SINK_DELAY;
-        if takes {
-            self.waited_clocks = 0;
+        self.begin(first)?;
+        for (shown, delivery) in &script.damaged {
+            self.driver.send_damaged_frame(&shown.frame, *delivery, self.gaps)?;
         }
-        takes
+        self.driver.drain(&last.frame, self.gaps)
     }
+}
 
-    fn skip_quiet_clocks(
-        &mut self,
-        clocks: u64,
-        thresholds: &ThresholdInputs,
-    ) -> Result<(), CosimError> {
-        let applied = CoreInput::idle(&self.garbage, thresholds);
-        self.simulation.skip_quiet_clocks(&applied, &mut self.recorder.record);
-        self.recorder.push(clocks)
+/// Returns the fault of an external frame store: the last word of the frames that every script has
+/// comes without its valid bit. So the bench sees an underrun, and all decisions use correct
+/// references.
+fn store_fault(part: &Design) -> StoreFault {
+    match part.hardware() {
+        Hardware::Pipelined(_) | Hardware::Serial(_) => StoreFault::None,
+        Hardware::Raster(own) => {
+            let words = RasterTiming::from_design(part.with_hardware(own)).words();
+            StoreFault::UnmarkedWord((MIN_FRAMES_PER_SCRIPT - 1) * words - 1)
+        }
     }
+}
+
+/// Returns the pauses within a frame.
+fn gaps(part: &Design) -> GapPattern {
+    let beats = usize::try_from(part.timing().pixels_per_frame()).unwrap_or(usize::MAX);
+    let period = if beats < LONG_FRAME_BEATS { PAUSE_PERIOD } else { LONG_FRAME_PAUSE_PERIOD };
+    GapPattern::Periodic(period.min(beats))
 }

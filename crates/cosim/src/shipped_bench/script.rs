@@ -2,14 +2,15 @@
 //! The choice of the frames of a bench: pictures that the design finds relevant, the same ones
 //! again, other ones, and flat ones, so that regions become active, are held, and are blanked.
 
-use super::delivery::DELIVERED_FRAMES;
 use super::drawn_places::DrawnPlaces;
 use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, threshold_pair};
 use super::has_sink;
 use super::picture_scorer::PictureScorer;
 use super::test_pattern::TestPattern;
 use crate::situations::largest_min_count;
-use crate::stimulus::{PatternGenerator, Random, StimulusPattern};
+use crate::stimulus::{
+    FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern, StimulusPattern,
+};
 use foveate_design::{Design, Neighborhood, ThresholdSource as Mode};
 use foveate_frame::Frame;
 use foveate_model::ThresholdInputs;
@@ -26,38 +27,28 @@ const NEAR_THRESHOLD_PATTERNS: [StimulusPattern; 4] =
 /// The number of frames whose shapes cross the borders of regions.
 const WIDE_FRAMES: u32 = 8;
 
-/// The state of the core at the reset that begins the next sequence.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum BenchSequenceEnd {
-    /// All pixels have left.
-    Drained,
-    /// A pixel or a mean is leaving.
-    Leaving,
-    /// A mean is leaving, if the ports distinguish means from pixels.
-    MeanLeaving,
-}
-
-/// The behavior of the sink, if the core has one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum BenchSinkMode {
-    /// The sink takes every word at once.
-    AlwaysReady,
-    /// The sink takes nothing for so long that regions are lost.
-    Stalling,
-    /// The sink lets every word wait for some clocks.
-    Delaying,
-}
+/// The deliveries of the damaged frames, with one error of each kind. The frame behind the short one
+/// comes too early, and is dropped.
+const DELIVERIES: [FrameDelivery; 6] = [
+    FrameDelivery::Strays,
+    FrameDelivery::Whole,
+    FrameDelivery::ONE_BEAT_SHORT,
+    FrameDelivery::Whole,
+    FrameDelivery::ONE_BEAT_LONG,
+    FrameDelivery::Whole,
+];
 
 /// The frames between two resets.
 pub(super) struct BenchSequence {
     pub(super) frames: Vec<BenchFrame>,
-    pub(super) ending: BenchSequenceEnd,
+    /// The state of the core at the reset that begins the next sequence.
+    pub(super) end: SequenceEnd,
 }
 
 impl BenchSequence {
     /// Creates a sequence after which everything leaves.
     fn drained(frames: Vec<BenchFrame>) -> Self {
-        Self { frames, ending: BenchSequenceEnd::Drained }
+        Self { frames, end: SequenceEnd::Drained }
     }
 }
 
@@ -65,24 +56,24 @@ impl BenchSequence {
 pub(super) struct BenchScript {
     /// The sequences; each begins with a reset.
     pub(super) sequences: Vec<BenchSequence>,
-    /// The frames that are delivered damaged to hardware with `sync`; see [`super::delivery`].
-    pub(super) damaged: Vec<BenchFrame>,
+    /// The frames for hardware with `sync`, each with its damage.
+    pub(super) damaged: Vec<(BenchFrame, FrameDelivery)>,
 }
 
 /// A frame with the thresholds and the sink that apply to it.
 pub(super) struct BenchFrame {
     pub(super) frame: Frame,
     pub(super) thresholds: ThresholdInputs,
-    pub(super) sink: BenchSinkMode,
+    pub(super) sink: SinkPattern,
 }
 
 impl BenchFrame {
     /// Creates a frame for a sink that takes every word at once.
     fn new(frame: Frame, thresholds: ThresholdInputs) -> Self {
-        Self { frame, thresholds, sink: BenchSinkMode::AlwaysReady }
+        Self { frame, thresholds, sink: SinkPattern::Always }
     }
 
-    fn with_sink(self, sink: BenchSinkMode) -> Self {
+    fn with_sink(self, sink: SinkPattern) -> Self {
         Self { sink, ..self }
     }
 }
@@ -183,8 +174,9 @@ impl<'a> ScriptWriter<'a> {
     }
 
     /// Returns the frames that are delivered damaged.
-    fn damaged_frames(&self) -> Vec<BenchFrame> {
-        (0..DELIVERED_FRAMES).map(|number| self.alternating_frame(number)).collect()
+    fn damaged_frames(&self) -> Vec<(BenchFrame, FrameDelivery)> {
+        let numbered = DELIVERIES.into_iter().enumerate();
+        numbered.map(|(number, delivery)| (self.alternating_frame(number), delivery)).collect()
     }
 
     /// Regions become active, are held, are blanked, and become active again.
@@ -254,7 +246,7 @@ impl<'a> ScriptWriter<'a> {
                 (0, false) => region.first.iter().map(down).collect(),
                 _ => self.plain_square(level, number, more),
             });
-            frame.with_sink(BenchSinkMode::Delaying)
+            frame.with_sink(SinkPattern::Delaying)
         };
         let frames = vec![
             self.frame_of_means(level, level + 1, blank),
@@ -263,7 +255,7 @@ impl<'a> ScriptWriter<'a> {
             beside(2 * level + 2, false),
             beside(0, true),
         ];
-        BenchSequence { frames, ending: BenchSequenceEnd::MeanLeaving }
+        BenchSequence { frames, end: SequenceEnd::MeanLeaving }
     }
 
     /// Returns the sequence in which the sink stalls until regions are lost, and summaries are lost
@@ -281,7 +273,7 @@ impl<'a> ScriptWriter<'a> {
         };
         let summaries = if self.part.periphery().is_some() { 2 } else { 0 };
         let frames = (0..stalled).map(frame).chain((0..summaries).map(|_| self.flat_frame()));
-        let frames = frames.map(|frame| frame.with_sink(BenchSinkMode::Stalling));
+        let frames = frames.map(|frame| frame.with_sink(SinkPattern::StallingUntilLoss));
         Some(BenchSequence::drained(frames.chain([self.frame_of_last(1)]).collect()))
     }
 
@@ -328,7 +320,7 @@ impl<'a> ScriptWriter<'a> {
             true => self.wide_frames(),
             false => vec![self.frame_of_first(1, self.pair.usual)],
         };
-        BenchSequence { frames, ending: BenchSequenceEnd::Leaving }
+        BenchSequence { frames, end: SequenceEnd::Leaving(0) }
     }
 
     /// No region has a reference, and yet none has changed, because the minimum is above all
@@ -339,9 +331,8 @@ impl<'a> ScriptWriter<'a> {
             Mode::Runtime => self.without_changes(usual),
             Mode::Constant => usual,
         };
-        let frames = [never, never, usual].map(|thresholds| {
-            self.frame_of_first(1, thresholds).with_sink(BenchSinkMode::Delaying)
-        });
+        let frames = [never, never, usual]
+            .map(|thresholds| self.frame_of_first(1, thresholds).with_sink(SinkPattern::Delaying));
         BenchSequence::drained(frames.into())
     }
 

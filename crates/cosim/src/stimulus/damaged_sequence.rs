@@ -8,7 +8,7 @@ use super::random::Random;
 
 /// The damage of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FrameDelivery {
+pub(crate) enum FrameDelivery {
     /// The whole frame, with its first beat marked.
     Whole,
     /// The frame without its last beats.
@@ -27,7 +27,7 @@ pub(super) enum FrameDelivery {
 
 /// A number of beats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum BeatCount {
+pub(crate) enum BeatCount {
     One,
     Some,
     AllButOne,
@@ -131,6 +131,10 @@ const DAMAGED_SEQUENCES: &[DamagedSequence] = &[
 impl FrameDelivery {
     /// The first beat of a frame alone.
     pub(super) const FIRST_BEAT: Self = Short(AllButOne);
+    /// A frame without its last beat.
+    pub(crate) const ONE_BEAT_SHORT: Self = Short(One);
+    /// A frame with one beat too many.
+    pub(crate) const ONE_BEAT_LONG: Self = Long(One);
 
     /// Returns the beats of a frame of `count` beats: each with its start mark, and its index in
     /// the frame or `None` for a beat of no frame.

@@ -8,41 +8,50 @@
 //! finds the core in another state. The vectors follow from the design, the seed and the frames
 //! alone.
 
+mod clock_receiver;
 mod damaged_sequence;
 mod decision_predictor;
 mod drain_timing;
-mod driver;
-mod faulty_store;
+mod external_store;
 mod frame_feed;
 mod frame_generator;
 mod frame_parts;
-mod idle_input;
+mod gap_pattern;
+mod model_driver;
 mod pattern_drawing;
 mod pattern_scorer;
+mod port_thresholds;
 mod random;
+mod sequence_end;
 mod sequence_schedule;
 mod sequences;
 mod session;
 mod sink;
 mod stimulus_pattern;
-mod store_queue;
 mod threshold_aimer;
 mod threshold_ranges;
+mod unused_inputs;
 
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::{Recorder, Recording};
-pub(crate) use drain_timing::settling_clocks;
+pub(crate) use clock_receiver::ClockReceiver;
+pub(crate) use damaged_sequence::FrameDelivery;
+pub(crate) use external_store::StoreFault;
 use foveate_design::Design;
 use foveate_frame::Frame;
 pub(crate) use frame_feed::FrameFeed;
+pub(crate) use gap_pattern::GapPattern;
+pub(crate) use model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
 pub(crate) use random::Random;
+pub(crate) use sequence_end::SequenceEnd;
 use sequence_schedule::SequenceLimits;
 use session::StimulusSession;
-pub(crate) use sink::is_region_end_leaving;
+pub(crate) use sink::SinkPattern;
 use std::sync::atomic::AtomicBool;
 pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern};
-pub(crate) use store_queue::StoreQueue;
+pub(crate) use threshold_aimer::ThresholdAim;
+pub(crate) use unused_inputs::UnusedInputs;
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;

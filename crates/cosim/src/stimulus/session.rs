@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state of a recording: it draws the frames of each sequence and offers them to the core.
 
+use super::clock_receiver::ClockReceiver;
 use super::damaged_sequence::{
     DamagedSequence, DamagedSequenceEnd, DirectedSequence, FrameDelivery, directed_sequences,
 };
-use super::drain_timing::DrainTiming;
-use super::driver::{FrameLimit, ModelDriver};
-use super::faulty_store::StoreFault;
 use super::frame_feed::FrameFeed;
 use super::frame_generator::FrameGenerator;
 use super::frame_parts::FramePart;
+use super::gap_pattern::GapPattern;
+use super::model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
 use super::random::Random;
+use super::sequence_end::SequenceEnd;
 use super::sequence_schedule::{SequenceLimits, SequenceSchedule};
-use super::sequences::{FrameSequence, GapPattern, SequenceEnd, sequences};
+use super::sequences::{FrameSequence, sequences};
+use super::sink::SinkPattern;
 use super::stimulus_pattern::VARYING_PATTERNS;
-use super::threshold_aimer::ThresholdAim;
+use super::unused_inputs::UnusedInputs;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::Recorder;
 use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
 use std::sync::atomic::AtomicBool;
+
+/// The number that is added to the turns of the sinks of a recording with few sequences: its first
+/// sink that stalls is then the one that loses most regions.
+const LOSSY_TURN_OFFSET: usize = 3;
 
 /// The state of a recording.
 pub(super) struct StimulusSession<'a> {
@@ -29,11 +35,10 @@ pub(super) struct StimulusSession<'a> {
     /// The design that is simulated.
     design: &'a Design,
     level: CosimLevel,
-    feed: FrameFeed<'a>,
-    driver: ModelDriver<'a>,
+    driver: ModelDriver<'a, Recorder>,
+    has_border: bool,
     random: Random,
     frame_generator: FrameGenerator,
-    drain_timing: DrainTiming,
     extent: SequenceLimits,
     is_left_out: fn(&str) -> bool,
 }
@@ -47,19 +52,20 @@ impl<'a> StimulusSession<'a> {
         cancel: &'a AtomicBool,
     ) -> Self {
         let mut random = Random::new(seed);
-        let is_brief = extent.is_brief();
-        let driver = ModelDriver::new(design, level, is_brief, recorder, random.fork(), cancel);
         let feed = FrameFeed::for_level(level, design);
-        let gallery = FrameGenerator::new(&feed, &mut random);
+        let has_border = recorder.has_port(PortRole::Border);
+        let top = (design, level.top());
+        let unused = UnusedInputs::Random;
+        let driver = ModelDriver::new(top, feed, unused, recorder, random.fork(), cancel);
+        let frame_generator = FrameGenerator::new(&feed, &mut random);
         Self {
             whole,
             design,
             level,
-            feed,
             driver,
+            has_border,
             random,
-            frame_generator: gallery,
-            drain_timing: DrainTiming::for_design(design),
+            frame_generator,
             extent,
             is_left_out,
         }
@@ -99,19 +105,24 @@ impl<'a> StimulusSession<'a> {
         let gaps = match sequence.end {
             // With gaps the edge of the loss could be missed.
             SequenceEnd::BeforeLoss => GapPattern::None,
-            _ => GapPattern::ALL[(round + number) % GapPattern::ALL.len()],
+            _ => gaps_of_turn(round + number),
         };
-        let border = self.driver.border(round + number);
-        let sink = (sequence.sink_stalls, round + number / GapPattern::ALL.len());
-        self.driver.name_clocks(sequence.name, 0, None);
-        self.driver.begin_sequence(sequence.aim, sink, sequence.store_fault, border)?;
+        let turn = round + number / GapPattern::IN_TURN.len();
+        self.name_clocks(sequence.name, 0, None);
+        self.driver.begin_sequence(SequenceSurroundings {
+            aim: sequence.aim,
+            sink: (sequence.sink_stalls, self.sink_turn(turn)),
+            store_fault: sequence.store_fault,
+            border: self.border(round + number),
+        })?;
         let last = sequence.patterns.len() - 1;
         for frame in 0..=last {
             let configured = self.driver.thresholds_are_configured();
-            let FrameSequence { patterns: motifs, is_mixed: mixed, .. } = *sequence;
-            self.frame_generator.draw(motifs, frame + round, mixed, configured, &mut self.random);
+            let FrameSequence { patterns, is_mixed, .. } = *sequence;
+            let turn = frame + round;
+            self.frame_generator.draw(patterns, turn, is_mixed, configured, &mut self.random);
             if frame > 0 {
-                self.driver.name_clocks(sequence.name, frame as u64, None);
+                self.name_clocks(sequence.name, frame as u64, None);
             }
             let drawn = self.frame_generator.frame()?;
             let until = match sequence.end {
@@ -122,12 +133,16 @@ impl<'a> StimulusSession<'a> {
                 SequenceEnd::BeforeLoss if frame == last => FrameLimit::BeforeLoss,
                 _ => FrameLimit::WholeFrame,
             };
-            self.send_frame(&drawn, until, gaps)?;
+            self.driver.send_frame(&drawn, until, gaps)?;
             if frame < last {
                 self.pause_between_frames(&drawn, gaps)?;
             }
         }
-        self.end_sequence(sequence.end, gaps)
+        let last = self.frame_generator.frame()?;
+        match sequence.end {
+            SequenceEnd::Drained => self.drain(&last, gaps),
+            end => self.driver.end_sequence(end, &last, gaps),
+        }
     }
 
     /// Plays a sequence of damaged frames.
@@ -137,34 +152,27 @@ impl<'a> StimulusSession<'a> {
         round: usize,
         number: usize,
     ) -> Result<(), CosimError> {
-        let gaps = GapPattern::ALL[(round + number) % GapPattern::ALL.len()];
-        let sink = (number.is_multiple_of(2), round + number);
-        self.driver.name_clocks(sequence.name, 0, None);
-        self.driver.begin_sequence(ThresholdAim::Configured, sink, StoreFault::None, 0)?;
+        let gaps = gaps_of_turn(round + number);
+        let sink = (number.is_multiple_of(2), self.sink_turn(round + number));
+        self.name_clocks(sequence.name, 0, None);
+        self.driver.begin_sequence(SequenceSurroundings::of_design(sink, 0))?;
         for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
             if frame > 0 {
-                self.driver.name_clocks(sequence.name, frame as u64, None);
-                if let Some(settle) = self.drain_timing.settling_clocks {
-                    let pause = gaps.between_frames(settle, &mut self.random);
-                    self.driver.idle(pause)?;
-                }
+                self.name_clocks(sequence.name, frame as u64, None);
+                self.pause_blindly(gaps)?;
             }
-            self.frame_generator.draw(
-                VARYING_PATTERNS,
-                frame + round,
-                true,
-                true,
-                &mut self.random,
-            );
-            self.send_damaged_frame(delivery, gaps)?;
+            let turn = frame + round;
+            self.frame_generator.draw(VARYING_PATTERNS, turn, true, true, &mut self.random);
+            self.driver.send_damaged_frame(&self.frame_generator.frame()?, delivery, gaps)?;
         }
+        let last = self.frame_generator.frame()?;
         match sequence.end {
-            DamagedSequenceEnd::Drained => self.drain(&self.frame_generator.frame()?, gaps),
-            DamagedSequenceEnd::AfterLastBeat => self.clocks_without_intake(1),
+            DamagedSequenceEnd::Drained => self.drain(&last, gaps),
+            DamagedSequenceEnd::AfterLastBeat => self.driver.clocks_without_intake(1),
             DamagedSequenceEnd::Filling => {
-                self.send_damaged_frame(FrameDelivery::FIRST_BEAT, gaps)?;
+                self.driver.send_damaged_frame(&last, FrameDelivery::FIRST_BEAT, gaps)?;
                 let clocks = self.random.up_to(2);
-                self.clocks_without_intake(clocks)
+                self.driver.clocks_without_intake(clocks)
             }
         }
     }
@@ -176,24 +184,17 @@ impl<'a> StimulusSession<'a> {
         part: &FramePart,
         frames: &[Frame],
     ) -> Result<(), CosimError> {
-        let gaps = GapPattern::ALL[number % GapPattern::ALL.len()];
-        self.driver.name_clocks(&part.name, 0, part.region);
-        self.driver.begin_sequence(
-            ThresholdAim::Configured,
-            (false, number),
-            StoreFault::None,
-            part.border,
-        )?;
+        let gaps = gaps_of_turn(number);
+        let sink = (false, self.sink_turn(number));
+        self.name_clocks(&part.name, 0, part.region);
+        self.driver.begin_sequence(SequenceSurroundings::of_design(sink, part.border))?;
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {
-                self.driver.name_clocks(&part.name, number, part.region);
-                if let Some(settle) = self.drain_timing.settling_clocks {
-                    let pause = gaps.between_frames(settle, &mut self.random);
-                    self.driver.idle(pause)?;
-                }
+                self.name_clocks(&part.name, number, part.region);
+                self.pause_blindly(gaps)?;
             }
             let seen = part.extract(self.whole, self.design, frame)?;
-            self.send_frame(&seen, FrameLimit::WholeFrame, gaps)?;
+            self.driver.send_frame(&seen, FrameLimit::WholeFrame, gaps)?;
             if number + 1 == frames.len() as u64 {
                 self.drain(&seen, gaps)?;
             }
@@ -201,32 +202,23 @@ impl<'a> StimulusSession<'a> {
         Ok(())
     }
 
-    fn send_frame(
-        &mut self,
-        frame: &Frame,
-        until: FrameLimit,
-        gaps: GapPattern,
-    ) -> Result<(), CosimError> {
-        let beats = self.beats_of(frame);
-        self.driver.send_frame(frame, &beats, until, gaps)
+    /// Names the sequence, frame and region of the following clocks.
+    fn name_clocks(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
+        self.driver.receiver().begin_frame(sequence, frame, region);
     }
 
-    /// Offers the drawn frame, with the damage of `delivery`.
-    fn send_damaged_frame(
-        &mut self,
-        delivery: FrameDelivery,
-        gaps: GapPattern,
-    ) -> Result<(), CosimError> {
-        let frame = self.frame_generator.frame()?;
-        let beats = self.beats_of(&frame);
-        self.driver.send_damaged_frame(&beats, delivery, gaps)
+    /// Returns the sides at the frame's border for a sequence, if these are an input; all sixteen
+    /// sets come in turn.
+    fn border(&self, turn: usize) -> u8 {
+        match self.has_border {
+            true => u8::try_from(7 * turn % 16).expect("four bits"),
+            false => 0,
+        }
     }
 
-    /// Returns the beats of a frame for the pixel port; places without a pixel are random.
-    fn beats_of(&mut self, frame: &Frame) -> Vec<Vec<u16>> {
-        let max = u16::try_from(self.design.pixel_max()).expect("a pixel has at most 16 bits");
-        let random = &mut self.random;
-        self.feed.beats(frame, || random.pixel(max))
+    /// Returns the turn of a sink for the turn of a sequence.
+    fn sink_turn(&self, turn: usize) -> usize {
+        turn + if self.extent.is_brief() { LOSSY_TURN_OFFSET } else { 0 }
     }
 
     /// Returns the number of beats of a frame.
@@ -238,104 +230,30 @@ impl<'a> StimulusSession<'a> {
     /// Pauses between two frames, or not. A core that shows when everything has left is sometimes
     /// drained.
     fn pause_between_frames(&mut self, last: &Frame, gaps: GapPattern) -> Result<(), CosimError> {
-        match self.drain_timing.settling_clocks {
-            Some(settle) => {
-                let pause = gaps.between_frames(settle, &mut self.random);
-                self.driver.idle(pause)
-            }
-            None if gaps == GapPattern::Bursts && self.random.one_in(2) => self.drain(last, gaps),
-            None => Ok(()),
+        let shows_end = self.driver.drain_timing().clocks_to_wait().is_none();
+        if shows_end && gaps == GapPattern::Bursts && self.random.one_in(2) {
+            return self.drain(last, gaps);
         }
+        self.pause_blindly(gaps)
     }
 
-    /// Brings the core to the state in which the next reset is to find it.
-    fn end_sequence(&mut self, end: SequenceEnd, gaps: GapPattern) -> Result<(), CosimError> {
-        let left = self.driver.model().clocks_until_ready();
-        match end {
-            SequenceEnd::Drained => self.drain(&self.frame_generator.frame()?, gaps),
-            SequenceEnd::Loading(0) => {
-                self.driver.cut_by_next_reset();
-                Ok(())
-            }
-            SequenceEnd::Loading(most) => {
-                let pause = self.random.up_to(most);
-                self.driver.idle(pause)
-            }
-            SequenceEnd::Flushing(most) => {
-                let clocks = self.random.up_to(most);
-                self.clocks_without_intake(clocks)
-            }
-            SequenceEnd::LanesStarted => {
-                let clocks = self.random.up_to(4);
-                self.driver.work_until(left.saturating_sub(clocks))
-            }
-            // A score that is on its way to the ports must not come out.
-            SequenceEnd::Working { first_score } if self.random.one_in(2) => {
-                self.driver.work_until(first_score + 1)
-            }
-            SequenceEnd::Working { .. } => {
-                let clocks = self.random.up_to(left);
-                self.driver.work_until(clocks)
-            }
-            SequenceEnd::Rotating(most) => {
-                let clocks = self.random.up_to(most);
-                self.driver.work_until_score()?;
-                let left = self.driver.model().clocks_until_ready();
-                self.driver.work_until(left.saturating_sub(clocks))
-            }
-            SequenceEnd::Finishing(most) => {
-                let clocks = self.random.up_to(most);
-                self.driver.work_until(clocks)
-            }
-            SequenceEnd::BeforeLoss => Ok(()),
-            SequenceEnd::Leaving(most) => {
-                let is_leaving =
-                    |driver: &ModelDriver<'_>| driver.model().is_high(PortRole::ForwardValid);
-                // If pixels wait for further frames, the last frame is played again.
-                for _ in 0..self.drain_timing.frames_behind {
-                    if is_leaving(&self.driver) {
-                        break;
-                    }
-                    self.driver.idle(self.drain_timing.settling_clocks.unwrap_or(0))?;
-                    let beats = self.beats_of(&self.frame_generator.frame()?);
-                    self.driver.push_until_leaving(&beats)?;
-                }
-                // Pixels in the windows are not pending, but the core is not ready while there are
-                // some.
-                let is_under_way = |driver: &ModelDriver<'_>| {
-                    driver.model().is_pending() || !driver.model().is_ready()
-                };
-                while !is_leaving(&self.driver) && is_under_way(&self.driver) {
-                    self.driver.clock_without_intake(None)?;
-                }
-                let clocks = self.random.up_to(most);
-                self.clocks_without_intake(clocks)
-            }
-        }
-    }
-
-    fn clocks_without_intake(&mut self, clocks: u64) -> Result<(), CosimError> {
-        for _ in 0..clocks {
-            self.driver.clock_without_intake(None)?;
-        }
-        Ok(())
-    }
-
-    /// Lets all pixels leave, about every second time to a sink that is always ready. If the pixels
-    /// of a frame wait for further frames, the last frame is played again.
+    /// Lets all pixels leave, about every second time to a sink that is always ready.
     fn drain(&mut self, last: &Frame, gaps: GapPattern) -> Result<(), CosimError> {
         if self.driver.has_sink() && self.random.one_in(2) {
-            self.driver.make_sink_ready();
+            self.driver.set_sink(SinkPattern::Always);
         }
-        for _ in 0..self.drain_timing.frames_behind {
-            let pause = self.random.up_to(self.drain_timing.settling_clocks.unwrap_or(0));
-            self.driver.idle(pause)?;
-            let beats = self.beats_of(last);
-            self.driver.push_out(&beats, gaps)?;
-        }
-        self.driver.drain()?;
-        self.driver.idle(self.drain_timing.settling_clocks.unwrap_or(0))?;
-        let pause = self.random.up_to(self.drain_timing.trailing_clocks);
+        self.driver.drain(last, gaps)
+    }
+
+    /// Pauses between two frames of a core that does not show when everything has left.
+    fn pause_blindly(&mut self, gaps: GapPattern) -> Result<(), CosimError> {
+        let Some(settling) = self.driver.drain_timing().clocks_to_wait() else { return Ok(()) };
+        let pause = gaps.between_frames(settling, &mut self.random);
         self.driver.idle(pause)
     }
+}
+
+/// Returns the gaps of a sequence.
+fn gaps_of_turn(turn: usize) -> GapPattern {
+    GapPattern::IN_TURN[turn % GapPattern::IN_TURN.len()]
 }

@@ -7,13 +7,15 @@ use foveate_model::CycleModel;
 
 /// One in so many clocks at which no region ends is the start of a stall.
 const STALL_PERIOD: u64 = 24;
-
-/// The offset of the turn with which the first stalling sink is the one that loses most regions.
-const LOSSY_TURN_OFFSET: usize = 3;
+/// The number of losses after which a sink that stalls until regions are lost takes nothing any
+/// more. Counters of lost regions then count on, and vectors of large frames stay small.
+const ENOUGH_LOSSES: u64 = 64;
+/// The number of clocks that a word waits for a sink that delays words.
+const DELAY: u64 = 2;
 
 /// The pattern of clocks at which a sink is ready.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ReadyPattern {
+pub(crate) enum SinkPattern {
     /// The sink is ready at every clock.
     Always,
     /// The sink is ready at about every second clock.
@@ -26,99 +28,131 @@ enum ReadyPattern {
     /// or until a random word within a region. Then it stalls for up to the given number of clocks.
     /// At an edge at which a region is lost in the middle it may be ready, and may stall on.
     StallingInRegions(u64),
+    /// The sink stalls from the last word of a region on, once the first word of the next region
+    /// has been fetched, until a region is lost. At every second loss it takes a word at the edge
+    /// of the loss.
+    StallingUntilLoss,
+    /// The sink lets every word wait for some clocks.
+    Delaying,
 }
 
-/// The state of a sink.
+/// A sink, and the state of its pattern.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StimulusSink {
-    pattern: ReadyPattern,
+pub(super) struct Sink {
+    pattern: SinkPattern,
     is_ready: bool,
-    /// The number of clocks until the sink changes between ready and not ready.
-    clocks_left: u64,
+    /// The number of clocks until the sink changes between ready and not ready, or for which the
+    /// word at the ports has waited.
+    clocks: u64,
+    /// True if the sink has already stalled for the last word that is at the ports.
+    has_stalled: bool,
+    losses: u64,
     /// The number of clocks of a row of regions.
     row_clocks: u64,
     /// The number of clocks of the rows after which regions are lost, and of two more rows of
     /// regions.
     longest_stall: u64,
-    /// The number that is added to the turn, which decides the behavior of the first sequence.
-    turn_offset: usize,
 }
 
-impl StimulusSink {
-    /// Returns a sink, or `None` if no sink may stall. A recording with few sequences begins with a
-    /// sink that loses regions.
-    pub(super) fn for_design(design: &Design, is_brief: bool) -> Option<Self> {
+impl Sink {
+    /// Returns a sink that is always ready, or `None` if no sink may stall.
+    pub(super) fn for_design(design: &Design) -> Option<Self> {
         let timing = match design.hardware() {
             Hardware::Raster(own) => RasterTiming::from_design(design.with_hardware(own)),
             Hardware::Pipelined(_) | Hardware::Serial(_) => return None,
         };
         let row = timing.words() / u64::from(design.rows());
-        let long = (u64::from(timing.buffer_rows) + 2) * row;
-        let first = if is_brief { LOSSY_TURN_OFFSET } else { 0 };
-        let pattern = ReadyPattern::Always;
         timing.has_forwarding.then_some(Self {
-            pattern,
+            pattern: SinkPattern::Always,
             is_ready: false,
-            clocks_left: 0,
+            clocks: 0,
+            has_stalled: false,
+            losses: 0,
             row_clocks: row,
-            longest_stall: long,
-            turn_offset: first,
+            longest_stall: (u64::from(timing.buffer_rows) + 2) * row,
         })
     }
 
-    /// Begins a sequence. A sink that stalls does so for up to two rows of regions more than the
-    /// buffer holds.
-    pub(super) fn begin(&mut self, stalls: bool, turn: usize) {
-        let pattern = match (stalls, (turn + self.turn_offset) % 4) {
-            (true, 0) => ReadyPattern::FewClocks,
-            (true, 1 | 2) => ReadyPattern::StallingInRegions(self.longest_stall),
-            (true, _) => ReadyPattern::Alternating(self.longest_stall),
-            (false, 0) => ReadyPattern::Always,
-            (false, 1) => ReadyPattern::HalfOfClocks,
-            (false, 2) => ReadyPattern::Alternating(self.row_clocks / 2),
-            (false, _) => ReadyPattern::Alternating(9),
-        };
-        *self = Self { pattern, is_ready: false, clocks_left: 0, ..*self };
+    /// Returns the pattern for a sequence. A sink that stalls does so for up to two rows of regions
+    /// more than the buffer holds.
+    pub(super) fn pattern_of_turn(&self, stalls: bool, turn: usize) -> SinkPattern {
+        match (stalls, turn % 4) {
+            (true, 0) => SinkPattern::FewClocks,
+            (true, 1 | 2) => SinkPattern::StallingInRegions(self.longest_stall),
+            (true, _) => SinkPattern::Alternating(self.longest_stall),
+            (false, 0) => SinkPattern::Always,
+            (false, 1) => SinkPattern::HalfOfClocks,
+            (false, 2) => SinkPattern::Alternating(self.row_clocks / 2),
+            (false, _) => SinkPattern::Alternating(9),
+        }
     }
 
-    /// Makes the sink ready at every clock from now on.
-    pub(super) fn make_ready(&mut self) {
-        self.pattern = ReadyPattern::Always;
+    /// Sets the pattern from now on; a pattern that stays goes on where it was.
+    pub(super) fn set_pattern(&mut self, pattern: SinkPattern) {
+        if self.pattern != pattern {
+            let is_ready = pattern == SinkPattern::StallingUntilLoss;
+            *self = Self { pattern, is_ready, clocks: 0, has_stalled: false, losses: 0, ..*self };
+        }
     }
 
     /// Returns true if the sink of this core is ready at the next edge.
     pub(super) fn is_ready_next(&mut self, core: &dyn CycleModel, random: &mut Random) -> bool {
         match self.pattern {
-            ReadyPattern::Always => true,
-            ReadyPattern::HalfOfClocks => random.one_in(2),
-            ReadyPattern::FewClocks => random.one_in(9),
-            ReadyPattern::Alternating(longest) => {
-                if self.clocks_left == 0 {
+            SinkPattern::Always => true,
+            SinkPattern::HalfOfClocks => random.one_in(2),
+            SinkPattern::FewClocks => random.one_in(9),
+            SinkPattern::Alternating(longest) => {
+                if self.clocks == 0 {
                     self.is_ready = !self.is_ready;
-                    self.clocks_left = 1 + random.up_to(longest);
+                    self.clocks = 1 + random.up_to(longest);
                 }
-                self.clocks_left -= 1;
+                self.clocks -= 1;
                 self.is_ready
             }
-            ReadyPattern::StallingInRegions(longest) => {
+            SinkPattern::StallingInRegions(longest) => {
                 let ends = is_region_end_leaving(core);
-                if self.clocks_left == 0 && random.one_in(if ends { 2 } else { STALL_PERIOD }) {
-                    self.clocks_left = 1 + random.up_to(longest);
+                if self.clocks == 0 && random.one_in(if ends { 2 } else { STALL_PERIOD }) {
+                    self.clocks = 1 + random.up_to(longest);
                 }
-                if self.clocks_left > 0 && core.will_abort() {
-                    self.clocks_left *= random.up_to(1);
+                if self.clocks > 0 && core.will_abort() {
+                    self.clocks *= random.up_to(1);
                     return random.one_in(2);
                 }
-                let stalls = self.clocks_left > 0;
-                self.clocks_left = self.clocks_left.saturating_sub(1);
+                let stalls = self.clocks > 0;
+                self.clocks = self.clocks.saturating_sub(1);
                 !stalls
             }
+            SinkPattern::StallingUntilLoss => self.stalls_until_loss(core),
+            SinkPattern::Delaying => {
+                let waits = core.is_high(PortRole::ForwardValid);
+                let takes = waits && self.clocks == DELAY;
+                self.clocks = if waits && !takes { self.clocks + 1 } else { 0 };
+                takes
+            }
         }
+    }
+
+    /// Returns true if a sink that stalls until a region is lost is ready at the next edge.
+    fn stalls_until_loss(&mut self, core: &dyn CycleModel) -> bool {
+        if self.losses == ENOUGH_LOSSES {
+            return false;
+        }
+        let ends = is_region_end_leaving(core);
+        if core.will_abort() {
+            self.losses += 1;
+            let takes = self.losses.is_multiple_of(2);
+            (self.is_ready, self.has_stalled) = (true, ends && !takes);
+            return takes;
+        }
+        if self.is_ready && ends {
+            self.is_ready = std::mem::take(&mut self.has_stalled);
+        }
+        self.is_ready
     }
 }
 
 /// Returns true if the last word of a region leaves, and the region was not lost in the middle.
-pub(crate) fn is_region_end_leaving(core: &dyn CycleModel) -> bool {
+fn is_region_end_leaving(core: &dyn CycleModel) -> bool {
     core.is_high(PortRole::ForwardValid)
         && core.is_high(PortRole::ForwardLast)
         && !core.is_high(PortRole::ForwardAbort)

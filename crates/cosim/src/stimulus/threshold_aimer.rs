@@ -9,7 +9,7 @@ use foveate_model::{RegionScorer, ThresholdInputs, region_border};
 
 /// The choice of thresholds that are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ThresholdAim {
+pub(crate) enum ThresholdAim {
     /// The thresholds of the design.
     Configured,
     /// Levels that equal a value in the frame, or are one below or above it; minima likewise with
@@ -20,7 +20,7 @@ pub(super) enum ThresholdAim {
     Largest,
     /// Levels of 0 and minima of 1: a region that is not flat is relevant, and any change counts.
     Smallest,
-    /// The thresholds of `Least` if they are ports, or else those of the design. Neither thresholds
+    /// The thresholds of `Smallest` if they are ports, or else those of the design. Neither thresholds
     /// nor data are aimed at each other, so a flat region is irrelevant, and any other one is
     /// relevant.
     Independent,

@@ -2,9 +2,10 @@
 //! The sequences of a pipelined RPU, and of an array of them.
 
 use super::super::drain_timing::settling_clocks;
+use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::*;
 use super::super::threshold_aimer::ThresholdAim;
-use super::{FrameSequence, SequenceEnd, mean_sequences_around_reset};
+use super::{FrameSequence, mean_sequences_around_reset};
 use foveate_design::PipelinedDesign;
 
 /// Returns all sequences, the most telling first.

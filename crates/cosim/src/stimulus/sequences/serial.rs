@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a serial array.
 
+use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::*;
 use super::super::threshold_aimer::ThresholdAim;
-use super::{FrameSequence, SequenceEnd, mean_sequences_around_reset};
+use super::{FrameSequence, mean_sequences_around_reset};
 use foveate_design::{SerialDesign, SerialPhase, SerialTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
