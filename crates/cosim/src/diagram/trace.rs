@@ -4,7 +4,6 @@
 use crate::error::CosimError;
 use crate::layout::RecordLayout;
 use crate::level::CosimLevel;
-use crate::shipped_bench::TestPattern;
 use crate::stimulus::{
     ClockReceiver, FrameFeed, FrameLimit, GapPattern, ModelDriver, Random, UnusedInputs,
 };
@@ -100,10 +99,8 @@ fn traced_design(design: &Design) -> Result<(Design, String), CosimError> {
 fn traced_frame(part: &Design) -> Frame {
     let side = part.region_size();
     let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-    let square = TestPattern::Noise.draw(side as usize, max, false, &mut Random::new(1));
-    let pixel = |x: u32, y: u32| {
-        if x < side && y < side { square[(y * side + x) as usize] } else { max / 3 }
-    };
+    let mut random = Random::new(1);
+    let pixel = |x: u32, y: u32| if x < side && y < side { random.pixel(max) } else { max / 3 };
     Frame::from_fn(part.width(), part.height(), part.pixel_bits(), pixel)
         .unwrap_or_else(|error| unreachable!("pixels are those of the design: {error}"))
 }

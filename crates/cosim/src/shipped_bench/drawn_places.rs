@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The places of a frame at which regions of a bench have structure, and the ground elsewhere.
 
-use super::test_pattern::TestPattern;
-use crate::stimulus::Random;
 use foveate_design::Design;
 use foveate_frame::Frame;
 
@@ -47,7 +45,7 @@ impl<'a> DrawnPlaces<'a> {
             places: (0..count).map(place).collect(),
             side: part.region_size() as usize,
             max,
-            flat: TestPattern::Flat.draw(1, max, false, &mut Random::new(1))[0],
+            flat: flat_level(part),
         }
     }
 
@@ -99,4 +97,9 @@ impl<'a> DrawnPlaces<'a> {
         Frame::from_fn(part.width(), part.height(), part.pixel_bits(), pixel)
             .unwrap_or_else(|error| unreachable!("pixels are those of the design: {error}"))
     }
+}
+
+/// Returns the level of a flat region of a frame with few regions.
+pub(super) fn flat_level(part: &Design) -> u16 {
+    u16::try_from(part.pixel_max() / 3).expect("a pixel has at most 16 bits")
 }

@@ -2,14 +2,34 @@
 //! The pictures that a region of a bench shows in turn, and the thresholds under which they lead to
 //! all kinds of decisions.
 
-use super::picture_scorer::{PictureScorer, PictureScores};
-use super::test_pattern::{STRUCTURED_PATTERNS, TestPattern};
-use crate::field::low_bits_mask;
-use crate::situations::largest_min_count;
-use crate::stimulus::Random;
+use super::drawn_places::flat_level;
+use crate::stimulus::{
+    PatternGenerator, PatternScores, StimulusPattern, Texture, ThresholdAimer, ThresholdRanges,
+};
 use foveate_design::{Design, ThresholdSource as Mode, VoteCombination};
 use foveate_model::ThresholdInputs;
 use std::ops::RangeInclusive;
+
+/// The patterns with some structure; those with the most different values come first.
+const STRUCTURED_PATTERNS: &[StimulusPattern] = &[
+    StimulusPattern::Noise,
+    StimulusPattern::Blocks,
+    StimulusPattern::Texture(Texture::Quadrant),
+    StimulusPattern::Texture(Texture::Ramp),
+    StimulusPattern::Texture(Texture::Dots(1, 3)),
+    StimulusPattern::Texture(Texture::Dots(3, 5)),
+    StimulusPattern::Texture(Texture::Dots(2, 4)),
+    StimulusPattern::Texture(Texture::Halves),
+    StimulusPattern::Texture(Texture::Checkers(1)),
+    StimulusPattern::Texture(Texture::Checkers(2)),
+    StimulusPattern::Texture(Texture::Columns(1)),
+    StimulusPattern::Texture(Texture::Columns(2)),
+    StimulusPattern::Texture(Texture::Rows(1)),
+    StimulusPattern::Texture(Texture::Rows(2)),
+    StimulusPattern::Texture(Texture::Columns(3)),
+    StimulusPattern::Texture(Texture::Rows(3)),
+    StimulusPattern::Texture(Texture::Checkers(3)),
+];
 
 /// The number of times that a pattern is drawn anew before the next pattern is tried.
 const TRIALS_PER_PATTERN: usize = 2;
@@ -42,72 +62,57 @@ impl DrawnRegion {
         more: u32,
     ) -> ThresholdInputs {
         let mut exact = *usual;
-        let scores = self.scores.iter().zip(part.features());
-        for (minimum, (&score, feature)) in exact.min_score.iter_mut().zip(scores) {
-            *minimum = (score + u64::from(more)).min(low_bits_mask(feature.score_bits()));
-        }
-        exact.temporal_min_count = (self.changes + more).min(largest_min_count(part));
+        ThresholdRanges::of(part).set_minima((&self.scores, self.changes), more, &mut exact);
         exact
     }
 }
 
-/// Returns the thresholds of the design if some test pictures lead to all kinds of regions under
-/// them. Otherwise, if thresholds are inputs, it returns the smallest ones that distinguish a
-/// pattern from a flat region.
-pub(super) fn threshold_pair(
-    part: &Design,
-    studio: &mut PictureScorer,
-    random: &mut Random,
-) -> ThresholdPair {
+/// Returns the thresholds of the design if some patterns lead to all kinds of regions under them.
+/// Otherwise, if thresholds are inputs, it returns the smallest ones that distinguish a pattern from
+/// a flat region.
+pub(super) fn threshold_pair(part: &Design, generator: &mut PatternGenerator) -> ThresholdPair {
     let own = ThresholdInputs::from_camera(part);
     let configured = ThresholdPair { usual: own, blank: own };
     match part.threshold_source() {
         Mode::Constant => configured,
-        Mode::Runtime if separates_regions(part, studio, &own, random) => configured,
-        Mode::Runtime => smallest_thresholds(part, studio, random),
+        Mode::Runtime if separates_regions(part, generator, &own) => configured,
+        Mode::Runtime => smallest_thresholds(part, generator),
     }
 }
 
 /// Returns true if some pattern is relevant, a flat region is not, and an unchanged region is held.
 fn separates_regions(
     part: &Design,
-    studio: &mut PictureScorer,
+    generator: &mut PatternGenerator,
     thresholds: &ThresholdInputs,
-    random: &mut Random,
 ) -> bool {
-    let (side, max) = region_shape(part);
-    let flat = TestPattern::Flat.draw(side, max, false, random);
-    let flat = studio.score_picture(&flat, None, thresholds);
+    let flat = generator.score(&flat_square(part), thresholds);
     let least = thresholds.temporal_min_count;
-    let mut good = STRUCTURED_PATTERNS.iter().filter(|texture| {
-        let picture = texture.draw(side, max, false, random);
-        let look = studio.score_picture(&picture, Some(&flat), thresholds);
-        look.is_relevant && look.changed_pixels_from(&flat, thresholds) >= least
+    let mut good = STRUCTURED_PATTERNS.iter().filter(|&&pattern| {
+        generator.draw(pattern);
+        let scores = generator.score_drawn(thresholds);
+        scores.is_relevant && scores.changed_pixels_from(&flat, thresholds) >= least
     });
-    !flat.is_relevant && least > 0 && good.next().is_some()
+    let has_good = good.next().is_some();
+    !flat.is_relevant && least > 0 && has_good
 }
 
 /// Returns thresholds with levels of 0 and minima of 1. A feature that never finds anything
 /// (corners in 2x2 pixels behind a median filter) gets a minimum of 0 if its vote is needed.
-fn smallest_thresholds(
-    part: &Design,
-    studio: &mut PictureScorer,
-    random: &mut Random,
-) -> ThresholdPair {
-    let (side, max) = region_shape(part);
-    let mut blank = ThresholdInputs::from_camera(part);
-    (blank.temporal_level, blank.temporal_min_count) = (0, 1);
-    for (level, minimum) in blank.level.iter_mut().zip(&mut blank.min_score) {
-        (*level, *minimum) = (0, 1);
-    }
+fn smallest_thresholds(part: &Design, generator: &mut PatternGenerator) -> ThresholdPair {
+    let ThresholdInputs { summary_level, .. } = ThresholdInputs::from_camera(part);
+    let blank = ThresholdInputs { summary_level, ..ThresholdAimer::smallest_thresholds() };
     let mut usual = blank;
-    let looks: Vec<PictureScores> = STRUCTURED_PATTERNS
+    let scored: Vec<PatternScores> = STRUCTURED_PATTERNS
         .iter()
-        .map(|texture| studio.score_picture(&texture.draw(side, max, false, random), None, &blank))
+        .map(|&pattern| {
+            generator.draw(pattern);
+            generator.score_drawn(&blank)
+        })
         .collect();
     let is_needed = part.combine() == VoteCombination::All || part.features().len() == 1;
     for (feature, minimum) in usual.min_score.iter_mut().enumerate().take(part.features().len()) {
-        if is_needed && looks.iter().all(|look| look.scores[feature] == 0) {
+        if is_needed && scored.iter().all(|own| own.scores[feature] == 0) {
             *minimum = 0;
         }
     }
@@ -118,24 +123,25 @@ fn smallest_thresholds(
 /// before it.
 pub(super) fn draw_region(
     part: &Design,
-    studio: &mut PictureScorer,
+    generator: &mut PatternGenerator,
     thresholds: &ThresholdInputs,
     number: usize,
-    random: &mut Random,
 ) -> DrawnRegion {
-    let (side, max) = region_shape(part);
-    let flat = TestPattern::Flat.draw(side, max, false, random);
-    let nothing = studio.score_picture(&flat, None, thresholds);
+    let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
+    let negative = |picture: &[u16]| picture.iter().map(|&pixel| max - pixel).collect::<Vec<_>>();
+    let flat = flat_square(part);
+    let nothing = generator.score(&flat, thresholds);
     let least = thresholds.temporal_min_count;
-    let mut pick = |from: usize, before: &PictureScores, wanted: RangeInclusive<u32>| {
+    let mut pick = |from: usize, before: &PatternScores, wanted: RangeInclusive<u32>| {
         for step in 0..2 * TRIALS_PER_PATTERN * STRUCTURED_PATTERNS.len() {
-            let texture = STRUCTURED_PATTERNS
-                [(from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len()];
-            let picture = texture.draw(side, max, step % 2 == 1, random);
-            let look = studio.score_picture(&picture, Some(before), thresholds);
-            let changes = look.changed_pixels_from(before, thresholds);
-            if look.is_relevant && wanted.contains(&changes) {
-                return Some((picture, look));
+            let place = (from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len();
+            generator.draw(STRUCTURED_PATTERNS[place]);
+            let drawn = generator.pixels.clone();
+            let picture = if step % 2 == 1 { negative(&drawn) } else { drawn };
+            let scores = generator.score(&picture, thresholds);
+            let changes = scores.changed_pixels_from(before, thresholds);
+            if scores.is_relevant && wanted.contains(&changes) {
+                return Some((picture, scores));
             }
         }
         None
@@ -143,21 +149,21 @@ pub(super) fn draw_region(
     let all = part.region_pixels();
     // Without a reference every pixel counts as changed.
     let first = pick(number, &nothing, 0..=all);
-    let (first, seen) = first.unwrap_or_else(|| (flat.clone(), nothing.clone()));
+    let (first, first_scores) = first.unwrap_or_else(|| (flat.clone(), nothing.clone()));
     // A change of some pixels is preferred to a change of all.
-    let other = pick(number + 1, &seen, least..=all - 1);
-    let other = other.or_else(|| pick(number + 1, &seen, least..=all));
+    let other = pick(number + 1, &first_scores, least..=all - 1);
+    let other = other.or_else(|| pick(number + 1, &first_scores, least..=all));
     let last = pick(number + 2, &nothing, least..=all).map_or_else(|| first.clone(), |last| last.0);
-    let (other, look) = other.unwrap_or_else(|| {
-        let negative: Vec<u16> = first.iter().map(|&pixel| max - pixel).collect();
-        let look = studio.score_picture(&negative, Some(&seen), thresholds);
-        (negative, look)
+    let (other, scores) = other.unwrap_or_else(|| {
+        let other = negative(&first);
+        let scores = generator.score(&other, thresholds);
+        (other, scores)
     });
-    let (changes, scores) = (look.changed_pixels_from(&seen, thresholds), look.scores);
-    DrawnRegion { first, other, last, scores, changes }
+    let changes = scores.changed_pixels_from(&first_scores, thresholds);
+    DrawnRegion { first, other, last, scores: scores.scores, changes }
 }
 
-fn region_shape(part: &Design) -> (usize, u16) {
-    let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
-    (part.region_size() as usize, max)
+/// Returns the pixels of a flat region.
+pub(super) fn flat_square(part: &Design) -> Vec<u16> {
+    vec![flat_level(part); part.region_pixels() as usize]
 }

@@ -10,11 +10,9 @@
 mod drawn_places;
 mod drawn_region;
 mod grid;
-mod picture_scorer;
 mod player;
 mod script;
 mod tally;
-mod test_pattern;
 mod vector_recorder;
 
 use crate::error::CosimError;
@@ -25,7 +23,6 @@ use foveate_emit::{Prefix, SourceFile, Top};
 use player::ScriptPlayer;
 use script::{BenchScript, MIN_FRAMES_PER_SCRIPT};
 use std::sync::atomic::AtomicBool;
-pub(crate) use test_pattern::TestPattern;
 use vector_recorder::VectorRecorder;
 
 pub use tally::{RegionLosses, VectorTally};

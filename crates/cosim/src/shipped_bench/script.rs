@@ -3,13 +3,11 @@
 //! again, other ones, and flat ones, so that regions become active, are held, and are blanked.
 
 use super::drawn_places::DrawnPlaces;
-use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, threshold_pair};
+use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, flat_square, threshold_pair};
 use super::has_sink;
-use super::picture_scorer::PictureScorer;
-use super::test_pattern::TestPattern;
 use crate::situations::largest_min_count;
 use crate::stimulus::{
-    FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern, StimulusPattern,
+    FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern, StimulusPattern, Texture,
 };
 use foveate_design::{Design, Neighborhood, ThresholdSource as Mode};
 use foveate_frame::Frame;
@@ -112,20 +110,21 @@ struct ScriptWriter<'a> {
     places: DrawnPlaces<'a>,
     /// The regions with structure, in the order of their places.
     regions: Vec<DrawnRegion>,
-    /// The pixels of a flat region.
+    /// The pixels of a flat region, and of one with bars.
     flat: Vec<u16>,
+    bars: Vec<u16>,
 }
 
 impl<'a> ScriptWriter<'a> {
     fn new(part: &'a Design, random: &mut Random) -> Self {
-        let mut scorer = PictureScorer::new(part);
-        let pair = threshold_pair(part, &mut scorer, random);
+        let mut generator = PatternGenerator::new(part, part.region_size(), random.fork());
+        let pair = threshold_pair(part, &mut generator);
         let places = DrawnPlaces::new(part);
         let regions = (0..places.places.len())
-            .map(|number| draw_region(part, &mut scorer, &pair.usual, number, random))
+            .map(|number| draw_region(part, &mut generator, &pair.usual, number))
             .collect();
-        let flat = TestPattern::Flat.draw(places.side, places.max, false, random);
-        Self { part, pair, places, regions, flat }
+        generator.draw(StimulusPattern::Texture(Texture::Rows(2)));
+        Self { part, pair, places, regions, flat: flat_square(part), bars: generator.pixels }
     }
 
     /// Returns a frame in which `square` gives the pixels of each region with structure, by its
@@ -216,13 +215,16 @@ impl<'a> ScriptWriter<'a> {
         self.frame(2, thresholds, |number, _| self.plain_square(summary_level, number, level))
     }
 
-    /// Means are sent, stay twice, and are sent again as soon as they differ by more than the
-    /// level. The same means are sent again behind pixels, and behind a held region.
+    /// Means are sent, also behind pixels of equal means. They stay, and are sent again as soon as
+    /// they differ by more than the level. The same means are sent again behind pixels, and stay
+    /// behind a held region.
     fn means_sequence(&self, level: u32) -> BenchSequence {
         let ThresholdPair { usual, blank } = self.pair;
         let means = |more| self.frame_of_means(level, more, blank);
         let mut frames = vec![self.frame_of_first(0, usual)];
-        frames.extend([0, 0, level, level + 1].map(means));
+        frames.push(means(0));
+        frames.extend(self.frames_of_equal_means());
+        frames.extend([0, level, level + 1].map(means));
         frames.extend([self.frame_of_last(2), means(level + 1)]);
         if self.part.threshold_source() == Mode::Runtime {
             // With a second pass a decision is made with the thresholds of the next frame.
@@ -230,6 +232,14 @@ impl<'a> ScriptWriter<'a> {
             frames.push(self.frame_of_means(level, level + 1, self.without_changes(blank)));
         }
         BenchSequence::drained(frames)
+    }
+
+    /// Returns a frame of bars, and a frame of flat regions whose means are those of the bars.
+    fn frames_of_equal_means(&self) -> [BenchFrame; 2] {
+        let ThresholdPair { usual, blank } = self.pair;
+        let bars = &self.bars;
+        let middle = vec![self.places.max.div_ceil(2); self.flat.len()];
+        [self.frame(2, usual, |_, _| bars.clone()), self.frame(2, blank, |_, _| middle.clone())]
     }
 
     /// The frame before the reset comes again. Then every second region is held beside means that

@@ -43,14 +43,16 @@ use foveate_frame::Frame;
 pub(crate) use frame_feed::FrameFeed;
 pub(crate) use gap_pattern::GapPattern;
 pub(crate) use model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
+pub(crate) use pattern_scorer::PatternScores;
 pub(crate) use random::Random;
 pub(crate) use sequence_end::SequenceEnd;
 use sequence_schedule::SequenceLimits;
 use session::StimulusSession;
 pub(crate) use sink::SinkPattern;
 use std::sync::atomic::AtomicBool;
-pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern};
-pub(crate) use threshold_aimer::ThresholdAim;
+pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern, Texture};
+pub(crate) use threshold_aimer::{ThresholdAim, ThresholdAimer};
+pub(crate) use threshold_ranges::ThresholdRanges;
 pub(crate) use unused_inputs::UnusedInputs;
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.

@@ -2,7 +2,7 @@
 //! The drawing of patterns, with differences and counts near the design's thresholds.
 
 use super::random::Random;
-use super::stimulus_pattern::{PatternGenerator, shift_pixel};
+use super::stimulus_pattern::{PatternGenerator, Texture, shift_pixel};
 
 impl PatternGenerator {
     /// Returns a square whose pixels are a function of the largest pixel and the place.
@@ -61,6 +61,31 @@ impl PatternGenerator {
         let amount = self.random_difference();
         let low = self.random.pixel(self.max - amount);
         if self.random.one_in(2) { (low, low + amount) } else { (low + amount, low) }
+    }
+
+    pub(super) fn texture(&self, texture: Texture) -> Vec<u16> {
+        let side = self.side;
+        self.fill(|max, (x, y)| {
+            let extreme = |is_bright: bool| if is_bright { max } else { 0 };
+            match texture {
+                Texture::Checkers(size) => extreme((x / size + y / size) % 2 == 1),
+                Texture::Columns(width) => extreme(x / width % 2 == 1),
+                Texture::Rows(height) => extreme(y / height % 2 == 1),
+                Texture::Dots(size, period) => extreme(x % period < size && y % period < size),
+                Texture::Halves => extreme(x >= side / 2),
+                Texture::Quadrant => extreme(x < side / 2 && y < side / 2),
+                Texture::Ramp => {
+                    let level = usize::from(max) * (x + y) / (2 * side - 2);
+                    u16::try_from(level).expect("no more than the largest")
+                }
+            }
+        })
+    }
+
+    /// Draws blocks of 2x2 pixels over a square, which they replace.
+    pub(super) fn blocks(&mut self, pixels: Vec<u16>) -> Vec<u16> {
+        let noise = self.map_pixels(pixels, |random, max, _| random.pixel(max));
+        self.fill(|_, (x, y)| noise[y / 2 * 2 * self.side + x / 2 * 2])
     }
 
     pub(super) fn hot_corner(&mut self) -> Vec<u16> {

@@ -1,132 +1,71 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scores of a square of pixels under the configured thresholds, for squares that meet a
-//! minimum exactly. They only affect the choice of vectors; the expected outputs come from the
-//! model.
+//! The scores of squares of pixels, for squares that meet a minimum exactly or are relevant. They
+//! only affect the choice of vectors; the expected outputs come from the model of a core.
 
-use foveate_design::{DenoiseFilter, Design, SpatialFeature};
-use foveate_model::denoising::median;
-use foveate_model::feature::score;
-use foveate_model::window::PixelWindow;
-use foveate_model::{RegionView, changed_pixels};
-use std::ops::Range;
+use foveate_design::{Design, VoteCombination};
+use foveate_model::{RegionScorer, ThresholdInputs};
 
-/// A calculator of the scores of squares of one size.
+/// The border mask of a region that is alone in its frame: it touches all four sides.
+const ALL_SIDES: u8 = 0b1111;
+
+/// A scorer of squares of one size: regions, or regions with their halo.
 #[derive(Clone, Debug)]
 pub(super) struct PatternScorer {
-    scores: Vec<PatternScore>,
-    denoise: bool,
+    scorer: RegionScorer,
     side: usize,
-    /// The width of the halo on each side, in pixels.
-    margin: usize,
+    /// The number of pixels that are added on each side, because pixels beyond the frame repeat its
+    /// border.
+    added: usize,
+    feature_count: usize,
+    combine: VoteCombination,
 }
 
+/// The scores of a square.
 #[derive(Clone, Debug)]
-enum PatternScore {
-    /// The score of a feature.
-    Spatial(SpatialFeature),
-    /// The number of pixels that have changed by more than the level.
-    Changes { level: u32, minimum: u64 },
+pub(crate) struct PatternScores {
+    /// The score of each feature of the design.
+    pub(crate) scores: Vec<u64>,
+    pub(crate) is_relevant: bool,
+    /// The denoised pixels of the region, which are compared from frame to frame.
+    denoised: Vec<u16>,
 }
 
 impl PatternScorer {
     pub(super) fn for_design(design: &Design, side: usize) -> Self {
-        let mut meters = Vec::new();
-        for feature in design.features() {
-            meters.push(PatternScore::Spatial(feature.clone()));
-        }
-        let temporal = design.temporal();
-        let (level, minimum) = (temporal.level, temporal.min_count.into());
-        meters.push(PatternScore::Changes { level, minimum });
-        let margin = side.saturating_sub(design.region_size() as usize) / 2;
-        Self { scores: meters, denoise: design.filter() == DenoiseFilter::Median3x3, side, margin }
-    }
-
-    /// Returns the number of scores.
-    pub(super) fn score_count(&self) -> usize {
-        self.scores.len()
-    }
-
-    /// Returns the minimum of a score.
-    pub(super) fn minimum(&self, meter: usize) -> u64 {
-        match &self.scores[meter] {
-            PatternScore::Spatial(feature) => feature.min_score(),
-            PatternScore::Changes { minimum, .. } => *minimum,
+        Self {
+            scorer: RegionScorer::new(design),
+            side,
+            added: (design.stream_side() as usize).saturating_sub(side) / 2,
+            feature_count: design.features().len(),
+            combine: design.combine(),
         }
     }
 
-    /// Returns a scorer for squares that follow `before`.
-    pub(super) fn followers_of(&self, before: &[u16]) -> FollowerScorer<'_> {
-        FollowerScorer { gauge: self, before: self.denoised(before) }
-    }
-
-    fn denoised(&self, square: &[u16]) -> Vec<u16> {
-        if self.denoise { median_filtered(square) } else { square.to_vec() }
-    }
-}
-
-/// A scorer for squares that follow another square.
-pub(super) struct FollowerScorer<'a> {
-    gauge: &'a PatternScorer,
-    before: Vec<u16>,
-}
-
-impl FollowerScorer<'_> {
-    /// Returns a score of the square `now`.
-    pub(super) fn score(&self, meter: usize, now: &[u16]) -> u64 {
-        let PatternScorer { scores: meters, side, margin, .. } = self.gauge;
-        let own = *margin..side - margin;
-        let now = self.gauge.denoised(now);
-        let seen = FollowerRegion { now: &now, before: &self.before, side: *side, own };
-        match &meters[meter] {
-            // A feature without a level ignores the argument.
-            PatternScore::Spatial(feature) => score(feature, feature.level().unwrap_or(0), &seen),
-            &PatternScore::Changes { level, .. } => changed_pixels(&seen, level).into(),
-        }
+    /// Scores a square, and decides with these thresholds if its region is relevant.
+    pub(super) fn score(&mut self, square: &[u16], thresholds: &ThresholdInputs) -> PatternScores {
+        let (side, added) = (self.side, self.added);
+        let inside = |at: usize| at.saturating_sub(added).min(side - 1);
+        let width = side + 2 * added;
+        let places = (0..width * width).map(|at| (inside(at % width), inside(at / width)));
+        self.scorer.load(places.map(|(x, y)| square[y * side + x]), ALL_SIDES);
+        let scores = self.scorer.scores(None, thresholds)[..self.feature_count].to_vec();
+        let mut votes = scores.iter().zip(&thresholds.min_score).map(|(score, min)| score >= min);
+        let is_relevant = match self.combine {
+            VoteCombination::Any => votes.any(|vote| vote),
+            VoteCombination::All => votes.all(|vote| vote),
+        };
+        PatternScores { scores, is_relevant, denoised: self.scorer.pixels().collect() }
     }
 }
 
-/// The region in the middle of a square that follows another one.
-struct FollowerRegion<'a> {
-    now: &'a [u16],
-    before: &'a [u16],
-    side: usize,
-    /// The columns of the region, and its rows.
-    own: Range<usize>,
-}
-
-impl FollowerRegion<'_> {
-    fn places(&self) -> impl Iterator<Item = usize> {
-        self.own.clone().flat_map(move |y| self.own.clone().map(move |x| y * self.side + x))
+impl PatternScores {
+    /// Returns the number of pixels that differ from an earlier square by more than the temporal
+    /// level.
+    pub(crate) fn changed_pixels_from(&self, before: &Self, thresholds: &ThresholdInputs) -> u32 {
+        let pairs = self.denoised.iter().zip(&before.denoised);
+        let differs = |(now, then): &(&u16, &u16)| {
+            u32::from(now.abs_diff(**then)) > thresholds.temporal_level
+        };
+        u32::try_from(pairs.filter(differs).count()).expect("at most the pixels of a region")
     }
-}
-
-impl RegionView for FollowerRegion<'_> {
-    fn pixel_count(&self) -> u64 {
-        (self.own.len() as u64).pow(2)
-    }
-
-    fn pixels(&self) -> impl Iterator<Item = u16> {
-        self.places().map(|at| self.now[at])
-    }
-
-    fn windows(&self) -> impl Iterator<Item = PixelWindow> {
-        self.places().map(|at| window_at(self.now, at))
-    }
-
-    fn reference(&self) -> Option<impl Iterator<Item = u16>> {
-        Some(self.places().map(|at| self.before[at]))
-    }
-}
-
-/// Returns the window around a pixel of a square; beyond the square its border repeats.
-pub(super) fn window_at(square: &[u16], at: usize) -> PixelWindow {
-    let side = square.len().isqrt();
-    let around = |place: usize| [place.saturating_sub(1), place, (place + 1).min(side - 1)];
-    let (columns, rows) = (around(at % side), around(at / side));
-    std::array::from_fn(|number| square[rows[number / 3] * side + columns[number % 3]])
-}
-
-/// Returns the median of every window.
-pub(super) fn median_filtered(square: &[u16]) -> Vec<u16> {
-    (0..square.len()).map(|at| median(&window_at(square, at))).collect()
 }

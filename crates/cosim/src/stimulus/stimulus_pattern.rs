@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The contents of a region: the hard cases, each drawn into a square of pixels.
 
-use super::pattern_scorer::PatternScorer;
+use super::pattern_scorer::{PatternScorer, PatternScores};
 use super::random::Random;
-use foveate_design::Design;
+use foveate_design::{Design, SpatialFeature};
+use foveate_model::ThresholdInputs;
 
 /// A way to fill a square. Some patterns change the last picture of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,8 +15,8 @@ pub(crate) enum StimulusPattern {
     Max,
     /// All pixels have one random level.
     Flat,
-    /// A checkerboard with squares of one pixel, of 0 and the largest value.
-    Checkerboard,
+    /// A texture of 0 and the largest value.
+    Texture(Texture),
     /// One pixel at a corner, or beside it, is above or below the others by a chosen amount.
     HotCorner,
     /// Two halves that differ by a chosen amount.
@@ -35,6 +36,8 @@ pub(crate) enum StimulusPattern {
     TwoPoint,
     /// Independent random pixels of the whole range.
     Noise,
+    /// Independent random blocks of 2x2 pixels, which a median filter keeps.
+    Blocks,
     /// Independent random pixels of 0 and the largest value.
     Binary,
     /// A random and smooth surface.
@@ -55,6 +58,25 @@ pub(crate) enum StimulusPattern {
     Bump,
     /// The last picture, with one pixel moved.
     MovingPixel,
+}
+
+/// A texture that is a function of the place and the largest pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Texture {
+    /// Squares of `.0` pixels a side, alternately dark and bright.
+    Checkers(usize),
+    /// Dark and bright columns, each `.0` pixels wide.
+    Columns(usize),
+    /// Dark and bright rows, each `.0` pixels high.
+    Rows(usize),
+    /// Bright squares of `.0` pixels a side, with a period of `.1` pixels.
+    Dots(usize, usize),
+    /// A dark left half and a bright right half, which give the largest deviations.
+    Halves,
+    /// One bright quadrant.
+    Quadrant,
+    /// A ramp through all levels, from the upper left to the lower right corner.
+    Ramp,
 }
 
 /// The patterns with which every frame differs from the last one in some regions and not in others.
@@ -91,6 +113,9 @@ pub(crate) struct PatternGenerator {
     pub(super) summary_level: u16,
     /// The number of quadrants drawn so far.
     pub(super) quadrants: usize,
+    /// The configured minima of the scores, and the one of changed pixels behind them.
+    minima: Vec<u64>,
+    configured: ThresholdInputs,
     scorer: PatternScorer,
     pub(crate) pixels: Vec<u16>,
     pub(super) random: Random,
@@ -119,6 +144,7 @@ impl PatternGenerator {
         let near = |level: u32| [level.saturating_sub(1), level, level + 1];
         let changes = [level].into_iter().chain(summary_level).flat_map(near);
         let changes = changes.map(|h| u16::try_from(h).unwrap_or(max).min(max)).collect();
+        let minima = design.features().iter().map(SpatialFeature::min_score);
         let minimum = design.temporal().min_count;
         let mut counts = vec![minimum.saturating_sub(1), minimum, minimum + 1];
         counts.extend(design.features().iter().filter_map(|f| u32::try_from(f.min_score()).ok()));
@@ -134,6 +160,8 @@ impl PatternGenerator {
             changes,
             summary_level: summary_level.map_or(0, |level| u16::try_from(level).unwrap_or(max)),
             quadrants: 0,
+            minima: minima.chain([minimum.into()]).collect(),
+            configured: ThresholdInputs::from_camera(design),
             scorer: PatternScorer::for_design(design, side),
             pixels: vec![0; side * side],
             random,
@@ -141,19 +169,16 @@ impl PatternGenerator {
     }
 
     /// Draws the next picture over the last one.
-    pub(crate) fn draw(&mut self, motif: StimulusPattern) {
+    pub(crate) fn draw(&mut self, pattern: StimulusPattern) {
         let before = std::mem::take(&mut self.pixels);
-        self.pixels = match motif {
+        self.pixels = match pattern {
             StimulusPattern::Zero => self.fill(|_, _| 0),
             StimulusPattern::Max => self.fill(|max, _| max),
             StimulusPattern::Flat => {
                 let level = self.random.pixel(self.max);
                 self.fill(|_, _| level)
             }
-            StimulusPattern::Checkerboard => {
-                let phase = usize::from(self.random.one_in(2));
-                self.fill(|max, (x, y)| if (x + y) % 2 == phase { max } else { 0 })
-            }
+            StimulusPattern::Texture(texture) => self.texture(texture),
             StimulusPattern::HotCorner => self.hot_corner(),
             StimulusPattern::Step => self.step(),
             StimulusPattern::Quadrant => self.quadrant(),
@@ -162,6 +187,7 @@ impl PatternGenerator {
             StimulusPattern::HalfMean => self.half_mean(),
             StimulusPattern::TwoPoint => self.two_point(),
             StimulusPattern::Noise => self.map_pixels(before, |random, max, _| random.pixel(max)),
+            StimulusPattern::Blocks => self.blocks(before),
             StimulusPattern::Binary => {
                 let rarity = self.random.up_to(4) + 2;
                 self.map_pixels(
@@ -192,13 +218,13 @@ impl PatternGenerator {
     }
 
     /// Draws the next picture, then restores as many of the last pixels as needed for one of the
-    /// scores to come as near as possible to its configured minimum, or to one less or more.
-    pub(crate) fn draw_near_minimum(&mut self, motif: StimulusPattern) {
+    /// scores, or for the number of changed pixels, to come as near as possible to its configured
+    /// minimum, or to one less or more.
+    pub(crate) fn draw_near_minimum(&mut self, pattern: StimulusPattern) {
         let before = self.pixels.clone();
-        self.draw(motif);
-        let last = self.scorer.score_count() - 1;
-        let meter = self.random.index(last);
-        let wanted = (self.scorer.minimum(meter) + self.random.up_to(2)).saturating_sub(1);
+        self.draw(pattern);
+        let score_index = self.random.index(self.minima.len() - 1);
+        let wanted = (self.minima[score_index] + self.random.up_to(2)).saturating_sub(1);
         let drawn = std::mem::take(&mut self.pixels);
         let step = self.count.div_ceil(MAX_TRIALS);
         let offset = self.random.index(step);
@@ -208,10 +234,26 @@ impl PatternGenerator {
                 .map(|(at, (&new, &old))| if self.pixel_index(at) < kept { new } else { old })
                 .collect()
         };
-        let trials = (0..=self.count / step).map(|trial| mixed(offset + trial * step));
-        let following = self.scorer.followers_of(&before);
-        let distance = |square: &Vec<u16>| following.score(meter, square).abs_diff(wanted);
-        self.pixels = trials.min_by_key(distance).expect("there is a first trial");
+        let trials: Vec<_> =
+            (0..=self.count / step).map(|trial| mixed(offset + trial * step)).collect();
+        let configured = self.configured;
+        let scores_before = self.score(&before, &configured);
+        let distance = |square: &Vec<u16>| {
+            let now = self.score(square, &configured);
+            let changes = || now.changed_pixels_from(&scores_before, &configured).into();
+            now.scores.get(score_index).copied().unwrap_or_else(changes).abs_diff(wanted)
+        };
+        self.pixels = trials.into_iter().min_by_key(distance).expect("there is a first trial");
+    }
+
+    /// Scores a square, and decides with these thresholds if its region is relevant.
+    pub(crate) fn score(&mut self, square: &[u16], thresholds: &ThresholdInputs) -> PatternScores {
+        self.scorer.score(square, thresholds)
+    }
+
+    /// Scores the picture that was drawn last.
+    pub(crate) fn score_drawn(&mut self, thresholds: &ThresholdInputs) -> PatternScores {
+        self.scorer.score(&self.pixels, thresholds)
     }
 }
 
@@ -228,11 +270,17 @@ mod tests {
     use super::*;
     use foveate_design::DesignConfig;
 
-    const ALL: [StimulusPattern; 21] = [
+    const ALL: [StimulusPattern; 28] = [
         StimulusPattern::Zero,
         StimulusPattern::Max,
         StimulusPattern::Flat,
-        StimulusPattern::Checkerboard,
+        StimulusPattern::Texture(Texture::Checkers(1)),
+        StimulusPattern::Texture(Texture::Columns(2)),
+        StimulusPattern::Texture(Texture::Rows(3)),
+        StimulusPattern::Texture(Texture::Dots(2, 4)),
+        StimulusPattern::Texture(Texture::Halves),
+        StimulusPattern::Texture(Texture::Quadrant),
+        StimulusPattern::Texture(Texture::Ramp),
         StimulusPattern::HotCorner,
         StimulusPattern::Step,
         StimulusPattern::Quadrant,
@@ -241,6 +289,7 @@ mod tests {
         StimulusPattern::HalfMean,
         StimulusPattern::TwoPoint,
         StimulusPattern::Noise,
+        StimulusPattern::Blocks,
         StimulusPattern::Binary,
         StimulusPattern::Smooth,
         StimulusPattern::Same,

@@ -38,7 +38,7 @@ pub(crate) enum ThresholdAim {
 }
 
 /// A source of thresholds near the data.
-pub(super) struct ThresholdAimer {
+pub(crate) struct ThresholdAimer {
     design: Design,
     ranges: ThresholdRanges,
     scorer: RegionScorer,
@@ -157,7 +157,7 @@ impl ThresholdAimer {
     }
 
     /// Returns levels of 0 and minima of 1.
-    pub(super) fn smallest_thresholds() -> ThresholdInputs {
+    pub(crate) fn smallest_thresholds() -> ThresholdInputs {
         ThresholdInputs {
             level: [0; FeatureKind::COUNT],
             min_score: [1; FeatureKind::COUNT],

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds that meet the data: equal to a value, one below and one above.
 
-use super::pattern_scorer::{median_filtered, window_at};
 use super::random::Random;
 use foveate_design::{DenoiseFilter, Design, FeatureKind, SpatialFeature};
 use foveate_model::ThresholdInputs;
+use foveate_model::denoising::median;
 use foveate_model::feature::decisive_level;
 use foveate_model::window::PixelWindow;
 
@@ -190,6 +190,21 @@ impl ThresholdRanges {
         };
     }
 
+    /// Sets minima that the scores meet exactly (`more` is 0), or miss by `more` if the ports are
+    /// wide enough.
+    pub(crate) fn set_minima(
+        &self,
+        (scores, temporal_count): (&[u64], u32),
+        more: u32,
+        thresholds: &mut ThresholdInputs,
+    ) {
+        let minima = thresholds.min_score.iter_mut().zip(scores).zip(&self.min_score);
+        for ((minimum, &score), &max) in minima {
+            *minimum = (score + u64::from(more)).min(max);
+        }
+        thresholds.temporal_min_count = (temporal_count + more).min(self.temporal_min_count);
+    }
+
     /// Sets the minima for scores that are decided at this clock.
     pub(crate) fn aim_minima(
         &self,
@@ -217,6 +232,19 @@ fn value_near(value: u64, max: u64, random: &mut Random) -> u64 {
         _ => 0,
     };
     chosen.min(max)
+}
+
+/// Returns the window around a pixel of a square; beyond the square its border repeats.
+fn window_at(square: &[u16], at: usize) -> PixelWindow {
+    let side = square.len().isqrt();
+    let around = |place: usize| [place.saturating_sub(1), place, (place + 1).min(side - 1)];
+    let (columns, rows) = (around(at % side), around(at / side));
+    std::array::from_fn(|number| square[rows[number / 3] * side + columns[number % 3]])
+}
+
+/// Returns the median of every window.
+fn median_filtered(square: &[u16]) -> Vec<u16> {
+    (0..square.len()).map(|at| median(&window_at(square, at))).collect()
 }
 
 fn random_place(square: &[u16], random: &mut Random) -> usize {

@@ -8,9 +8,11 @@ mod serial;
 
 use super::external_store::StoreFault;
 use super::sequence_end::SequenceEnd;
-use super::stimulus_pattern::StimulusPattern;
+use super::stimulus_pattern::{StimulusPattern, Texture};
 use super::threshold_aimer::ThresholdAim;
 use foveate_design::{Design, Hardware};
+
+const CHECKERBOARD: StimulusPattern = StimulusPattern::Texture(Texture::Checkers(1));
 
 /// A sequence of frames with one property in common.
 #[derive(Clone, Copy, Debug)]

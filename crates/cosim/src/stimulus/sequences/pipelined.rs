@@ -5,7 +5,7 @@ use super::super::drain_timing::settling_clocks;
 use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::*;
 use super::super::threshold_aimer::ThresholdAim;
-use super::{FrameSequence, mean_sequences_around_reset};
+use super::{CHECKERBOARD, FrameSequence, mean_sequences_around_reset};
 use foveate_design::PipelinedDesign;
 
 /// Returns all sequences, the most telling first.
@@ -17,7 +17,7 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<FrameSequence> {
     let cut = |end, sequence| FrameSequence { end, ..sequence };
     let configured = ThresholdAim::Configured;
     let mut list = vec![
-        mixed("extremes", &[Max, Zero, Max, Max, Checkerboard, TwoPoint]),
+        mixed("extremes", &[Max, Zero, Max, Max, CHECKERBOARD, TwoPoint]),
         mixed("noise", &[Noise, Noise, Binary, Noise]),
         aimed(configured, "configured", &[Smooth, Bump, Ramp, Bump, Flat, Same, Step, LightStep]),
         cut(loading, mixed("reset in a frame", &[Noise, Ramp, Noise])),

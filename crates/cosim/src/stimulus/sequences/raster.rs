@@ -5,7 +5,7 @@ use super::super::external_store::StoreFault;
 use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::*;
 use super::super::threshold_aimer::ThresholdAim;
-use super::{FrameSequence, mean_sequences_around_reset};
+use super::{CHECKERBOARD, FrameSequence, mean_sequences_around_reset};
 use foveate_design::{RasterDesign, RasterTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
@@ -20,7 +20,7 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<FrameSequence> {
     let mut sequences = vec![
         FrameSequence {
             is_mixed: false,
-            ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint])
+            ..mixed("extremes", &[Max, Zero, CHECKERBOARD, TwoPoint])
         },
         cut("reset while loading", &[Noise, Ramp], loading),
         FrameSequence {
