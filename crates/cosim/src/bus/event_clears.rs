@@ -5,7 +5,6 @@
 //! A write is taken at every other clock. So each event is tried twice, at clocks of both parities,
 //! and meets a write in one of the two attempts.
 
-use super::frame_source::largest_pixel;
 use super::scenes::{SceneBuilder, taken_frame};
 use super::traffic::{ExpectedEventCount, ExpectedFrame, FrameFate, Traffic};
 use crate::situations::{can_drop_regions, can_drop_rows};
@@ -205,8 +204,7 @@ impl<'a> SceneBuilder<'a> {
 
     /// Sends a transfer that belongs to no whole frame; `sof` marks it as the first of a frame.
     fn stray_transfer(&mut self, traffic: &mut Traffic<'a>, sof: bool) {
-        let (design, most) = (self.design(), largest_pixel(self.design().pixel_bits()));
-        let pixels = vec![most; design.pixels_per_clock() as usize];
+        let pixels = vec![traffic.max_pixel(); self.design().pixels_per_clock() as usize];
         traffic.send_beat(sof, false, &pixels);
     }
 }

@@ -46,8 +46,8 @@ impl<'a> SceneBuilder<'a> {
         seed: u64,
     ) -> Self {
         let mut random = Random::new(seed);
-        let film = BusFrameSource::new(design, &mut random);
-        Self { design, registers, other_registers: others, random, frame_source: film }
+        let frame_source = BusFrameSource::new(design, &mut random);
+        Self { design, registers, other_registers: others, random, frame_source }
     }
 
     /// Returns the scenes that every core must pass.
@@ -202,7 +202,7 @@ impl<'a> SceneBuilder<'a> {
         traffic.set_gaps(0);
         let hold = u64::from(side + 3) * line;
         traffic.send_frame_around(
-            taken_frame(self.frame_source.quiet_frame()),
+            taken_frame(self.frame_source.sparse_frame()),
             2 * side - 1,
             |traffic| traffic.hold_sink(hold),
         );
@@ -217,9 +217,9 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame(taken_frame(self.frame_source.quiet_frame()));
         self.write_passing_thresholds(&mut traffic);
         let camera = self.switch_thresholds(&mut traffic, middle, 0, 1);
-        let next = |film: &mut BusFrameSource| ExpectedFrame {
+        let next = |source: &mut BusFrameSource| ExpectedFrame {
             camera_index: camera,
-            ..taken_frame(film.next())
+            ..taken_frame(source.next())
         };
         traffic.send_frame(next(&mut self.frame_source));
         traffic.send_frame(next(&mut self.frame_source));
@@ -238,9 +238,9 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame_around(next(&mut self.frame_source), middle, |traffic| {
             traffic.write(control, disabled);
         });
-        let left_out = |film: &mut BusFrameSource| ExpectedFrame {
+        let left_out = |source: &mut BusFrameSource| ExpectedFrame {
             fate: FrameFate::LeftOut,
-            ..taken_frame(film.next())
+            ..taken_frame(source.next())
         };
         traffic.send_frame(left_out(&mut self.frame_source));
         let enabled = self.control_bits(&["enable", "wait"]);
@@ -265,7 +265,7 @@ impl<'a> SceneBuilder<'a> {
         for _ in 0..2 {
             traffic.send_frame(ExpectedFrame {
                 camera_index: camera,
-                ..taken_frame(self.frame_source.flickering_frame())
+                ..taken_frame(self.frame_source.dark_frame())
             });
         }
         self.end_session(&mut traffic, 0);

@@ -104,6 +104,11 @@ impl<'a> Traffic<'a> {
         &self.sessions
     }
 
+    /// Returns the largest pixel.
+    pub(super) fn max_pixel(&self) -> u16 {
+        u16::try_from(self.design.pixel_max()).expect("a pixel has at most 16 bits")
+    }
+
     /// Returns the number of transfers of a line.
     pub(super) fn words_per_line(&self) -> usize {
         self.design.width().div_ceil(self.design.pixels_per_clock()) as usize

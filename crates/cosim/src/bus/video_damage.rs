@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Damaged frames, and the frames that the core must make of them, from the table of `docs/axi.md`.
 
-use super::frame_source::largest_pixel;
 use super::traffic::{Traffic, rows};
 use crate::stimulus::Random;
 use foveate_frame::Frame;
@@ -167,9 +166,8 @@ fn send_long_line(traffic: &mut Traffic<'_>, random: &mut Random, row: &[u16], s
 
 /// Sends a transfer that the core must ignore.
 fn send_noise(traffic: &mut Traffic<'_>, random: &mut Random, eol: bool) {
-    let design = traffic.design();
-    let pixels: Vec<u16> = (0..design.pixels_per_clock())
-        .map(|_| random.pixel(largest_pixel(design.pixel_bits())))
-        .collect();
+    let max = traffic.max_pixel();
+    let pixels: Vec<u16> =
+        (0..traffic.design().pixels_per_clock()).map(|_| random.pixel(max)).collect();
     traffic.send_beat(false, eol, &pixels);
 }

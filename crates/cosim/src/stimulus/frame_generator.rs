@@ -8,7 +8,7 @@ use crate::error::CosimError;
 use foveate_frame::Frame;
 
 /// The drawing states of all squares of a frame.
-pub(super) struct FrameGenerator {
+pub(crate) struct FrameGenerator {
     /// The drawing state of each square.
     generators: Vec<PatternGenerator>,
     /// The side of a square, in pixels.
@@ -20,43 +20,43 @@ pub(super) struct FrameGenerator {
 }
 
 impl FrameGenerator {
-    pub(super) fn new(feed: &FrameFeed<'_>, random: &mut Random) -> Self {
+    pub(crate) fn new(feed: &FrameFeed<'_>, random: &mut Random) -> Self {
         let (design, side, size) = (feed.design(), feed.square_side(), feed.size());
         let squares = size.0.div_ceil(side) * size.1.div_ceil(side);
-        let artists =
+        let generators =
             (0..squares).map(|_| PatternGenerator::new(design, side, random.fork())).collect();
-        Self { generators: artists, side, size, bits: design.pixel_bits() }
+        Self { generators, side, size, bits: design.pixel_bits() }
     }
 
     /// Draws the next frame. With `mixed` every region starts at another pattern, and with
     /// `configured` about half of the regions are drawn near a minimum of the design.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &mut self,
-        motifs: &[StimulusPattern],
+        patterns: &[StimulusPattern],
         turn: usize,
         mixed: bool,
         configured: bool,
         random: &mut Random,
     ) {
-        for (region, artist) in self.generators.iter_mut().enumerate() {
+        for (region, generator) in self.generators.iter_mut().enumerate() {
             let shift = if mixed { region } else { 0 };
-            let motif = motifs[(turn + shift) % motifs.len()];
+            let pattern = patterns[(turn + shift) % patterns.len()];
             // `MeanStep` already aims at a threshold.
-            if configured && motif != StimulusPattern::MeanStep && random.one_in(2) {
-                artist.draw_near_minimum(motif);
+            if configured && pattern != StimulusPattern::MeanStep && random.one_in(2) {
+                generator.draw_near_minimum(pattern);
             } else {
-                artist.draw(motif);
+                generator.draw(pattern);
             }
         }
     }
 
     /// Returns the drawn frame.
-    pub(super) fn frame(&self) -> Result<Frame, CosimError> {
+    pub(crate) fn frame(&self) -> Result<Frame, CosimError> {
         let (side, (width, height)) = (self.side, self.size);
         let columns = width.div_ceil(side);
         let pixel = |x: u32, y: u32| {
-            let artist = &self.generators[(y / side * columns + x / side) as usize];
-            artist.pixels[(y % side * side + x % side) as usize]
+            let generator = &self.generators[(y / side * columns + x / side) as usize];
+            generator.pixels[(y % side * side + x % side) as usize]
         };
         Ok(Frame::from_fn(width, height, self.bits, pixel)?)
     }
