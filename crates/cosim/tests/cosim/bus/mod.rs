@@ -3,7 +3,7 @@
 
 pub(crate) mod faults;
 
-use crate::common::{in_parallel, sampled_faults};
+use crate::common::in_parallel;
 use faults::{BusFault, FAULTS};
 use foveate_cosim::{BusJob, CosimReport};
 use foveate_design::{Design, DesignConfig};
@@ -12,7 +12,9 @@ use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;
 
 /// Designs in small frames: words of one pixel and of several, lanes of 8 and of 16 bits, pixels,
-/// means and raw pixels, all stores, and thresholds as ports and as constants.
+/// means and raw pixels, all stores, and thresholds as ports and as constants. The last two are a
+/// core whose regions have an odd number of values, in parts of several values, and whose rows do
+/// not fill a word, and a core whose regions come faster than their places are known.
 pub(crate) const DESIGNS: &[&[&str]] = &[
     &["frame={width=64,height=48}"],
     &["frame={width=70,height=45}", "render.irrelevant='mean'", "hardware.sync=true"],
@@ -52,6 +54,20 @@ pub(crate) const DESIGNS: &[&[&str]] = &[
         "render={irrelevant='mean',payload='raw'}",
         "periphery.blocks=4",
         "hardware.pixels_per_clock=2",
+    ],
+    &[
+        "frame={width=63,height=24}",
+        "region.size=5",
+        "denoise.filter='none'",
+        "spatial=[{feature='variance'}]",
+        "hardware.thresholds='constant'",
+    ],
+    &[
+        "frame={width=64,height=132}",
+        "region.size=4",
+        "denoise.filter='none'",
+        "spatial=[{feature='variance'}]",
+        "hardware.pixels_per_clock=4",
     ],
 ];
 
@@ -93,44 +109,37 @@ fn packets_and_registers_of_cores_on_axi_are_those_of_the_model() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
+/// Every fault is found at the port of the check that it proves.
 #[test]
-fn every_planted_fault_of_the_axi_periphery_is_caught() {
+fn every_kind_of_check_of_the_buses_finds_its_planted_fault() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let faults = sampled_faults(FAULTS, |fault| fault.module);
-    let numbered: Vec<(usize, &BusFault)> = faults.into_iter().enumerate().collect();
+    let numbered: Vec<(usize, &BusFault)> = FAULTS.iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, fault)| {
-        let BusFault { module, from, to, design } = fault;
-        let design = axi_design(design);
+        let BusFault { check, port, design, module, from, to } = fault;
         let path = format!("rtl/{module}.v");
         let mut found = 0;
-        let report = run_bus_job(&design, &output.path().join(number.to_string()), |job| {
+        let folder = output.path().join(number.to_string());
+        let report = run_bus_job(&axi_design(design), &folder, |job| {
             for file in job.sources.iter_mut().filter(|file| file.path == path) {
                 found = file.contents.matches(from).count();
                 file.contents = file.contents.replace(from, to);
             }
         });
+        let named = |problem: String| Err(format!("{module}, {check}: {problem}"));
         match report {
-            _ if found != 1 => Err(format!("{module}: `{from}` is there {found} times")),
-            Err(error) => Err(format!("{module}, `{from}` -> `{to}`: {error}")),
-            // If an event is lost, its situation does not occur.
+            _ if found != 1 => named(format!("`{from}` is there {found} times")),
+            Err(error) => named(error),
             Ok(report) => match &report.mismatch {
-                None if report.situations.missing().is_empty() => {
-                    Err(format!("{module}: not caught: `{from}` -> `{to}`"))
-                }
-                _ => Ok(()),
+                Some(mismatch) if mismatch.port == *port => Ok(()),
+                Some(mismatch) => named(format!("{port} does not differ first: {mismatch}")),
+                None => named("not caught".to_owned()),
             },
         }
     });
-    assert!(
-        failures.is_empty(),
-        "{} of {}:\n{}",
-        failures.len(),
-        numbered.len(),
-        failures.join("\n")
-    );
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
 /// The unchanged cores pass, or the tests above would show nothing.
@@ -140,8 +149,7 @@ fn the_designs_of_the_bus_faults_pass_without_a_fault() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let designs =
-        [faults::SMALL, faults::ODD, faults::MEANS, faults::LAST_SENT, faults::SHORT_REGIONS];
+    let designs = [faults::SMALL, faults::MEANS, faults::LAST_SENT];
     let failures = in_parallel(&designs, |keys| {
         let design = axi_design(keys);
         let report = run_bus_job(&design, &output.path().join(design.fingerprint()), |_| {})?;

@@ -6,9 +6,8 @@ pub(crate) mod vectors;
 
 use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimReport, Simulator, Stimulus};
 use foveate_design::{Design, DesignConfig, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};
-use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -90,16 +89,6 @@ pub(crate) fn check_agreement(
         Ok(report) => Err(format!("{what}: {report}")),
         Err(error) => Err(format!("{what}: {error}")),
     }
-}
-
-/// Returns the faults that every run of the tests plants, from a list that takes long to build: the
-/// first fault of each module, and each eighth of the others; or all if whole lists are taken.
-pub(crate) fn sampled_faults<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
-    let mut seen = BTreeSet::new();
-    let numbered = faults.iter().enumerate();
-    let taken = numbered
-        .filter(|(number, fault)| seen.insert(module(fault)) || number % sampling_step(8) == 0);
-    taken.map(|(_, fault)| fault).collect()
 }
 
 /// Does `work` for every item on all cores, and returns the failures of all items.
