@@ -18,8 +18,8 @@ pub(crate) struct DrainTiming {
 }
 
 impl DrainTiming {
-    /// Returns the number of clocks to wait until everything is decided, or `None` if the core shows
-    /// by its own outputs that everything has left.
+    /// Returns the number of clocks to wait until everything is decided, or `None` if the core
+    /// shows by its own outputs that everything has left.
     pub(super) fn clocks_to_wait(&self) -> Option<u64> {
         (!self.shows_end).then_some(self.settling_clocks)
     }

@@ -32,8 +32,8 @@ pub(super) struct ExternalStore {
     /// The words that were stored and not yet returned, the oldest first.
     words: VecDeque<Vec<u16>>,
     fault: StoreFault,
-    /// The indices of the words that are late, missing or unmarked, counted from the first word that the core
-    /// asks for.
+    /// The indices of the words that are late, missing or unmarked, counted from the first word
+    /// that the core asks for.
     missing: [u64; 2],
     /// The number of words that the core has asked for since reset.
     requested_words: u64,

@@ -7,12 +7,17 @@
 //! sequence ends when everything has left, within a frame or within a flush, so that each reset
 //! finds the core in another state. The vectors follow from the design, the seed and the frames
 //! alone.
+//!
+//! A [`ModelDriver`] drives the ports of the model for every user: for a recording, for the benches
+//! that ship with a core ([`crate::shipped_bench`]) and for its timing diagram. The users differ in
+//! the frames that they choose and in the [`ClockReceiver`] that takes the clocks. The benches, and
+//! the traffic of a core on AXI ([`crate::bus`]), draw their frames with the same patterns.
 
 mod clock_receiver;
-mod damaged_sequence;
 mod decision_predictor;
 mod drain_timing;
 mod external_store;
+mod frame_delivery;
 mod frame_feed;
 mod frame_generator;
 mod frame_parts;
@@ -23,7 +28,6 @@ mod pattern_scorer;
 mod port_thresholds;
 mod random;
 mod sequence_end;
-mod sequence_schedule;
 mod sequences;
 mod session;
 mod sink;
@@ -36,10 +40,10 @@ use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::{Recorder, Recording};
 pub(crate) use clock_receiver::ClockReceiver;
-pub(crate) use damaged_sequence::FrameDelivery;
 pub(crate) use external_store::StoreFault;
 use foveate_design::Design;
 use foveate_frame::Frame;
+pub(crate) use frame_delivery::FrameDelivery;
 pub(crate) use frame_feed::FrameFeed;
 pub(crate) use frame_generator::FrameGenerator;
 pub(crate) use gap_pattern::GapPattern;
@@ -47,8 +51,7 @@ pub(crate) use model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
 pub(crate) use pattern_scorer::PatternScores;
 pub(crate) use random::Random;
 pub(crate) use sequence_end::SequenceEnd;
-use sequence_schedule::SequenceLimits;
-use session::StimulusSession;
+use session::{SequenceLimits, StimulusSession};
 pub(crate) use sink::SinkPattern;
 use std::sync::atomic::AtomicBool;
 pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern, Texture};
@@ -143,13 +146,13 @@ impl Stimulus {
         if self.rounds > 0 {
             recorder.count_situations(&simulated, self.level.top());
         }
-        let plan = (self.seed, self.extent(&simulated), is_left_out);
+        let plan = (self.seed, self.limits(&simulated), is_left_out);
         StimulusSession::new((design, &simulated), self.level, plan, &mut recorder, cancel)
             .run(&self.frames, progress)?;
         recorder.finish()
     }
 
-    fn extent(&self, simulated: &Design) -> SequenceLimits {
+    fn limits(&self, simulated: &Design) -> SequenceLimits {
         let sequence = FRAMES_OF_A_SEQUENCE * simulated.timing().clocks_per_frame().max(1);
         let fit = |clocks: u64| usize::try_from(clocks / sequence).unwrap_or(usize::MAX);
         let most =

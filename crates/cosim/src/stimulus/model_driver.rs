@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The driver of the ports of a model: it offers frames clock by clock, simulates what surrounds the
-//! core, and hands every clock to a receiver.
+//! The driver of the ports of a model: it offers frames clock by clock, simulates what surrounds
+//! the core, and hands every clock to a receiver.
 
 use super::clock_receiver::ClockReceiver;
-use super::damaged_sequence::FrameDelivery;
 use super::drain_timing::DrainTiming;
 use super::external_store::{ExternalStore, StoreFault};
+use super::frame_delivery::FrameDelivery;
 use super::frame_feed::FrameFeed;
 use super::gap_pattern::GapPattern;
 use super::port_thresholds::PortThresholds;
@@ -315,8 +315,8 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         (0..clocks).try_for_each(|_| self.clock_without_intake(None))
     }
 
-    /// Simulates one clock at which nothing is taken, or all clocks until an output changes if their
-    /// inputs are the same.
+    /// Simulates one clock at which nothing is taken, or all clocks until an output changes if
+    /// their inputs are the same.
     pub(super) fn clock_without_intake(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
         if self.core.is_ready() {
             return self.idle(1);
@@ -334,8 +334,8 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         (0..clocks).try_for_each(|_| self.clock(false, false, None, None))
     }
 
-    /// Simulates one edge. Without pixels the port has unused values, and without a mark the mark is
-    /// unused.
+    /// Simulates one edge. Without pixels the port has unused values, and without a mark the mark
+    /// is unused.
     fn clock(
         &mut self,
         reset: bool,

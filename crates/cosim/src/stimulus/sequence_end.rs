@@ -38,7 +38,8 @@ pub(crate) enum SequenceEnd {
 }
 
 impl<Receiver: ClockReceiver> ModelDriver<'_, Receiver> {
-    /// Brings the core to the state in which the next reset is to find it; `last` is the last frame.
+    /// Brings the core to the state in which the next reset is to find it; `last` is the last
+    /// frame.
     pub(crate) fn end_sequence(
         &mut self,
         end: SequenceEnd,

@@ -2,9 +2,6 @@
 //! The state of a recording: it draws the frames of each sequence and offers them to the core.
 
 use super::clock_receiver::ClockReceiver;
-use super::damaged_sequence::{
-    DamagedSequence, DamagedSequenceEnd, DirectedSequence, FrameDelivery, directed_sequences,
-};
 use super::frame_feed::FrameFeed;
 use super::frame_generator::FrameGenerator;
 use super::frame_parts::FramePart;
@@ -12,10 +9,8 @@ use super::gap_pattern::GapPattern;
 use super::model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
 use super::random::Random;
 use super::sequence_end::SequenceEnd;
-use super::sequence_schedule::{SequenceLimits, SequenceSchedule};
 use super::sequences::{FrameSequence, sequences};
 use super::sink::SinkPattern;
-use super::stimulus_pattern::VARYING_PATTERNS;
 use super::unused_inputs::UnusedInputs;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
@@ -23,6 +18,22 @@ use crate::recording::Recorder;
 use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
 use std::sync::atomic::AtomicBool;
+
+/// The number of directed sequences that are recorded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SequenceLimits {
+    /// The number of rounds.
+    pub(super) rounds: u32,
+    /// The largest number of directed sequences per round, from the first on.
+    pub(super) max_sequences: usize,
+}
+
+impl SequenceLimits {
+    /// Returns true if some sequences may be left out.
+    fn is_brief(self) -> bool {
+        self.max_sequences != usize::MAX
+    }
+}
 
 /// The number that is added to the turns of the sinks of a recording with few sequences: its first
 /// sink that stalls is then the one that loses most regions.
@@ -39,7 +50,7 @@ pub(super) struct StimulusSession<'a> {
     has_border: bool,
     random: Random,
     frame_generator: FrameGenerator,
-    extent: SequenceLimits,
+    limits: SequenceLimits,
     is_left_out: fn(&str) -> bool,
 }
 
@@ -47,7 +58,7 @@ impl<'a> StimulusSession<'a> {
     pub(super) fn new(
         (whole, design): (&'a Design, &'a Design),
         level: CosimLevel,
-        (seed, extent, is_left_out): (u64, SequenceLimits, fn(&str) -> bool),
+        (seed, limits, is_left_out): (u64, SequenceLimits, fn(&str) -> bool),
         recorder: &'a mut Recorder,
         cancel: &'a AtomicBool,
     ) -> Self {
@@ -66,32 +77,37 @@ impl<'a> StimulusSession<'a> {
             has_border,
             random,
             frame_generator,
-            extent,
+            limits,
             is_left_out,
         }
     }
 
+    /// Records all sequences: the directed ones in every round, then the parts of the caller's
+    /// frames. `progress` gets the number of finished sequences and the number of all.
     pub(super) fn run(
         &mut self,
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
         let parts = FramePart::all_of(self.whole, self.design, self.level, frames.len());
-        let given = |session: &mut Self, number, part: FramePart| {
-            session.play_caller_part(number, &part, frames)
-        };
-        let mut sequences = sequences(self.design);
-        sequences.retain(|sequence| !(self.is_left_out)(sequence.name));
-        let directed = &directed_sequences(&sequences, self.driver.has_frame_sync());
-        let turns = SequenceSchedule { extent: self.extent, directed, caller_parts: parts };
-        let play = |session: &mut Self,
-                    sequence: &DirectedSequence<FrameSequence>,
-                    round,
-                    number| match sequence {
-            DirectedSequence::Usual(sequence) => session.play_directed(sequence, round, number),
-            DirectedSequence::Damaged(sequence) => session.play_damaged(sequence, round, number),
-        };
-        turns.record(self, play, given, progress)
+        let mut directed = sequences(self.design, self.driver.has_frame_sync());
+        directed.retain(|sequence| !(self.is_left_out)(sequence.name));
+        directed.truncate(self.limits.max_sequences);
+        let total = u64::from(self.limits.rounds) * directed.len() as u64 + parts.len() as u64;
+        let mut finished = 0..=total;
+        let mut advance = || progress(finished.next().unwrap_or(total), total);
+        advance();
+        for round in 0..self.limits.rounds as usize {
+            for (number, sequence) in directed.iter().enumerate() {
+                self.play_directed(sequence, round, number)?;
+                advance();
+            }
+        }
+        for (number, part) in parts.iter().enumerate() {
+            self.play_caller_part(number, part, frames)?;
+            advance();
+        }
+        Ok(())
     }
 
     /// Plays one directed sequence. Gaps and sinks differ from sequence to sequence and from round
@@ -107,35 +123,31 @@ impl<'a> StimulusSession<'a> {
             SequenceEnd::BeforeLoss => GapPattern::None,
             _ => gaps_of_turn(round + number),
         };
-        let turn = round + number / GapPattern::IN_TURN.len();
+        let sink_turn = self.sink_turn(round + number / GapPattern::IN_TURN.len());
         self.name_clocks(sequence.name, 0, None);
         self.driver.begin_sequence(SequenceSurroundings {
             aim: sequence.aim,
-            sink: (sequence.sink_stalls, self.sink_turn(turn)),
+            sink: (sequence.sink_stalls, sink_turn),
             store_fault: sequence.store_fault,
             border: self.border(round + number),
         })?;
-        let last = sequence.patterns.len() - 1;
-        for frame in 0..=last {
-            let configured = self.driver.thresholds_are_configured();
-            let FrameSequence { patterns, is_mixed, .. } = *sequence;
-            let turn = frame + round;
-            self.frame_generator.draw(patterns, turn, is_mixed, configured, &mut self.random);
+        for frame in 0..sequence.frame_count() {
             if frame > 0 {
+                let last = self.frame_generator.frame()?;
+                let drained = Some(&last).filter(|_| sequence.deliveries.is_empty());
+                self.pause_between_frames(drained, gaps)?;
                 self.name_clocks(sequence.name, frame as u64, None);
             }
+            let configured = self.driver.thresholds_are_configured();
+            let (FrameSequence { patterns, is_mixed, .. }, turn) = (*sequence, frame + round);
+            self.frame_generator.draw(patterns, turn, is_mixed, configured, &mut self.random);
             let drawn = self.frame_generator.frame()?;
-            let until = match sequence.end {
-                SequenceEnd::Loading(_) if frame == last => {
-                    // At least one beat is taken, so that the reset comes within the frame.
-                    FrameLimit::Beat(self.random.index(self.beats_per_frame() - 1).max(1))
+            match sequence.deliveries.get(frame) {
+                Some(&delivery) => self.driver.send_damaged_frame(&drawn, delivery, gaps)?,
+                None => {
+                    let limit = self.frame_limit(sequence, frame);
+                    self.driver.send_frame(&drawn, limit, gaps)?;
                 }
-                SequenceEnd::BeforeLoss if frame == last => FrameLimit::BeforeLoss,
-                _ => FrameLimit::WholeFrame,
-            };
-            self.driver.send_frame(&drawn, until, gaps)?;
-            if frame < last {
-                self.pause_between_frames(&drawn, gaps)?;
             }
         }
         let last = self.frame_generator.frame()?;
@@ -145,35 +157,17 @@ impl<'a> StimulusSession<'a> {
         }
     }
 
-    /// Plays a sequence of damaged frames.
-    fn play_damaged(
-        &mut self,
-        sequence: &DamagedSequence,
-        round: usize,
-        number: usize,
-    ) -> Result<(), CosimError> {
-        let gaps = gaps_of_turn(round + number);
-        let sink = (number.is_multiple_of(2), self.sink_turn(round + number));
-        self.name_clocks(sequence.name, 0, None);
-        self.driver.begin_sequence(SequenceSurroundings::of_design(sink, 0))?;
-        for (frame, &delivery) in sequence.deliveries.iter().enumerate() {
-            if frame > 0 {
-                self.name_clocks(sequence.name, frame as u64, None);
-                self.pause_blindly(gaps)?;
-            }
-            let turn = frame + round;
-            self.frame_generator.draw(VARYING_PATTERNS, turn, true, true, &mut self.random);
-            self.driver.send_damaged_frame(&self.frame_generator.frame()?, delivery, gaps)?;
-        }
-        let last = self.frame_generator.frame()?;
+    /// Returns the part of a frame that is taken: all of it, unless the next reset must find the
+    /// core within the last frame.
+    fn frame_limit(&mut self, sequence: &FrameSequence, frame: usize) -> FrameLimit {
+        let is_last = frame + 1 == sequence.frame_count();
         match sequence.end {
-            DamagedSequenceEnd::Drained => self.drain(&last, gaps),
-            DamagedSequenceEnd::AfterLastBeat => self.driver.clocks_without_intake(1),
-            DamagedSequenceEnd::Filling => {
-                self.driver.send_damaged_frame(&last, FrameDelivery::FIRST_BEAT, gaps)?;
-                let clocks = self.random.up_to(2);
-                self.driver.clocks_without_intake(clocks)
+            SequenceEnd::Loading(_) if is_last => {
+                // At least one beat is taken, so that the reset comes within the frame.
+                FrameLimit::Beat(self.random.index(self.beats_per_frame() - 1).max(1))
             }
+            SequenceEnd::BeforeLoss if is_last => FrameLimit::BeforeLoss,
+            _ => FrameLimit::WholeFrame,
         }
     }
 
@@ -190,8 +184,8 @@ impl<'a> StimulusSession<'a> {
         self.driver.begin_sequence(SequenceSurroundings::of_design(sink, part.border))?;
         for (number, frame) in (0..).zip(frames) {
             if number > 0 {
+                self.pause_between_frames(None, gaps)?;
                 self.name_clocks(&part.name, number, part.region);
-                self.pause_blindly(gaps)?;
             }
             let seen = part.extract(self.whole, self.design, frame)?;
             self.driver.send_frame(&seen, FrameLimit::WholeFrame, gaps)?;
@@ -218,7 +212,7 @@ impl<'a> StimulusSession<'a> {
 
     /// Returns the turn of a sink for the turn of a sequence.
     fn sink_turn(&self, turn: usize) -> usize {
-        turn + if self.extent.is_brief() { LOSSY_TURN_OFFSET } else { 0 }
+        turn + if self.limits.is_brief() { LOSSY_TURN_OFFSET } else { 0 }
     }
 
     /// Returns the number of beats of a frame.
@@ -228,13 +222,22 @@ impl<'a> StimulusSession<'a> {
     }
 
     /// Pauses between two frames, or not. A core that shows when everything has left is sometimes
-    /// drained.
-    fn pause_between_frames(&mut self, last: &Frame, gaps: GapPattern) -> Result<(), CosimError> {
-        let shows_end = self.driver.drain_timing().clocks_to_wait().is_none();
-        if shows_end && gaps == GapPattern::Bursts && self.random.one_in(2) {
-            return self.drain(last, gaps);
+    /// drained if the last frame, `drained`, is given.
+    fn pause_between_frames(
+        &mut self,
+        drained: Option<&Frame>,
+        gaps: GapPattern,
+    ) -> Result<(), CosimError> {
+        match (self.driver.drain_timing().clocks_to_wait(), drained) {
+            (Some(settling), _) => {
+                let pause = gaps.between_frames(settling, &mut self.random);
+                self.driver.idle(pause)
+            }
+            (None, Some(last)) if gaps == GapPattern::Bursts && self.random.one_in(2) => {
+                self.drain(last, gaps)
+            }
+            (None, _) => Ok(()),
         }
-        self.pause_blindly(gaps)
     }
 
     /// Lets all pixels leave, about every second time to a sink that is always ready.
@@ -243,13 +246,6 @@ impl<'a> StimulusSession<'a> {
             self.driver.set_sink(SinkPattern::Always);
         }
         self.driver.drain(last, gaps)
-    }
-
-    /// Pauses between two frames of a core that does not show when everything has left.
-    fn pause_blindly(&mut self, gaps: GapPattern) -> Result<(), CosimError> {
-        let Some(settling) = self.driver.drain_timing().clocks_to_wait() else { return Ok(()) };
-        let pause = gaps.between_frames(settling, &mut self.random);
-        self.driver.idle(pause)
     }
 }
 

@@ -302,7 +302,7 @@ mod tests {
     ];
 
     #[test]
-    fn every_motif_stays_in_range_at_every_size_and_depth() {
+    fn every_pattern_stays_in_range_at_every_size_and_depth() {
         for bits in [1, 2, 8, 12, 16] {
             for side in [2, 3, 5, 8, 12, 66] {
                 let mut config = DesignConfig::default();
@@ -310,14 +310,14 @@ mod tests {
                 config.camera.spatial[0].level = Some(1);
                 config.camera.temporal.level = Some(u32::from(bits > 1));
                 let design = config.validate().unwrap();
-                let mut artist =
+                let mut generator =
                     PatternGenerator::new(&design, side, Random::new(u64::from(bits * side)));
                 for round in 0..60 {
-                    artist.draw(ALL[round % ALL.len()]);
+                    generator.draw(ALL[round % ALL.len()]);
                     let count = (side * side) as usize;
-                    assert_eq!(artist.pixels.len(), count);
+                    assert_eq!(generator.pixels.len(), count);
                     let max = design.pixel_max();
-                    assert!(artist.pixels.iter().all(|&pixel| u32::from(pixel) <= max));
+                    assert!(generator.pixels.iter().all(|&pixel| u32::from(pixel) <= max));
                 }
             }
         }

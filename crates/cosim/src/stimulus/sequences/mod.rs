@@ -2,11 +2,13 @@
 //! The sequences of a recording: each has a reset, some frames, a pattern of gaps, and the state in
 //! which the next reset finds the core.
 
+mod damaged;
 mod pipelined;
 mod raster;
 mod serial;
 
 use super::external_store::StoreFault;
+use super::frame_delivery::FrameDelivery;
 use super::sequence_end::SequenceEnd;
 use super::stimulus_pattern::{StimulusPattern, Texture};
 use super::threshold_aimer::ThresholdAim;
@@ -21,6 +23,8 @@ pub(super) struct FrameSequence {
     pub(super) name: &'static str,
     /// The patterns of the regions, frame by frame.
     pub(super) patterns: &'static [StimulusPattern],
+    /// The damage of each frame. If it is empty, all frames are whole, one for each pattern.
+    pub(super) deliveries: &'static [FrameDelivery],
     /// True if every region starts at another pattern.
     pub(super) is_mixed: bool,
     /// The state of the core at the end of the sequence.
@@ -34,21 +38,30 @@ pub(super) struct FrameSequence {
 }
 
 impl FrameSequence {
+    /// Returns the number of frames.
+    pub(super) fn frame_count(&self) -> usize {
+        if self.deliveries.is_empty() { self.patterns.len() } else { self.deliveries.len() }
+    }
+
     /// A sequence whose regions show different patterns, with thresholds that meet them exactly; at
     /// the end everything leaves.
-    const fn with_exact_thresholds(name: &'static str, motifs: &'static [StimulusPattern]) -> Self {
-        Self::with_aim(ThresholdAim::Exact, name, motifs)
+    const fn with_exact_thresholds(
+        name: &'static str,
+        patterns: &'static [StimulusPattern],
+    ) -> Self {
+        Self::with_aim(ThresholdAim::Exact, name, patterns)
     }
 
     /// A sequence like that of `mixed`, with another choice of thresholds.
     const fn with_aim(
         aim: ThresholdAim,
         name: &'static str,
-        motifs: &'static [StimulusPattern],
+        patterns: &'static [StimulusPattern],
     ) -> Self {
         Self {
             name,
-            patterns: motifs,
+            patterns,
+            deliveries: &[],
             is_mixed: true,
             end: SequenceEnd::Drained,
             aim,
@@ -60,10 +73,10 @@ impl FrameSequence {
     /// A sequence with as many relevant regions as possible, which ends at `end`.
     const fn ending_at(
         name: &'static str,
-        motifs: &'static [StimulusPattern],
+        patterns: &'static [StimulusPattern],
         end: SequenceEnd,
     ) -> Self {
-        Self { end, ..Self::with_aim(ThresholdAim::Smallest, name, motifs) }
+        Self { end, ..Self::with_aim(ThresholdAim::Smallest, name, patterns) }
     }
 }
 
@@ -88,11 +101,16 @@ const fn mean_sequences_around_reset() -> [FrameSequence; 2] {
     ]
 }
 
-/// Returns all sequences of a design, the most telling first.
-pub(super) fn sequences(design: &Design) -> Vec<FrameSequence> {
-    match design.hardware() {
+/// Returns all sequences of a design, the most telling first. Sequences of damaged frames are behind
+/// the others, if the simulated hardware synchronizes to the start of a frame.
+pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSequence> {
+    let mut sequences = match design.hardware() {
         Hardware::Pipelined(own) => pipelined::sequences(design.with_hardware(own)),
         Hardware::Serial(own) => serial::sequences(design.with_hardware(own)),
         Hardware::Raster(own) => raster::sequences(design.with_hardware(own)),
+    };
+    if has_frame_sync {
+        sequences.extend(damaged::sequences());
     }
+    sequences
 }
