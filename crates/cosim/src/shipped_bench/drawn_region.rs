@@ -68,8 +68,8 @@ impl DrawnRegion {
 }
 
 /// Returns the thresholds of the design if some patterns lead to all kinds of regions under them.
-/// Otherwise, if thresholds are inputs, it returns the smallest ones that distinguish a pattern from
-/// a flat region.
+/// Otherwise, if thresholds are inputs, it returns the smallest ones that distinguish a pattern
+/// from a flat region.
 pub(super) fn threshold_pair(part: &Design, generator: &mut PatternGenerator) -> ThresholdPair {
     let own = ThresholdInputs::from_camera(part);
     let configured = ThresholdPair { usual: own, blank: own };

@@ -18,7 +18,7 @@ mod vector_recorder;
 use crate::error::CosimError;
 use crate::harness::{annotated_bench, bench_file};
 use crate::level::CosimLevel;
-use foveate_design::{ArrayStructure, Design, Port, StreamRole};
+use foveate_design::{ArrayStructure, Design, Port};
 use foveate_emit::{Prefix, SourceFile, Top};
 use player::ScriptPlayer;
 use script::{BenchScript, MIN_FRAMES_PER_SCRIPT};
@@ -160,12 +160,6 @@ impl BenchVectors {
         let (tally, clocks, vectors) = tape.finish()?;
         Ok(Self { tally, clocks, vectors, is_played })
     }
-}
-
-/// Returns true if a sink takes the pixels that leave, and may stall.
-fn has_sink(design: &Design) -> bool {
-    let interface = design.rcm_interface();
-    interface.stream(StreamRole::ForwardedPixels).is_some_and(|stream| stream.ready.is_some())
 }
 
 /// Returns true if the frames of a bench take few enough clocks and lines.

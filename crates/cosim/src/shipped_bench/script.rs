@@ -4,8 +4,7 @@
 
 use super::drawn_places::DrawnPlaces;
 use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, flat_square, threshold_pair};
-use super::has_sink;
-use crate::situations::largest_min_count;
+use crate::situations::{has_sink, largest_min_count};
 use crate::stimulus::{
     FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern, StimulusPattern, Texture,
 };
@@ -25,8 +24,8 @@ const NEAR_THRESHOLD_PATTERNS: [StimulusPattern; 4] =
 /// The number of frames whose shapes cross the borders of regions.
 const WIDE_FRAMES: u32 = 8;
 
-/// The deliveries of the damaged frames, with one error of each kind. The frame behind the short one
-/// comes too early, and is dropped.
+/// The deliveries of the damaged frames, with one error of each kind. The frame behind the short
+/// one comes too early, and is dropped.
 const DELIVERIES: [FrameDelivery; 6] = [
     FrameDelivery::Strays,
     FrameDelivery::Whole,

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Counts of what vectors contain, taken from their expected outputs alone.
 
-use super::has_sink;
 use crate::layout::RecordLayout;
-use crate::situations::Occurrences;
-use foveate_design::{Design, PortRole, ThresholdSource, VoteCombination};
+use crate::situations::{Occurrences, can_be_irrelevant, can_hold, can_lose, has_sink};
+use foveate_design::{Design, PortRole};
 use foveate_emit::Top;
 
 /// The smallest number of frames that vectors must contain.
@@ -62,7 +61,7 @@ pub struct RegionLosses {
 pub(super) struct TallyCounter {
     regions: u64,
     region_pixels: u64,
-    never_lost: bool,
+    can_lose: bool,
     tally: VectorTally,
     /// The number of regions that were lost; `aborted` is the region and frame of the last word
     /// with `abort`.
@@ -77,7 +76,7 @@ impl TallyCounter {
         Self {
             regions: part.regions().into(),
             region_pixels: part.region_pixels().into(),
-            never_lost: never_lost(part),
+            can_lose: can_lose(part),
             tally: VectorTally::default(),
             lost: 0,
             last_aborted: None,
@@ -150,7 +149,7 @@ impl TallyCounter {
     }
 
     pub(super) fn finish(self, outputs: &RecordLayout) -> VectorTally {
-        let Self { regions, never_lost, mut tally, zero_lanes: silent, lost, .. } = self;
+        let Self { regions, can_lose, mut tally, zero_lanes: silent, lost, .. } = self;
         let RegionLosses { waiting, arriving: stepping, .. } = tally.losses;
         tally.losses.whole = lost.saturating_sub(waiting + stepping);
         tally.frames = (tally.active + tally.held + tally.blank) / regions.max(1);
@@ -159,7 +158,7 @@ impl TallyCounter {
             // The number of the only region is always 0.
             let is_numbered = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
             let is_loss = is_loss_role(port.role);
-            if (is_numbered && regions == 1) || (is_loss && never_lost) {
+            if (is_numbered && regions == 1) || (is_loss && !can_lose) {
                 continue;
             }
             tally.zero_outputs.extend(silent.into_iter().map(|lane| match port.lanes {
@@ -182,16 +181,16 @@ impl VectorTally {
         };
         need(self.frames >= MIN_FRAMES, format!("only {} frames are decided", self.frames));
         need(self.active > 0, "no region is active".to_owned());
-        need(self.held > 0 || always_changed(part), "no region is held".to_owned());
-        need(self.blank > 0 || always_relevant(part), "no region is blank".to_owned());
-        if part.periphery().is_some() && !always_relevant(part) {
+        need(self.held > 0 || !can_hold(part), "no region is held".to_owned());
+        need(self.blank > 0 || !can_be_irrelevant(part), "no region is blank".to_owned());
+        if part.periphery().is_some() && can_be_irrelevant(part) {
             need(self.summaries > 0, "no summary is sent".to_owned());
             need(self.summaries < self.blank, "no summary stays on the screen".to_owned());
         }
         need(self.compared > 0, "nothing is compared with an earlier frame".to_owned());
         let goes_on = self.sync_errors == 0 || self.after_error > u64::from(part.regions());
         need(goes_on, "no frame is decided behind a damaged one".to_owned());
-        if has_sink(part) && !never_lost(part) {
+        if can_lose(part) {
             let RegionLosses { whole, waiting, arriving: stepping, .. } = self.losses;
             need(whole > 0, "no region is lost as a whole".to_owned());
             need(waiting + stepping > 0, "no region is lost in the middle".to_owned());
@@ -253,13 +252,13 @@ impl VectorTally {
 /// Returns what the configuration makes impossible for any pixels, as sentences.
 pub(super) fn impossible_region_remarks(design: &Design) -> Vec<String> {
     let mut list = Vec::new();
-    if always_changed(design) {
+    if !can_hold(design) {
         list.push("No region is ever held: temporal.min_count is 0.".to_owned());
     }
-    if always_relevant(design) {
+    if !can_be_irrelevant(design) {
         list.push("No region is ever blank: a min_score of 0 always votes.".to_owned());
     }
-    if has_sink(design) && never_lost(design) {
+    if has_sink(design) && !can_lose(design) {
         list.push("No region is ever lost: a frame waits for the sink.".to_owned());
     }
     list
@@ -269,23 +268,6 @@ pub(super) fn impossible_region_remarks(design: &Design) -> Vec<String> {
 fn is_loss_role(role: PortRole) -> bool {
     use PortRole::{ForwardAbort, Lost, LostCount, LostFrame, LostRegion, LostValid};
     matches!(role, ForwardAbort | Lost | LostCount | LostValid | LostRegion | LostFrame)
-}
-
-fn never_lost(design: &Design) -> bool {
-    design.timing().departure().buffered_rows.is_none()
-}
-
-fn always_changed(design: &Design) -> bool {
-    design.threshold_source() == ThresholdSource::Constant && design.temporal().min_count == 0
-}
-
-fn always_relevant(design: &Design) -> bool {
-    let mut votes = design.features().iter().map(|feature| feature.min_score() == 0);
-    let always = match design.combine() {
-        VoteCombination::Any => votes.any(|vote| vote),
-        VoteCombination::All => votes.all(|vote| vote),
-    };
-    design.threshold_source() == ThresholdSource::Constant && always
 }
 
 #[cfg(test)]

@@ -17,4 +17,6 @@ mod watched_ports;
 pub(crate) use bus_situations::{BusSituationCounts, EVENTS, can_drop_regions, can_drop_rows};
 pub(crate) use monitor::SituationMonitor;
 pub use occurrence::{Occurrence, Occurrences};
-pub(crate) use port_situations::largest_min_count;
+pub(crate) use port_situations::{
+    can_be_irrelevant, can_hold, can_lose, has_sink, largest_min_count,
+};

@@ -225,7 +225,7 @@ fn is_runtime(design: &Design) -> bool {
 }
 
 /// Returns true if a region can be relevant without a change.
-fn can_hold(design: &Design) -> bool {
+pub(crate) fn can_hold(design: &Design) -> bool {
     is_runtime(design) || design.temporal().min_count > 0
 }
 
@@ -235,7 +235,7 @@ pub(crate) fn largest_min_count(design: &Design) -> u32 {
 }
 
 /// Returns true if a region can be irrelevant.
-fn can_be_irrelevant(design: &Design) -> bool {
+pub(crate) fn can_be_irrelevant(design: &Design) -> bool {
     let mut votes = design.features().iter().map(|feature| feature.min_score() == 0);
     let always = match design.combine() {
         VoteCombination::Any => votes.any(|vote| vote),
@@ -313,7 +313,7 @@ fn forwards_pixels(design: &Design) -> bool {
 }
 
 /// Returns true if a sink takes what leaves, and may stall.
-fn has_sink(design: &Design) -> bool {
+pub(crate) fn has_sink(design: &Design) -> bool {
     match design.hardware() {
         Hardware::Pipelined(_) | Hardware::Serial(_) => false,
         Hardware::Raster(_) => forwards_pixels(design),
@@ -321,7 +321,7 @@ fn has_sink(design: &Design) -> bool {
 }
 
 /// Returns true if a sink that stalls loses regions.
-fn can_lose(design: &Design) -> bool {
+pub(crate) fn can_lose(design: &Design) -> bool {
     has_sink(design) && design.timing().departure().buffered_rows.is_some()
 }
 
