@@ -132,28 +132,35 @@ pub(super) fn draw_region(
     let flat = flat_square(part);
     let nothing = generator.score(&flat, thresholds);
     let least = thresholds.temporal_min_count;
-    let mut pick = |from: usize, before: &PatternScores, wanted: RangeInclusive<u32>| {
-        for step in 0..2 * TRIALS_PER_PATTERN * STRUCTURED_PATTERNS.len() {
-            let place = (from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len();
-            generator.draw(STRUCTURED_PATTERNS[place]);
-            let drawn = generator.pixels.clone();
-            let picture = if step % 2 == 1 { negative(&drawn) } else { drawn };
-            let scores = generator.score(&picture, thresholds);
-            let changes = scores.changed_pixels_from(before, thresholds);
-            if scores.is_relevant && wanted.contains(&changes) {
-                return Some((picture, scores));
+    // The last pixels of a picture are `kept`.
+    let mut pick =
+        |from: usize, before: &PatternScores, wanted: RangeInclusive<u32>, kept: &[u16]| {
+            for step in 0..2 * TRIALS_PER_PATTERN * STRUCTURED_PATTERNS.len() {
+                let place = (from + step / (2 * TRIALS_PER_PATTERN)) % STRUCTURED_PATTERNS.len();
+                generator.draw(STRUCTURED_PATTERNS[place]);
+                let drawn = generator.pixels.clone();
+                let mut picture = if step % 2 == 1 { negative(&drawn) } else { drawn };
+                picture.truncate(picture.len() - kept.len());
+                picture.extend(kept);
+                let scores = generator.score(&picture, thresholds);
+                let changes = scores.changed_pixels_from(before, thresholds);
+                if scores.is_relevant && wanted.contains(&changes) {
+                    return Some((picture, scores));
+                }
             }
-        }
-        None
-    };
+            None
+        };
     let all = part.region_pixels();
     // Without a reference every pixel counts as changed.
-    let first = pick(number, &nothing, 0..=all);
+    let first = pick(number, &nothing, 0..=all, &[]);
     let (first, first_scores) = first.unwrap_or_else(|| (flat.clone(), nothing.clone()));
-    // A change of some pixels is preferred to a change of all.
-    let other = pick(number + 1, &first_scores, least..=all - 1);
-    let other = other.or_else(|| pick(number + 1, &first_scores, least..=all));
-    let last = pick(number + 2, &nothing, least..=all).map_or_else(|| first.clone(), |last| last.0);
+    // A change of some pixels is preferred to a change of all. It shows that there is a reference.
+    let half = &first[first.len() / 2..];
+    let other = pick(number + 1, &first_scores, least..=all - 1, &[])
+        .or_else(|| pick(number + 1, &first_scores, least..=all - 1, half))
+        .or_else(|| pick(number + 1, &first_scores, least..=all, &[]));
+    let last = pick(number + 2, &nothing, least..=all, &[]);
+    let last = last.map_or_else(|| first.clone(), |last| last.0);
     let (other, scores) = other.unwrap_or_else(|| {
         let other = negative(&first);
         let scores = generator.score(&other, thresholds);
