@@ -144,6 +144,11 @@ impl Sink {
             (self.is_ready, self.has_stalled) = (true, ends && !takes);
             return takes;
         }
+        // Only whole regions are lost while no word of the next region has been fetched. The sink
+        // then goes on, and stalls for another region.
+        if self.losses == 0 && core.is_high(PortRole::LostValid) {
+            (self.is_ready, self.has_stalled) = (true, ends);
+        }
         if self.is_ready && ends {
             self.is_ready = std::mem::take(&mut self.has_stalled);
         }
