@@ -125,6 +125,19 @@ impl Engine {
         }
     }
 
+    /// Forgets what a region has sent, because it was lost before it reached the receiver. If
+    /// sending a region makes its reference, the region has no valid reference in the next frame,
+    /// and the screen counts as showing no summary of it. [`Engine::rendered`] does not change.
+    ///
+    /// # Panics
+    /// Panics if the camera has no such region.
+    pub fn forget_region(&mut self, region: u32) {
+        match &mut self.lanes {
+            LaneCore::Bytes(core) => core.forget_region(region),
+            LaneCore::Words(core) => core.forget_region(region),
+        }
+    }
+
     /// Takes the next frame in the model's type. This copies a frame of up to 8 bits per pixel;
     /// [`Engine::step_u8`] does not.
     ///

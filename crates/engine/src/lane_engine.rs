@@ -11,7 +11,7 @@ use crate::change;
 use crate::change_search::{ChangeSearch, KnownChanges};
 use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::BorrowedFrame;
-use crate::plan::CameraPlan;
+use crate::plan::{CameraPlan, index};
 use crate::policy::{SAMPLE_DISTANCE, SearchPolicy, SearchStep};
 use crate::screens::KeptScreen;
 use crate::state_copy::{EngineState, StateCopy};
@@ -37,6 +37,8 @@ pub(crate) struct LaneEngine<T: PixelLane> {
     summary_shown: Vec<bool>,
     means: Vec<T>,
     settled: Vec<bool>,
+    /// The regions that were forgotten since the last frame.
+    forgotten: Vec<bool>,
     /// The last frame without padding. It is kept up to date while the policy asks for it.
     last_frame: Vec<T>,
     /// One flag per region and frame, in the order band, frame, column; true if pixels of the
@@ -81,6 +83,7 @@ impl<T: PixelLane> LaneEngine<T> {
             summary_shown: vec![false; if plan.periphery.is_some() { plan.regions() } else { 0 }],
             means: vec![T::default(); plan.rows * plan.band_means()],
             settled: vec![false; plan.rows],
+            forgotten: vec![false; plan.regions()],
             last_frame: vec![T::default(); if skip { plan.width * plan.height } else { 0 }],
             changed_regions: Vec::new(),
             policy: SearchPolicy::new(skip),
@@ -96,6 +99,7 @@ impl<T: PixelLane> LaneEngine<T> {
         self.black_regions.fill(true);
         self.summary_shown.fill(false);
         self.settled.fill(false);
+        self.forgotten.fill(false);
         self.screen.fill(T::default());
         if let Some(copy) = &mut self.state_copy {
             *copy = StateCopy::default();
@@ -111,6 +115,16 @@ impl<T: PixelLane> LaneEngine<T> {
     /// Appends the means that a region sent last.
     pub(crate) fn summary(&self, region: u32, means: &mut Vec<u16>) {
         self.plan.means_of(&self.means, region, means);
+    }
+
+    /// Forgets what a region has sent. The next frame computes it even if its pixels are the same.
+    pub(crate) fn forget_region(&mut self, region: u32) {
+        let region = index(region);
+        self.forgotten[region] = true;
+        self.reference_valid[region] &= !self.plan.reference.is_lost_with_its_region();
+        if self.plan.periphery.is_some() {
+            self.summary_shown[region] = false;
+        }
     }
 
     /// Turns the copy of the state before every step on or off.
@@ -247,6 +261,7 @@ impl<T: PixelLane> LaneEngine<T> {
         let (mut valid, mut black) = (&mut self.reference_valid[..], &mut self.black_regions[..]);
         let (mut shown, mut means) = (&mut self.summary_shown[..], &mut self.means[..]);
         let (mut settled, mut screen) = (&mut self.settled[..], &mut self.screen[..]);
+        let mut forgotten = &mut self.forgotten[..];
         let mut results = outcome.results();
         let KeptBuffers { outcomes, screens } = kept_buffers;
         let screens = screens.iter_mut();
@@ -275,6 +290,7 @@ impl<T: PixelLane> LaneEngine<T> {
                 summary_shown: split_off(&mut shown, regions),
                 means: split_off(&mut means, bands.len() * plan.band_means()),
                 is_settled: split_off(&mut settled, bands.len()),
+                forgotten: split_off(&mut forgotten, regions),
                 bands,
                 results: results.split_off(regions),
                 kept: kept.collect(),

@@ -62,6 +62,9 @@ pub(crate) struct BandStrip<'a, T: PixelLane> {
     /// One flag per band: the same raw pixels once more would change no result, reference or pixel
     /// of the screen.
     pub(crate) is_settled: &'a mut [bool],
+    /// The regions that were forgotten before the first frame. They are computed in that frame even
+    /// if their pixels have not changed.
+    pub(crate) forgotten: &'a mut [bool],
     /// The results of the last frame.
     pub(crate) results: RegionResults<'a>,
     /// The kept results of each frame, or empty.
@@ -116,7 +119,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
         let rows = row * plan.side * plan.stride()..(row + 1) * plan.side * plan.stride();
         let regions = row * plan.columns..(row + 1) * plan.columns;
         let lines = row * plan.side * plan.width;
-        self.select_runs(frame, number);
+        self.select_runs(frame, number, regions.clone());
         let is_still = self.scratch.runs.is_empty();
         if is_still && self.is_settled[row] {
             return;
@@ -162,13 +165,16 @@ impl<T: PixelLane> BandStrip<'_, T> {
         renderer.apply_actions::<PERIPHERY>(plan, raw, number, results.actions);
     }
 
-    /// Chooses the runs of band `number` that have to be computed.
+    /// Chooses the runs of band `number`, which has these regions of the strip, that have to be
+    /// computed.
     #[inline(always)]
-    fn select_runs(&mut self, frame: usize, number: usize) {
+    fn select_runs(&mut self, frame: usize, number: usize, regions: Range<usize>) {
         let (plan, scratch) = (self.plan, &mut *self.scratch);
+        let forgotten = &mut self.forgotten[regions];
         match self.changes.changed_around(plan, frame, number) {
             Some(changed) => {
                 change::mark_affected(plan, changed, &mut scratch.affected);
+                scratch.affected.iter_mut().zip(&*forgotten).for_each(|(own, &lost)| *own |= lost);
                 change::collect_runs(plan, &scratch.affected, &mut scratch.runs);
                 let computed: usize = scratch.runs.iter().map(Range::len).sum();
                 let skipped = scratch.affected.iter().filter(|affected| !**affected).count();
@@ -181,6 +187,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
                 scratch.runs.push(0..plan.blocks);
             }
         }
+        forgotten.fill(false);
     }
 
     /// Copies a band of the screen to the kept screen while it is in the cache.
