@@ -177,6 +177,36 @@ impl Engine {
         }
     }
 
+    /// Takes the next frame, whose rows follow each other without a gap.
+    ///
+    /// # Errors
+    /// Fails as [`Engine::check_pixels`] does. The state is unchanged then.
+    pub fn step_pixels(&mut self, pixels: FramePixels<'_>) -> Result<&FrameOutcome, EngineError> {
+        let width = index(self.camera.width());
+        match pixels {
+            FramePixels::Bytes(pixels) => self.step_u8(pixels, width),
+            FramePixels::Words(pixels) => self.step_u16(pixels, width),
+        }
+    }
+
+    /// Checks that pixels whose rows follow each other without a gap are a frame of the camera.
+    ///
+    /// # Errors
+    /// Fails if the pixels have the wrong type or number, or if one of them is out of range.
+    pub fn check_pixels(&self, pixels: FramePixels<'_>) -> Result<(), EngineError> {
+        let width = index(self.camera.width());
+        match (&self.lanes, pixels) {
+            (LaneCore::Bytes(_), FramePixels::Bytes(pixels)) => {
+                BorrowedFrame::new_checked(&self.camera, pixels, width).map(|_| ())
+            }
+            (LaneCore::Words(_), FramePixels::Words(pixels)) => {
+                BorrowedFrame::new_checked(&self.camera, pixels, width).map(|_| ())
+            }
+            (LaneCore::Bytes(_), FramePixels::Words(_)) => Err(self.wrong_lanes("u8", "u16")),
+            (LaneCore::Words(_), FramePixels::Bytes(_)) => Err(self.wrong_lanes("u16", "u8")),
+        }
+    }
+
     fn check_size_and_depth(&self, given: (u32, u32, u32)) -> Result<(), EngineError> {
         let expected = (self.camera.width(), self.camera.height(), self.camera.pixel_bits());
         if given == expected {

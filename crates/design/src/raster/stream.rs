@@ -166,7 +166,7 @@ impl RasterStreamTiming {
         let entered = decided + self.clock;
         let oldest = entered + self.ticks(self.timing.queue_latency.into());
         let held = self.last_fetch_time.max(self.next_hold_time).max(oldest);
-        self.next_hold_time = held + self.ticks(2);
+        self.next_hold_time = held + self.ticks(self.timing.hold_interval.into());
         self.last_fetch_time = held + self.ticks(words.into());
         self.last_fetch_time + self.clock
     }

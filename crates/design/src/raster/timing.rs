@@ -11,6 +11,8 @@ use crate::{
 /// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
 /// the queue, without a second pass.
 const STALL_MARGIN: u32 = 1;
+/// Least number of clocks between the edges at which the readout holds two regions.
+const HOLD_INTERVAL: u32 = 2;
 
 /// The timing of a raster core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +45,9 @@ pub struct RasterTiming {
     /// Least number of clocks from the edge at which an active region enters the queue to the edge
     /// at which the readout holds it.
     pub queue_latency: u32,
+    /// Least number of clocks from the edge at which the readout holds a region to the edge at which
+    /// it holds the next.
+    pub hold_interval: u32,
     /// True if the pixels of active regions leave.
     pub has_forwarding: bool,
     /// The timing of the second pass, for designs with `mad` only.
@@ -111,6 +116,7 @@ impl RasterTiming {
             decision_latency: store_latency + after_store + score_latency,
             buffer_rows,
             queue_latency,
+            hold_interval: HOLD_INTERVAL,
             has_forwarding: design.has_forwarding(),
             second_pass,
             summary_words: design.periphery().map(Periphery::mean_count),
@@ -344,7 +350,8 @@ impl RasterTiming {
     }
 
     /// Returns the number of words of a row of regions, N*L.
-    fn words_per_region_row(&self) -> u64 {
+    #[must_use]
+    pub fn words_per_region_row(&self) -> u64 {
         let rows = u64::from(self.region_words / self.region_row_words);
         rows * u64::from(self.row_words)
     }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The errors of the timed model.
+
+use foveate_engine::EngineError;
+use thiserror::Error;
+
+/// The error that is returned if a delivery is not possible. The state is unchanged then.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TimedError {
+    /// The pixels are not a frame of the camera.
+    #[error(transparent)]
+    Frame(#[from] EngineError),
+    /// A design that does not find its frames needs whole frames.
+    #[error(
+        "the source delivers {given} beats, but a frame has {expected}; deliver whole frames, or \
+         set hardware.sync = true"
+    )]
+    Beats {
+        /// The number of beats of the delivery.
+        given: u64,
+        /// The number of beats of a frame.
+        expected: u64,
+    },
+    /// The source delivers nothing.
+    #[error("a delivery has 0 beats; it needs at least one")]
+    NoBeats,
+    /// The pauses of the source are not in the order of the beats.
+    #[error(
+        "the pause before beat {beat} is listed after that before beat {before}; list pauses in \
+         the order of the beats"
+    )]
+    OfferOrder {
+        /// The beat that comes too late in the list.
+        beat: u64,
+        /// The beat before it in the list.
+        before: u64,
+    },
+    /// The reset belongs to an earlier delivery.
+    #[error(
+        "the reset at edge {reset} comes before edge {earliest}, at which the core could take the \
+         delivery; give it to the delivery before"
+    )]
+    EarlyReset {
+        /// The edge of the reset.
+        reset: u64,
+        /// The first edge at which this delivery can have a reset.
+        earliest: u64,
+    },
+}

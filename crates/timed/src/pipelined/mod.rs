@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A pipelined array, by `docs/timing.md`. All RPUs do the same at every clock, except that they
+//! decide differently.
+
+mod array;
+mod tail;
+mod window;
+
+pub(crate) use array::PipelinedCore;

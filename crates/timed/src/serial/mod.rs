@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A serial array, by `docs/serial.md`.
+
+mod array;
+mod intake;
+mod slot;
+
+pub(crate) use array::SerialCore;
