@@ -2,7 +2,7 @@
 //! Measures the timed model and the cycle models on one thread, over the same frames: a moving
 //! pattern with noise, or dense random pixels as in `foveate bench`.
 //!
-//! `cargo run --release -p foveate-timed --example speed`
+//! `cargo run --release -p foveate-timed --example speed [PART OF A NAME]`
 #![allow(clippy::print_stdout, clippy::expect_used, clippy::unwrap_used, reason = "an example")]
 #![allow(clippy::cast_precision_loss, reason = "rates have three digits")]
 
@@ -40,7 +40,8 @@ const FRAMES: u32 = 8;
 const TIME: Duration = Duration::from_secs(2);
 
 fn main() {
-    for (name, toml) in DESIGNS {
+    let wanted = std::env::args().nth(1).unwrap_or_default();
+    for (name, toml) in DESIGNS.into_iter().filter(|(name, _)| name.contains(&wanted)) {
         let config = DesignConfig::from_toml(toml).expect("valid keys");
         let design = config.validate().expect("a valid design");
         for (content, is_random) in [("pattern", false), ("random", true)] {

@@ -24,7 +24,9 @@ pub struct BeatOffer {
 pub struct FrameDelivery<'a> {
     /// The pixels of the frame as the core sees them, without padding. In a damaged frame, the
     /// pixels that the source does not deliver are those that stand on the port while the core
-    /// completes the frame. The pixels of a frame that the core drops have no effect.
+    /// completes the frame. Where a core takes the halo or the padding of a region with its pixels,
+    /// such a frame may differ from every whole frame; then only the clocks of its decisions are
+    /// those of the core. The pixels of a frame that the core drops have no effect.
     pub pixels: FramePixels<'a>,
     /// The number of beats that the source delivers, or `None` for those of a frame. Other numbers
     /// need a design with `hardware.sync`.

@@ -90,6 +90,9 @@ pub(crate) fn event_kinds(recordings: &[(Design, RecordedRun)]) -> BTreeSet<&'st
     kinds
 }
 
+/// A planted fault: its name, and the change that it makes.
+pub(crate) type PlantedFault<T> = (&'static str, fn(&mut T));
+
 /// Returns the number of recordings that differ from a timed model with a faulty timing.
 pub(crate) fn found_faults(
     recordings: &[(Design, RecordedRun)],

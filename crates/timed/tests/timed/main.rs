@@ -15,7 +15,9 @@ mod comparison;
 mod driver;
 mod event;
 mod frame_beats;
+mod memory;
 mod observed_core;
+mod page_examples;
 #[allow(dead_code, reason = "the oracle of the model's tests uses the rest")]
 #[path = "../../../model/tests/model/parameters.rs"]
 mod parameters;
@@ -24,6 +26,7 @@ mod raster;
 #[allow(dead_code, reason = "the oracle of the model's tests uses the rest")]
 #[path = "../../../model/tests/model/raster/raster_parameters.rs"]
 mod raster_parameters;
+mod refusals;
 mod serial;
 #[allow(dead_code, reason = "the oracle of the model's tests uses the rest")]
 #[path = "../../../model/tests/model/serial/serial_parameters.rs"]

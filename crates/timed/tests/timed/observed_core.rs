@@ -8,23 +8,23 @@ use crate::event::{CoreEvent, PortEvent};
 
 /// A cycle model that is watched.
 pub(crate) enum ObservedCore {
-    Pipelined(ObservedPipelined),
-    Serial(ObservedSerial),
+    Pipelined(Box<ObservedPipelined>),
+    Serial(Box<ObservedSerial>),
     Raster(Box<ObservedRaster>),
 }
 
 impl ObservedCore {
     pub(crate) fn new(design: &Design) -> Self {
         match design.hardware() {
-            Hardware::Pipelined(own) => Self::Pipelined(ObservedPipelined {
+            Hardware::Pipelined(own) => Self::Pipelined(Box::new(ObservedPipelined {
                 model: PipelinedRcm::new(design.with_hardware(own)),
                 design: design.clone(),
                 sent: vec![0; design.regions() as usize],
-            }),
-            Hardware::Serial(own) => Self::Serial(ObservedSerial {
+            })),
+            Hardware::Serial(own) => Self::Serial(Box::new(ObservedSerial {
                 model: SerialRcm::new(design.with_hardware(own)),
                 design: design.clone(),
-            }),
+            })),
             Hardware::Raster(_) => Self::Raster(Box::new(ObservedRaster::new(design))),
         }
     }

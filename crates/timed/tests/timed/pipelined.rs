@@ -8,7 +8,7 @@ use foveate_timed::CoreTiming;
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};
-use crate::comparison::{cases, check, event_kinds, found_faults, recordings};
+use crate::comparison::{PlantedFault, cases, check, event_kinds, found_faults, recordings};
 use crate::parameters::arbitrary_parameters;
 use crate::traffic::traffic;
 
@@ -42,7 +42,7 @@ fn random_traffic_of_pipelined_arrays_shows_every_kind_of_event() {
 #[test]
 fn the_comparison_finds_every_wrong_number_of_a_pipelined_array() {
     let recordings = recordings(designs(), 40);
-    let faults: [(&str, fn(&mut PipelinedTiming)); 5] = [
+    let faults: [PlantedFault<PipelinedTiming>; 5] = [
         ("a late tail", |timing| timing.tail_delay += 1),
         ("an early tail", |timing| timing.tail_delay = timing.tail_delay.saturating_sub(1)),
         ("a late median", |timing| timing.median_registers += 1),

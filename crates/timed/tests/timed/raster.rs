@@ -11,7 +11,7 @@ use proptest::prelude::*;
 
 use crate::clip_script::{FrameChange, clip, scripts};
 use crate::comparison::{
-    cases, check, event_kinds, first_difference, found_faults, is_whole, recordings,
+    PlantedFault, cases, check, event_kinds, first_difference, found_faults, is_whole, recordings,
 };
 use crate::driver::{Driver, RecordedRun};
 use crate::event::CoreEvent;
@@ -58,7 +58,7 @@ fn random_traffic_of_raster_cores_shows_every_kind_of_event() {
 #[test]
 fn the_comparison_finds_every_wrong_number_of_a_raster_core() {
     let recordings = recordings(designs(), 60);
-    let faults: [(&str, fn(&mut RasterTiming)); 15] = [
+    let faults: [PlantedFault<RasterTiming>; 15] = [
         ("stored late", |timing| timing.store_latency += 1),
         ("stored early", |timing| timing.store_latency -= 1),
         ("decided late", |timing| timing.decision_latency += 1),

@@ -8,7 +8,7 @@ use foveate_timed::CoreTiming;
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};
-use crate::comparison::{cases, check, event_kinds, found_faults, recordings};
+use crate::comparison::{PlantedFault, cases, check, event_kinds, found_faults, recordings};
 use crate::serial_parameters::arbitrary_serial_parameters;
 use crate::traffic::traffic;
 
@@ -43,7 +43,7 @@ fn random_traffic_of_serial_arrays_shows_every_kind_of_event() {
 #[test]
 fn the_comparison_finds_the_timing_of_another_serial_array() {
     let recordings = recordings(designs(), 30);
-    let faults: [(&str, fn(&mut DesignConfig)); 5] = [
+    let faults: [PlantedFault<DesignConfig>; 5] = [
         ("another depth", |config| {
             config.hardware.pipelining = match config.hardware.pipelining {
                 Pipelining::Plain => Pipelining::Deep,
