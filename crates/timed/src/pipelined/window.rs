@@ -79,7 +79,7 @@ impl IsolatedWindow {
     fn take(&mut self, edge: u64, steps: &mut Vec<u64>) {
         if self.taken == 0 {
             // The window has flushed at every edge since the last pixel.
-            self.flush(self.owed.min((edge - self.last).saturating_sub(1)), steps);
+            self.flush(self.owed.min(edge.saturating_sub(self.last + 1)), steps);
         }
         if self.owed > 0 {
             self.owed -= 1;
