@@ -40,10 +40,9 @@ pub(super) struct SendingRegion {
     pub(super) copy: Option<Arc<[u16]>>,
 }
 
-/// The region that the readout holds.
-#[derive(Debug)]
-struct HeldRegion {
-    sender: SendingRegion,
+/// The state of the region that the readout holds.
+#[derive(Clone, Copy, Debug)]
+struct HoldState {
     /// The edge at which the readout started to hold it.
     since: u64,
     /// The number of its words that were fetched.
@@ -78,8 +77,10 @@ pub(super) struct ReadoutContext<'a> {
 pub(super) struct Readout {
     queue_latency: u64,
     hold_interval: u64,
+    /// The regions that have words to fetch, the oldest first.
     queue: VecDeque<SendingRegion>,
-    held: Option<HeldRegion>,
+    /// The state of the first of them, if it is held.
+    held: Option<HoldState>,
     /// The first edge at which the readout may hold the next region, if that is in the queue.
     next_hold: u64,
     /// The word behind those that were shown, if it was fetched.
@@ -117,8 +118,7 @@ impl Readout {
     /// Returns the regions with words that were not shown, the oldest first.
     pub(super) fn waiting(&mut self) -> impl Iterator<Item = &mut SendingRegion> {
         let fetched = self.fetched.iter_mut().map(|word| &mut word.sender);
-        let held = self.held.iter_mut().map(|held| &mut held.sender);
-        fetched.chain(held).chain(&mut self.queue)
+        fetched.chain(&mut self.queue)
     }
 
     /// Returns the edge at which the sink takes the last word that was shown, or 0 if there was
@@ -144,8 +144,8 @@ impl Readout {
         let taken = self.last_taken(context.sink);
         let Some(word) = &self.fetched else { return };
         let shown = taken.max(word.fetched + 1);
-        if let Some(held) = &self.held {
-            let stale = context.staleness.stale_from(held.sender.row);
+        if let (Some(_), Some(held)) = (self.held, self.queue.front()) {
+            let stale = context.staleness.stale_from(held.row);
             if stale <= shown && stale < end {
                 self.lose_held(stale, context);
             }
@@ -160,18 +160,17 @@ impl Readout {
     /// lost. Returns false if no region is held before edge `end`.
     fn hold_next(&mut self, end: u64, context: &mut ReadoutContext<'_>) -> bool {
         while self.held.is_none() {
-            let Some(front) = self.queue.front() else { return false };
-            let since = self.next_hold.max(front.entered + self.queue_latency);
+            let Some(next) = self.queue.front() else { return false };
+            let since = self.next_hold.max(next.entered + self.queue_latency);
             if since >= end {
                 return false;
             }
-            let is_stale = since >= context.staleness.stale_from(front.row);
-            let sender = self.queue.pop_front().expect("the queue has a front");
             self.next_hold = since + self.hold_interval;
-            if is_stale {
-                context.lose(since, &sender);
+            if since >= context.staleness.stale_from(next.row) {
+                context.lose(since, next);
+                self.queue.pop_front();
             } else {
-                self.held = Some(HeldRegion { sender, since, fetched: 0 });
+                self.held = Some(HoldState { since, fetched: 0 });
             }
         }
         true
@@ -180,27 +179,29 @@ impl Readout {
     /// Fetches the next words of the held region and shows them: one word, or as many as follow
     /// each other at every clock. Returns false if no more happens before edge `end`.
     fn fetch_words(&mut self, end: u64, context: &mut ReadoutContext<'_>) -> bool {
-        let since = self.held.as_ref().expect("a region is held").since;
         let taken = self.last_taken(context.sink);
+        let (Some(held), Some(sender)) = (self.held, self.queue.front()) else { return false };
         let fetched = match (&self.fetched, self.last_shown) {
             // The next word is fetched when this one is shown, which is not before `end`.
             (Some(word), _) => taken.max(word.fetched + 1),
-            (None, Some(shown)) if since < shown => shown,
-            (None, _) => taken.max(since + 1),
+            (None, Some(shown)) if held.since < shown => shown,
+            (None, _) => taken.max(held.since + 1),
         };
-        let held = self.held.as_mut().expect("a region is held");
-        let stale = context.staleness.stale_from(held.sender.row);
+        let stale = context.staleness.stale_from(sender.row);
         if fetched >= stale {
-            return stale < end && self.lose_held(stale, context);
+            let is_lost = stale < end;
+            if is_lost {
+                self.lose_held(stale, context);
+            }
+            return is_lost;
         }
         if fetched >= end {
             return false;
         }
         let shown = taken.max(fetched + 1);
-        let left = held.sender.words - held.fetched;
+        let left = sender.words - held.fetched;
         if shown >= end {
-            let number = held.fetched;
-            let sender = held.sender.clone();
+            let (sender, number) = (sender.clone(), held.fetched);
             self.fetched = Some(FetchedWord { sender, number, fetched, is_aborted: false });
             self.record_fetched(1, fetched);
             return true;
@@ -212,7 +213,7 @@ impl Readout {
         let last_shown = shown + u64::from(words) - 1;
         // The word after it would be fetched when it is shown.
         let is_aborted = words < left && last_shown >= stale;
-        context.send(&held.sender, shown, (held.fetched, words), is_aborted);
+        context.send(sender, shown, (held.fetched, words), is_aborted);
         (self.last_shown, self.last_taken) = (Some(last_shown), None);
         self.record_fetched(words, if words == 1 { fetched } else { last_shown - 1 });
         true
@@ -220,24 +221,28 @@ impl Readout {
 
     /// Records that words of the held region were fetched, the last of them at edge `last`.
     fn record_fetched(&mut self, words: u32, last: u64) {
-        let Some(held) = &mut self.held else { return };
+        let (Some(held), Some(sender)) = (&mut self.held, self.queue.front()) else { return };
         held.fetched += words;
-        if held.fetched == held.sender.words {
-            self.next_hold = self.next_hold.max(last);
-            self.held = None;
+        if held.fetched == sender.words {
+            self.release(last);
         }
     }
 
     /// Loses the held region. The word that was fetched last is the last that leaves of it.
-    fn lose_held(&mut self, edge: u64, context: &mut ReadoutContext<'_>) -> bool {
-        self.next_hold = self.next_hold.max(edge + 1);
-        if let Some(HeldRegion { sender, fetched, .. }) = self.held.take() {
-            context.lose(edge, &sender);
-            if let Some(word) = &mut self.fetched {
-                word.is_aborted |= fetched > 0;
-            }
+    fn lose_held(&mut self, edge: u64, context: &mut ReadoutContext<'_>) {
+        let (Some(held), Some(sender)) = (self.held, self.queue.front()) else { return };
+        context.lose(edge, sender);
+        if let Some(word) = &mut self.fetched {
+            word.is_aborted |= held.fetched > 0;
         }
-        true
+        self.release(edge + 1);
+    }
+
+    /// Removes the held region. The next can be held from edge `edge` on.
+    fn release(&mut self, edge: u64) {
+        self.next_hold = self.next_hold.max(edge);
+        self.held = None;
+        self.queue.pop_front();
     }
 }
 

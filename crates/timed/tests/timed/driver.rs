@@ -26,7 +26,7 @@ pub(crate) struct Delivered {
 }
 
 /// A recorded run.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct RecordedRun {
     pub(crate) deliveries: Vec<Delivered>,
     pub(crate) stalls: Vec<Range<u64>>,

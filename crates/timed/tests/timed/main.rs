@@ -33,3 +33,4 @@ mod serial;
 mod serial_parameters;
 mod timed_run;
 mod traffic;
+mod wrong_inputs;
