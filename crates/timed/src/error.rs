@@ -4,13 +4,13 @@
 use foveate_engine::EngineError;
 use thiserror::Error;
 
-/// The error that is returned if a delivery is not possible. The state is unchanged then.
+/// The error that is returned if a model cannot be made, or if a delivery is not possible.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TimedError {
-    /// The pixels are not a frame of the camera.
+    /// The pixels are not a frame of the camera, or the threads of the engine cannot be started.
     #[error(transparent)]
-    Frame(#[from] EngineError),
+    Engine(#[from] EngineError),
     /// A design that does not find its frames needs whole frames.
     #[error(
         "the source delivers {given} beats, but a frame has {expected}; deliver whole frames, or \

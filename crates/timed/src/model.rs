@@ -2,7 +2,7 @@
 //! The model: deliveries, the search for frames in them, and the core behind it.
 
 use foveate_design::Design;
-use foveate_engine::Engine;
+use foveate_engine::{Engine, EngineOptions};
 use foveate_frame::FramePixels;
 
 use crate::clocks::FrameClocks;
@@ -31,6 +31,20 @@ impl TimedModel {
     #[must_use]
     pub fn new(design: &Design, sink: Box<dyn Sink>) -> Self {
         Self::with_timing(design, CoreTiming::from_design(design), sink)
+    }
+
+    /// Makes the array or core with an engine of these options, which do not change what the model
+    /// yields.
+    ///
+    /// # Errors
+    /// Fails as [`Engine::with_options`] does.
+    pub fn with_options(
+        design: &Design,
+        options: EngineOptions,
+        sink: Box<dyn Sink>,
+    ) -> Result<Self, TimedError> {
+        let engine = Engine::with_options(design, options)?;
+        Ok(Self { engine, ..Self::new(design, sink) })
     }
 
     /// Makes a model with the values of a design and with another timing. Tests plant faults with

@@ -38,8 +38,8 @@ fn impossible_deliveries_are_refused_and_change_nothing() {
             TimedError::Beats { given: 255, expected: 256 },
             TimedError::OfferOrder { beat: 4, before: 5 },
             TimedError::EarlyReset { reset: 300, .. },
-            TimedError::Frame(_),
-            TimedError::Frame(_),
+            TimedError::Engine(_),
+            TimedError::Engine(_),
         ]
     ));
     step(&whole(1)).unwrap();
