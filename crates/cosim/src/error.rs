@@ -6,6 +6,7 @@ use foveate_engine::EngineError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
 use foveate_staging::{StagedFolder, StagingError};
+use foveate_timed::TimedError;
 use foveate_toolchain::ToolError;
 use std::path::{Path, PathBuf};
 
@@ -132,6 +133,9 @@ pub enum CosimError {
     /// The engine refused a frame, or its threads cannot be started.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// The timed model of a benchmark refuses a delivery.
+    #[error(transparent)]
+    Timed(#[from] TimedError),
 
     /// The simulator ended early.
     #[error("{simulator} ended after {got} of {clocks} clocks ({status}){log}")]

@@ -38,21 +38,22 @@ fn every_level_of_every_organization_agrees() {
     }
     let pipelined = rows(&["--netlist", "--frames", "2"]);
     pipelined.iter().for_each(assert_agrees);
-    let all = ["functional-clear", "functional-fast", "cycle", "rtl", "netlist"];
+    let all = ["functional-clear", "functional-fast", "transactions", "cycle", "rtl", "netlist"];
     assert_eq!(levels(&pipelined), all);
-    let rtl = &pipelined[3]["measured"];
+    let levels_with_rtl = &all[..5];
+    let rtl = &pipelined[4]["measured"];
     assert_eq!(rtl["times_rtl"], 1.0);
     assert!(rtl["files_clocks_per_second"].as_f64().unwrap() > 0.0, "{rtl}");
-    assert!(pipelined[2]["measured"]["times_rtl"].as_f64().unwrap() > 0.0);
+    assert!(pipelined[3]["measured"]["times_rtl"].as_f64().unwrap() > 0.0);
 
     let raster = ["--set", "hardware.organization='raster'", "--set", "frame={width=40,height=40}"];
     let raster = rows(&[&raster[..], &["--frames", "2"]].concat());
     raster.iter().for_each(assert_agrees);
-    assert_eq!(levels(&raster), ["functional-clear", "functional-fast", "cycle", "rtl"]);
+    assert_eq!(levels(&raster), levels_with_rtl);
 
     let serial = rows(&["--preset", "serial", "scene:street", "--frames", "2"]);
     serial.iter().for_each(assert_agrees);
-    assert_eq!(levels(&serial), ["functional-clear", "functional-fast", "cycle", "rtl"]);
+    assert_eq!(levels(&serial), levels_with_rtl);
 }
 
 #[test]

@@ -16,6 +16,8 @@ pub enum BenchmarkLevel {
     FunctionalClear,
     /// The engine for whole frames, written to be fast.
     FunctionalFast,
+    /// The timed model: the clock of every decision, word and loss, without ports.
+    Transactions,
     /// The cycle-level model: every port at every clock.
     Cycle,
     /// The Verilog in a simulator.

@@ -9,6 +9,7 @@
 //! | --- | --- | --- | --- |
 //! | functional, clear | `FunctionalCamera` | frames | none: it is the reference |
 //! | functional, fast | `Engine` | frames | every result of every region, with `FunctionalCamera` |
+//! | transactions | `TimedModel` | frames | decisions and words at their clocks, with the cycle level |
 //! | cycle | `PipelinedRcm` and others | clocks | scores and decisions, with `FunctionalCamera` |
 //! | RTL | Verilator | clocks | every port at every clock, with the cycle level |
 //! | netlist | Icarus, one RPU | clocks | every port at every clock, with the cycle level |
@@ -29,6 +30,7 @@ mod peak_memory;
 mod planted_differences;
 mod random_frames;
 mod rtl_level;
+mod transaction_level;
 mod unpacked_inputs;
 
 pub use benchmark_report::{
@@ -89,6 +91,10 @@ impl Benchmark {
         progress("vectors");
         let recording = self.record_vectors(timer)?;
         let vectors = UnpackedInputs::read(design, &recording)?;
+        progress("timed model");
+        rows.push(transaction_level::run_transaction_level(
+            design, frames, &recording, &vectors, timer,
+        )?);
         progress("cycle-level model");
         rows.push(cycle_level::run_cycle_level(design, frames, &recording, &vectors, timer)?);
         progress("RTL: building and running Verilator's model");

@@ -62,6 +62,7 @@ fn row_title(row: &LevelRow) -> String {
 fn level_name(level: BenchmarkLevel) -> &'static str {
     match level {
         BenchmarkLevel::FunctionalClear | BenchmarkLevel::FunctionalFast => "functional",
+        BenchmarkLevel::Transactions => "transactions",
         BenchmarkLevel::Cycle => "cycle",
         BenchmarkLevel::Rtl => "RTL",
         BenchmarkLevel::Netlist => "netlist",
