@@ -5,6 +5,7 @@ mod analyze;
 mod bench;
 mod build;
 mod check;
+mod clocks;
 mod dataset;
 mod decode;
 #[cfg(test)]
@@ -40,6 +41,7 @@ pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
 pub(crate) use build::BuildArgs;
 pub(crate) use check::{CheckArgs, ClockFrequency, FramesPerSecond};
+pub(crate) use clocks::ClockArgs;
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use decode::DecodeArgs;
 pub(crate) use explain::ExplainArgs;
@@ -339,6 +341,8 @@ pub(crate) struct SimulateArgs {
     pub(crate) input: InputArgs,
     #[command(flatten)]
     pub(crate) outputs: OutputArgs,
+    #[command(flatten)]
+    pub(crate) clocks: ClockArgs,
 }
 
 /// List the designs that come with the program, or print one as a file

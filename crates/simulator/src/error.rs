@@ -11,6 +11,7 @@ use foveate_model::ModelError;
 use foveate_packets::PacketError;
 use foveate_playback::PlaybackError;
 use foveate_staging::{StagedFolder, StagingError};
+use foveate_timed::TimedError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
@@ -21,6 +22,9 @@ pub enum SimulatorError {
     /// The clip cannot be played, or the user stopped the run before its first frame was done.
     #[error(transparent)]
     Playback(#[from] PlaybackError),
+    /// The clocks of the frames cannot be computed.
+    #[error(transparent)]
+    Timed(#[from] TimedError),
     /// No clip of a batch has a result.
     #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
     NoClip {
@@ -82,6 +86,17 @@ pub enum SimulatorError {
         height: u32,
         /// The largest number of pixels.
         most: u32,
+    },
+    /// Clocks are asked for from a set, whose images do not follow one another.
+    #[error("images of a set do not follow one another; --clocks needs a clip")]
+    ClocksOfSet,
+    /// A table of stalls cannot be read.
+    #[error("the stalls in `{}`: {problem}", path.display())]
+    Stalls {
+        /// The path of the table.
+        path: PathBuf,
+        /// The reason.
+        problem: String,
     },
     /// Pixel events are asked for from a set, whose images have no order in time.
     #[error("images of a set have no order in time; pixel events need a clip")]

@@ -17,6 +17,7 @@ mod losses;
 mod output;
 mod recording;
 mod simulation;
+mod stalls;
 mod stream;
 
 pub use batch::{BatchSummary, ClipSummary, run_batch};
@@ -26,10 +27,11 @@ pub use foveate_engine::MAX_THREADS;
 pub use foveate_model::explanation::RegionExplanation;
 pub use foveate_packets::{RegisterCommand, RegisterPacket, StreamLoss};
 pub use output::{
-    BandwidthComparison, CameraTraffic, DataSetPaths, EventTableOptions, GridSize,
-    PIXEL_EVENT_BYTES, PacketContent, PictureFormat, PixelCamera, PixelEvent, PixelEventOptions,
-    RunOptions, RunSummary, ValueRange, write_packets,
+    BandwidthComparison, CameraTraffic, ClockFigures, ClockOptions, DataSetPaths,
+    EventTableOptions, GridSize, PIXEL_EVENT_BYTES, PacketContent, PictureFormat, PixelCamera,
+    PixelEvent, PixelEventOptions, RunOptions, RunSummary, ValueRange, write_packets,
 };
 pub use recording::{DecodedRecording, PacketRecording};
 pub use simulation::{SIMULATION_FOLDER, Simulation};
+pub use stalls::read_stalls;
 pub use stream::{MAX_CLAIMED_PIXELS, PacketStream, ShownFrame, StreamItem};

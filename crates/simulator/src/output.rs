@@ -8,6 +8,7 @@ mod activity_chart;
 mod arrays;
 mod bandwidth;
 mod canvas;
+mod clock_files;
 mod csv;
 mod data_set;
 mod deflate_packer;
@@ -20,6 +21,7 @@ mod npz;
 mod options;
 mod overlay;
 mod packet_file;
+mod parquet_file;
 mod parquet_table;
 mod picture_series;
 mod pixel_camera;
@@ -35,9 +37,12 @@ mod summary;
 mod video_file;
 
 pub use bandwidth::{BandwidthComparison, CameraTraffic, PIXEL_EVENT_BYTES};
+pub use clock_files::ClockFigures;
 pub(crate) use csv::CsvFile;
 pub use data_set::DataSetPaths;
-pub use options::{EventTableOptions, PacketContent, PictureFormat, PixelEventOptions, RunOptions};
+pub use options::{
+    ClockOptions, EventTableOptions, PacketContent, PictureFormat, PixelEventOptions, RunOptions,
+};
 pub use packet_file::write_packets;
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, INTERRUPTED, RunRecorder};

@@ -143,6 +143,7 @@ fn check_outputs(options: &RunOptions) -> Result<(), SimulatorError> {
             "pixel events",
             "they are made of frames before the camera",
         ),
+        (options.clocks.is_wanted(), "clocks", "they are computed from frames before the camera"),
         (options.data_set, "data set", "it is made of frames before the camera"),
         (options.packets.is_some(), "packets", "it has them already"),
     ];

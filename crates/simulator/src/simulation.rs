@@ -54,6 +54,9 @@ impl Simulation {
         if options.pixel_events.is_wanted() && self.player.kind() == SourceKind::Set {
             return Err(SimulatorError::PixelEventsOfSet);
         }
+        if options.clocks.is_wanted() && self.player.kind() == SourceKind::Set {
+            return Err(SimulatorError::ClocksOfSet);
+        }
         if options.data_set && self.player.kind() == SourceKind::Clip {
             return Err(SimulatorError::NotASet { inputs: self.player.inputs().join(", ") });
         }

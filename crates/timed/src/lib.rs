@@ -27,6 +27,7 @@ mod search;
 mod sent_kind;
 mod serial;
 mod sink;
+mod sink_pattern;
 mod timed_core;
 mod transaction;
 
@@ -38,4 +39,5 @@ pub use model::TimedModel;
 pub use payload::SentValues;
 pub use sent_kind::SentKind;
 pub use sink::{RateSink, ReadySink, Sink, StallList};
+pub use sink_pattern::SinkPattern;
 pub use transaction::{DecisionRun, RegionLoss, RegionRun, ScoreRun, Transaction, WordRun};

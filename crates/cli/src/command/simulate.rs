@@ -7,8 +7,8 @@ use foveate_design::DesignConfig;
 use foveate_footage::{ClipPlan, ImageRelation, InputOptions, plan};
 use foveate_playback::ClipPlayer;
 use foveate_simulator::{
-    BandwidthComparison, BatchSummary, CameraTraffic, DataSetPaths, RunOptions, RunSummary,
-    SIMULATION_FOLDER, Simulation, run_batch,
+    BandwidthComparison, BatchSummary, CameraTraffic, ClockFigures, DataSetPaths, RunOptions,
+    RunSummary, SIMULATION_FOLDER, Simulation, run_batch,
 };
 use foveate_staging::StagedFolder;
 
@@ -23,7 +23,11 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<(), CliError> {
         config: args.design.config()?,
         input: args.input.options(ImageRelation::Clip),
         output: &args.output,
-        options: RunOptions { overwrite: args.force, ..args.outputs.options() },
+        options: RunOptions {
+            overwrite: args.force,
+            clocks: args.clocks.options()?,
+            ..args.outputs.options()
+        },
         json: args.json,
         quiet: args.quiet,
     })
@@ -102,7 +106,7 @@ pub(super) fn text(folder: &Path, summary: &RunSummary) -> String {
         "{}: {} frames of {} x {} pixels, {} regions\n\
          active {}  SRS {}  TRS {}\n\
          {} pixels in, {} forwarded{}\n\
-         {}{}",
+         {}{}{}",
         folder.display(),
         summary.frames,
         summary.width,
@@ -115,6 +119,7 @@ pub(super) fn text(folder: &Path, summary: &RunSummary) -> String {
         summary.pixels_forwarded,
         means_text(summary),
         traffic_lines(&summary.bandwidth),
+        summary.clocks.as_ref().map_or(String::new(), clocks_line),
         summary.data_set.as_ref().map_or(String::new(), |made| data_set_line(folder, made)),
     )
 }
@@ -125,6 +130,14 @@ fn means_text(summary: &RunSummary) -> String {
         (Some(means), Some(regions)) => format!(", {means} means of {regions} irrelevant regions"),
         _ => String::new(),
     }
+}
+
+/// Returns the line about the clocks of the core.
+fn clocks_line(figures: &ClockFigures) -> String {
+    let ClockFigures { last_clock, words, lost_regions } = figures;
+    format!(
+        "clocks        {words} words left, {lost_regions} regions lost, the last at clock {last_clock}\n"
+    )
 }
 
 /// Returns the line about the folder of a data set.

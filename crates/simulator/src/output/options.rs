@@ -2,6 +2,7 @@
 //! The options that select the outputs of a run.
 
 use foveate_camera::Decimal;
+use foveate_timed::SinkPattern;
 
 /// The file format of a series of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +41,20 @@ pub struct PixelEventOptions {
     pub is_logarithmic: bool,
 }
 
+/// The tables of clocks, and the surroundings of the core for which they are computed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ClockOptions {
+    /// Writes `clocks.csv`.
+    pub csv: bool,
+    /// Writes `clocks.parquet`.
+    pub parquet: bool,
+    /// The clock of the core in Hz. Each frame comes at its time in the clip, or as soon as the core
+    /// is ready after that. Without a clock each frame follows the one before without a pause.
+    pub clock_hz: Option<u64>,
+    /// The sink of the words that leave. Only a raster core waits for it.
+    pub sink: SinkPattern,
+}
+
 /// The content of the packets of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PacketContent {
@@ -50,7 +65,7 @@ pub enum PacketContent {
 }
 
 /// The outputs that a run writes besides the arrays, the table of frames and the summary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunOptions {
     /// The rendered frames, `rendered`. Frames of 8 bits per pixel are written unchanged. Fewer
     /// bits are converted to 8 and more bits to 16 by [`foveate_frame::convert_depth`].
@@ -65,6 +80,8 @@ pub struct RunOptions {
     pub pixel_events: PixelEventOptions,
     /// The packets that the camera sends, `packets.bin`.
     pub packets: Option<PacketContent>,
+    /// The clocks of decisions, words and losses.
+    pub clocks: ClockOptions,
     /// Writes the rendered images of a set as a data set of the same form.
     pub data_set: bool,
     /// Replaces the output folder of an earlier run.
@@ -80,9 +97,18 @@ impl Default for RunOptions {
             events: EventTableOptions::default(),
             pixel_events: PixelEventOptions::default(),
             packets: None,
+            clocks: ClockOptions::default(),
             data_set: false,
             overwrite: false,
         }
+    }
+}
+
+impl ClockOptions {
+    /// Returns true if a table of clocks is written.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        self.csv || self.parquet
     }
 }
 

@@ -11,6 +11,7 @@ use foveate_staging::SpaceReserve;
 use rayon::prelude::*;
 
 use super::arrays::ArraySink;
+use super::clock_files::ClockFiles;
 use super::data_set::{self, DataSetPaths};
 use super::frame_table::{FrameRow, FrameTable};
 use super::heatmap::HeatmapPainter;
@@ -42,6 +43,8 @@ pub(crate) struct RunRecorder {
     table: FrameTable,
     /// The pixel events. They are not among the sinks, because the summary needs their number.
     pixel_events: Option<PixelEventFiles>,
+    /// The tables of clocks. They are not among the sinks, because the summary needs their figures.
+    clocks: Option<ClockFiles>,
     sinks: Vec<Box<dyn FrameSink>>,
     data_set: Option<DataSetPaths>,
     totals: RunTotals,
@@ -96,6 +99,10 @@ impl RunRecorder {
         }
         let owed_bytes: u64 =
             sinks.iter().map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
+        let clocks = &options.clocks;
+        let clocks = clocks.is_wanted().then(|| ClockFiles::create(folder, design, clocks));
+        let clocks = clocks.transpose()?;
+        let owed_by_clocks = clocks.as_ref().map_or(0, |_| ClockFiles::max_bytes_owed(design));
         let has_video = sinks.iter().any(|sink| sink.is_written_by_other_program());
         let video_reserve =
             has_video.then(|| SpaceReserve::new(folder, ".spare", MIN_RESERVE_BYTES));
@@ -106,9 +113,14 @@ impl RunRecorder {
             table,
             data_set: options.data_set.then(|| DataSetPaths::of(form)),
             pixel_events: pixel_events.transpose()?,
+            clocks,
             sinks,
             totals: RunTotals::default(),
-            reserve: Some(SpaceReserve::new(folder, ".reserve", MIN_RESERVE_BYTES + owed_bytes)),
+            reserve: Some(SpaceReserve::new(
+                folder,
+                ".reserve",
+                MIN_RESERVE_BYTES + owed_bytes + owed_by_clocks,
+            )),
             video_reserve,
             design: design.clone(),
         })
@@ -146,12 +158,17 @@ impl RunRecorder {
     fn push_to_sinks(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         self.write_out(false)?;
         self.add_to_table(sink_frame.source, sink_frame.outcome);
-        let Self { pixel_events: pixels, sinks, .. } = self;
-        let (pixels, sinks) = rayon::join(
-            || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(sink_frame)),
+        let Self { pixel_events: pixels, clocks, sinks, .. } = self;
+        let ((pixels, clocks), sinks) = rayon::join(
+            || {
+                rayon::join(
+                    || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(sink_frame)),
+                    || clocks.as_mut().map_or(Ok(()), |clocks| clocks.push(sink_frame)),
+                )
+            },
             || sinks.par_iter_mut().try_for_each(|sink| sink.push(sink_frame)),
         );
-        pixels.and(sinks)
+        pixels.and(clocks).and(sinks)
     }
 
     /// Writes the buffered data if there is much of it, or in any case with `all`. On a full disk
@@ -159,6 +176,7 @@ impl RunRecorder {
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.table.write_out(all)?;
         self.pixel_events.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
+        self.clocks.as_mut().map_or(Ok(()), |clocks| clocks.write_out(all))?;
         self.sinks.iter_mut().try_for_each(|sink| sink.write_out(all))
     }
 
@@ -198,9 +216,11 @@ impl RunRecorder {
             sink.finish()?;
         }
         let pixel_events = self.pixel_events.take().map(PixelEventFiles::finish).transpose()?;
+        let clocks = self.clocks.take().map(ClockFiles::finish).transpose()?;
         let summary = |problem| {
             let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
             summary.data_set.clone_from(&self.data_set);
+            summary.clocks = clocks;
             summary.write(&folder.join("summary.json")).map(|()| summary)
         };
         // The summary is written while there is space, before the last outputs are completed.

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::bandwidth::{BandwidthComparison, TrafficSums};
 use super::cannot_write;
+use super::clock_files::ClockFigures;
 use super::data_set::DataSetPaths;
 use crate::SimulatorError;
 
@@ -82,6 +83,9 @@ pub struct RunSummary {
     pub means_sent: Option<u64>,
     /// The bytes and events that the kinds of camera send.
     pub bandwidth: BandwidthComparison,
+    /// The figures in clocks, if they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clocks: Option<ClockFigures>,
     /// The data set that was made, if one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data_set: Option<DataSetPaths>,
@@ -190,6 +194,7 @@ impl RunTotals {
             summaries_sent: design.periphery().map(|_| self.sent.summaries),
             means_sent: design.periphery().map(|_| self.sent.means),
             bandwidth: BandwidthComparison::of(design, &sums),
+            clocks: None,
             data_set: None,
             configuration: design.config(),
         }

@@ -150,10 +150,10 @@ fn what_cannot_be_is_refused_with_both_sides() {
     assert!(fixed.contains("46") && fixed.contains("45"), "{fixed}");
     assert!(refused(b"", DESIGNS[0], &plain).contains("0 bytes"));
     assert!(refused(&[7; 5000], DESIGNS[0], &plain).contains("no FRAME packet"));
-    let heat = RunOptions { heatmap: Some(PictureFormat::Png), ..plain };
+    let heat = RunOptions { heatmap: Some(PictureFormat::Png), ..plain.clone() };
     assert!(refused(&stream, DESIGNS[0], &heat).contains("without scores"));
     let pixel_events = PixelEventOptions { csv: true, ..PixelEventOptions::default() };
-    let events = RunOptions { pixel_events, ..plain };
+    let events = RunOptions { pixel_events, ..plain.clone() };
     assert!(refused(&stream, DESIGNS[0], &events).contains("pixel events"));
     let mut newer = stream.clone();
     newer[4] = 2;

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod batch;
+mod clocks;
 mod data_set;
 mod decode;
 mod explain;

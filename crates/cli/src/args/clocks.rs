@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options for the clocks of a core: its frequency, and the sink of its words.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use foveate_simulator::{ClockOptions, read_stalls};
+use foveate_timed::SinkPattern;
+
+use super::check::ClockFrequency;
+use crate::error::CliError;
+
+/// The options of the tables of clocks.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Clocks")]
+pub(crate) struct ClockArgs {
+    /// Write a table of the clocks at which the core decides regions, sends their words and loses
+    /// them; separate several formats with commas
+    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "csv")]
+    pub(crate) clocks: Vec<ClockFormat>,
+    /// Clock of the core, for example 100MHz: each frame comes at its time in the clip; without a
+    /// clock, each frame follows the one before without a pause
+    #[arg(long, value_name = "FREQUENCY", value_parser = ClockFrequency::parse, requires = "clocks")]
+    pub(crate) clock: Option<ClockFrequency>,
+    /// Words that the sink takes in a number of clocks, for example 1/4; a raster core waits for
+    /// its sink, and loses regions that wait too long [default: 1/1]
+    #[arg(long, value_name = "WORDS/CLOCKS", value_parser = parse_rate, requires = "clocks")]
+    pub(crate) sink_rate: Option<SinkRate>,
+    /// CSV table of the stalls of the sink, with the columns `clock` (the first clock at which the
+    /// sink takes no word) and `clocks` (the number of these clocks)
+    #[arg(long, value_name = "FILE", requires = "clocks", conflicts_with = "sink_rate")]
+    pub(crate) sink_stalls: Option<PathBuf>,
+}
+
+/// The file formats of the table.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum ClockFormat {
+    Csv,
+    Parquet,
+}
+
+/// A number of words in a number of clocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SinkRate {
+    words: u32,
+    clocks: u32,
+}
+
+fn parse_rate(text: &str) -> Result<SinkRate, String> {
+    let numbers = text.split_once('/').and_then(|(words, clocks)| {
+        Some(SinkRate { words: words.parse().ok()?, clocks: clocks.parse().ok()? })
+    });
+    numbers
+        .filter(|rate| rate.words <= rate.clocks && rate.clocks > 0)
+        .ok_or_else(|| "expected words per clocks, at most 1/1, for example 1/4".to_owned())
+}
+
+impl ClockArgs {
+    /// Returns the options of the run.
+    pub(crate) fn options(&self) -> Result<ClockOptions, CliError> {
+        let sink = match (&self.sink_stalls, self.sink_rate) {
+            (Some(path), _) => SinkPattern::Stalls(read_stalls(path)?.into()),
+            (None, Some(SinkRate { words, clocks })) => SinkPattern::Rate { words, clocks },
+            (None, None) => SinkPattern::Always,
+        };
+        Ok(ClockOptions {
+            csv: self.clocks.contains(&ClockFormat::Csv),
+            parquet: self.clocks.contains(&ClockFormat::Parquet),
+            clock_hz: self.clock.map(|clock| clock.0),
+            sink,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_words_per_clocks() {
+        assert_eq!(parse_rate("1/4"), Ok(SinkRate { words: 1, clocks: 4 }));
+        assert_eq!(parse_rate("0/1"), Ok(SinkRate { words: 0, clocks: 1 }));
+        for wrong in ["", "1", "2/1", "1/0", "-1/4", "1/4/4", "0.5/1"] {
+            assert!(parse_rate(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The stalls of a sink, read from a table.
+
+use std::fs::File;
+use std::ops::Range;
+use std::path::Path;
+
+use csv::ReaderBuilder;
+use foveate_reading::table_reader;
+
+use crate::SimulatorError;
+
+/// Reads a table of stalls. It has the columns `clock` and `clocks`: the first edge at which the sink
+/// takes no word, and the number of these edges.
+///
+/// # Errors
+/// Fails if the file cannot be read, or if it is no list of stalls in order and without overlaps.
+pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
+    let refuse = |problem: String| SimulatorError::Stalls { path: path.to_owned(), problem };
+    let file = File::open(path).map_err(|error| refuse(error.to_string()))?;
+    let mut table = table_reader(&ReaderBuilder::new(), file);
+    let names = table.headers().map_err(|error| refuse(error.to_string()))?;
+    if names.iter().ne(["clock", "clocks"]) {
+        let found = names.iter().collect::<Vec<_>>().join(",");
+        return Err(refuse(format!("its first line is `{found}`, and must be `clock,clocks`")));
+    }
+    let mut stalls: Vec<Range<u64>> = Vec::new();
+    for record in table.records() {
+        let record = record.map_err(|error| refuse(error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |place: usize| record.get(place).and_then(|text| text.parse::<u64>().ok());
+        let (Some(first), Some(length @ 1..)) = (number(0), number(1)) else {
+            let text = record.iter().collect::<Vec<_>>().join(",");
+            return Err(refuse(format!(
+                "line {line} is `{text}`, and must be a clock from 0 and a number of clocks from 1"
+            )));
+        };
+        let before = stalls.last().map_or(0, |stall| stall.end);
+        if first < before {
+            return Err(refuse(format!(
+                "the stall of line {line} begins at clock {first}, but the one before it ends at \
+                 clock {before}; list stalls in order, without overlaps"
+            )));
+        }
+        stalls.push(first..first.saturating_add(length));
+    }
+    Ok(stalls)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stalls_of(text: &str) -> Result<Vec<Range<u64>>, String> {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        read_stalls(file.path()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn stalls_are_in_order_and_do_not_overlap() {
+        assert_eq!(stalls_of("clock,clocks\n0,2\n5,1\n6,3\n"), Ok(vec![0..2, 5..6, 6..9]));
+        assert_eq!(stalls_of("clock,clocks\n"), Ok(vec![]));
+        for (text, part) in [
+            ("0,2\n", "its first line is `0,2`, and must be `clock,clocks`"),
+            ("clock,clocks\n3,0\n", "line 2 is `3,0`, and must be"),
+            ("clock,clocks\n-1,4\n", "line 2 is `-1,4`"),
+            (
+                "clock,clocks\n0,4\n3,1\n",
+                "line 3 begins at clock 3, but the one before it ends at clock 4",
+            ),
+            ("clock,clocks\n0\n", "found record with 1 fields"),
+        ] {
+            let error = stalls_of(text).unwrap_err();
+            assert!(error.contains(part), "{error}");
+        }
+    }
+}
