@@ -4,7 +4,7 @@
 // that bit.
 //
 // The vectors show 22 frames of 1 x 1 regions.
-// Decisions: 5 active, 11 held, 6 blank; 14 comparisons with an earlier frame.
+// Decisions: 7 active, 11 held, 4 blank; 15 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has one bit for each value that differs from the line before: bit 0 for the first

@@ -4,7 +4,7 @@
 // that bit.
 //
 // The vectors show 10 frames of 4 x 1 regions.
-// Decisions: 14 active, 17 held, 10 blank; 23 comparisons with an earlier frame.
+// Decisions: 16 active, 18 held, 7 blank; 23 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has one bit for each value that differs from the line before: bit 0 for the first
