@@ -37,6 +37,7 @@ pub(crate) struct ClockArgs {
 pub(crate) enum ClockFormat {
     Csv,
     Parquet,
+    Npy,
 }
 
 /// A number of words in a number of clocks.
@@ -66,6 +67,7 @@ impl ClockArgs {
         Ok(ClockOptions {
             csv: self.clocks.contains(&ClockFormat::Csv),
             parquet: self.clocks.contains(&ClockFormat::Parquet),
+            npy: self.clocks.contains(&ClockFormat::Npy),
             clock_hz: self.clock.map(|clock| clock.0),
             sink,
         })

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The files `clocks.csv` and `clocks.parquet`: the clocks at which a core decides regions, sends
+//! The files `clocks.csv`, `clocks.parquet` and `clocks.npy`: the clocks at which a core decides regions, sends
 //! their words and loses them. The timed model computes them beside the engine of the run, because
 //! a lost region changes the values of the frames after it.
 
 use std::path::Path;
 
 use foveate_design::Design;
+use foveate_files::npy::{ElementType, NpyWriter};
 use foveate_files::tables::{Column, ColumnType, TableValue};
 use foveate_timed::{
     BeatOffer, DecisionRun, FrameDelivery, RegionLoss, SentKind, TimedModel, Transaction, WordRun,
@@ -70,10 +71,14 @@ impl ClockFiles {
         let parquet = folder.join("clocks.parquet");
         let parquet = options.parquet.then(|| ParquetFile::create(&parquet, "clocks", &columns));
         let (csv, parquet) = (csv.transpose()?, parquet.transpose()?);
+        let array = folder.join("clocks.npy");
+        let array =
+            options.npy.then(|| NpyWriter::create(&array, ElementType::Signed64, &[COLUMNS.len()]));
+        let array = array.transpose()?;
         Ok(Self {
             model: TimedModel::new(design, options.sink.sink()),
             clock_hz: options.clock_hz,
-            rows: ClockRows { csv, parquet, figures: ClockFigures::default() },
+            rows: ClockRows { csv, parquet, array, figures: ClockFigures::default() },
         })
     }
 
@@ -104,6 +109,7 @@ impl ClockFiles {
         model.finish(&mut |transaction| rows.push(transaction));
         rows.write_out(true)?;
         rows.parquet.map_or(Ok(()), ParquetFile::finish)?;
+        rows.array.map_or(Ok(()), NpyWriter::finish)?;
         Ok(rows.figures)
     }
 }
@@ -115,9 +121,39 @@ fn clock_at(time_us: u64, hz: u64) -> u64 {
     u64::try_from(edge).unwrap_or(u64::MAX).min(1 << 61)
 }
 
+/// An event of the tables.
+#[derive(Clone, Copy, Debug)]
+enum ClockEvent {
+    Decision,
+    Pixels,
+    Means,
+    Loss,
+}
+
+impl ClockEvent {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Decision => "decision",
+            Self::Pixels => "pixels",
+            Self::Means => "means",
+            Self::Loss => "loss",
+        }
+    }
+
+    /// Returns the number of the event in the array.
+    fn number(self) -> u64 {
+        match self {
+            Self::Decision => 0,
+            Self::Pixels => 1,
+            Self::Means => 2,
+            Self::Loss => 3,
+        }
+    }
+}
+
 /// A row of the tables.
 struct ClockRow {
-    event: &'static str,
+    event: ClockEvent,
     frame: u64,
     region: u32,
     clocks: (u64, u64),
@@ -129,7 +165,7 @@ struct ClockRow {
 
 impl ClockRow {
     /// Makes the row of an event without words.
-    fn single(event: &'static str, frame: u64, region: u32, clock: u64) -> Self {
+    fn single(event: ClockEvent, frame: u64, region: u32, clock: u64) -> Self {
         Self {
             event,
             frame,
@@ -146,7 +182,7 @@ impl ClockRow {
         let long = |value: u64| TableValue::Long(value.cast_signed());
         let int = |value: u32| TableValue::Int(value.cast_signed());
         [
-            TableValue::Text(self.event),
+            TableValue::Text(self.event.name()),
             long(self.frame),
             int(self.region),
             long(self.clocks.0),
@@ -155,6 +191,21 @@ impl ClockRow {
             int(self.words),
             TableValue::Flag(self.is_last),
             TableValue::Flag(self.is_aborted),
+        ]
+    }
+
+    /// Returns the row of the array, with the number of the event.
+    fn numbers(&self) -> [u64; COLUMNS.len()] {
+        [
+            self.event.number(),
+            self.frame,
+            self.region.into(),
+            self.clocks.0,
+            self.clocks.1,
+            self.first_word.into(),
+            self.words.into(),
+            self.is_last.into(),
+            self.is_aborted.into(),
         ]
     }
 }
@@ -168,6 +219,7 @@ fn csv_value(value: TableValue<'static>) -> TableValue<'static> {
 struct ClockRows {
     csv: Option<CsvFile>,
     parquet: Option<ParquetFile>,
+    array: Option<NpyWriter>,
     figures: ClockFigures,
 }
 
@@ -186,14 +238,14 @@ impl ClockRows {
 
     fn push_decisions(&mut self, run: &DecisionRun<'_>) {
         for (clock, region) in run.regions.iter() {
-            self.push_row(&ClockRow::single("decision", run.frame, region, clock));
+            self.push_row(&ClockRow::single(ClockEvent::Decision, run.frame, region, clock));
         }
     }
 
     fn push_words(&mut self, run: &WordRun<'_>) {
         let event = match run.kind {
-            SentKind::Pixels => "pixels",
-            SentKind::Means => "means",
+            SentKind::Pixels => ClockEvent::Pixels,
+            SentKind::Means => ClockEvent::Means,
         };
         let length = u64::from(run.words.saturating_sub(1)) * run.word_step;
         for (clock, region) in run.senders() {
@@ -211,7 +263,7 @@ impl ClockRows {
 
     fn push_loss(&mut self, loss: &RegionLoss) {
         self.figures.lost_regions += 1;
-        self.push_row(&ClockRow::single("loss", loss.frame, loss.region, loss.clock));
+        self.push_row(&ClockRow::single(ClockEvent::Loss, loss.frame, loss.region, loss.clock));
     }
 
     fn push_row(&mut self, row: &ClockRow) {
@@ -223,11 +275,15 @@ impl ClockRows {
         if let Some(parquet) = &mut self.parquet {
             parquet.push(values);
         }
+        if let Some(array) = &mut self.array {
+            array.push(row.numbers().into_iter());
+        }
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
-        self.parquet.as_mut().map_or(Ok(()), ParquetFile::write_out)
+        self.parquet.as_mut().map_or(Ok(()), ParquetFile::write_out)?;
+        Ok(self.array.as_mut().map_or(Ok(()), |array| array.write_pending(all))?)
     }
 }
 

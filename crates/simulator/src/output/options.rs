@@ -48,6 +48,8 @@ pub struct ClockOptions {
     pub csv: bool,
     /// Writes `clocks.parquet`.
     pub parquet: bool,
+    /// Writes `clocks.npy`.
+    pub npy: bool,
     /// The clock of the core in Hz. Each frame comes at its time in the clip, or as soon as the core
     /// is ready after that. Without a clock each frame follows the one before without a pause.
     pub clock_hz: Option<u64>,
@@ -108,7 +110,7 @@ impl ClockOptions {
     /// Returns true if a table of clocks is written.
     #[must_use]
     pub fn is_wanted(&self) -> bool {
-        self.csv || self.parquet
+        self.csv || self.parquet || self.npy
     }
 }
 

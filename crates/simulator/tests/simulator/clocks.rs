@@ -145,11 +145,12 @@ fn frames_come_at_the_times_of_the_clip() {
 }
 
 #[test]
-fn both_formats_have_the_same_rows() {
+fn all_formats_have_the_same_rows() {
     let dir = tempfile::tempdir().unwrap();
     let output = dir.path().join("out");
-    let clocks = ClockOptions { csv: true, parquet: true, ..ClockOptions::default() };
-    street(&output, &overrides(RASTER), &options(clocks));
+    let clocks = ClockOptions { csv: true, parquet: true, npy: true, ..ClockOptions::default() };
+    let means = [&overrides(RASTER)[..], &["render.irrelevant='mean'"]].concat();
+    street(&output, &means, &options(clocks));
     let file = File::open(output.join("clocks.parquet")).unwrap();
     let reader = SerializedFileReader::new(file).unwrap();
     let found = reader.get_row_iter(None).unwrap().map(|row| {
@@ -162,6 +163,17 @@ fn both_formats_have_the_same_rows() {
     });
     let text = fs::read_to_string(output.join("clocks.csv")).unwrap();
     assert_eq!(found.collect::<Vec<_>>(), text.lines().skip(1).collect::<Vec<_>>());
+    let array = fs::read(output.join("clocks.npy")).unwrap();
+    let rows = csv_rows(&output);
+    let shape = format!("'shape': ({}, 9)", rows.len());
+    assert!(String::from_utf8_lossy(&array[..128]).contains(&shape), "{shape}");
+    let events = ["decision", "pixels", "means", "loss"];
+    let numbers = rows.iter().flat_map(|(event, numbers)| {
+        let event = events.iter().position(|name| name == event).unwrap() as u64;
+        [event].into_iter().chain(*numbers)
+    });
+    assert_eq!(array[128..], numbers.flat_map(u64::to_le_bytes).collect::<Vec<u8>>());
+    assert!(events[..3].iter().all(|name| rows.iter().any(|row| row.0 == *name)), "{rows:?}");
 }
 
 #[test]
