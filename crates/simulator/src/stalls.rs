@@ -5,10 +5,15 @@ use std::fs::File;
 use std::ops::Range;
 use std::path::Path;
 
-use csv::ReaderBuilder;
+use csv::{ReaderBuilder, StringRecord};
 use foveate_reading::table_reader;
 
 use crate::SimulatorError;
+
+/// The largest number of stalls, which take 64 MiB.
+const MAX_STALLS: usize = 1 << 22;
+/// The largest number of characters of a wrong line in a message.
+const SHOWN_CHARACTERS: usize = 60;
 
 /// Reads a table of stalls. It has the columns `clock` and `clocks`: the first edge at which the sink
 /// takes no word, and the number of these edges.
@@ -21,7 +26,7 @@ pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
     let mut table = table_reader(&ReaderBuilder::new(), file);
     let names = table.headers().map_err(|error| refuse(error.to_string()))?;
     if names.iter().ne(["clock", "clocks"]) {
-        let found = names.iter().collect::<Vec<_>>().join(",");
+        let found = shown_line(names);
         return Err(refuse(format!("its first line is `{found}`, and must be `clock,clocks`")));
     }
     let mut stalls: Vec<Range<u64>> = Vec::new();
@@ -30,7 +35,7 @@ pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
         let line = record.position().map_or(0, csv::Position::line);
         let number = |place: usize| record.get(place).and_then(|text| text.parse::<u64>().ok());
         let (Some(first), Some(length @ 1..)) = (number(0), number(1)) else {
-            let text = record.iter().collect::<Vec<_>>().join(",");
+            let text = shown_line(&record);
             return Err(refuse(format!(
                 "line {line} is `{text}`, and must be a clock from 0 and a number of clocks from 1"
             )));
@@ -42,9 +47,22 @@ pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
                  clock {before}; list stalls in order, without overlaps"
             )));
         }
+        if stalls.len() == MAX_STALLS {
+            return Err(refuse(format!(
+                "it has more than {MAX_STALLS} stalls; give a rate, or a shorter clip"
+            )));
+        }
         stalls.push(first..first.saturating_add(length));
     }
     Ok(stalls)
+}
+
+/// Returns the start of a line for a message.
+fn shown_line(record: &StringRecord) -> String {
+    let line = record.iter().collect::<Vec<_>>().join(",");
+    let mut characters = line.chars();
+    let shown: String = characters.by_ref().take(SHOWN_CHARACTERS).collect();
+    if characters.next().is_some() { shown + "..." } else { shown }
 }
 
 #[cfg(test)]

@@ -27,6 +27,11 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("cosim", "--rtl", "cosim --rtl rtl"),
     ("cosim", "[INPUT]...", "cosim --preset bare ENDLESS"),
     ("simulate", "<INPUT>...", "simulate ENDLESS -o out"),
+    (
+        "simulate",
+        "--sink-stalls",
+        "simulate scene:street --frames 2 --clocks --sink-stalls ENDLESS -o out",
+    ),
     ("dataset", "<INPUT>...", "dataset ENDLESS -o out"),
     ("explain", "<INPUT>...", "explain ENDLESS --frame 1 --region 0,0"),
     ("analyze", "<INPUT>...", "analyze activity ENDLESS -o out"),
