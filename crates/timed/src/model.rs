@@ -162,10 +162,12 @@ impl TimedModel {
             visit(&Transaction::SyncError { clock: error });
         }
         frame.delay_next(error + 1);
-        self.take_frame(frame.pixels(), &frame.offers, end, visit);
-        let idle_from = if self.core.has_ready_output() { 0 } else { self.next_beat };
+        let last = self.core.take_edge(&frame.offers, self.beats - 1);
+        let idle_from = if self.core.has_ready_output() { 0 } else { last + 1 };
         self.state = StreamState::Seek { idle_from };
+        // The beats and resets that follow do not wait until the frame is complete.
         self.next_beat = error + 1;
+        self.give_frame(frame.pixels(), &frame.offers, end, visit);
     }
 
     /// Takes a frame if all of its beats were delivered, and else keeps it.
@@ -191,8 +193,20 @@ impl TimedModel {
         visit: &mut dyn FnMut(&Transaction<'_>),
     ) {
         self.next_beat = self.core.take_edge(offers, self.beats - 1) + 1;
+        self.give_frame(pixels, offers, end, visit);
+    }
+
+    /// Gives the core a frame, after which the next beat can come at `next_beat`.
+    fn give_frame(
+        &mut self,
+        pixels: FramePixels<'_>,
+        offers: &[BeatOffer],
+        end: u64,
+        visit: &mut dyn FnMut(&Transaction<'_>),
+    ) {
+        let frame = CoreFrame { pixels, offers, next: self.next_beat };
         let mut context = CoreContext { engine: &mut self.engine, sink: &mut *self.sink, visit };
-        self.core.take_frame(CoreFrame { pixels, offers }, end, &mut context);
+        self.core.take_frame(frame, end, &mut context);
     }
 
     /// Drops the beats of a delivery from number `first` on, as they come.

@@ -21,6 +21,9 @@ pub(crate) struct CoreFrame<'a> {
     pub(crate) pixels: FramePixels<'a>,
     /// The pauses before its beats.
     pub(crate) offers: &'a [BeatOffer],
+    /// The first edge at which another beat or a reset can come. It is before the last beat of a
+    /// frame that the core completes by itself.
+    pub(crate) next: u64,
 }
 
 /// A core between two frames.

@@ -94,8 +94,7 @@ impl TimedCore for PipelinedCore {
         let clocks = clocks(frame.offers);
         let edges: Vec<u64> =
             clocks.edges(self.stream_pixels).take_while(|&edge| edge < end).collect();
-        let certain = clocks.edge(self.stream_pixels - 1) + 1;
-        self.pass_stages(edges, false, end.min(certain), context);
+        self.pass_stages(edges, false, end.min(frame.next), context);
     }
 
     fn finish(&mut self, end: u64, context: &mut CoreContext<'_>) {
