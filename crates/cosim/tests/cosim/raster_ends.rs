@@ -52,7 +52,7 @@ fn designs() -> Vec<Design> {
 }
 
 fn record(design: &Design) -> Recording {
-    directed_stimulus(CosimLevel::Full, 6).record(design, &mut |_, _| {}).unwrap()
+    directed_stimulus(CosimLevel::Full, 8).record(design, &mut |_, _| {}).unwrap()
 }
 
 /// The index of a region and the number of its frame, as the ports show them.
