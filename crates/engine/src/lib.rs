@@ -31,6 +31,7 @@ mod policy;
 mod receiver;
 mod renderer;
 mod screens;
+mod sent_values;
 mod state_access;
 mod state_copy;
 mod strip;

@@ -4,7 +4,6 @@
 
 use std::ops::Range;
 
-use foveate_camera::Camera;
 use foveate_engine::Engine;
 use foveate_frame::FramePixels;
 
@@ -38,19 +37,10 @@ impl<'a> SentValues<'a> {
     }
 
     /// Appends all values that a region sends: its pixels in row-major order, or its means.
-    pub(crate) fn append_region(&self, kind: SentKind, region: u32, values: &mut Vec<u16>) {
-        match (self.source, kind) {
-            (ValueSource::Copy(copied), _) => values.extend_from_slice(copied),
-            (ValueSource::LastFrame { engine, .. }, SentKind::Means) => {
-                engine.summary(region, values);
-            }
-            (ValueSource::LastFrame { engine, raw }, SentKind::Pixels) => {
-                if engine.camera().has_separate_raw_pixels() {
-                    append_raw_region(engine.camera(), raw, region, values);
-                } else {
-                    engine.denoised_region(region, values);
-                }
-            }
+    pub(crate) fn append_region(&self, region: u32, values: &mut Vec<u16>) {
+        match self.source {
+            ValueSource::Copy(copied) => values.extend_from_slice(copied),
+            ValueSource::LastFrame { engine, raw } => engine.sent_values(raw, region, values),
         }
     }
 
@@ -67,25 +57,9 @@ impl<'a> SentValues<'a> {
             SentKind::Means => 1,
         };
         let start = values.len();
-        self.append_region(kind, region, values);
+        self.append_region(region, values);
         values.truncate(start + (words.end * size) as usize);
         values.drain(start..start + (words.start * size) as usize);
-    }
-}
-
-/// Appends the raw pixels of a region. Beyond the frame its last column and row are repeated.
-fn append_raw_region(camera: &Camera, raw: FramePixels<'_>, region: u32, values: &mut Vec<u16>) {
-    let side = camera.region_size();
-    let (left, top) = (region % camera.columns() * side, region / camera.columns() * side);
-    for y in top..top + side {
-        let row = y.min(camera.height() - 1) * camera.width();
-        let places = (left..left + side).map(|x| (row + x.min(camera.width() - 1)) as usize);
-        match raw {
-            FramePixels::Bytes(pixels) => {
-                values.extend(places.map(|place| u16::from(pixels[place])));
-            }
-            FramePixels::Words(pixels) => values.extend(places.map(|place| pixels[place])),
-        }
     }
 }
 

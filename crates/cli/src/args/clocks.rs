@@ -25,7 +25,7 @@ pub(crate) struct ClockArgs {
     /// Words that the sink takes in a number of clocks, for example 1/4; a raster core waits for
     /// its sink, and loses regions that wait too long [default: 1/1]
     #[arg(long, value_name = "WORDS/CLOCKS", value_parser = parse_rate, requires = "clocks")]
-    pub(crate) sink_rate: Option<SinkRate>,
+    pub(crate) sink_rate: Option<SinkPattern>,
     /// CSV table of the stalls of the sink, with the columns `clock` (the first clock at which the
     /// sink takes no word) and `clocks` (the number of these clocks)
     #[arg(long, value_name = "FILE", requires = "clocks", conflicts_with = "sink_rate")]
@@ -40,29 +40,23 @@ pub(crate) enum ClockFormat {
     Npy,
 }
 
-/// A number of words in a number of clocks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SinkRate {
-    words: u32,
-    clocks: u32,
-}
-
-fn parse_rate(text: &str) -> Result<SinkRate, String> {
-    let numbers = text.split_once('/').and_then(|(words, clocks)| {
-        Some(SinkRate { words: words.parse().ok()?, clocks: clocks.parse().ok()? })
-    });
+/// Reads the rate of a sink.
+fn parse_rate(text: &str) -> Result<SinkPattern, String> {
+    let numbers: Option<(u32, u32)> = text
+        .split_once('/')
+        .and_then(|(words, clocks)| words.parse().ok().zip(clocks.parse().ok()));
     numbers
-        .filter(|rate| rate.words <= rate.clocks && rate.clocks > 0)
+        .filter(|(words, clocks)| words <= clocks && *clocks > 0)
+        .map(|(words, clocks)| SinkPattern::Rate { words, clocks })
         .ok_or_else(|| "expected words per clocks, at most 1/1, for example 1/4".to_owned())
 }
 
 impl ClockArgs {
     /// Returns the options of the run.
     pub(crate) fn options(&self) -> Result<ClockOptions, CliError> {
-        let sink = match (&self.sink_stalls, self.sink_rate) {
-            (Some(path), _) => SinkPattern::Stalls(read_stalls(path)?.into()),
-            (None, Some(SinkRate { words, clocks })) => SinkPattern::Rate { words, clocks },
-            (None, None) => SinkPattern::Always,
+        let sink = match &self.sink_stalls {
+            Some(path) => SinkPattern::Stalls(read_stalls(path)?.into()),
+            None => self.sink_rate.clone().unwrap_or_default(),
         };
         Ok(ClockOptions {
             csv: self.clocks.contains(&ClockFormat::Csv),
@@ -80,8 +74,8 @@ mod tests {
 
     #[test]
     fn rates_are_words_per_clocks() {
-        assert_eq!(parse_rate("1/4"), Ok(SinkRate { words: 1, clocks: 4 }));
-        assert_eq!(parse_rate("0/1"), Ok(SinkRate { words: 0, clocks: 1 }));
+        assert_eq!(parse_rate("1/4"), Ok(SinkPattern::Rate { words: 1, clocks: 4 }));
+        assert_eq!(parse_rate("0/1"), Ok(SinkPattern::Rate { words: 0, clocks: 1 }));
         for wrong in ["", "1", "2/1", "1/0", "-1/4", "1/4/4", "0.5/1"] {
             assert!(parse_rate(wrong).is_err(), "{wrong}");
         }

@@ -178,23 +178,7 @@ impl ClockRow {
         }
     }
 
-    fn values(&self) -> [TableValue<'static>; COLUMNS.len()] {
-        let long = |value: u64| TableValue::Long(value.cast_signed());
-        let int = |value: u32| TableValue::Int(value.cast_signed());
-        [
-            TableValue::Text(self.event.name()),
-            long(self.frame),
-            int(self.region),
-            long(self.clocks.0),
-            long(self.clocks.1),
-            int(self.first_word),
-            int(self.words),
-            TableValue::Flag(self.is_last),
-            TableValue::Flag(self.is_aborted),
-        ]
-    }
-
-    /// Returns the row of the array, with the number of the event.
+    /// Returns the numbers of the columns, as the array has them. The first is that of the event.
     fn numbers(&self) -> [u64; COLUMNS.len()] {
         [
             self.event.number(),
@@ -208,11 +192,6 @@ impl ClockRow {
             self.is_aborted.into(),
         ]
     }
-}
-
-/// Returns the value as the CSV table has it, with 0 or 1 for a flag.
-fn csv_value(value: TableValue<'static>) -> TableValue<'static> {
-    if let TableValue::Flag(bit) = value { TableValue::Int(bit.into()) } else { value }
 }
 
 /// The open files, and the figures of the rows in them.
@@ -268,15 +247,19 @@ impl ClockRows {
 
     fn push_row(&mut self, row: &ClockRow) {
         self.figures.last_clock = self.figures.last_clock.max(row.clocks.1);
-        let values = row.values();
+        let numbers = row.numbers();
+        let others = numbers.iter().zip(COLUMNS).skip(1);
+        let event = TableValue::Text(row.event.name());
         if let Some(csv) = &mut self.csv {
-            csv.line(values.map(csv_value));
+            let numbers = others.clone().map(|(&number, _)| long_value(number));
+            csv.line([event].into_iter().chain(numbers));
         }
         if let Some(parquet) = &mut self.parquet {
-            parquet.push(values);
+            let values = others.map(|(&number, (_, kind))| typed_value(number, kind));
+            parquet.push([event].into_iter().chain(values));
         }
         if let Some(array) = &mut self.array {
-            array.push(row.numbers().into_iter());
+            array.push(numbers.into_iter());
         }
     }
 
@@ -284,6 +267,21 @@ impl ClockRows {
         self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
         self.parquet.as_mut().map_or(Ok(()), ParquetFile::write_out)?;
         Ok(self.array.as_mut().map_or(Ok(()), |array| array.write_pending(all))?)
+    }
+}
+
+fn long_value(number: u64) -> TableValue<'static> {
+    TableValue::Long(number.cast_signed())
+}
+
+/// Returns a number as a value of a column of that type.
+fn typed_value(number: u64, kind: ColumnType) -> TableValue<'static> {
+    match kind {
+        ColumnType::Int => {
+            TableValue::Int(i32::try_from(number).expect("regions and words have 31 bits"))
+        }
+        ColumnType::Flag => TableValue::Flag(number == 1),
+        ColumnType::Long | ColumnType::Real | ColumnType::Text => long_value(number),
     }
 }
 

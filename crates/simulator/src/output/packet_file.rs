@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use foveate_camera::{Camera, Payload, RegionAction};
+use foveate_camera::{Camera, RegionAction};
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_frame::ByteFrame;
@@ -83,18 +83,13 @@ fn write_row(
     }
     let (mut sent, mut values) = (0, Vec::new());
     for region in regions {
-        let action = outcome.actions[region as usize];
-        values.clear();
-        let is_summary = match action {
+        let is_summary = match outcome.actions[region as usize] {
             RegionAction::Forward => false,
             RegionAction::Summarize => true,
             RegionAction::Hold | RegionAction::Blank => continue,
         };
-        match (is_summary, camera.payload()) {
-            (true, _) => engine.summary(region, &mut values),
-            (false, Payload::Denoised) => engine.denoised_region(region, &mut values),
-            (false, Payload::Raw) => append_raw_region(camera, source, region, &mut values),
-        }
+        values.clear();
+        engine.sent_values(source.borrowed_pixels(), region, &mut values);
         let flags = RegionFlags { raw: layout.info().raw, summary: is_summary };
         let place = (row, region - start);
         packet_writer::append_region(out, layout, number, place, (flags, &values))?;
@@ -116,17 +111,6 @@ fn region_decision(outcome: &FrameOutcome, region: usize) -> RegionDecision {
 fn region_scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = u64> {
     let scores = outcome.scores.iter().map(move |scores| scores[region]);
     std::iter::once(outcome.temporal_count[region].into()).chain(scores)
-}
-
-/// Appends the raw pixels of a region, padded as the contract says.
-fn append_raw_region(camera: &Camera, frame: &ByteFrame, region: u32, pixels: &mut Vec<u16>) {
-    let side = camera.region_size();
-    let (left, top) = (region % camera.columns() * side, region / camera.columns() * side);
-    let clamped = |at: u32, size: u32| at.min(size - 1);
-    for y in top..top + side {
-        let y = clamped(y, frame.height());
-        pixels.extend((left..left + side).map(|x| frame.get(clamped(x, frame.width()), y)));
-    }
 }
 
 impl FrameSink for PacketFileSink {

@@ -182,7 +182,7 @@ impl RasterCore {
             oldest = oldest.or(Some(sender.row));
             if sender.copy.is_none() {
                 let mut copy = Vec::new();
-                values.append_region(sender.kind, sender.region, &mut copy);
+                values.append_region(sender.region, &mut copy);
                 sender.copy = Some(Arc::from(copy));
             }
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What comes out of the lanes for one slot, phase by phase.
+//! The outputs of the lanes for one slot, phase by phase.
 
 use std::ops::Range;
 

@@ -16,7 +16,7 @@ use crate::traffic::{Random, Traffic};
 
 /// A frame as the source has delivered it.
 #[derive(Clone, Debug)]
-pub(crate) struct Delivered {
+pub(crate) struct RecordedDelivery {
     /// The frame as the core has seen it.
     pub(crate) frame: Frame,
     pub(crate) beats: u64,
@@ -28,7 +28,7 @@ pub(crate) struct Delivered {
 /// A recorded run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RecordedRun {
-    pub(crate) deliveries: Vec<Delivered>,
+    pub(crate) deliveries: Vec<RecordedDelivery>,
     pub(crate) stalls: Vec<Range<u64>>,
     pub(crate) events: Vec<PortEvent>,
     /// The number of edges.
@@ -189,7 +189,7 @@ impl<'a> Driver<'a> {
                 }
             }
         }
-        self.run.deliveries.push(Delivered { frame, beats, is_marked, offers, reset });
+        self.run.deliveries.push(RecordedDelivery { frame, beats, is_marked, offers, reset });
     }
 
     fn clock_reset(&mut self) {
