@@ -3,7 +3,7 @@
 //! their words and loses them. The timed model computes them beside the engine of the run, because
 //! a lost region changes the values of the frames after it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
 use foveate_files::npy::{ElementType, NpyWriter};
@@ -103,14 +103,19 @@ impl ClockFiles {
         self.rows.write_out(all)
     }
 
-    /// Adds the rows that still come after the last frame, and completes the files.
-    pub(super) fn finish(self) -> Result<ClockFigures, SimulatorError> {
+    /// Closes the Parquet file, if there is one, and returns its path, so that it can be left out.
+    pub(super) fn give_up_parquet(&mut self) -> Option<PathBuf> {
+        self.rows.parquet.take().map(|parquet| parquet.path())
+    }
+
+    /// Adds the rows that still come after the last frame, and completes all files but that of
+    /// Parquet, which is returned: it can be left out.
+    pub(super) fn finish(self) -> Result<(ClockFigures, Option<ParquetFile>), SimulatorError> {
         let Self { model, mut rows, .. } = self;
         model.finish(&mut |transaction| rows.push(transaction));
         rows.write_out(true)?;
-        rows.parquet.map_or(Ok(()), ParquetFile::finish)?;
         rows.array.map_or(Ok(()), NpyWriter::finish)?;
-        Ok(rows.figures)
+        Ok((rows.figures, rows.parquet))
     }
 }
 

@@ -2,7 +2,7 @@
 //! The recorder, which takes the outcome of every frame and writes it at once, so that memory is
 //! bounded.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foveate_design::{Camera, Design};
 use foveate_engine::{Engine, FrameOutcome};
@@ -217,6 +217,7 @@ impl RunRecorder {
         }
         let pixel_events = self.pixel_events.take().map(PixelEventFiles::finish).transpose()?;
         let clocks = self.clocks.take().map(ClockFiles::finish).transpose()?;
+        let (clocks, clock_table) = clocks.map_or((None, None), |(own, table)| (Some(own), table));
         let summary = |problem| {
             let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
             summary.data_set.clone_from(&self.data_set);
@@ -226,6 +227,9 @@ impl RunRecorder {
         // The summary is written while there is space, before the last outputs are completed.
         let written = summary(problem.clone())?;
         finish_expendable(expendable, &may_leave_out, &mut problem)?;
+        if let Some(table) = clock_table {
+            check_finished(Some(table.path()), table.finish(), &may_leave_out, &mut problem)?;
+        }
         if written.problem == problem { Ok(written) } else { summary(problem) }
     }
 
@@ -238,12 +242,15 @@ impl RunRecorder {
     ) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
         loop {
             let Err(error) = self.write_out(true) else { return Ok(expendable) };
-            let sink = if error.is_full() { expendable.pop() } else { None };
-            let Some(sink) = sink else { return Err(error) };
-            let path = sink.expendable_path();
-            // The file is closed now.
-            drop(sink);
-            path.iter().for_each(|path| leave_out(path, problem));
+            if !error.is_full() {
+                return Err(error);
+            }
+            let clock_table = self.clocks.as_mut().and_then(ClockFiles::give_up_parquet);
+            // The file is closed when its sink is dropped.
+            let path =
+                clock_table.or_else(|| expendable.pop().and_then(|own| own.expendable_path()));
+            let Some(path) = path else { return Err(error) };
+            leave_out(&path, problem);
         }
     }
 
@@ -271,12 +278,26 @@ fn finish_expendable(
     problem: &mut Option<String>,
 ) -> Result<(), SimulatorError> {
     for sink in sinks {
-        match (sink.expendable_path(), sink.finish()) {
-            (Some(path), Err(error)) if may_leave_out(&error) => leave_out(&path, problem),
-            (_, other) => other?,
-        }
+        check_finished(sink.expendable_path(), sink.finish(), may_leave_out, problem)?;
     }
     Ok(())
+}
+
+/// Checks that an output is complete. An expendable output, which has a path, is given up if it
+/// failed.
+fn check_finished(
+    expendable: Option<PathBuf>,
+    finished: Result<(), SimulatorError>,
+    may_leave_out: &dyn Fn(&SimulatorError) -> bool,
+    problem: &mut Option<String>,
+) -> Result<(), SimulatorError> {
+    match (expendable, finished) {
+        (Some(path), Err(error)) if may_leave_out(&error) => {
+            leave_out(&path, problem);
+            Ok(())
+        }
+        (_, finished) => finished,
+    }
 }
 
 /// Removes a file or a folder of pictures that cannot be completed, and names it in the problem of
