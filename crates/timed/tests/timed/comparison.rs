@@ -64,6 +64,17 @@ pub(crate) fn check(design: &Design, traffic: Traffic, frames: &[Frame]) -> Reco
     recorded
 }
 
+/// Returns these designs, some with frame synchronization and some without.
+pub(crate) fn with_any_sync(
+    designs: impl Strategy<Value = Design>,
+) -> impl Strategy<Value = Design> {
+    (designs, any::<bool>()).prop_map(|(design, has_sync)| {
+        let mut config = design.config();
+        config.hardware.sync = has_sync;
+        config.validate().unwrap()
+    })
+}
+
 /// Returns random designs with recordings of random traffic, always the same.
 pub(crate) fn recordings(
     designs: impl Strategy<Value = Design>,

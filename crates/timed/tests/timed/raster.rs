@@ -12,6 +12,7 @@ use proptest::prelude::*;
 use crate::clip_script::{FrameChange, clip, scripts};
 use crate::comparison::{
     PlantedFault, cases, check, event_kinds, first_difference, found_faults, is_whole, recordings,
+    with_any_sync,
 };
 use crate::driver::{Driver, RecordedRun};
 use crate::event::CoreEvent;
@@ -19,11 +20,7 @@ use crate::raster_parameters::arbitrary_raster_parameters;
 use crate::traffic::traffic;
 
 fn designs() -> impl Strategy<Value = Design> {
-    (arbitrary_raster_parameters(), any::<bool>()).prop_map(|(recipe, has_sync)| {
-        let mut config = recipe.design().config();
-        config.hardware.sync = has_sync;
-        config.validate().unwrap()
-    })
+    with_any_sync(arbitrary_raster_parameters().prop_map(|recipe| recipe.design()))
 }
 
 proptest! {

@@ -8,16 +8,14 @@ use foveate_timed::CoreTiming;
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};
-use crate::comparison::{PlantedFault, cases, check, event_kinds, found_faults, recordings};
+use crate::comparison::{
+    PlantedFault, cases, check, event_kinds, found_faults, recordings, with_any_sync,
+};
 use crate::serial_parameters::arbitrary_serial_parameters;
 use crate::traffic::traffic;
 
 fn designs() -> impl Strategy<Value = Design> {
-    (arbitrary_serial_parameters(), any::<bool>()).prop_map(|(recipe, has_sync)| {
-        let mut config = recipe.design().config();
-        config.hardware.sync = has_sync;
-        config.validate().unwrap()
-    })
+    with_any_sync(arbitrary_serial_parameters().prop_map(|recipe| recipe.design()))
 }
 
 proptest! {
