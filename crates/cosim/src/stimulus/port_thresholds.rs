@@ -164,8 +164,16 @@ impl<'a> PortThresholds<'a> {
         random: &mut Random,
     ) {
         let Some(predictor) = &mut self.predictor else { return };
-        if matches!(self.aim, ThresholdAim::Configured | ThresholdAim::Independent) {
-            return;
+        match self.aim {
+            ThresholdAim::Exact
+            | ThresholdAim::Largest
+            | ThresholdAim::Smallest
+            | ThresholdAim::EveryClock => {}
+            // The minima of these have a purpose of their own.
+            ThresholdAim::Configured
+            | ThresholdAim::Independent
+            | ThresholdAim::HeldRegions
+            | ThresholdAim::DriftingRegions => return,
         }
         let lane = random.index(input.pixels.len() - 1);
         if predictor.decides(input) {

@@ -113,6 +113,12 @@ impl<Receiver: ClockReceiver> ModelDriver<'_, Receiver> {
             self.idle(self.drain_timing().clocks_to_wait().unwrap_or(0))?;
             self.push_out(last, GapPattern::None, |core| !is_leaving(core))?;
         }
+        // A pixel leaves some clocks after the one that pushes it out.
+        for _ in 0..self.drain_timing().clocks_to_wait().unwrap_or(0) {
+            if !is_leaving(self.model()) {
+                self.clock_without_intake(None)?;
+            }
+        }
         // Pixels in the windows are not pending, but the core is not ready while there are some.
         let is_under_way = |core: &dyn CycleModel| core.is_pending() || !core.is_ready();
         while !is_leaving(self.model()) && is_under_way(self.model()) {

@@ -72,13 +72,14 @@ fn design(keys: &[&str]) -> Design {
 fn reached_situations(design: &Design, seed: u64) -> Occurrences {
     let levels: Vec<CosimLevel> = ShippedBench::levels(design).unwrap();
     let levels = levels.into_iter().chain([CosimLevel::small_array(design)]);
-    let recordings: Vec<_> = levels
-        .map(|level| {
-            let stimulus = Stimulus { level, seed, rounds: 1, ..Stimulus::default() };
-            stimulus.record(design, &mut |_, _| {}).unwrap()
-        })
-        .collect();
-    Occurrences::sum_of(recordings.iter().map(|recording| recording.situations()))
+    let found: Vec<_> = levels.map(|level| recorded_situations(design, level, seed)).collect();
+    Occurrences::sum_of(found.iter())
+}
+
+/// Returns the situations of one round of vectors at a level.
+fn recorded_situations(design: &Design, level: CosimLevel, seed: u64) -> Occurrences {
+    let stimulus = Stimulus { level, seed, rounds: 1, ..Stimulus::default() };
+    stimulus.record(design, &mut |_, _| {}).unwrap().situations().clone()
 }
 
 #[test]
@@ -88,6 +89,34 @@ fn vectors_reach_every_situation_that_a_design_can_have() {
         DESIGNS.iter().flat_map(|&keys| seeds.map(|seed| (keys, seed))).collect();
     let failures = in_parallel(&all, |&(keys, seed)| {
         let found = reached_situations(&design(keys), seed);
+        match found.missing().is_empty() && !found.0.is_empty() {
+            true => Ok(()),
+            false => Err(format!("{keys:?}, seed {seed}: {found}")),
+        }
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Frames of one region, whose situations no neighbor brings about.
+const SINGLE_REGIONS: &[&[&str]] = &[
+    &["spatial=[{feature='edge',level=9,min_score=2}]", "temporal.min_count=2", LAST_SENT],
+    &[
+        "hardware.pipelining='deep'",
+        "spatial=[{feature='mad',min_score=4},{feature='variance',min_score=30}]",
+        LAST_SENT,
+    ],
+    &["denoise.filter='none'", MEAN, "spatial=[{feature='range',min_score=9}]"],
+    &["hardware.pipelining='deep'", MEAN, LAST_SENT, "render.payload='raw'"],
+];
+
+#[test]
+fn vectors_of_a_single_region_reach_every_situation() {
+    let all: Vec<(&[&str], u64)> =
+        SINGLE_REGIONS.iter().flat_map(|&keys| (1..=24).map(move |seed| (keys, seed))).collect();
+    let failures = in_parallel(&all, |&(keys, seed)| {
+        let frame = ["frame={width=3,height=3,pixel_bits=6}", "region.size=3"];
+        let design = design(&[&frame, keys].concat());
+        let found = recorded_situations(&design, CosimLevel::small_array(&design), seed);
         match found.missing().is_empty() && !found.0.is_empty() {
             true => Ok(()),
             false => Err(format!("{keys:?}, seed {seed}: {found}")),

@@ -101,6 +101,21 @@ const fn mean_sequences_around_reset() -> [FrameSequence; 2] {
     ]
 }
 
+/// Returns sequences that bring about a situation whatever is drawn: every region is active, held
+/// twice, irrelevant, and active again; all pixels of a region count as changed, and the minimum is
+/// above that.
+const fn certain_sequences() -> [FrameSequence; 2] {
+    use StimulusPattern::{Noise, Same, Zero};
+    let aimed = FrameSequence::with_aim;
+    [
+        FrameSequence {
+            is_mixed: false,
+            ..aimed(ThresholdAim::Independent, "sent again", &[Noise, Same, Same, Zero, Noise])
+        },
+        aimed(ThresholdAim::HeldRegions, "never changed enough", &[Noise]),
+    ]
+}
+
 /// Returns all sequences of a design, the most telling first. Sequences of damaged frames are behind
 /// the others, if the simulated hardware synchronizes to the start of a frame.
 pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSequence> {
@@ -109,6 +124,7 @@ pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSeque
         Hardware::Serial(own) => serial::sequences(design.with_hardware(own)),
         Hardware::Raster(own) => raster::sequences(design.with_hardware(own)),
     };
+    sequences.extend(certain_sequences());
     if has_frame_sync {
         sequences.extend(damaged::sequences());
     }
