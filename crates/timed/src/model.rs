@@ -63,6 +63,12 @@ impl TimedModel {
         }
     }
 
+    /// Returns the first edge at which the core can take the first beat of the next delivery.
+    #[must_use]
+    pub fn next_edge(&self) -> u64 {
+        self.core.open_from().max(self.next_beat)
+    }
+
     /// Takes the next delivery, and yields the transactions that are certain then, whatever
     /// follows. The others come with later deliveries, or with [`TimedModel::finish`].
     ///
@@ -220,7 +226,7 @@ impl TimedModel {
         let Some(last) = (self.given_beats(delivery) - 1).checked_sub(first) else { return };
         let offers = delivery.offers.iter().filter(|offer| offer.beat >= first);
         let offers = offers.map(|offer| (offer.beat - first, offer.clock));
-        let clocks = FrameClocks::new(self.core.open_from().max(self.next_beat), offers);
+        let clocks = FrameClocks::new(self.next_edge(), offers);
         match self.state {
             StreamState::Start => {
                 if clocks.edge(0) < end {
@@ -256,7 +262,7 @@ impl TimedModel {
         if let Some(pair) = delivery.offers.windows(2).find(|pair| pair[0].beat > pair[1].beat) {
             return Err(TimedError::OfferOrder { beat: pair[1].beat, before: pair[0].beat });
         }
-        let earliest = self.core.open_from().max(self.next_beat);
+        let earliest = self.next_edge();
         match delivery.reset {
             Some(reset) if reset < earliest => Err(TimedError::EarlyReset { reset, earliest }),
             Some(_) | None => Ok(()),

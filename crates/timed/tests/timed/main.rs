@@ -15,6 +15,7 @@ mod comparison;
 mod driver;
 mod event;
 mod frame_beats;
+mod frame_traffic;
 mod memory;
 mod observed_core;
 mod page_examples;
