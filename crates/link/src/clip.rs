@@ -13,7 +13,7 @@ use foveate_frame::FramePixels;
 use foveate_playback::{PlayedFrame, RunClips, RunMonitor};
 use foveate_simulator::{PixelCamera, PixelEventOptions};
 
-use crate::encoder::scratch_error;
+use crate::error::scratch_error;
 use crate::sweep::{SweptDesign, swept_designs};
 use crate::{GreyFootage, LinkError, Quality, SentCounts};
 

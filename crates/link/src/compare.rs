@@ -6,18 +6,21 @@ use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
 use foveate_footage::InputOptions;
+use foveate_frame::FramePixels;
 use foveate_playback::{RunClips, RunHooks, RunMonitor};
 use foveate_staging::{FolderKind, ScratchFolder, StagedFolder};
 use foveate_toolchain::{Tool, Toolchain};
 
 use crate::clip::{ClipResults, SweptResult, read_clip};
-use crate::encoder::{check_encoders, scratch_error};
+use crate::encoder::check_encoders;
+use crate::error::scratch_error;
 use crate::figures::bytes_per_second;
 use crate::report::{FORMAT_VERSION, QUANTIZER};
 use crate::search::coarsest_quantizer;
 use crate::{
-    ClipEncoder, ClipReport, Codec, CurvePoint, EncodedClip, EncoderPreset, LinkError, LinkFigures,
-    LinkReport, LinkUnit, Quality, SenderCameras, SenderReport, Timeline, files,
+    ArrayResults, ClipEncoder, ClipReport, Codec, CurvePoint, EncodedClip, EncoderPreset,
+    LinkError, LinkFigures, LinkReport, LinkUnit, Quality, SenderCameras, SenderReport, Timeline,
+    files,
 };
 use foveate_design::DECISION_BITS;
 
@@ -92,7 +95,9 @@ fn compare_clip(
     let figures = |units: Vec<LinkUnit>| {
         LinkFigures::from_units(units, &timeline, request.link_bits_per_second)
     };
-    let mut senders = camera_reports(&cameras, &seen, &figures);
+    let array = region_array(&cameras, &seen, request.link_bits_per_second, monitor)?;
+    let array_clocks = array.added_clocks;
+    let mut senders = camera_reports(&cameras, array, &seen, &figures);
     let mut curves: Vec<CurvePoint> =
         seen.swept.iter().map(|measured| region_point(&seen, measured, &timeline)).collect();
     for &codec in request.codecs {
@@ -108,6 +113,7 @@ fn compare_clip(
                 search_result: Some(found),
                 quality: Some(encoded.quality),
                 figures: figures(cameras.codec_units(&encoded.packets)),
+                unbuffered: None,
             });
         }
         for &quantizer in codec.curve_quantizers() {
@@ -126,15 +132,32 @@ fn compare_clip(
         height: seen.design.height(),
         frames: timeline.frames(),
         duration_ns: timeline.end_ns(),
-        array_clocks: cameras.added_clocks(),
+        array_clocks,
         needed_clock_hz: cameras.needed_clock_hz(),
         senders,
         curves,
     })
 }
 
+/// Returns the results of the generated array. A raster core takes the frames once more, now that
+/// the times of all frames are known.
+fn region_array(
+    cameras: &SenderCameras<'_>,
+    seen: &ClipResults,
+    link_bits_per_second: u64,
+    monitor: &RunMonitor<'_>,
+) -> Result<ArrayResults, LinkError> {
+    let Some(mut core) = cameras.raster_array(link_bits_per_second) else {
+        return Ok(cameras.slot_array(&seen.sent));
+    };
+    let mut step = |pixels: &[u8]| core.step(FramePixels::Bytes(pixels));
+    seen.grey_footage.visit_frames(monitor, &mut step)?;
+    Ok(core.finish())
+}
+
 fn camera_reports(
     cameras: &SenderCameras<'_>,
+    array: ArrayResults,
     seen: &ClipResults,
     figures: &dyn Fn(Vec<LinkUnit>) -> LinkFigures,
 ) -> Vec<SenderReport> {
@@ -145,6 +168,11 @@ fn camera_reports(
         search_result: None,
         quality,
         figures: figures(units),
+        unbuffered: None,
+    };
+    let array = SenderReport {
+        unbuffered: array.unbuffered,
+        ..row("region array", Some(seen.quality), array.units)
     };
     let own = Some(seen.quality);
     let by_rows = cameras.region_units_by_rows(&seen.sent);
@@ -152,7 +180,7 @@ fn camera_reports(
         .map(|units| row("region by rows", own, units))
         .into_iter()
         .chain([
-            row("region array", own, cameras.region_array_units(&seen.sent)),
+            array,
             row("pixel events", None, cameras.pixel_event_units(&seen.sent)),
             row("raw", Some(Quality::IDENTICAL), cameras.raw_units()),
         ])

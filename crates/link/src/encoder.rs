@@ -11,26 +11,12 @@ use foveate_fidelity::FrameSimilarity;
 use foveate_playback::RunMonitor;
 use foveate_toolchain::{Invocation, ProgramReader, Tool, ToolError, Toolchain};
 
-use crate::{Codec, EncoderPreset, LinkError, Quality};
+use crate::error::scratch_error;
+use crate::{Codec, EncoderPreset, GreyFootage, LinkError, Quality};
 
 /// The frame rate that the encoders are given. With a constant quantizer it does not change any
 /// frame.
 const FRAME_RATE: &str = "30";
-
-/// The frames of a clip as grey bytes in a file, one after the other.
-#[derive(Clone, Debug)]
-pub struct GreyFootage {
-    /// The name of the clip.
-    pub clip: String,
-    /// The path of the file.
-    pub path: PathBuf,
-    /// The width in pixels.
-    pub width: u32,
-    /// The height in pixels.
-    pub height: u32,
-    /// The number of frames.
-    pub frames: u64,
-}
 
 /// A clip after encoding and decoding.
 #[derive(Clone, Debug, PartialEq)]
@@ -219,13 +205,4 @@ pub fn check_encoders(tools: &Toolchain, codecs: &[Codec]) -> Result<(), LinkErr
         None => Ok(()),
         Some(codec) => Err(LinkError::NoEncoder { encoder: codec.encoder(), codec: codec.name() }),
     }
-}
-
-/// Returns a function that adds a temporary file's path to an error of the system.
-pub(crate) fn scratch_error(
-    action: &'static str,
-    path: &Path,
-) -> impl Fn(std::io::Error) -> LinkError + use<> {
-    let path = path.to_owned();
-    move |source| LinkError::Scratch { action, path: path.clone(), source }
 }

@@ -2,7 +2,7 @@
 //! The errors of comparisons. Every message names its subject and says what would be right.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foveate_design::ConfigError;
 use foveate_fidelity::FidelityError;
@@ -11,6 +11,7 @@ use foveate_pictures::chart::ChartError;
 use foveate_playback::PlaybackError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
+use foveate_timed::TimedError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
@@ -33,6 +34,9 @@ pub enum LinkError {
     /// The pixel camera cannot be created.
     #[error(transparent)]
     Simulator(#[from] SimulatorError),
+    /// The timed model of the array cannot take a frame.
+    #[error(transparent)]
+    Timed(#[from] TimedError),
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
@@ -165,4 +169,13 @@ impl From<ToolError> for LinkError {
     fn from(error: ToolError) -> Self {
         if error.is_interrupted() { PlaybackError::Interrupted.into() } else { Self::Tool(error) }
     }
+}
+
+/// Returns a function that adds a temporary file's path to an error of the system.
+pub(crate) fn scratch_error(
+    action: &'static str,
+    path: &Path,
+) -> impl Fn(io::Error) -> LinkError + use<> {
+    let path = path.to_owned();
+    move |source| LinkError::Scratch { action, path: path.clone(), source }
 }

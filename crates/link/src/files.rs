@@ -5,7 +5,10 @@ use foveate_files::tables::{NamedCells, Table, TableCell};
 use foveate_staging::StagedFolder;
 
 use crate::charts::charts;
-use crate::{ClipReport, CurvePoint, LinkError, LinkReport, Quality, SenderReport};
+use crate::frame_ranges::frame_ranges;
+use crate::{
+    ClipReport, CurvePoint, LinkError, LinkReport, Quality, SenderReport, UnbufferedFigures,
+};
 
 /// Writes all files.
 pub(crate) fn write(staging: &StagedFolder, report: &LinkReport) -> Result<(), LinkError> {
@@ -67,9 +70,21 @@ fn sender_row(clip: &ClipReport, sender: &SenderReport) -> NamedCells {
         ("delivery_longest_ns", TableCell::Count(Some(figures.delivery_ns.longest))),
         ("buffer_bytes", TableCell::Count(Some(figures.buffer_bytes))),
         ("overloaded", TableCell::Flag(figures.overloaded)),
-        ("design", TableCell::Text(clip.design.clone())),
     ]));
+    row.extend(unbuffered_cells(sender.unbuffered.as_ref()));
+    row.extend(named([("design", TableCell::Text(clip.design.clone()))]));
     row
+}
+
+/// Returns the figures without a buffer, which are empty for all senders but a raster core.
+fn unbuffered_cells(figures: Option<&UnbufferedFigures>) -> NamedCells {
+    let frames = figures.map(|figures| frame_ranges(&figures.frames_with_losses));
+    named([
+        ("unbuffered_clock_hz", TableCell::Count(figures.map(|figures| figures.clock_hz))),
+        ("unbuffered_lost_regions", TableCell::Count(figures.map(|figures| figures.lost_regions))),
+        ("unbuffered_frames_with_losses", TableCell::Text(frames.unwrap_or_default())),
+        ("unbuffered_last_word_ns", TableCell::Count(figures.map(|figures| figures.last_word_ns))),
+    ])
 }
 
 fn point_row(clip: &ClipReport, point: &CurvePoint) -> NamedCells {

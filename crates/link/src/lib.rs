@@ -8,33 +8,42 @@
 //! the cameras and the codecs, and writes a folder that appears complete or not at all. Times and
 //! rates are integers.
 
+mod array_results;
 mod charts;
 mod clip;
 mod codec;
 mod compare;
+mod core_clock;
 mod encoder;
 mod error;
 mod figures;
 mod files;
+mod frame_ranges;
+mod grey_footage;
+mod link_sink;
 mod quality;
 mod queue;
+mod raster_array;
 mod report;
+mod row_record;
 mod search;
 mod sender;
-mod stream;
 mod sweep;
 mod text;
 mod timeline;
 mod unit;
 mod windows;
 
+pub use array_results::{ArrayResults, UnbufferedFigures};
 pub use codec::{Codec, EncoderPreset};
 pub use compare::{LINK_FOLDER, LinkRequest, compare};
-pub use encoder::{ClipEncoder, EncodedClip, GreyFootage, check_encoders};
+pub use encoder::{ClipEncoder, EncodedClip, check_encoders};
 pub use error::LinkError;
 pub use figures::{DeliveryTimes, LinkFigures};
+pub use grey_footage::GreyFootage;
 pub use quality::Quality;
 pub use queue::{QueueResult, send_over_link};
+pub use raster_array::RasterArray;
 pub use report::{ClipReport, CurvePoint, LinkReport, SenderReport};
 pub use search::coarsest_quantizer;
 pub use sender::{SenderCameras, SentCounts};

@@ -3,10 +3,10 @@
 
 use serde::Serialize;
 
-use crate::{LinkFigures, Quality};
+use crate::{LinkFigures, Quality, UnbufferedFigures};
 
 /// The version of the JSON format; it changes if a key changes its meaning or is removed.
-pub(crate) const FORMAT_VERSION: u32 = 2;
+pub(crate) const FORMAT_VERSION: u32 = 3;
 
 /// The name of the setting that a codec's curve varies.
 pub(crate) const QUANTIZER: &str = "quantizer";
@@ -50,7 +50,8 @@ pub struct ClipReport {
     /// The time from the first frame to the end of the last frame, in ns.
     pub duration_ns: u64,
     /// The most clocks that the array adds to a time after the pixels that it waits for have been
-    /// read.
+    /// read. Those of a raster core are of this clip, at the clock of the array, or without one at
+    /// the slowest that keeps up.
     pub array_clocks: u64,
     /// The slowest clock in Hz at which the array keeps up with the frames.
     pub needed_clock_hz: u64,
@@ -79,6 +80,8 @@ pub struct SenderReport {
     pub quality: Option<Quality>,
     /// The load on the link.
     pub figures: LinkFigures,
+    /// The figures without a buffer between array and link; only for the array of a raster design.
+    pub unbuffered: Option<UnbufferedFigures>,
 }
 
 /// A point of a curve.

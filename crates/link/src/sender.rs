@@ -10,18 +10,18 @@
 //!
 //! *By rows* means that every row of regions is an array of its own. It takes pixels as they are
 //! read, and its pixels are available when the decision falls. *Array* is the generated `rcm`,
-//! whose times [`DepartureTiming`] describes. It may take a frame when all of it has been read, and
-//! send decisions and pixels slot by slot. Or it takes pixels as they are read, and sends one row
-//! of regions after the other: the decisions of a row when the last of them falls, and the pixels
-//! when the last word is out. A decision has two bits.
+//! which may take a frame when all of it has been read, and send decisions and pixels slot by slot,
+//! at the times of [`DepartureTiming`]. Or it is a [`RasterArray`], which takes pixels as they are
+//! read, and sends one row of regions after the other: the decisions of a row when the last of them
+//! falls, and the pixels when the last word is out. A decision has two bits.
 
 use foveate_design::{
     DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming, RegionAction,
 };
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
-use crate::stream::{RasterArrayStream, RowDepartureTimes, most_added_clocks};
-use crate::{LinkError, LinkUnit, Timeline};
+use crate::core_clock::FrequencyClock;
+use crate::{ArrayResults, LinkError, LinkUnit, RasterArray, Timeline};
 
 /// The values that a region camera sends for one frame, and the events of a pixel camera.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,8 +31,6 @@ pub struct SentCounts {
     /// The number of pixels and means that are sent for every slot; there is one slot if no regions
     /// share a unit.
     pub slots: Vec<u64>,
-    /// The action of every region.
-    pub actions: Vec<RegionAction>,
     /// The number of pixel events of every row.
     pub events: Vec<u64>,
 }
@@ -48,7 +46,7 @@ impl SentCounts {
             rows[(region / design.columns()) as usize] += values;
             slots[(region % design.slots()) as usize] += values;
         }
-        Self { rows, slots, actions: actions.to_vec(), events }
+        Self { rows, slots, events }
     }
 }
 
@@ -63,7 +61,7 @@ pub struct SenderCameras<'a> {
 
 impl<'a> SenderCameras<'a> {
     /// Creates cameras with an array at a clock of `clock_hz`. Without a clock the array takes no
-    /// time, and [`Self::added_clocks`] returns the clocks that are left out.
+    /// time, and [`ArrayResults::added_clocks`] is the number of clocks that are left out.
     ///
     /// # Errors
     /// Fails if the array is not done with a frame when the next one comes.
@@ -86,13 +84,9 @@ impl<'a> SenderCameras<'a> {
         }
     }
 
-    /// Returns the most clocks that the array adds to a time after the pixels that it waits for
-    /// have been read.
-    #[must_use]
-    pub fn added_clocks(&self) -> u64 {
-        if let Some(core) = self.raster_timing() {
-            return most_added_clocks(core, self.design.regions());
-        }
+    /// Returns the most clocks that an array that takes whole frames, or that works by rows, adds to
+    /// a time after the pixels that it waits for have been read.
+    fn added_clocks(&self) -> u64 {
         let DepartureTiming {
             take_clocks,
             decision_clocks,
@@ -177,46 +171,24 @@ impl<'a> SenderCameras<'a> {
         Some(units)
     }
 
-    /// Returns the units of the generated array.
+    /// Returns a raster core in front of a link of so many bits per second, which takes pixels as
+    /// they are read; `None` for other organizations.
     #[must_use]
-    pub fn region_array_units(&self, sent: &[SentCounts]) -> Vec<LinkUnit> {
-        match self.raster_timing() {
-            Some(timing) => self.units_by_stream(timing, sent),
-            None => self.units_by_slot(sent),
-        }
+    pub fn raster_array(&self, link_bits_per_second: u64) -> Option<RasterArray<'a>> {
+        let timing = self.raster_timing()?;
+        let clocks = (self.clock_hz, self.needed_clock_hz());
+        let core = (self.design, timing);
+        Some(RasterArray::new(core, self.timeline, clocks, link_bits_per_second))
     }
 
-    /// Returns the units of an array that takes pixels as they are read, one row of regions after
-    /// the other.
-    fn units_by_stream(&self, timing: RasterTiming, sent: &[SentCounts]) -> Vec<LinkUnit> {
-        let map = DECISION_BITS * u64::from(self.design.columns());
-        let mut array = RasterArrayStream::new(timing, self.timeline, self.clock_hz);
-        let mut units = Vec::new();
-        for (frame, sent) in (0..).zip(sent) {
-            let rows = array.next_frame(&sent.actions).into_iter().zip(&sent.rows);
-            for (row, (RowDepartureTimes { decided, sent }, &pixels)) in (0..).zip(rows) {
-                let read = self.timeline.row_read_ns(frame, row * self.design.region_size());
-                units.push(LinkUnit {
-                    frame,
-                    read_ns: read,
-                    decided_ns: decided,
-                    sent_ns: decided,
-                    bits: map,
-                });
-                let bits = pixels * u64::from(self.design.pixel_bits());
-                // The pixels may be out before the last decision of the row, if the last decisions
-                // send no pixels.
-                let unit = |sent| LinkUnit {
-                    frame,
-                    read_ns: read,
-                    decided_ns: decided.min(sent),
-                    sent_ns: sent,
-                    bits,
-                };
-                units.extend(sent.map(unit));
-            }
+    /// Returns the results of an array that takes a frame when all of it has been read.
+    #[must_use]
+    pub fn slot_array(&self, sent: &[SentCounts]) -> ArrayResults {
+        ArrayResults {
+            units: self.units_by_slot(sent),
+            added_clocks: self.added_clocks(),
+            unbuffered: None,
         }
-        units
     }
 
     /// Returns the units of an array that takes a frame when all of it has been read.
@@ -314,8 +286,6 @@ impl<'a> SenderCameras<'a> {
 
     /// Converts clocks to ns, rounded up; returns 0 without a clock.
     fn clocks_to_ns(&self, clocks: u64) -> u64 {
-        let Some(clock_hz) = self.clock_hz else { return 0 };
-        let ns = (u128::from(clocks) * 1_000_000_000).div_ceil(u128::from(clock_hz.max(1)));
-        u64::try_from(ns).unwrap_or(u64::MAX)
+        self.clock_hz.map_or(0, |hertz| FrequencyClock { hertz }.time_ns(clocks))
     }
 }

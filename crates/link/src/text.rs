@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use crate::{ClipReport, LinkReport, SenderReport};
+use crate::{ClipReport, LinkReport, SenderReport, UnbufferedFigures};
 
 const COLUMNS: [&str; 14] = [
     "sender",
@@ -46,6 +46,9 @@ impl LinkReport {
             for sender in &clip.senders {
                 let _ = writeln!(text, "| {} |", row(clip, sender).join(" | "));
             }
+            for figures in clip.senders.iter().filter_map(|sender| sender.unbuffered.as_ref()) {
+                let _ = writeln!(text, "\n{}", unbuffered_text(clip, figures));
+            }
         }
         text
     }
@@ -55,12 +58,30 @@ impl LinkReport {
         match self.clock_hz {
             Some(hertz) => format!("The array runs at {} MHz.", megahertz_text(hertz)),
             None => format!(
-                "Without --clock: the array adds up to {} clocks to the times of the region camera. It needs {} MHz to keep up.",
-                clip.array_clocks,
-                megahertz_text(clip.needed_clock_hz)
+                "Without --clock: at {} MHz, the slowest clock that keeps up, the array adds up to {} clocks to the times of the region camera.",
+                megahertz_text(clip.needed_clock_hz),
+                clip.array_clocks
             ),
         }
     }
+}
+
+/// Describes an array that gives its words to the link without a buffer.
+fn unbuffered_text(clip: &ClipReport, figures: &UnbufferedFigures) -> String {
+    let losses = match figures.frames_with_losses[..] {
+        [] => "no region is lost".to_owned(),
+        [first, ..] => format!(
+            "lost regions: {}, in {} of {} frames, first in frame {first}",
+            figures.lost_regions,
+            figures.frames_with_losses.len(),
+            clip.frames
+        ),
+    };
+    format!(
+        "Without a buffer behind the array, at {} MHz, {losses}. The link takes the last word of a row of regions at most {} ms after its oldest pixel was read.",
+        megahertz_text(figures.clock_hz),
+        thousandths_text(figures.last_word_ns / 1000, 3)
+    )
 }
 
 /// Formats Hz as MHz, exactly.

@@ -124,6 +124,42 @@ fn a_slow_link_needs_a_buffer_and_adds_latency() {
 }
 
 #[test]
+fn a_raster_core_says_what_a_link_without_a_buffer_loses() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let set = ["--codecs", "mjpeg", "--set", "hardware.organization=\"raster\""];
+    let unbuffered = |rate: &str| {
+        let found = report(dir.path(), &[&set[..], &["--clock", "20MHz", "--link", rate]].concat());
+        assert!(senders(&found, "raw")[0]["unbuffered"].is_null());
+        senders(&found, "region array")[0]["unbuffered"].clone()
+    };
+    // The first frame is sent whole: 4.6 Mbit/s are as many pixels as come.
+    let (fast, slow) = (unbuffered("100Mbit"), unbuffered("1Mbit"));
+    assert_eq!(fast["clock_hz"], 20_000_000);
+    assert_eq!(fast["lost_regions"], 0, "{fast}");
+    assert_eq!(fast["frames_with_losses"], Value::Array(Vec::new()));
+    assert!(number(&slow["lost_regions"]) > 100.0, "{slow}");
+    assert_eq!(slow["frames_with_losses"][0], 0, "{slow}");
+    assert!(number(&slow["last_word_ns"]) > number(&fast["last_word_ns"]), "{slow}");
+    // The table has the same, for the array alone.
+    let table = fs::read_to_string(dir.path().join("out/link.csv")).unwrap();
+    let header = "unbuffered_clock_hz,unbuffered_lost_regions,unbuffered_frames_with_losses,\
+                  unbuffered_last_word_ns";
+    assert!(table.lines().next().unwrap().contains(header), "{table}");
+    let array = table.lines().find(|line| line.contains(",region array,")).unwrap();
+    let cells = format!(",20000000,{},0", slow["lost_regions"]);
+    assert!(array.contains(&cells), "{array}");
+    assert!(table.lines().any(|line| line.contains(",raw,") && line.contains(",,,,")), "{table}");
+    let args = ["link", "scene:street", "-o", "text", "--max-frames", "2"];
+    let more = ["--link", "1Mbit", "--set", FRAME];
+    let text = run_successfully(dir.path(), &[&args[..], &set, &more, &ALL].concat());
+    let stated = "Without a buffer behind the array, at 0.";
+    assert!(text.contains(stated) && text.contains(" MHz, lost regions: "), "{text}");
+}
+
+#[test]
 fn tables_are_markdown_and_quiet_is_quiet() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
@@ -196,8 +232,8 @@ fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
     assert!(report["clips"][0]["problem"].is_string(), "{report}");
     // A frame takes 64 clocks to enter, and 20 more to its decisions; 48 rows of 8 pixels come in
     // 40 ms.
-    let stated = "Without --clock: the array adds up to 84 clocks to the times of the region camera. \
-                  It needs 0.0096 MHz to keep up.\n";
+    let stated = "Without --clock: at 0.0096 MHz, the slowest clock that keeps up, the array adds up \
+                  to 84 clocks to the times of the region camera.\n";
     assert!(cut.stdout.contains(stated) && report["clock_hz"].is_null(), "{}", cut.stdout);
     let given = run_in(dir.path(), &[&args[..], &["--force", "--clock", "50MHz"]].concat());
     assert!(given.stdout.contains("The array runs at 50 MHz.\n"), "{}", given.stdout);

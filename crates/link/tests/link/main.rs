@@ -5,4 +5,5 @@
 
 mod codecs;
 mod queue;
+mod raster;
 mod senders;

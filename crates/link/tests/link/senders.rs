@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The times at which cameras send, worked out by hand from docs/timing.md, docs/serial.md and
-//! docs/raster.md.
+//! The times at which cameras send, worked out by hand from docs/timing.md and docs/serial.md.
 
 use foveate_design::{Design, DesignConfig, RegionAction};
 use foveate_link::{LinkUnit, SenderCameras, SentCounts, Timeline};
@@ -101,7 +100,7 @@ fn pixels_leave_the_pipelined_array_with_the_next_frame() {
         (1_000, decided, decided + 12_000, 80 * 8),
         (13_000, decided + 12_000, decided + 12_000, 6 * 2),
     ];
-    assert_eq!(times(&cameras.region_array_units(&sent(&design))), expected);
+    assert_eq!(times(&cameras.slot_array(&sent(&design)).units), expected);
 }
 
 #[test]
@@ -113,7 +112,7 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     // Region 0 is in slot 0 and region 5 in slot 1.
     assert_eq!(sent[0].slots, [64, 16]);
     assert!(cameras.region_units_by_rows(&sent).is_none(), "its lanes work in step");
-    let units = cameras.region_array_units(&sent);
+    let units = cameras.slot_array(&sent).units;
     // Three lanes take 2 * 64 pixels. A slot takes 64 * 83 clocks of median, 3 of count, 14 * 64 of
     // edge, 3 of score and 64 of unload.
     let (median, edge) = (64 * 83, 14 * 64);
@@ -127,63 +126,6 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
         (clocks(slot + decides), clocks(2 * slot), 16 * 8),
     ];
     assert_eq!(ns, expected);
-}
-
-/// A frame of 20x12 pixels has 5x3 regions of 4. There are no windows, S is 2, and with `variance`
-/// D is 9. The sensor reads a word every 50 us, and a clock takes 1 us.
-#[test]
-fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() {
-    let core = "hardware.organization=\"raster\"";
-    let set =
-        [core, "region.size=4", "spatial=[{feature=\"variance\"}]", "denoise.filter=\"none\""];
-    let (design, timeline) = (design(&set), timeline());
-    let at = |clock| SenderCameras::new("clip", &design, &timeline, clock).unwrap();
-    // In the first row regions 0 and 4 are active, in the second row none, and in the third row 11
-    // and 12.
-    let mut active = [false; 15];
-    [0, 4, 11, 12].iter().for_each(|&region: &usize| active[region] = true);
-    let first = SentCounts::from_actions(&design, &actions(&active), vec![0; 12]);
-    assert_eq!(first.rows, [32, 0, 32]);
-    let sent = [first, SentCounts::from_actions(&design, &actions(&[false; 15]), vec![0; 12])];
-    assert!(at(None).region_units_by_rows(&sent).is_none(), "the array does it");
-    // The last word of a row of regions comes with its row; with `variance` D is 9. The last region
-    // does not wait: it enters the queue at 10, is held at 12, its 16 words are fetched from 13 to
-    // 28, and the last word is out at 29. Region 12 comes 200 us after region 11, so it does not
-    // wait either: it is out before the last decision of its row.
-    let (decision, pixels) = (9, 29);
-    let expected = [
-        (1_000, 4_000 + decision, 4_000 + decision, 10),
-        (1_000, 4_000 + decision, 4_000 + pixels, 32 * 8),
-        (5_000, 8_000 + decision, 8_000 + decision, 10),
-        (9_000, 12_000 + decision, 12_000 + decision, 10),
-        (9_000, 11_600 + pixels, 11_600 + pixels, 32 * 8),
-        (13_000, 16_000 + decision, 16_000 + decision, 10),
-        (17_000, 20_000 + decision, 20_000 + decision, 10),
-        (21_000, 24_000 + decision, 24_000 + decision, 10),
-    ];
-    assert_eq!(times(&at(Some(MEGAHERTZ)).region_array_units(&sent)), expected);
-    // Without a clock, pixels that do not wait for others leave with their last word.
-    let units = at(None).region_array_units(&sent);
-    assert_eq!(times(&units)[1], (1_000, 4_000, 4_000, 32 * 8));
-    assert_eq!(times(&units)[4], (9_000, 11_600, 11_600, 32 * 8));
-    // There are 240 words, and 9 clocks until the last decision, in 12 ms.
-    assert_eq!(at(None).needed_clock_hz(), 20_750);
-}
-
-/// A window waits for a row and a word more. Below the frame the core makes them by itself.
-#[test]
-fn a_raster_core_with_windows_waits_for_the_rows_below() {
-    let set = ["hardware.organization=\"raster\"", "region.size=4"];
-    let (design, timeline) = (design(&set), timeline());
-    let cameras = SenderCameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    let none = [SentCounts::from_actions(&design, &actions(&[false; 15]), vec![0; 12])];
-    // The median and the edges wait for two rows and two words of 50 us, and D is 11.
-    let above = |rows: u64| 1_000 * (rows + 2) + 100 + 11;
-    // These are two rows of 20 words and two words, one per clock.
-    let below = 12_000 + 42 + 11;
-    let expected = [(1_000, above(4)), (5_000, above(8)), (9_000, below)];
-    let expected = expected.map(|(read, at)| (read, at, at, 10));
-    assert_eq!(times(&cameras.region_array_units(&none)), expected);
 }
 
 #[test]
@@ -212,37 +154,6 @@ fn an_array_that_is_too_slow_is_refused() {
     assert_eq!(without.needed_clock_hz(), 8_000);
 }
 
-/// A raster core adds the most clocks at the slowest clock that keeps up: at a faster clock it is
-/// done with a frame earlier. One nanosecond is lost to rounding.
-#[test]
-fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
-    let core = "hardware.organization=\"raster\"";
-    let (mad, sent) = ("spatial=[{feature=\"mad\"}]", "temporal.reference=\"last-sent\"");
-    let words = ["hardware.pixels_per_clock=2", "frame.width=30"];
-    for set in [&[][..], &[mad], &words, &[sent, "frame.height=8"], &[sent, mad]] {
-        let design = design(&[&[core, "region.size=4"], set].concat());
-        let timeline = Timeline::new("clip", &[0, 12_000], design.height()).unwrap();
-        let all = vec![true; design.regions() as usize];
-        let sent = [(); 2].map(|()| SentCounts::from_actions(&design, &actions(&all), vec![0; 12]));
-        let at = |clock| SenderCameras::new("clip", &design, &timeline, clock).unwrap();
-        let (needed, own) = (at(None).needed_clock_hz(), at(None).added_clocks());
-        let later = |clock: u64| {
-            let (without, with) =
-                (at(None).region_array_units(&sent), at(Some(clock)).region_array_units(&sent));
-            let later =
-                with.iter().zip(&without).map(|(with, without)| with.sent_ns - without.sent_ns);
-            // The clocks of this test are far below 1 GHz, and its times are below a minute.
-            (later.max().unwrap() - 1) * clock / 1_000_000_000
-        };
-        assert!((own - 2..=own).contains(&later(needed)), "{set:?}: {}", later(needed));
-        assert!(later(100 * needed) < own, "{set:?}");
-        assert!(
-            SenderCameras::new("clip", &design, &timeline, Some(needed - 1)).is_err(),
-            "{set:?}"
-        );
-    }
-}
-
 /// Every time of the array is later by at most the stated clocks, and one time is later by exactly
 /// these.
 #[test]
@@ -257,14 +168,15 @@ fn without_a_clock_the_clocks_of_the_array_are_left_out_and_stated() {
         let (without, with) = (at(None), at(Some(100 * MEGAHERTZ)));
         let all = |cameras: &SenderCameras<'_>| {
             let rows = cameras.region_units_by_rows(&sent).unwrap_or_default();
-            rows.into_iter().chain(cameras.region_array_units(&sent)).collect::<Vec<_>>()
+            rows.into_iter().chain(cameras.slot_array(&sent).units).collect::<Vec<_>>()
         };
         let (without_clock, with_clock) = (all(&without), all(&with));
         let pairs = without_clock.iter().zip(&with_clock);
         let later = pairs.map(|(one, other)| {
             (other.sent_ns - one.sent_ns).max(other.decided_ns - one.decided_ns)
         });
-        assert_eq!(later.max(), Some(without.added_clocks() * 10));
-        assert_eq!(without.added_clocks(), expected.unwrap_or(without.added_clocks()));
+        let added = without.slot_array(&sent).added_clocks;
+        assert_eq!(later.max(), Some(added * 10));
+        assert_eq!(added, expected.unwrap_or(added));
     }
 }
