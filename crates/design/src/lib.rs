@@ -48,10 +48,7 @@ pub use interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 pub use pipelined::{PipelinedHardware, PipelinedTiming};
 pub use port::{OutputQualifier, Port, PortDirection, PortRole};
 pub use preset::{PRESETS, Preset};
-pub use raster::{
-    FRAME_NUMBERS, RasterHardware, RasterMemory, RasterStreamTiming, RasterTiming, RowDeparture,
-    SecondPassTiming,
-};
+pub use raster::{FRAME_NUMBERS, RasterHardware, RasterMemory, RasterTiming, SecondPassTiming};
 pub use rules::{ArrayStructure, ArrayUnit};
 pub use serial::{
     BlockMeanDivision, LaneMemory, LaneWidths, MemoryChoice, SerialHardware, SerialPhase,

@@ -16,8 +16,8 @@ pub struct DesignTiming {
 /// The times at which the decisions and pixels of a frame leave the array, if the frame is taken as
 /// fast as the array can. Clocks are counted from the edge that takes the last pixel of the frame.
 /// Regions that share a unit leave slot by slot. A raster core takes pixels as a sensor reads them
-/// out, and gives the decisions and pixels of one row of regions while it takes others;
-/// [`crate::RasterStreamTiming`] has those times.
+/// out, and gives the decisions and pixels of one row of regions while it takes others; the crate
+/// `foveate-timed` computes those times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DepartureTiming {
     /// Clocks that the array needs to take a frame whose pixels are all available.

@@ -7,13 +7,11 @@ mod hardware;
 mod memory;
 mod ports;
 mod rules;
-mod stream;
 mod timing;
 
 pub use hardware::RasterHardware;
 pub use memory::RasterMemory;
 pub use ports::FRAME_NUMBERS;
-pub use stream::{RasterStreamTiming, RowDeparture};
 pub use timing::{RasterTiming, SecondPassTiming};
 
 #[cfg(test)]

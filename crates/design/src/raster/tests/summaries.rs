@@ -2,8 +2,8 @@
 //! Tests of the additions of a periphery to a core, and of the keys that it can be combined with.
 
 use super::{config, design, refusal};
-use crate::raster::{RasterMemory, RasterStreamTiming, RasterTiming};
-use crate::{OutputQualifier, PortDirection, PortRole, RegionAction};
+use crate::raster::{RasterMemory, RasterTiming};
+use crate::{OutputQualifier, PortDirection, PortRole};
 
 const MEAN: &str = "render.irrelevant=mean";
 
@@ -152,33 +152,4 @@ fn memories_of_means() {
     let (with, without) = (of(&[MEAN, mad]), of(&[mad]));
     assert_eq!(with[without.len() - 1], (32, without.last().unwrap().1 + 2));
     assert_eq!(with[without.len()..], [(16, 13), (8 * 4 * 4, 8), (64 * 4, 8), (64, 1), (64, 1)]);
-}
-
-/// The rows have 32 words of two pixels, and the regions of 2x2 pixels have one mean. Decisions
-/// follow each other at every clock. Summaries leave at every second clock, because each is held
-/// for two clocks.
-#[test]
-fn a_stream_of_summaries() {
-    let keys = [
-        MEAN,
-        "frame.width=64",
-        "frame.height=8",
-        "hardware.pixels_per_clock=2",
-        "region.size=2",
-        "periphery.blocks=1",
-        "denoise.filter=none",
-        "spatial=[{feature=\"variance\",min_score=1}]",
-        "temporal.min_count=1",
-    ];
-    let timing = RasterTiming::from_design(design(&keys).as_raster().unwrap());
-    assert_eq!((timing.row_words, timing.summary_words, timing.region_words), (32, Some(1), 2));
-    let mut stream = RasterStreamTiming::new(timing, 1);
-    let read = |row: u32| (u128::from(row) * 32, u128::from(row + 1) * 32);
-    let rows = stream.advance_frame(read, &[RegionAction::Summarize; 128]);
-    let last = 64 + u128::from(timing.decision_latency);
-    assert_eq!(rows[0].last_decision, last);
-    let first_left = last - 31 + u128::from(timing.clocks_to_first_word());
-    assert_eq!(rows[0].last_word, Some(first_left + 2 * 31));
-    let rows = stream.advance_frame(read, &[RegionAction::Hold; 128]);
-    assert!(rows.iter().all(|row| row.last_word.is_none()));
 }

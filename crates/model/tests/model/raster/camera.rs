@@ -109,7 +109,7 @@ fn check(recipe: &RasterParameters, clip: &[Frame]) {
 }
 
 /// Returns the recipe of a number. Its choices change at different rates with the number.
-pub(super) fn recipe(number: usize) -> RasterParameters {
+fn recipe(number: usize) -> RasterParameters {
     let on = |speed: usize| number / speed % 2 == 1;
     let feature =
         |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 2 };

@@ -241,7 +241,7 @@ impl RasterDriver {
 }
 
 /// Returns the words of a frame. Pixels beyond its right border are random.
-pub(crate) fn frame_words(
+fn frame_words(
     recipe: &RasterParameters,
     frame: &Frame,
     random: &mut SeededRandom,

@@ -3,7 +3,6 @@
 //! against waveforms that are computed by hand, and against the functional camera.
 
 mod camera;
-mod departure;
 mod driver;
 mod examples;
 mod memory;
