@@ -21,6 +21,11 @@ const SHOWN_CHARACTERS: usize = 60;
 /// # Errors
 /// Fails if the file cannot be read, or if it is no list of stalls in order and without overlaps.
 pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
+    read_stalls_up_to(path, MAX_STALLS)
+}
+
+/// Reads a table of at most `most` stalls.
+fn read_stalls_up_to(path: &Path, most: usize) -> Result<Vec<Range<u64>>, SimulatorError> {
     let refuse = |problem: String| SimulatorError::Stalls { path: path.to_owned(), problem };
     let file = File::open(path).map_err(|error| refuse(error.to_string()))?;
     let mut table = table_reader(&ReaderBuilder::new(), file);
@@ -47,9 +52,9 @@ pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
                  clock {before}; list stalls in order, without overlaps"
             )));
         }
-        if stalls.len() == MAX_STALLS {
+        if stalls.len() == most {
             return Err(refuse(format!(
-                "it has more than {MAX_STALLS} stalls; give a rate, or a shorter clip"
+                "it has more than {most} stalls; give a rate, or a shorter clip"
             )));
         }
         stalls.push(first..first.saturating_add(length));
@@ -69,16 +74,18 @@ fn shown_line(record: &StringRecord) -> String {
 mod tests {
     use super::*;
 
-    fn stalls_of(text: &str) -> Result<Vec<Range<u64>>, String> {
+    const THREE_STALLS: &str = "clock,clocks\n0,2\n5,1\n6,3\n";
+
+    fn stalls_of(text: &str, most: usize) -> Result<Vec<Range<u64>>, String> {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), text).unwrap();
-        read_stalls(file.path()).map_err(|error| error.to_string())
+        read_stalls_up_to(file.path(), most).map_err(|error| error.to_string())
     }
 
     #[test]
     fn stalls_are_in_order_and_do_not_overlap() {
-        assert_eq!(stalls_of("clock,clocks\n0,2\n5,1\n6,3\n"), Ok(vec![0..2, 5..6, 6..9]));
-        assert_eq!(stalls_of("clock,clocks\n"), Ok(vec![]));
+        assert_eq!(stalls_of(THREE_STALLS, MAX_STALLS), Ok(vec![0..2, 5..6, 6..9]));
+        assert_eq!(stalls_of("clock,clocks\n", MAX_STALLS), Ok(vec![]));
         for (text, part) in [
             ("0,2\n", "its first line is `0,2`, and must be `clock,clocks`"),
             ("clock,clocks\n3,0\n", "line 2 is `3,0`, and must be"),
@@ -89,8 +96,16 @@ mod tests {
             ),
             ("clock,clocks\n0\n", "found record with 1 fields"),
         ] {
-            let error = stalls_of(text).unwrap_err();
+            let error = stalls_of(text, MAX_STALLS).unwrap_err();
             assert!(error.contains(part), "{error}");
         }
+    }
+
+    #[test]
+    fn a_table_has_at_most_the_largest_number_of_stalls() {
+        assert_eq!(stalls_of(THREE_STALLS, 3).unwrap().len(), 3);
+        let error = stalls_of(THREE_STALLS, 2).unwrap_err();
+        let problem = "it has more than 2 stalls; give a rate, or a shorter clip";
+        assert!(error.ends_with(problem), "{error}");
     }
 }
