@@ -7,7 +7,8 @@
 //! the formulas of `docs/timing.md`, `docs/serial.md`, `docs/raster.md` and `docs/sync.md`, with
 //! the latencies of `foveate-design`. It yields [`Transaction`]s and no ports: a run of decisions,
 //! a run of words at consecutive clocks, a lost region. The time and the memory that it takes
-//! depend on the number of regions and not on the number of clocks.
+//! depend on the number of regions and not on the number of clocks. A [`TimedClip`] takes the frames
+//! of a clip at their times, and yields transactions as the [rows](ClockRow) of a table.
 //!
 //! Edges are numbered from 0 through the whole run, resets included. The *clock* of a transaction
 //! is the number of the edge after which it is on the ports.
@@ -15,6 +16,7 @@
 //! The crate shares no code with the cycle models of `foveate-model`. Tests compare every
 //! transaction with what the ports of those models show.
 
+mod clock_row;
 mod clocks;
 mod core_timing;
 mod delivery;
@@ -30,9 +32,11 @@ mod sent_kind;
 mod serial;
 mod sink;
 mod sink_pattern;
+mod timed_clip;
 mod timed_core;
 mod transaction;
 
+pub use clock_row::{ClockEvent, ClockRow};
 #[doc(hidden)]
 pub use core_timing::CoreTiming;
 pub use delivery::{BeatOffer, FrameDelivery};
@@ -44,4 +48,5 @@ pub use sensor::RowSensor;
 pub use sent_kind::SentKind;
 pub use sink::{RateSink, ReadySink, Sink, StallList};
 pub use sink_pattern::SinkPattern;
+pub use timed_clip::TimedClip;
 pub use transaction::{DecisionRun, RegionLoss, RegionRun, ScoreRun, Transaction, WordRun};

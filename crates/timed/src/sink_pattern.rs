@@ -24,6 +24,13 @@ pub enum SinkPattern {
 }
 
 impl SinkPattern {
+    /// Returns the pattern of a sink that takes `words` words in `clocks` clocks, or `None` if it
+    /// would take more than one word at a clock.
+    #[must_use]
+    pub fn from_rate(words: u32, clocks: u32) -> Option<Self> {
+        (words <= clocks && clocks > 0).then_some(Self::Rate { words, clocks })
+    }
+
     /// Makes a sink in the state at the first edge.
     #[must_use]
     pub fn sink(&self) -> Box<dyn Sink> {

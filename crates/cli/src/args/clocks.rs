@@ -46,8 +46,7 @@ fn parse_rate(text: &str) -> Result<SinkPattern, String> {
         .split_once('/')
         .and_then(|(words, clocks)| words.parse().ok().zip(clocks.parse().ok()));
     numbers
-        .filter(|(words, clocks)| words <= clocks && *clocks > 0)
-        .map(|(words, clocks)| SinkPattern::Rate { words, clocks })
+        .and_then(|(words, clocks)| SinkPattern::from_rate(words, clocks))
         .ok_or_else(|| "expected words per clocks, at most 1/1, for example 1/4".to_owned())
 }
 

@@ -8,9 +8,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::Design;
 use foveate_files::npy::{ElementType, NpyWriter};
 use foveate_files::tables::{Column, ColumnType, TableValue};
-use foveate_timed::{
-    BeatOffer, DecisionRun, FrameDelivery, RegionLoss, SentKind, TimedModel, Transaction, WordRun,
-};
+use foveate_timed::{ClockEvent, ClockRow, TimedClip};
 use serde::Serialize;
 
 use super::ClockOptions;
@@ -19,17 +17,17 @@ use super::parquet_file::ParquetFile;
 use super::sink::SinkFrame;
 use crate::SimulatorError;
 
-/// The columns of the tables.
-const COLUMNS: [(&str, ColumnType); 9] = [
-    ("event", ColumnType::Text),
-    ("frame", ColumnType::Long),
-    ("region", ColumnType::Int),
-    ("clock", ColumnType::Long),
-    ("last_clock", ColumnType::Long),
-    ("first_word", ColumnType::Int),
-    ("words", ColumnType::Int),
-    ("is_last", ColumnType::Flag),
-    ("is_aborted", ColumnType::Flag),
+/// The types of the columns.
+const COLUMN_TYPES: [ColumnType; ClockRow::COLUMNS.len()] = [
+    ColumnType::Text,
+    ColumnType::Long,
+    ColumnType::Int,
+    ColumnType::Long,
+    ColumnType::Long,
+    ColumnType::Int,
+    ColumnType::Int,
+    ColumnType::Flag,
+    ColumnType::Flag,
 ];
 
 /// The largest number of bytes of a row, as text or in a group of a Parquet file.
@@ -51,10 +49,20 @@ pub struct ClockFigures {
     pub lost_regions: u64,
 }
 
-/// The timed model and its open files.
+impl ClockFigures {
+    fn add(&mut self, row: &ClockRow) {
+        self.last_clock = self.last_clock.max(row.last_clock);
+        self.words += u64::from(row.words);
+        match row.event {
+            ClockEvent::Loss => self.lost_regions += 1,
+            ClockEvent::Decision | ClockEvent::Pixels | ClockEvent::Means => {}
+        }
+    }
+}
+
+/// The clocks of the clip and their open files.
 pub(super) struct ClockFiles {
-    model: TimedModel,
-    clock_hz: Option<u64>,
+    clip: TimedClip,
     rows: ClockRows,
 }
 
@@ -64,20 +72,22 @@ impl ClockFiles {
         design: &Design,
         options: &ClockOptions,
     ) -> Result<Self, SimulatorError> {
-        let heading = COLUMNS.map(|(name, _)| name).join(",");
-        let columns =
-            COLUMNS.map(|(name, kind)| Column { name: name.to_owned(), kind, optional: false });
+        let heading = ClockRow::COLUMNS.join(",");
+        let columns = ClockRow::COLUMNS.iter().zip(COLUMN_TYPES);
+        let columns: Vec<_> = columns
+            .map(|(&name, kind)| Column { name: name.to_owned(), kind, optional: false })
+            .collect();
         let csv = options.csv.then(|| CsvFile::create(&folder.join("clocks.csv"), &heading));
         let parquet = folder.join("clocks.parquet");
         let parquet = options.parquet.then(|| ParquetFile::create(&parquet, "clocks", &columns));
         let (csv, parquet) = (csv.transpose()?, parquet.transpose()?);
         let array = folder.join("clocks.npy");
+        let row_shape = [ClockRow::COLUMNS.len()];
         let array =
-            options.npy.then(|| NpyWriter::create(&array, ElementType::Signed64, &[COLUMNS.len()]));
+            options.npy.then(|| NpyWriter::create(&array, ElementType::Signed64, &row_shape));
         let array = array.transpose()?;
         Ok(Self {
-            model: TimedModel::new(design, options.sink.sink()),
-            clock_hz: options.clock_hz,
+            clip: TimedClip::new(design, options.clock_hz, &options.sink),
             rows: ClockRows { csv, parquet, array, figures: ClockFigures::default() },
         })
     }
@@ -87,16 +97,12 @@ impl ClockFiles {
         PENDING_FRAMES * REGION_ROWS * u64::from(design.regions()) * ROW_BYTES
     }
 
-    /// Delivers a frame to the model, and adds the rows that are certain then.
+    /// Adds the rows that are certain after a frame.
     pub(super) fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let Self { model, clock_hz, rows } = self;
+        let Self { clip, rows } = self;
         let source = sink_frame.source;
-        let offer = clock_hz.map(|hz| BeatOffer { beat: 0, clock: clock_at(source.time_us, hz) });
-        let delivery = FrameDelivery {
-            offers: offer.as_slice(),
-            ..FrameDelivery::whole(source.frame.borrowed_pixels())
-        };
-        Ok(model.step(&delivery, &mut |transaction| rows.push(transaction))?)
+        let pixels = source.frame.borrowed_pixels();
+        Ok(clip.step(pixels, source.time_us, &mut |row| rows.push(row))?)
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
@@ -111,91 +117,11 @@ impl ClockFiles {
     /// Adds the rows that still come after the last frame, and completes all files but that of
     /// Parquet, which is returned: it can be left out.
     pub(super) fn finish(self) -> Result<(ClockFigures, Option<ParquetFile>), SimulatorError> {
-        let Self { model, mut rows, .. } = self;
-        model.finish(&mut |transaction| rows.push(transaction));
+        let Self { clip, mut rows } = self;
+        clip.finish(&mut |row| rows.push(row));
         rows.write_out(true)?;
         rows.array.map_or(Ok(()), NpyWriter::finish)?;
         Ok((rows.figures, rows.parquet))
-    }
-}
-
-/// Returns the first edge of a clock at or after a time in microseconds.
-fn clock_at(time_us: u64, hz: u64) -> u64 {
-    let edge = (u128::from(time_us) * u128::from(hz)).div_ceil(1_000_000);
-    // A clip of 2^62 edges does not exist.
-    u64::try_from(edge).unwrap_or(u64::MAX).min(1 << 61)
-}
-
-/// An event of the tables.
-#[derive(Clone, Copy, Debug)]
-enum ClockEvent {
-    Decision,
-    Pixels,
-    Means,
-    Loss,
-}
-
-impl ClockEvent {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Decision => "decision",
-            Self::Pixels => "pixels",
-            Self::Means => "means",
-            Self::Loss => "loss",
-        }
-    }
-
-    /// Returns the number of the event in the array.
-    fn number(self) -> u64 {
-        match self {
-            Self::Decision => 0,
-            Self::Pixels => 1,
-            Self::Means => 2,
-            Self::Loss => 3,
-        }
-    }
-}
-
-/// A row of the tables.
-struct ClockRow {
-    event: ClockEvent,
-    frame: u64,
-    region: u32,
-    clocks: (u64, u64),
-    first_word: u32,
-    words: u32,
-    is_last: bool,
-    is_aborted: bool,
-}
-
-impl ClockRow {
-    /// Makes the row of an event without words.
-    fn single(event: ClockEvent, frame: u64, region: u32, clock: u64) -> Self {
-        Self {
-            event,
-            frame,
-            region,
-            clocks: (clock, clock),
-            first_word: 0,
-            words: 0,
-            is_last: false,
-            is_aborted: false,
-        }
-    }
-
-    /// Returns the numbers of the columns, as the array has them. The first is that of the event.
-    fn numbers(&self) -> [u64; COLUMNS.len()] {
-        [
-            self.event.number(),
-            self.frame,
-            self.region.into(),
-            self.clocks.0,
-            self.clocks.1,
-            self.first_word.into(),
-            self.words.into(),
-            self.is_last.into(),
-            self.is_aborted.into(),
-        ]
     }
 }
 
@@ -208,59 +134,17 @@ struct ClockRows {
 }
 
 impl ClockRows {
-    fn push(&mut self, transaction: &Transaction<'_>) {
-        match transaction {
-            // Scores pass the ports before a decision; the decision has all of them.
-            Transaction::Scores(_) => {}
-            Transaction::Decisions(run) => self.push_decisions(run),
-            Transaction::Words(run) => self.push_words(run),
-            Transaction::Loss(loss) => self.push_loss(loss),
-            // Whole frames cause no such error.
-            Transaction::SyncError { .. } => {}
-        }
-    }
-
-    fn push_decisions(&mut self, run: &DecisionRun<'_>) {
-        for (clock, region) in run.regions.iter() {
-            self.push_row(&ClockRow::single(ClockEvent::Decision, run.frame, region, clock));
-        }
-    }
-
-    fn push_words(&mut self, run: &WordRun<'_>) {
-        let event = match run.kind {
-            SentKind::Pixels => ClockEvent::Pixels,
-            SentKind::Means => ClockEvent::Means,
-        };
-        let length = u64::from(run.words.saturating_sub(1)) * run.word_step;
-        for (clock, region) in run.senders() {
-            self.figures.words += u64::from(run.words);
-            self.push_row(&ClockRow {
-                clocks: (clock, clock + length),
-                first_word: run.first,
-                words: run.words,
-                is_last: run.is_last,
-                is_aborted: run.is_aborted,
-                ..ClockRow::single(event, run.frame, region, clock)
-            });
-        }
-    }
-
-    fn push_loss(&mut self, loss: &RegionLoss) {
-        self.figures.lost_regions += 1;
-        self.push_row(&ClockRow::single(ClockEvent::Loss, loss.frame, loss.region, loss.clock));
-    }
-
-    fn push_row(&mut self, row: &ClockRow) {
-        self.figures.last_clock = self.figures.last_clock.max(row.clocks.1);
+    fn push(&mut self, row: &ClockRow) {
+        self.figures.add(row);
         let numbers = row.numbers();
-        let others = numbers.iter().zip(COLUMNS).skip(1);
+        let others = numbers.iter().zip(COLUMN_TYPES).skip(1);
         let event = TableValue::Text(row.event.name());
         if let Some(csv) = &mut self.csv {
             let numbers = others.clone().map(|(&number, _)| long_value(number));
             csv.line([event].into_iter().chain(numbers));
         }
         if let Some(parquet) = &mut self.parquet {
-            let values = others.map(|(&number, (_, kind))| typed_value(number, kind));
+            let values = others.map(|(&number, kind)| typed_value(number, kind));
             parquet.push([event].into_iter().chain(values));
         }
         if let Some(array) = &mut self.array {
@@ -287,18 +171,5 @@ fn typed_value(number: u64, kind: ColumnType) -> TableValue<'static> {
         }
         ColumnType::Flag => TableValue::Flag(number == 1),
         ColumnType::Long | ColumnType::Real | ColumnType::Text => long_value(number),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::clock_at;
-
-    #[test]
-    fn a_frame_comes_at_the_first_edge_that_is_not_before_its_time() {
-        assert_eq!(clock_at(0, 100_000_000), 0);
-        assert_eq!(clock_at(33_333, 100_000_000), 3_333_300);
-        assert_eq!(clock_at(1, 1), 1);
-        assert_eq!(clock_at(1_000_000, 3), 3);
     }
 }
