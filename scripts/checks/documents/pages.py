@@ -119,6 +119,7 @@ class Reader:
             self.follows = True
         elif language == "python":
             self.steps.append(Step(self.start, "python", "\n".join(lines) + "\n"))
+            self.follows = True
         elif language == "text" and lines and lines[0].startswith("$ "):
             self.steps += session(self.start, lines)
         elif language == "text" and follows:

@@ -68,7 +68,12 @@ class Pages(unittest.TestCase):
             c
             ```
             ```python
-            open("value").read()
+            print("one", "two", sep="\\n")
+            ```
+
+            ```text
+            one
+            two
             ```
             ```toml
             no = "command"
@@ -77,7 +82,7 @@ class Pages(unittest.TestCase):
 
                 of two paragraphs.
             """))
-        self.assertEqual((count.commands, count.outputs, count.blocks, count.left_out), (7, 4, 1, 0))
+        self.assertEqual((count.commands, count.outputs, count.blocks, count.left_out), (7, 5, 1, 0))
 
     def test_a_wrong_number_is_found(self):
         self.refused(6, "`2 b` is shown, but the command prints `3 b`", textwrap.dedent("""\
