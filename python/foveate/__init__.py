@@ -7,6 +7,7 @@
 >>> outcome.active                          # bool, rows x columns of regions
 >>> for outcome in fv.simulate("street.mp4", camera, max_frames=100): ...
 >>> fv.events(outcomes)                     # a table of region events
+>>> fv.clocks("street.mp4", "raster")       # a table of the clocks at which the hardware decides and sends regions
 
 Every number is computed by the code of the command line, so the results are equal, bit by bit.
 """
@@ -15,8 +16,10 @@ from foveate._foveate import (
     Design,
     Outcome,
     Run,
+    TimedCamera,
     ToolError,
     __version__,
+    clocks,
     luma,
     presets,
     simulate,
@@ -43,8 +46,10 @@ __all__ = [
     "RegisterField",
     "Registers",
     "Run",
+    "TimedCamera",
     "ToolError",
     "__version__",
+    "clocks",
     "estimate",
     "events",
     "explain",

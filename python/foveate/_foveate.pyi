@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, Optional, Union, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foveate._registers import Register
 from foveate._results import Estimate
@@ -130,6 +130,35 @@ class Camera:
     def _repr_html_(self) -> str: ...
 
 @final
+class TimedCamera:
+    def __new__(
+        cls,
+        config: _Camera = None,
+        /,
+        *,
+        clock_hz: Optional[float] = None,
+        sink_rate: Optional[tuple[int, int]] = None,
+        sink_stalls: Optional[ArrayLike] = None,
+        frame: Optional[_Section] = None,
+        region: Optional[_Section] = None,
+        denoise: Optional[_Section] = None,
+        spatial: Optional[_Spatial] = None,
+        decision: Optional[_Section] = None,
+        temporal: Optional[_Section] = None,
+        render: Optional[_Section] = None,
+        periphery: Optional[_Section] = None,
+        hardware: Optional[_Section] = None,
+    ) -> TimedCamera: ...
+    @property
+    def design(self) -> Design: ...
+    @property
+    def frames(self) -> int: ...
+    def step(self, frame: Any, /, *, time_us: Optional[int] = None) -> NDArray[np.void]: ...
+    def finish(self) -> NDArray[np.void]: ...
+    def reset(self) -> None: ...
+    def _repr_html_(self) -> str: ...
+
+@final
 class Run(Iterator[Outcome]):
     @property
     def design(self) -> Design: ...
@@ -154,6 +183,23 @@ def simulate(
     images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
     labels: Optional[_PathLike] = None,
 ) -> Run: ...
+def clocks(
+    inputs: Any,
+    camera: _Camera = None,
+    *,
+    clock_hz: Optional[float] = None,
+    sink_rate: Optional[tuple[int, int]] = None,
+    sink_stalls: Optional[ArrayLike] = None,
+    max_frames: Optional[int] = None,
+    input_fps: Optional[_Number] = None,
+    rate: Optional[_Number] = None,
+    start: Optional[_Number] = None,
+    end: Optional[_Number] = None,
+    crop: Optional[tuple[int, int, int, int]] = None,
+    resize: Optional[tuple[int, int]] = None,
+    images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
+    labels: Optional[_PathLike] = None,
+) -> NDArray[np.void]: ...
 def luma(frame: Any) -> NDArray[np.uint8]: ...
 def presets() -> dict[str, str]: ...
 def main(words: list[str]) -> int: ...

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Region events as tables of NumPy, pandas and PyArrow."""
+"""Region events as tables of NumPy, pandas and PyArrow, and clocks as tables of NumPy."""
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foveate._extras import require_packages
 from foveate._foveate import Outcome, event_columns
@@ -13,6 +14,20 @@ from foveate._foveate import Outcome, event_columns
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+
+#: The events of clocks by their numbers, and the columns of their table.
+CLOCK_EVENTS = np.array(["decision", "pixels", "means", "loss"])
+CLOCK_COLUMNS = np.dtype([
+    ("event", CLOCK_EVENTS.dtype),
+    ("frame", np.int64),
+    ("region", np.int32),
+    ("clock", np.int64),
+    ("last_clock", np.int64),
+    ("first_word", np.int32),
+    ("words", np.int32),
+    ("is_last", np.bool_),
+    ("is_aborted", np.bool_),
+])
 
 
 @overload
@@ -69,4 +84,12 @@ def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str 
     for name, values in columns.items():
         table[name] = values
     table["action"] = names[codes]
+    return table
+
+
+def clock_rows(numbers: NDArray[np.int64]) -> NDArray[np.void]:
+    """Make the table of clocks of the numbers of its columns."""
+    table = np.empty(len(numbers), dtype=CLOCK_COLUMNS)
+    for name, values in zip(CLOCK_COLUMNS.names or (), numbers.T):
+        table[name] = CLOCK_EVENTS[values] if name == "event" else values
     return table

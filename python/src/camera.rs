@@ -136,15 +136,8 @@ impl Camera {
         self.design()
     }
 
-    /// Locks the state of the camera, for one thread at a time.
     fn lock_state(&self) -> PyResult<MutexGuard<'_, CameraState>> {
-        match self.state.try_lock() {
-            Ok(state) => Ok(state),
-            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
-                "another thread is using this camera; give each thread a camera of its own, Camera(camera.design)",
-            )),
-        }
+        lock_camera(&self.state, "Camera")
     }
 
     /// Returns the screen after a step, if no later step has replaced it.
@@ -159,6 +152,17 @@ impl Camera {
                  read outcome.rendered before the next step, or keep it with step(frame, keep=True)",
             )),
         }
+    }
+}
+
+/// Locks the state of a camera of this class, for one thread at a time.
+pub(crate) fn lock_camera<'a, T>(state: &'a Mutex<T>, class: &str) -> PyResult<MutexGuard<'a, T>> {
+    match state.try_lock() {
+        Ok(state) => Ok(state),
+        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(format!(
+            "another thread is using this camera; give each thread a camera of its own, {class}(camera.design)"
+        ))),
     }
 }
 
@@ -343,29 +347,19 @@ impl Camera {
 impl CameraState {
     /// Prepares the camera for a frame, or refuses the frame.
     fn fit(&mut self, config: &DesignConfig, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
-        let (width, height) = frame.size();
-        let own_size =
-            |own: &SizedEngine| (own.design.width() as usize, own.design.height() as usize);
+        let own_size = self
+            .sized_engine
+            .as_ref()
+            .map(|own| (own.design.width() as usize, own.design.height() as usize));
         if self.frames > 0 {
             if threads != 1 && self.process != std::process::id() {
                 return Err(PyRuntimeError::new_err(
                     "this camera has threads, which do not exist after a fork; make the camera in the new process",
                 ));
             }
-            let (own_width, own_height) =
-                self.sized_engine.as_ref().map(own_size).expect("it has seen a frame");
-            if (own_width, own_height) != (width, height) {
-                return Err(PyValueError::new_err(format!(
-                    "the frame has {width}x{height} pixels, but this camera has taken frames of \
-                     {own_width}x{own_height}; make a camera for each size, or call reset() before the first frame \
-                     of another size"
-                )));
-            }
-        } else if self.sized_engine.as_ref().map(own_size) != Some((width, height))
-            || self.process != std::process::id()
-        {
-            let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-            let design = config.validate_for_frames(side(width), side(height)).map_err(raise)?;
+            frame.check_size(own_size.expect("it has seen a frame"))?;
+        } else if own_size != Some(frame.size()) || self.process != std::process::id() {
+            let design = frame.design(config)?;
             let options = EngineOptions { threads, ..EngineOptions::default() };
             let engine = Engine::with_options(&design, options).map_err(raise)?;
             self.sized_engine = Some(SizedEngine { design: Arc::new(design), engine });

@@ -16,6 +16,7 @@ use foveate_inference::InferenceError;
 use foveate_playback::{InputError, PlaybackError};
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
+use foveate_timed::TimedError;
 use foveate_toolchain::ToolError as Tool;
 use pyo3::exceptions::{
     PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyKeyboardInterrupt,
@@ -94,6 +95,15 @@ impl Raise for EngineError {
     fn raise(self) -> PyErr {
         match self {
             Self::Threads { .. } => PyRuntimeError::new_err(self.to_string()),
+            _ => value_error(self),
+        }
+    }
+}
+
+impl Raise for TimedError {
+    fn raise(self) -> PyErr {
+        match self {
+            Self::Engine(error) => error.raise(),
             _ => value_error(self),
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames from Python: arrays of any layout. Rows whose pixels are adjacent are read in place.
 
+use foveate_design::DesignConfig;
 use foveate_frame::ByteFrame;
 use numpy::ndarray::ArrayView2;
 use numpy::{
@@ -11,7 +12,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::array::{conversion, untyped};
-use crate::error::value_error;
+use crate::error::{raise, value_error};
 
 /// An array that was checked to be a grey frame.
 pub(crate) enum Grey<'py> {
@@ -71,6 +72,25 @@ impl<'py> Grey<'py> {
             ))),
             _ => Ok(()),
         }
+    }
+
+    /// Refuses a frame of another size than the frames before it.
+    pub(crate) fn check_size(&self, own: (usize, usize)) -> PyResult<()> {
+        let ((width, height), (own_width, own_height)) = (self.size(), own);
+        if (width, height) == own {
+            return Ok(());
+        }
+        Err(PyValueError::new_err(format!(
+            "the frame has {width}x{height} pixels, but this camera has taken frames of {own_width}x{own_height}; \
+             make a camera for each size, or call reset() before the first frame of another size"
+        )))
+    }
+
+    /// Returns the design of a configuration for frames of this size.
+    pub(crate) fn design(&self, config: &DesignConfig) -> PyResult<foveate_design::Design> {
+        let (width, height) = self.size();
+        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+        config.validate_for_frames(side(width), side(height)).map_err(raise)
     }
 
     /// Returns a copy of the frame with the depth of the design.
@@ -144,4 +164,14 @@ pub(crate) fn rows<'a, T: Copy>(
         scratch.extend(row.iter().copied());
     }
     (scratch, width)
+}
+
+/// Returns the pixels row by row without gaps: in place, or copied into `scratch` if there are gaps.
+pub(crate) fn packed<'a, T: Copy>(view: &'a ArrayView2<'_, T>, scratch: &'a mut Vec<T>) -> &'a [T] {
+    if let Some(pixels) = view.as_slice() {
+        return pixels;
+    }
+    scratch.clear();
+    scratch.extend(view.iter().copied());
+    scratch
 }

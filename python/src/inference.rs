@@ -5,23 +5,20 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use foveate_footage::source_from_memory;
-use foveate_frame::ByteFrame;
 use foveate_inference::{
     Computation, Inference, InferenceOptions, NOISE_LEVELS, PixelMapping, RecordOptions,
     VisionOptions, parse_detector, parse_framing, parse_goal, parse_mode, parse_noise,
     read_accelerator,
 };
 use foveate_playback::PlaybackError;
-use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::array::untyped;
+use crate::clip_inputs::{ARRAY_NAME, ClipInputs};
 use crate::config;
 use crate::error::raise;
-use crate::footage::{paths, warn_of_skipped};
-use crate::frame::Grey;
+use crate::footage::paths;
 use crate::options::input_options;
 use crate::study::json;
 use crate::work::{CancelFlag, interruptible};
@@ -125,52 +122,6 @@ pub(crate) const OWN: [&str; 18] = [
     "boxes",
 ];
 
-/// The inputs that a network is run on.
-enum Shown {
-    Paths(Vec<PathBuf>),
-    Frames(Vec<ByteFrame>),
-}
-
-/// Returns footage by its name, or frames from arrays.
-fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
-    match paths(inputs) {
-        // An empty list has no frames either.
-        Ok(paths) if !paths.is_empty() => return Ok(Shown::Paths(paths)),
-        _ => {}
-    }
-    let wrong = |what: String| {
-        PyTypeError::new_err(format!(
-            "infer takes footage, which is a path, a pattern, scene:NAME or a list of these, or frames, which are \
-             an array of shape (frames, height, width) or a list of arrays (height, width); not {what}"
-        ))
-    };
-    let kind = inputs.get_type().name()?;
-    // A sequence that NumPy does not know is converted to an array first.
-    let is_clip = !inputs.hasattr("__iter__")? && inputs.hasattr("__dlpack__")?;
-    let clip =
-        is_clip.then(|| untyped(inputs, "a clip is an array of shape (frames, height, width)"));
-    let clip = clip.transpose()?;
-    let inputs = clip.as_ref().map_or(inputs, |clip| clip.as_any());
-    let frames = inputs.try_iter().map_err(|_| wrong(kind.to_string()))?;
-    let mut rasters: Vec<ByteFrame> = Vec::new();
-    for frame in frames {
-        let frame = frame?;
-        let array = untyped(&frame, "a frame is a 2-D array of grey pixels (height, width)");
-        let array = match array {
-            Err(_) if !frame.hasattr("shape")? => {
-                return Err(wrong(format!("a {kind} of {}", frame.get_type().name()?)));
-            }
-            array => array?,
-        };
-        if array.ndim() != 2 {
-            let what = format!("a {kind} of arrays of shape {}", array.getattr("shape")?);
-            return Err(wrong(what));
-        }
-        rasters.push(Grey::of(&frame, bits)?.raster(bits)?);
-    }
-    Ok(Shown::Frames(rasters))
-}
-
 /// Removes an option, and returns its value if it was given.
 fn take<'py>(options: &Bound<'py, PyDict>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(value) = options.get_item(name)? else { return Ok(None) };
@@ -197,16 +148,14 @@ pub(crate) fn infer(
     let (chosen, vision_options, boxes) = chosen(&options)?;
     let input = input_options("infer", &OWN, Some(&options))?;
     let config = config::read(camera, None)?;
-    let shown = shown(inputs, config.camera.frame.pixel_bits)?;
-    if let Shown::Paths(paths) = &shown {
-        warn_of_skipped(py, paths, &input)?;
-    }
+    let clip = ClipInputs::of("infer", inputs, config.camera.frame.pixel_bits)?;
+    clip.warn_of_skipped(py, &input)?;
     let summary = interruptible(py, |cancel| {
-        let inference = match shown {
-            Shown::Paths(paths) => {
+        let inference = match clip {
+            ClipInputs::Paths(paths) => {
                 Inference::new(&config, &network, vision_options, (&paths, &boxes), &input)
             }
-            Shown::Frames(frames) => source_from_memory("array", frames, &input)
+            ClipInputs::Frames(frames) => source_from_memory(ARRAY_NAME, frames, &input)
                 .map_err(|error| PlaybackError::from(error).into())
                 .and_then(|source| {
                     Inference::from_player(&config, &network, vision_options, (source, &boxes))

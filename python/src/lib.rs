@@ -7,8 +7,12 @@
 
 mod array;
 mod camera;
+mod clip_clocks;
+mod clip_inputs;
 mod clock;
+mod clock_table;
 mod config;
+mod core_surroundings;
 mod design;
 mod error;
 mod footage;
@@ -20,6 +24,7 @@ mod picture;
 mod registers;
 mod study;
 mod table;
+mod timed_camera;
 mod tools;
 mod work;
 
@@ -34,6 +39,8 @@ mod _foveate {
 
     #[pymodule_export]
     use crate::camera::Camera;
+    #[pymodule_export]
+    use crate::clip_clocks::clocks;
     #[pymodule_export]
     use crate::design::{Design, presets};
     #[pymodule_export]
@@ -52,6 +59,8 @@ mod _foveate {
     use crate::study::{explain, fidelity};
     #[pymodule_export]
     use crate::table::event_columns;
+    #[pymodule_export]
+    use crate::timed_camera::TimedCamera;
     #[pymodule_export]
     use crate::tools::{estimate, generate};
 

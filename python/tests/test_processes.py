@@ -20,8 +20,9 @@ def large_frame(seed=0):
     return np.random.default_rng(seed).integers(0, 256, (1500, 2000), np.uint8)
 
 
-def test_a_step_does_not_hold_the_interpreter():
-    frame, camera, ended = large_frame(), fv.Camera(), threading.Event()
+@pytest.mark.parametrize("kind", [fv.Camera, fv.TimedCamera])
+def test_a_step_does_not_hold_the_interpreter(kind):
+    frame, camera, ended = large_frame(), kind(), threading.Event()
 
     def work():
         for _ in range(40):
@@ -59,8 +60,9 @@ def test_cameras_of_many_threads_give_the_bits_of_one():
             assert all(equal(one, other) for one, other in zip(outcomes, expected, strict=True))
 
 
-def test_a_camera_in_two_threads_is_refused_or_right():
-    frame, camera = large_frame(), fv.Camera()
+@pytest.mark.parametrize("kind", [fv.Camera, fv.TimedCamera])
+def test_a_camera_in_two_threads_is_refused_or_right(kind):
+    frame, camera = large_frame(), kind()
     camera.step(frame)
     refused = []
 
@@ -150,6 +152,7 @@ LONG = {
     "infer": f"fv.infer({str(ROOT / 'networks' / 'denoiser.onnx')!r}, 'scene:street', output=sys.argv[1], max_frames=1000000)",
     "simulate": "for _ in fv.simulate('scene:street', max_frames=1000000): pass",
     "fidelity": "fv.fidelity('scene:street', max_frames=1000000)",
+    "clocks": "fv.clocks('scene:street', max_frames=1000000)",
     "events": "fv.events(fv.simulate('scene:street', max_frames=1000000))",
     "command": "import foveate.__main__, sys; sys.argv[1:] = ['simulate', 'scene:street', '-o', sys.argv[1], '--frames', '1000000', "
     "'--quiet']; foveate.__main__.main()",

@@ -26,7 +26,7 @@ def classes():
 
 def made():
     """Returns the classes that users instantiate."""
-    return {name: classes()[name] for name in ("Camera", "Design", "Registers")}
+    return {name: classes()[name] for name in ("Camera", "TimedCamera", "Design", "Registers")}
 
 
 def callables():

@@ -20,6 +20,9 @@ scores: np.ndarray = outcome.scores["edge"]
 for outcome in fv.simulate(["a.png", "b.png"], camera, max_frames=3, resize=(64, 48)):
     number: int = outcome.number
 rows: np.ndarray = fv.events([outcome])
+timed = fv.TimedCamera(camera, clock_hz=100e6, sink_rate=(1, 4))
+clock: int = int(timed.step(np.zeros((8, 8), np.uint8), time_us=5)["clock"][0])
+rows = np.concatenate([timed.finish(), fv.clocks("scene:street", camera, sink_stalls=[[0, 2]], max_frames=3)])
 words = np.zeros(1024, np.uint32)
 core = fv.Registers(camera, lambda address: int(words[address // 4]), lambda address, value: words.__setitem__(address // 4, value))
 core["edge_level"] = core["status.busy"]
@@ -32,6 +35,7 @@ WRONG = {
     "fv.Camera(size=3)": "size",
     "fv.Camera().step()": "step",
     "fv.simulate('a.mp4', frame_count=3)": "frame_count",
+    "fv.TimedCamera(sink_rate=0.25)": "sink_rate",
     "x: str = fv.Design().columns": "columns|str",
     "fv.Design().width = 3": "read-only|width",
     "fv.Registers.over_serial('paper', 'COM3')": "Port",
@@ -78,8 +82,10 @@ def test_everything_public_has_its_documentation():
             continue
         assert inspect.getdoc(thing), name
     both = ["generate", "estimate", "registers"]
-    for made, methods in {fv.Camera: ["step", "reset", *both], fv.Design: ["toml", *both]}.items():
+    methods_of = {fv.Camera: ["step", "reset", *both], fv.TimedCamera: ["step", "finish", "reset"], fv.Design: ["toml", *both]}
+    for made, methods in methods_of.items():
         for method in methods:
             assert inspect.getdoc(getattr(made, method)), method
-    for thing in (fv.Camera, fv.Design, fv.Camera.step, fv.simulate, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate, fv.Registers):
+    made = [fv.Camera, fv.TimedCamera, fv.Design, fv.Registers]
+    for thing in (*made, fv.Camera.step, fv.TimedCamera.step, fv.simulate, fv.clocks, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate):
         assert "Parameters\n----------" in inspect.getdoc(thing), thing

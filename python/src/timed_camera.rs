@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A camera that takes frames one by one, and returns when its hardware decides, sends and loses regions.
+
+use std::sync::{Mutex, MutexGuard};
+
+use foveate_design::DesignConfig;
+use foveate_frame::FramePixels;
+use foveate_timed::{TimedClip, TimedError};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::camera::lock_camera;
+use crate::clock::{MicroSeconds, StepClock};
+use crate::clock_table::ClockTable;
+use crate::config;
+use crate::core_surroundings::{ClockFrequency, CoreSurroundings, SinkRate, SinkStalls};
+use crate::design::{Design, in_words};
+use crate::error::raise;
+use crate::frame::{Grey, packed};
+
+/// A camera that takes frames one by one, and returns the clocks at which its hardware decides, sends and loses regions.
+///
+/// Parameters
+/// ----------
+/// config : str, path, dict, Design or Camera, optional
+///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or an object with a
+///     configuration. The default is the paper's design.
+/// clock_hz : float, optional
+///     Clock of the core in Hz, a whole number up to 10^12. Each frame comes at its time, or as soon as the core is ready
+///     after that. Without a clock each frame follows the one before without a pause. With `1e6`, times in microseconds
+///     are clocks.
+/// sink_rate : (int, int), optional
+///     The sink takes this many words in this many clocks, such as `(1, 4)`. By default it takes a word at every clock.
+///     Only a raster core waits for its sink.
+/// sink_stalls : array of int, shape (stalls, 2), optional
+///     Stalls of the sink, in place of a rate: the first clock at which it takes no word, and the number of these clocks.
+///     They are in order and do not overlap.
+/// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
+///     Keys to change, as in the file: `hardware={"organization": "raster"}`.
+/// spatial : str, dict or list of these, optional
+///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.
+///
+/// Attributes
+/// ----------
+/// design : Design
+///     The design. If the configuration gives no frame size, it has the size of the first frame.
+/// frames : int
+///     Number of frames since the camera was made or reset.
+///
+/// Notes
+/// -----
+/// The rows are those of `foveate simulate --clocks`. Those of one event are in the order of their clocks. A row is
+/// returned as soon as nothing that follows can change it: by the step of its frame, by a later one, or by `finish`. So the
+/// memory of the camera does not grow with the number of frames. A camera belongs to one thread at a time.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If the design, the clock, the rate or a stall is not valid. The message names the value, and a right one.
+/// TypeError
+///     If a value has another type, or if both a rate and stalls are given.
+/// FileNotFoundError
+///     If a file does not exist.
+///
+/// Examples
+/// --------
+/// >>> camera = TimedCamera("raster", clock_hz=100e6, sink_rate=(1, 4))
+/// >>> rows = numpy.concatenate([*(camera.step(frame) for frame in clip), camera.finish()])
+/// >>> rows["clock"][rows["event"] == "decision"]
+#[pyclass(frozen, module = "foveate")]
+pub(crate) struct TimedCamera {
+    config: DesignConfig,
+    surroundings: CoreSurroundings,
+    state: Mutex<TimedState>,
+}
+
+/// The state of a camera. That after a reset is the default.
+#[derive(Default)]
+struct TimedState {
+    /// The core for frames of the size of the first frame.
+    core: Option<SizedCore>,
+    /// Number of frames since the camera was made or reset.
+    frames: u64,
+    /// Times of the frames.
+    clock: StepClock,
+    bytes: Vec<u8>,
+    words: Vec<u16>,
+}
+
+/// A core, and the design that it has.
+struct SizedCore {
+    design: foveate_design::Design,
+    clip: TimedClip,
+}
+
+#[pymethods]
+impl TimedCamera {
+    #[new]
+    #[pyo3(
+        signature = (config=None, /, *, clock_hz=None, sink_rate=None, sink_stalls=None, **sections),
+        text_signature = "(config=None, /, *, clock_hz=None, sink_rate=None, sink_stalls=None, frame=None, region=None, \
+                          denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, hardware=None)"
+    )]
+    fn new(
+        config: Option<&Bound<'_, PyAny>>,
+        clock_hz: Option<ClockFrequency>,
+        sink_rate: Option<SinkRate>,
+        sink_stalls: Option<SinkStalls>,
+        sections: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let surroundings = CoreSurroundings::from_options(clock_hz, sink_rate, sink_stalls)?;
+        let config = config::read(config, sections)?;
+        config.validate().map_err(raise)?;
+        Ok(Self { config, surroundings, state: Mutex::default() })
+    }
+
+    /// The design. After the first frame it has the size of the frames.
+    #[getter]
+    fn design(&self) -> PyResult<Design> {
+        let state = self.lock_state()?;
+        match &state.core {
+            Some(core) if state.frames > 0 => Ok(core.design.clone().into()),
+            _ => Design::new(self.config.clone()),
+        }
+    }
+
+    /// Number of frames since the camera was made or reset.
+    #[getter]
+    fn frames(&self) -> PyResult<u64> {
+        Ok(self.lock_state()?.frames)
+    }
+
+    /// Take the next frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// frame : array of shape (height, width)
+    ///     Grey pixels, as `Camera.step` takes them.
+    /// time_us : int, optional
+    ///     Time of the frame in microseconds; not before that of the frame before. It needs `clock_hz`. The default
+    ///     continues at 30 frames per second from the last given time.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Rows that are certain now, a structured array: `event` ("decision"; "pixels" or "means", words that leave at
+    ///     consecutive clocks; "loss", a region that waited too long), `frame` (int64), `region` (int32, row by row),
+    ///     `clock` and `last_clock` (int64, of the first and the last word of the row, or of the event), `first_word`
+    ///     (int32, number of the first word in its region), `words` (int32, number of words of the row, 0 for other
+    ///     events), `is_last` (bool, the region's last word is among them) and `is_aborted` (bool, no other word follows,
+    ///     because the region was lost).
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the frame has another shape than the first one, or a pixel that does not fit into the design's bits, or if
+    ///     `time_us` is before the time of the last frame.
+    /// TypeError
+    ///     If the frame is no array, or has another dtype or masked pixels, or if `time_us` is given without a clock.
+    /// RuntimeError
+    ///     If another thread is using the camera.
+    #[pyo3(signature = (frame, /, *, time_us=None))]
+    fn step<'py>(
+        &self,
+        frame: &Bound<'py, PyAny>,
+        time_us: Option<MicroSeconds>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = frame.py();
+        let grey = Grey::of(frame, self.config.camera.frame.pixel_bits)?;
+        if let (Some(MicroSeconds(time_us)), None) = (time_us, self.surroundings.clock_hz) {
+            return Err(PyTypeError::new_err(format!(
+                "time_us = {time_us}: a core without a clock takes its frames without a pause; give the camera a clock, \
+                 clock_hz=100e6"
+            )));
+        }
+        let mut guard = self.lock_state()?;
+        let state = &mut *guard;
+        let number = state.frames;
+        let time_us = state.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
+        self.fit(state, &grey)?;
+        let TimedState { core, bytes, words, .. } = &mut *state;
+        let clip = &mut core.as_mut().expect("it fits the frame").clip;
+        let rows = match &grey {
+            Grey::Bytes(array) => {
+                let view = array.as_array();
+                py.detach(|| rows_of_step(clip, FramePixels::Bytes(packed(&view, bytes)), time_us))
+            }
+            Grey::Words(array) => {
+                let view = array.as_array();
+                py.detach(|| rows_of_step(clip, FramePixels::Words(packed(&view, words)), time_us))
+            }
+        };
+        let rows = rows.map_err(raise)?;
+        state.clock.take(number, time_us);
+        state.frames += 1;
+        drop(guard);
+        rows.into_python(py)
+    }
+
+    /// Return the rows that still come if no other frame follows, and forget every frame, as `reset` does.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Rows as those of `step`.
+    fn finish<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let state = std::mem::take(&mut *self.lock_state()?);
+        let mut rows = ClockTable::default();
+        if let Some(SizedCore { clip, .. }) = state.core {
+            py.detach(|| clip.finish(&mut |row| rows.push(row)));
+        }
+        rows.into_python(py)
+    }
+
+    /// Forget every frame, and drop the rows that were not returned. The next frame is a first frame, and may have another
+    /// size. Its clocks start at 0.
+    fn reset(&self) -> PyResult<()> {
+        *self.lock_state()? = TimedState::default();
+        Ok(())
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let design = in_words(self.design()?.inner());
+        Ok(format!("<foveate.TimedCamera {design}, {} frames seen>", self.frames()?))
+    }
+
+    /// Shows the camera in a notebook.
+    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("foveate._show")?.call_method1("design_card", (self.design()?,))
+    }
+}
+
+impl TimedCamera {
+    fn lock_state(&self) -> PyResult<MutexGuard<'_, TimedState>> {
+        lock_camera(&self.state, "TimedCamera")
+    }
+
+    /// Makes the core for a first frame, or refuses a frame of another size or depth.
+    fn fit(&self, state: &mut TimedState, frame: &Grey<'_>) -> PyResult<()> {
+        if let (Some(SizedCore { design, .. }), 1..) = (&state.core, state.frames) {
+            frame.check_size((design.width() as usize, design.height() as usize))?;
+        } else {
+            let design = frame.design(&self.config)?;
+            let CoreSurroundings { clock_hz, sink } = &self.surroundings;
+            let clip = TimedClip::new(&design, *clock_hz, sink);
+            state.core = Some(SizedCore { design, clip });
+        }
+        frame.check(self.config.camera.frame.pixel_bits)
+    }
+}
+
+/// Shows a frame to a core. Returns the rows that are then certain.
+fn rows_of_step(
+    clip: &mut TimedClip,
+    pixels: FramePixels<'_>,
+    time_us: u64,
+) -> Result<ClockTable, TimedError> {
+    let mut rows = ClockTable::default();
+    clip.step(pixels, time_us, &mut |row| rows.push(row))?;
+    Ok(rows)
+}
