@@ -115,7 +115,7 @@ fn rows_of_clip(
         let pixels = frame.frame.borrowed_pixels();
         clip.step(pixels, frame.time_us, &mut |row| rows.push(row)).map_err(raise)?;
     }
-    clip.finish(&mut |row| rows.push(row));
+    clip.finish(&mut |row| rows.push(row)).for_each(drop);
     let problem =
         player.problem().map(|problem| format!("{}: {problem}", player.inputs().join(", ")));
     Ok((rows, problem))

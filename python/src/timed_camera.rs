@@ -208,7 +208,7 @@ impl TimedCamera {
         let state = std::mem::take(&mut *self.lock_state()?);
         let mut rows = ClockTable::default();
         if let Some(SizedCore { clip, .. }) = state.core {
-            py.detach(|| clip.finish(&mut |row| rows.push(row)));
+            py.detach(|| clip.finish(&mut |row| rows.push(row)).for_each(drop));
         }
         rows.into_python(py)
     }

@@ -9,6 +9,7 @@ use foveate_footage::FootageError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
 use foveate_packets::PacketError;
+use foveate_pictures::chart::ChartError;
 use foveate_playback::PlaybackError;
 use foveate_staging::{StagedFolder, StagingError};
 use foveate_timed::TimedError;
@@ -25,6 +26,9 @@ pub enum SimulatorError {
     /// The clocks of the frames cannot be computed.
     #[error(transparent)]
     Timed(#[from] TimedError),
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
     /// No clip of a batch has a result.
     #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
     NoClip {

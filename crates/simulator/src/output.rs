@@ -17,6 +17,8 @@ mod font;
 mod frame_table;
 mod headed_file;
 mod heatmap;
+mod latency_chart;
+mod latency_files;
 mod npz;
 mod options;
 mod overlay;

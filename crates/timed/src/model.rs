@@ -79,7 +79,7 @@ impl TimedModel {
         delivery: &FrameDelivery<'_>,
         visit: &mut dyn FnMut(&Transaction<'_>),
     ) -> Result<(), TimedError> {
-        self.check(delivery)?;
+        self.check_delivery(delivery)?;
         let end = delivery.reset.unwrap_or(NEVER).min(NEVER);
         let rest = self.take_beats(delivery, end, visit);
         self.drop_beats(delivery, rest, end, visit);
@@ -250,7 +250,8 @@ impl TimedModel {
         std::iter::once(first).chain(offers.iter().copied()).collect()
     }
 
-    fn check(&self, delivery: &FrameDelivery<'_>) -> Result<(), TimedError> {
+    /// Checks that a delivery is possible.
+    pub(crate) fn check_delivery(&self, delivery: &FrameDelivery<'_>) -> Result<(), TimedError> {
         self.engine.check_pixels(delivery.pixels)?;
         let (given, expected) = (self.given_beats(delivery), self.beats);
         if given == 0 {

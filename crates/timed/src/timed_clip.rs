@@ -4,12 +4,16 @@
 use foveate_design::Design;
 use foveate_frame::FramePixels;
 
-use crate::{BeatOffer, ClockRow, FrameDelivery, SinkPattern, TimedError, TimedModel};
+use crate::{
+    BeatOffer, ClockRow, FrameDelivery, FrameTraffic, SinkPattern, TimedError, TimedModel,
+    TrafficMeter,
+};
 
 /// A design that takes the frames of a clip. Memory does not grow with their number.
 #[derive(Debug)]
 pub struct TimedClip {
     model: TimedModel,
+    meter: TrafficMeter,
     clock_hz: Option<u64>,
 }
 
@@ -19,11 +23,17 @@ impl TimedClip {
     /// before without a pause.
     #[must_use]
     pub fn new(design: &Design, clock_hz: Option<u64>, sink: &SinkPattern) -> Self {
-        Self { model: TimedModel::new(design, sink.sink()), clock_hz }
+        Self {
+            model: TimedModel::new(design, sink.sink()),
+            meter: TrafficMeter::new(design),
+            clock_hz,
+        }
     }
 
     /// Takes the next frame, and yields the rows that are certain then, whatever follows. The rows
-    /// of one event come in the order of their clocks.
+    /// of one event come in the order of their clocks. Returns an earlier frame whose latencies are
+    /// certain then. With a clock, they count from the time of the frame; without one, from the
+    /// first edge at which the core can take it.
     ///
     /// # Errors
     /// Fails if the pixels are not a frame of the design. The state is unchanged then.
@@ -32,17 +42,27 @@ impl TimedClip {
         pixels: FramePixels<'_>,
         time_us: u64,
         visit: &mut impl FnMut(&ClockRow),
-    ) -> Result<(), TimedError> {
-        let offer = self.clock_hz.map(|hz| BeatOffer { beat: 0, clock: clock_at(time_us, hz) });
+    ) -> Result<Option<FrameTraffic>, TimedError> {
+        let Self { model, meter, clock_hz } = self;
+        let offer = clock_hz.map(|hz| BeatOffer { beat: 0, clock: clock_at(time_us, hz) });
         let delivery = FrameDelivery { offers: offer.as_slice(), ..FrameDelivery::whole(pixels) };
-        self.model.step(&delivery, &mut |transaction| {
+        model.check_delivery(&delivery)?;
+        meter.begin_frame(offer.map_or(model.next_edge(), |offer| offer.clock));
+        model.step(&delivery, &mut |transaction| {
+            meter.add(transaction);
             ClockRow::visit_rows(transaction, &mut *visit);
-        })
+        })?;
+        Ok(meter.end_frame())
     }
 
-    /// Yields the rows that still come if no other frame follows.
-    pub fn finish(self, visit: &mut impl FnMut(&ClockRow)) {
-        self.model.finish(&mut |transaction| ClockRow::visit_rows(transaction, &mut *visit));
+    /// Yields the rows that still come if no other frame follows. Returns the frames that are left.
+    pub fn finish(self, visit: &mut impl FnMut(&ClockRow)) -> impl Iterator<Item = FrameTraffic> {
+        let Self { model, mut meter, .. } = self;
+        model.finish(&mut |transaction| {
+            meter.add(transaction);
+            ClockRow::visit_rows(transaction, &mut *visit);
+        });
+        meter.finish()
     }
 }
 

@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use super::ClockOptions;
 use super::csv::CsvFile;
+use super::latency_files::LatencyFiles;
 use super::parquet_file::ParquetFile;
 use super::sink::SinkFrame;
 use crate::SimulatorError;
@@ -64,6 +65,8 @@ impl ClockFigures {
 pub(super) struct ClockFiles {
     clip: TimedClip,
     rows: ClockRows,
+    latency: LatencyFiles,
+    folder: PathBuf,
 }
 
 impl ClockFiles {
@@ -89,24 +92,31 @@ impl ClockFiles {
         Ok(Self {
             clip: TimedClip::new(design, options.clock_hz, &options.sink),
             rows: ClockRows { csv, parquet, array, figures: ClockFigures::default() },
+            latency: LatencyFiles::create(folder, design, options.clock_hz)?,
+            folder: folder.to_owned(),
         })
     }
 
     /// Returns the largest number of bytes that may have to be written after the disk is full.
     pub(super) fn max_bytes_owed(design: &Design) -> u64 {
-        PENDING_FRAMES * REGION_ROWS * u64::from(design.regions()) * ROW_BYTES
+        let rows = PENDING_FRAMES * REGION_ROWS * u64::from(design.regions());
+        rows * ROW_BYTES + LatencyFiles::MAX_BYTES_OWED
     }
 
     /// Adds the rows that are certain after a frame.
     pub(super) fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let Self { clip, rows } = self;
+        let Self { clip, rows, latency, .. } = self;
         let source = sink_frame.source;
         let pixels = source.frame.borrowed_pixels();
-        Ok(clip.step(pixels, source.time_us, &mut |row| rows.push(row))?)
+        if let Some(frame) = clip.step(pixels, source.time_us, &mut |row| rows.push(row))? {
+            latency.push(&frame);
+        }
+        Ok(())
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.rows.write_out(all)
+        self.rows.write_out(all)?;
+        self.latency.write_out(all)
     }
 
     /// Closes the Parquet file, if there is one, and returns its path, so that it can be left out.
@@ -114,12 +124,13 @@ impl ClockFiles {
         self.rows.parquet.take().map(|parquet| parquet.path())
     }
 
-    /// Adds the rows that still come after the last frame, and completes all files but that of
-    /// Parquet, which is returned: it can be left out.
+    /// Adds the rows that still come after the last frame, draws the charts, and completes all files
+    /// but that of Parquet, which is returned: it can be left out.
     pub(super) fn finish(self) -> Result<(ClockFigures, Option<ParquetFile>), SimulatorError> {
-        let Self { clip, mut rows } = self;
-        clip.finish(&mut |row| rows.push(row));
+        let Self { clip, mut rows, mut latency, folder } = self;
+        clip.finish(&mut |row| rows.push(row)).for_each(|frame| latency.push(&frame));
         rows.write_out(true)?;
+        latency.finish(&folder)?;
         rows.array.map_or(Ok(()), NpyWriter::finish)?;
         Ok((rows.figures, rows.parquet))
     }

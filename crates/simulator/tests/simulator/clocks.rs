@@ -176,6 +176,43 @@ fn all_formats_have_the_same_rows() {
     assert!(events[..3].iter().all(|name| rows.iter().any(|row| row.0 == *name)), "{rows:?}");
 }
 
+/// Each row of `latency.csv` is that of the rows of its frame in `clocks.csv`. The sink is so slow
+/// that regions are lost.
+#[test]
+fn latencies_are_those_of_the_rows_of_a_frame() {
+    let dir = tempfile::tempdir().unwrap();
+    let output = dir.path().join("out");
+    let sink = SinkPattern::Rate { words: 1, clocks: 40 };
+    let clock_hz = Some(1_000_000);
+    let clocks = ClockOptions { csv: true, clock_hz, sink, ..ClockOptions::default() };
+    street(&output, &overrides(RASTER), &options(clocks));
+    let rows = csv_rows(&output);
+    let text = fs::read_to_string(output.join("latency.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next(),
+        Some("frame,clock,decision_clocks,word_clocks,waiting_regions,lost_regions")
+    );
+    let mut frames = 0;
+    for line in lines {
+        let values: Vec<u64> = line.split(',').map(|text| text.parse().unwrap()).collect();
+        let own = |event: &str| {
+            rows_of(&rows, event).into_iter().filter(|row| row[0] == frames).collect::<Vec<_>>()
+        };
+        let clocks = |event: &str| own(event).iter().map(|row| row[3]).max().unwrap() - values[1];
+        assert_eq!(values[..4], [frames, values[1], clocks("decision"), clocks("pixels")]);
+        assert_eq!(values[5], own("loss").len() as u64);
+        assert!(values[4] > 0 && values[4] <= own("decision").len() as u64, "{line}");
+        frames += 1;
+    }
+    assert_eq!(frames, 5);
+    let lost: usize = rows_of(&rows, "loss").len();
+    assert!(lost > 20, "{lost} regions were lost");
+    for name in ["latency.svg", "latency.png", "waiting.svg", "waiting.png"] {
+        assert!(fs::metadata(output.join(name)).unwrap().len() > 2000, "{name}");
+    }
+}
+
 #[test]
 fn a_set_has_no_clocks() {
     let dir = tempfile::tempdir().unwrap();
