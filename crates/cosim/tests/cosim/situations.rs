@@ -102,8 +102,8 @@ const SINGLE_REGIONS: &[&[&str]] = &[
     &["spatial=[{feature='edge',level=9,min_score=2}]", "temporal.min_count=2", LAST_SENT],
     &[
         "hardware.pipelining='deep'",
-        "spatial=[{feature='mad',min_score=4},{feature='variance',min_score=30}]",
-        LAST_SENT,
+        "spatial=[{feature='mad',min_score=4},{feature='variance',min_score=30},{feature='range',min_score=9}]",
+        "temporal={level=2,min_count=2,reference='last-sent'}",
     ],
     &["denoise.filter='none'", MEAN, "spatial=[{feature='range',min_score=9}]"],
     &["hardware.pipelining='deep'", MEAN, LAST_SENT, "render.payload='raw'"],

@@ -101,8 +101,8 @@ const fn mean_sequences_around_reset() -> [FrameSequence; 2] {
     ]
 }
 
-/// Returns sequences that bring about a situation whatever is drawn: every region is active, held
-/// twice, irrelevant, and active again; all pixels of a region count as changed, and the minimum is
+/// Returns sequences that bring about a situation whatever is drawn: every region is active,
+/// irrelevant, active again, and held twice; all pixels of a region count as changed, and the minimum is
 /// above that.
 const fn certain_sequences() -> [FrameSequence; 2] {
     use StimulusPattern::{Noise, Same, Zero};
@@ -110,7 +110,7 @@ const fn certain_sequences() -> [FrameSequence; 2] {
     [
         FrameSequence {
             is_mixed: false,
-            ..aimed(ThresholdAim::Independent, "sent again", &[Noise, Same, Same, Zero, Noise])
+            ..aimed(ThresholdAim::Independent, "sent again", &[Noise, Zero, Noise, Same, Same])
         },
         aimed(ThresholdAim::HeldRegions, "never changed enough", &[Noise]),
     ]
