@@ -144,8 +144,8 @@ impl TimedCamera {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     Rows that are certain now, a structured array: `event` ("decision"; "pixels" or "means", words that leave at
-    ///     consecutive clocks; "loss", a region that waited too long), `frame` (int64), `region` (int32, row by row),
+    ///     Rows that are certain now, a structured array: `event` ("decision"; "pixels" or "means", words that leave at evenly
+    ///     spaced clocks; "loss", a region that waited too long), `frame` (int64), `region` (int32, row by row),
     ///     `clock` and `last_clock` (int64, of the first and the last word of the row, or of the event), `first_word`
     ///     (int32, number of the first word in its region), `words` (int32, number of words of the row, 0 for other
     ///     events), `is_last` (bool, the region's last word is among them) and `is_aborted` (bool, no other word follows,
