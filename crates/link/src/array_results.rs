@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The results of the generated array over a clip.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::LinkUnit;
 
@@ -19,7 +19,7 @@ pub struct ArrayResults {
 
 /// The figures of an array that gives its words to the link without a buffer between them. The link
 /// takes words as fast as it can carry them. Decisions take no time of the link.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnbufferedFigures {
     /// The clock of the array in Hz: the given one, or the slowest one that keeps up.
     pub clock_hz: u64,

@@ -10,7 +10,7 @@ use foveate_engine::Engine;
 use foveate_fidelity::FrameSimilarity;
 use foveate_footage::SourceKind;
 use foveate_frame::FramePixels;
-use foveate_playback::{PlayedFrame, RunClips, RunMonitor};
+use foveate_playback::{ClipPlayer, PlayedFrame, RunClips, RunMonitor};
 use foveate_simulator::{PixelCamera, PixelEventOptions};
 
 use crate::error::scratch_error;
@@ -59,6 +59,19 @@ impl ComparedCamera {
     }
 }
 
+/// Checks that frames follow each other, so that they have a rate.
+pub(crate) fn check_order(player: &ClipPlayer, clip: &str) -> Result<(), LinkError> {
+    match player.kind() {
+        SourceKind::Clip => Ok(()),
+        SourceKind::Set => Err(LinkError::DataSet { name: clip.to_owned() }),
+    }
+}
+
+/// Checks that a design sends pixels.
+pub(crate) fn check_forwarding(design: &Design) -> Result<(), LinkError> {
+    if design.has_forwarding() { Ok(()) } else { Err(LinkError::NoPixels) }
+}
+
 /// Reads a clip, which is given by its number, and writes its frames to a file in `folder`.
 pub(crate) fn read_clip(
     (clips, number): (&RunClips, usize),
@@ -68,14 +81,10 @@ pub(crate) fn read_clip(
 ) -> Result<ClipResults, LinkError> {
     let clip = clips.clips()[number].name.clone();
     let mut player = clips.open(number)?;
-    if player.kind() == SourceKind::Set {
-        return Err(LinkError::DataSet { name: clip });
-    }
+    check_order(&player, &clip)?;
     let (width, height) = player.size();
     let design = config.validate_for_frames(width, height)?;
-    if !design.has_forwarding() {
-        return Err(LinkError::NoPixels);
-    }
+    check_forwarding(&design)?;
     if design.pixel_bits() != 8 {
         return Err(LinkError::UnsupportedDepth { bits: design.pixel_bits() });
     }

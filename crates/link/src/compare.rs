@@ -19,8 +19,8 @@ use crate::report::{FORMAT_VERSION, QUANTIZER};
 use crate::search::coarsest_quantizer;
 use crate::{
     ArrayResults, ClipEncoder, ClipReport, Codec, CurvePoint, EncodedClip, EncoderPreset,
-    LinkError, LinkFigures, LinkReport, LinkUnit, Quality, SenderCameras, SenderReport, Timeline,
-    files,
+    FrameTaker, LinkError, LinkFigures, LinkReport, LinkUnit, Quality, SenderCameras, SenderReport,
+    Timeline, files,
 };
 use foveate_design::DECISION_BITS;
 
@@ -95,7 +95,10 @@ fn compare_clip(
     let figures = |units: Vec<LinkUnit>| {
         LinkFigures::from_units(units, &timeline, request.link_bits_per_second)
     };
-    let array = region_array(&cameras, &seen, request.link_bits_per_second, monitor)?;
+    let play = |take: &mut FrameTaker<'_>| {
+        seen.grey_footage.visit_frames(monitor, &mut |pixels| take(FramePixels::Bytes(pixels)))
+    };
+    let array = cameras.array_results(&seen.sent, request.link_bits_per_second, play)?;
     let array_clocks = array.added_clocks;
     let mut senders = camera_reports(&cameras, array, &seen, &figures);
     let mut curves: Vec<CurvePoint> =
@@ -137,22 +140,6 @@ fn compare_clip(
         senders,
         curves,
     })
-}
-
-/// Returns the results of the generated array. A raster core takes the frames once more, now that
-/// the times of all frames are known.
-fn region_array(
-    cameras: &SenderCameras<'_>,
-    seen: &ClipResults,
-    link_bits_per_second: u64,
-    monitor: &RunMonitor<'_>,
-) -> Result<ArrayResults, LinkError> {
-    let Some(mut core) = cameras.raster_array(link_bits_per_second) else {
-        return Ok(cameras.slot_array(&seen.sent));
-    };
-    let mut step = |pixels: &[u8]| core.step(FramePixels::Bytes(pixels));
-    seen.grey_footage.visit_frames(monitor, &mut step)?;
-    Ok(core.finish())
 }
 
 fn camera_reports(

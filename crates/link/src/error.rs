@@ -66,7 +66,7 @@ pub enum LinkError {
     },
     /// An input is a data set, whose frames have no order.
     #[error(
-        "`{name}` is a set of unrelated images, which have no rate; `link` needs clips, for example with --images clip"
+        "`{name}` is a set of unrelated images, which have no rate; give a clip, for example with --images clip"
     )]
     DataSet {
         /// The name of the input.

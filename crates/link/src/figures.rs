@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The figures of the load that one sender puts on a link.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::windows::nearest_rank;
 use crate::{LinkUnit, Timeline, WindowRates, send_over_link};
@@ -10,7 +10,7 @@ use crate::{LinkUnit, Timeline, WindowRates, send_over_link};
 pub(crate) const WINDOWS_MS: [u64; 3] = [1, 10, 100];
 
 /// The load that a sender puts on a link. Times are in ns.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LinkFigures {
     /// The bytes of the clip; bits are rounded up once.
     pub bytes: u64,
@@ -33,7 +33,7 @@ pub struct LinkFigures {
 }
 
 /// The delivery times over the units of a sender, in ns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DeliveryTimes {
     /// The median (nearest rank).
     pub median: u64,

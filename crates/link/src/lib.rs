@@ -5,12 +5,14 @@
 //! A sender is a list of [`LinkUnit`]s: bits with the times at which their pixels were read, at
 //! which they were decided, and at which they were given to the link. [`LinkFigures`] has the load
 //! on a link: rates in windows, latency and the buffer. [`compare`](fn@compare) runs clips through
-//! the cameras and the codecs, and writes a folder that appears complete or not at all. Times and
-//! rates are integers.
+//! the cameras and the codecs, and writes a folder that appears complete or not at all.
+//! [`ClipLoad::measure`] measures one design over one clip, without codecs and without files. Times
+//! and rates are integers.
 
 mod array_results;
 mod charts;
 mod clip;
+mod clip_load;
 mod codec;
 mod compare;
 mod core_clock;
@@ -20,6 +22,7 @@ mod figures;
 mod files;
 mod frame_ranges;
 mod grey_footage;
+mod link_rate;
 mod link_sink;
 mod quality;
 mod queue;
@@ -35,18 +38,21 @@ mod unit;
 mod windows;
 
 pub use array_results::{ArrayResults, UnbufferedFigures};
+pub use clip_load::{ArrayLink, ArrayLoad, ClipLoad};
 pub use codec::{Codec, EncoderPreset};
 pub use compare::{LINK_FOLDER, LinkRequest, compare};
 pub use encoder::{ClipEncoder, EncodedClip, check_encoders};
 pub use error::LinkError;
 pub use figures::{DeliveryTimes, LinkFigures};
 pub use grey_footage::GreyFootage;
+pub use link_rate::LinkRate;
 pub use quality::Quality;
 pub use queue::{QueueResult, send_over_link};
 pub use raster_array::RasterArray;
 pub use report::{ClipReport, CurvePoint, LinkReport, SenderReport};
 pub use search::coarsest_quantizer;
-pub use sender::{SenderCameras, SentCounts};
+pub use sender::{FrameTaker, SenderCameras, SentCounts};
+pub use text::milliseconds_text;
 pub use timeline::Timeline;
 pub use unit::LinkUnit;
 pub use windows::WindowRates;

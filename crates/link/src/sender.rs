@@ -18,6 +18,7 @@
 use foveate_design::{
     DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming, RegionAction,
 };
+use foveate_frame::FramePixels;
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
 use crate::core_clock::FrequencyClock;
@@ -50,6 +51,9 @@ impl SentCounts {
     }
 }
 
+/// A function that takes the next frame of a clip.
+pub type FrameTaker<'a> = dyn FnMut(FramePixels<'_>) -> Result<(), LinkError> + 'a;
+
 /// The cameras over a clip.
 #[derive(Debug)]
 pub struct SenderCameras<'a> {
@@ -57,6 +61,8 @@ pub struct SenderCameras<'a> {
     timeline: &'a Timeline,
     departure: DepartureTiming,
     clock_hz: Option<u64>,
+    /// True if the region camera by rows is one of the cameras.
+    has_rows: bool,
 }
 
 impl<'a> SenderCameras<'a> {
@@ -71,8 +77,33 @@ impl<'a> SenderCameras<'a> {
         timeline: &'a Timeline,
         clock_hz: Option<u64>,
     ) -> Result<Self, LinkError> {
-        let timing = design.timing();
-        let cameras = Self { design, timeline, departure: timing.departure(), clock_hz };
+        let has_rows = design.timing().departure().has_independent_units;
+        Self::with_rows(clip, design, timeline, clock_hz, has_rows)
+    }
+
+    /// Creates the same cameras without the region camera by rows, which may need a faster clock
+    /// than the generated array.
+    ///
+    /// # Errors
+    /// Fails if the array is not done with a frame when the next one comes.
+    pub fn without_rows(
+        clip: &str,
+        design: &'a Design,
+        timeline: &'a Timeline,
+        clock_hz: Option<u64>,
+    ) -> Result<Self, LinkError> {
+        Self::with_rows(clip, design, timeline, clock_hz, false)
+    }
+
+    fn with_rows(
+        clip: &str,
+        design: &'a Design,
+        timeline: &'a Timeline,
+        clock_hz: Option<u64>,
+        has_rows: bool,
+    ) -> Result<Self, LinkError> {
+        let departure = design.timing().departure();
+        let cameras = Self { design, timeline, departure, clock_hz, has_rows };
         let (needed_ns, interval_ns) =
             (cameras.clocks_to_ns(cameras.frame_clocks()), timeline.shortest_interval_ns());
         match clock_hz {
@@ -87,17 +118,11 @@ impl<'a> SenderCameras<'a> {
     /// Returns the most clocks that an array that takes whole frames, or that works by rows, adds to
     /// a time after the pixels that it waits for have been read.
     fn added_clocks(&self) -> u64 {
-        let DepartureTiming {
-            take_clocks,
-            decision_clocks,
-            forward_clocks,
-            slot_clocks,
-            has_independent_units: alone,
-            ..
-        } = self.departure;
+        let DepartureTiming { take_clocks, decision_clocks, forward_clocks, slot_clocks, .. } =
+            self.departure;
         let last_slot = u64::from(self.design.slots() - 1) * slot_clocks;
         let array = take_clocks + decision_clocks.max(forward_clocks) + last_slot;
-        let row = if alone { self.row_clocks(self.design.rows() - 1).1 } else { 0 };
+        let row = if self.has_rows { self.row_clocks(self.design.rows() - 1).1 } else { 0 };
         array.max(row)
     }
 
@@ -125,7 +150,7 @@ impl<'a> SenderCameras<'a> {
         if let Some(timing) = self.raster_timing() {
             return timing.max_clocks_per_frame();
         }
-        let by_rows = match self.departure.has_independent_units {
+        let by_rows = match self.has_rows {
             true => u64::from(self.design.height()) * u64::from(self.design.stream_side()),
             false => 0,
         };
@@ -146,11 +171,11 @@ impl<'a> SenderCameras<'a> {
         self.rows_of_pixels(events)
     }
 
-    /// Returns the units of the region camera by rows; `None` if the units of the array work in
-    /// step.
+    /// Returns the units of the region camera by rows; `None` if it is not one of the cameras, as
+    /// for an array whose units work in step.
     #[must_use]
     pub fn region_units_by_rows(&self, sent: &[SentCounts]) -> Option<Vec<LinkUnit>> {
-        if !self.departure.has_independent_units {
+        if !self.has_rows {
             return None;
         }
         let (size, rows) = (self.design.region_size(), self.design.rows());
@@ -179,6 +204,26 @@ impl<'a> SenderCameras<'a> {
         let clocks = (self.clock_hz, self.needed_clock_hz());
         let core = (self.design, timing);
         Some(RasterArray::new(core, self.timeline, clocks, link_bits_per_second))
+    }
+
+    /// Returns the results of the generated array in front of a link of so many bits per second.
+    /// A raster core takes the frames once more, now that the times of all frames are known:
+    /// `play` gives all of them to the function that it gets. Any other array needs only the values
+    /// that it has `sent`.
+    ///
+    /// # Errors
+    /// Fails as `play` does, or if its pixels are not frames of the design.
+    pub fn array_results(
+        &self,
+        sent: &[SentCounts],
+        link_bits_per_second: u64,
+        play: impl FnOnce(&mut FrameTaker<'_>) -> Result<(), LinkError>,
+    ) -> Result<ArrayResults, LinkError> {
+        let Some(mut core) = self.raster_array(link_bits_per_second) else {
+            return Ok(self.slot_array(sent));
+        };
+        play(&mut |pixels| core.step(pixels))?;
+        Ok(core.finish())
     }
 
     /// Returns the results of an array that takes a frame when all of it has been read.

@@ -56,10 +56,10 @@ impl LinkReport {
     /// Describes the clock of the array, or the clocks that are left out without one.
     fn clock(&self, clip: &ClipReport) -> String {
         match self.clock_hz {
-            Some(hertz) => format!("The array runs at {} MHz.", megahertz_text(hertz)),
+            Some(hertz) => format!("The array runs at {} MHz.", millions_text(hertz)),
             None => format!(
                 "Without --clock: at {} MHz, the slowest clock that keeps up, the array adds up to {} clocks to the times of the region camera.",
-                megahertz_text(clip.needed_clock_hz),
+                millions_text(clip.needed_clock_hz),
                 clip.array_clocks
             ),
         }
@@ -68,25 +68,38 @@ impl LinkReport {
 
 /// Describes an array that gives its words to the link without a buffer.
 fn unbuffered_text(clip: &ClipReport, figures: &UnbufferedFigures) -> String {
-    let losses = match figures.frames_with_losses[..] {
-        [] => "no region is lost".to_owned(),
-        [first, ..] => format!(
-            "lost regions: {}, in {} of {} frames, first in frame {first}",
-            figures.lost_regions,
-            figures.frames_with_losses.len(),
-            clip.frames
-        ),
-    };
     format!(
-        "Without a buffer behind the array, at {} MHz, {losses}. The link takes the last word of a row of regions at most {} ms after its oldest pixel was read.",
-        megahertz_text(figures.clock_hz),
-        thousandths_text(figures.last_word_ns / 1000, 3)
+        "Without a buffer behind the array, at {} MHz, {}. The link takes the last word of a row of regions at most {} ms after its oldest pixel was read.",
+        millions_text(figures.clock_hz),
+        figures.losses_text(clip.frames),
+        milliseconds_text(figures.last_word_ns)
     )
 }
 
-/// Formats Hz as MHz, exactly.
-fn megahertz_text(hertz: u64) -> String {
-    let digits = format!("{}.{:06}", hertz / 1_000_000, hertz % 1_000_000);
+impl UnbufferedFigures {
+    /// Describes the regions that are lost in a clip of so many frames, for people.
+    #[must_use]
+    pub fn losses_text(&self, frames: u64) -> String {
+        match self.frames_with_losses[..] {
+            [] => "no region is lost".to_owned(),
+            [first, ..] => format!(
+                "lost regions: {}, in {} of {frames} frames, first in frame {first}",
+                self.lost_regions,
+                self.frames_with_losses.len(),
+            ),
+        }
+    }
+}
+
+/// Formats ns as ms with three decimals; further digits are cut off.
+#[must_use]
+pub fn milliseconds_text(ns: u64) -> String {
+    thousandths_text(ns / 1000, 3)
+}
+
+/// Formats millions exactly, as MHz or Mbit.
+pub(crate) fn millions_text(value: u64) -> String {
+    let digits = format!("{}.{:06}", value / 1_000_000, value % 1_000_000);
     digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -97,7 +110,7 @@ fn row(clip: &ClipReport, sender: &SenderReport) -> [String; COLUMNS.len()] {
         .map(|rates| format!("{}, {}", thousands_text(rates.p99), thousands_text(rates.peak)));
     let delivery = figures.delivery_ns;
     let grows = if figures.overloaded { "grows: " } else { "" };
-    let ms = |ns: u64| thousandths_text(ns / 1000, 3);
+    let ms = milliseconds_text;
     [
         sender.sender.to_owned(),
         sender.equal.map_or("-".to_owned(), str::to_uppercase),

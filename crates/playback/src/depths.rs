@@ -39,7 +39,14 @@ impl<'a> FrameDepths<'a> {
     /// Fails if the frame does not have the camera's size, or was not converted to its depth.
     pub fn show_to<'e>(&self, engine: &'e mut Engine) -> Result<&'e FrameOutcome, PlaybackError> {
         let bits = engine.camera().pixel_bits();
-        self.own.show_pixels_to(engine, self.others.get(&bits).unwrap_or(&self.own.frame))
+        self.own.show_pixels_to(engine, self.frame_at(bits))
+    }
+
+    /// Returns the frame with so many bits per pixel, or in its own depth if it was not converted
+    /// to this one.
+    #[must_use]
+    pub fn frame_at(&self, bits: u32) -> &ByteFrame {
+        self.others.get(&bits).unwrap_or(&self.own.frame)
     }
 }
 

@@ -5,9 +5,8 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use foveate_link::{Codec, EncoderPreset};
+use foveate_link::{Codec, EncoderPreset, LinkRate};
 
-use super::check::parse_decimal_or_none;
 use super::input::InputArgs;
 use super::{ClockFrequency, DesignArgs};
 
@@ -96,48 +95,6 @@ impl EffortChoice {
         match self {
             Self::Veryfast => EncoderPreset::Veryfast,
             Self::Medium => EncoderPreset::Medium,
-        }
-    }
-}
-
-/// The rate of a link in bits per second, 1..=10^12.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LinkRate(pub(crate) u64);
-
-impl LinkRate {
-    const MAX: u64 = 1_000_000_000_000;
-
-    fn parse(text: &str) -> Result<Self, String> {
-        let plain = text.strip_suffix("/s").unwrap_or(text);
-        let split = plain.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(plain.len());
-        let (number, unit) = plain.split_at(split);
-        let unit = match unit.to_ascii_lowercase().as_str() {
-            "bit" => Some(1),
-            "kbit" => Some(1000),
-            "mbit" => Some(1_000_000),
-            "gbit" => Some(1_000_000_000),
-            _ => None,
-        };
-        let rate = unit.and_then(|unit| Some(parse_decimal_or_none(number)?.ceil_times(unit)));
-        rate.and_then(|rate| u64::try_from(rate).ok())
-            .filter(|rate| (1..=Self::MAX).contains(rate))
-            .map(Self)
-            .ok_or_else(|| "expected 1bit to 1000Gbit per second, for example 100Mbit".to_owned())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rates_have_units() {
-        let rate = |text| LinkRate::parse(text).map(|rate| rate.0);
-        assert_eq!(rate("100Mbit"), Ok(100_000_000));
-        assert_eq!(rate("1.5Gbit/s"), Ok(1_500_000_000));
-        assert_eq!((rate("9bit"), rate("64kbit")), (Ok(9), Ok(64_000)));
-        for wrong in ["", "100", "Mbit", "0Mbit", "-1Mbit", "5MB", "1001Gbit", "100Mbit/h"] {
-            assert!(rate(wrong).is_err(), "{wrong}");
         }
     }
 }

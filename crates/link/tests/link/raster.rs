@@ -11,14 +11,14 @@ const SIZE: &str = "frame={width=20,height=12}";
 const CORE: &str = "hardware.organization=\"raster\"";
 const REGION: &str = "region.size=4";
 /// A feature without a window. With it D is 9, and S is 2 without a window.
-const VARIANCE: &str = "spatial=[{feature=\"variance\",min_score=5000}]";
-const NO_MEDIAN: &str = "denoise.filter=\"none\"";
+pub(crate) const VARIANCE: &str = "spatial=[{feature=\"variance\",min_score=5000}]";
+pub(crate) const NO_MEDIAN: &str = "denoise.filter=\"none\"";
 /// A clock of 1 MHz, with a period of 1 us.
-const MEGAHERTZ: u64 = 1_000_000;
+pub(crate) const MEGAHERTZ: u64 = 1_000_000;
 /// The rate of a link that is never in the way.
 const FAST: u64 = 1_000_000_000;
 
-fn design(overrides: &[&str]) -> Design {
+pub(crate) fn design(overrides: &[&str]) -> Design {
     let all: Vec<&str> = [&[SIZE, CORE, REGION][..], overrides].concat();
     DesignConfig::from_toml_with("", &all).unwrap().validate().unwrap()
 }
@@ -29,7 +29,7 @@ fn timeline() -> Timeline {
 }
 
 /// Returns a frame in which these regions have a pattern. All others are black.
-fn frame(design: &Design, patterned: &[u32]) -> Vec<u8> {
+pub(crate) fn frame(design: &Design, patterned: &[u32]) -> Vec<u8> {
     let (width, size) = (design.width(), design.region_size());
     let pixel = |place: u32| {
         let (x, y) = (place % width, place / width);
