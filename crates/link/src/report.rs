@@ -50,8 +50,8 @@ pub struct ClipReport {
     /// The time from the first frame to the end of the last frame, in ns.
     pub duration_ns: u64,
     /// The most clocks that the array adds to a time after the pixels that it waits for have been
-    /// read. Those of a raster core are of this clip, at the clock of the array, or without one at
-    /// the slowest that keeps up.
+    /// read. The clocks of a raster core are those of this clip, at the clock of the array, or
+    /// without one at the slowest that keeps up.
     pub array_clocks: u64,
     /// The slowest clock in Hz at which the array keeps up with the frames.
     pub needed_clock_hz: u64,
