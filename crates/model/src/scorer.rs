@@ -55,8 +55,7 @@ impl RegionScorer {
             DenoiseFilter::None => self.scored.fill(stream),
             DenoiseFilter::Median3x3 => {
                 self.raw.fill(stream);
-                let windows = self.raw.inner_windows(self.scored_side);
-                self.scored.fill(windows.map(|window| median(&window)));
+                self.scored.fill_from_windows(&self.raw, median);
                 if self.needs_border {
                     self.scored.repeat_borders(border);
                 }
@@ -69,13 +68,27 @@ impl RegionScorer {
         self.scored.inner_pixels(self.side)
     }
 
+    /// Returns the scored pixels of the region, row by row.
+    pub(crate) fn pixel_rows(&self) -> Vec<&[u16]> {
+        self.scored.inner_rows(self.side).collect()
+    }
+
+    /// Returns the pixels of the region that it forwards, row by row.
+    pub(crate) fn payload_rows(&self) -> Vec<&[u16]> {
+        self.sent().inner_rows(self.side).collect()
+    }
+
     /// Returns the pixels of the region that it forwards, in row-major order.
     pub(crate) fn payload(&self) -> impl Iterator<Item = u16> + '_ {
-        let sent = match (self.payload, self.filter) {
+        self.sent().inner_pixels(self.side)
+    }
+
+    /// Returns the square that has the pixels that the region forwards.
+    fn sent(&self) -> &PixelSquare {
+        match (self.payload, self.filter) {
             (Payload::Denoised, _) | (Payload::Raw, DenoiseFilter::None) => &self.scored,
             (Payload::Raw, DenoiseFilter::Median3x3) => &self.raw,
-        };
-        sent.inner_pixels(self.side)
+        }
     }
 
     /// Returns the means of the blocks of the region. They are empty if irrelevant regions send no

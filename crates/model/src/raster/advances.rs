@@ -10,6 +10,10 @@ pub(super) struct AdvanceCounter {
     timing: RasterTiming,
     /// The number of the next advance.
     next: u64,
+    /// The words that come in.
+    incoming: WordScan,
+    /// The words that come to the tail.
+    tail: WordScan,
 }
 
 /// The words that an advance moves.
@@ -32,14 +36,24 @@ pub(super) struct WordPosition {
     pub(super) column: u32,
 }
 
+/// A scan of the words of the padded frame, row by row.
+#[derive(Clone, Debug, PartialEq)]
+struct WordScan {
+    row_words: u32,
+    rows: u32,
+    /// The position of the next word. Its row is `rows` beyond the end of the frame.
+    next: WordPosition,
+}
+
 impl AdvanceCounter {
     pub(super) fn new(timing: RasterTiming) -> Self {
-        Self { timing, next: 0 }
+        let scan = WordScan::from_timing(&timing);
+        Self { timing, next: 0, incoming: scan.clone(), tail: scan }
     }
 
     /// Resets the counter: the next advance is the first of a frame.
     pub(super) fn reset(&mut self) {
-        self.next = 0;
+        *self = Self::new(self.timing);
     }
 
     /// Returns true if the next advance is the first of a frame.
@@ -49,7 +63,7 @@ impl AdvanceCounter {
 
     /// Returns true if the next advance takes a word, so that it waits for one.
     pub(super) fn takes_next(&self) -> bool {
-        self.position(self.next).is_some_and(|place| self.is_taken(place))
+        self.incoming.next_word().is_some_and(|place| self.is_taken(place))
     }
 
     /// Applies one edge, and returns its advance. `takes` is true if the edge takes a word. There
@@ -58,28 +72,45 @@ impl AdvanceCounter {
         if self.takes_next() && !takes {
             return None;
         }
-        let number = self.next;
-        let word = self.position(number);
-        self.next = (number + 1) % self.timing.advances();
         let last =
             WordPosition { row: self.timing.taken_rows - 1, column: self.timing.taken_words - 1 };
-        Some(Advance {
-            word,
-            tail: number.checked_sub(self.timing.tail_delay()).and_then(|tail| self.position(tail)),
-            is_last_taken: word == Some(last),
-        })
+        let word = self.incoming.step();
+        let reaches_tail = self.next >= self.timing.tail_delay();
+        let tail = if reaches_tail { self.tail.step() } else { None };
+        self.next += 1;
+        if self.next == self.timing.advances() {
+            self.reset();
+        }
+        Some(Advance { word, tail, is_last_taken: word == Some(last) })
     }
 
     /// Returns true if a word of the padded frame is a word of the frame itself.
     fn is_taken(&self, place: WordPosition) -> bool {
         place.column < self.timing.taken_words && place.row < self.timing.taken_rows
     }
+}
 
-    /// Returns the position of word `number` of the padded frame, or `None` beyond its end.
-    fn position(&self, number: u64) -> Option<WordPosition> {
-        let length = u64::from(self.timing.row_words);
-        let narrow = |value| u32::try_from(value).expect("a row and a column have 32 bits");
-        (number < self.timing.words())
-            .then(|| WordPosition { row: narrow(number / length), column: narrow(number % length) })
+impl WordScan {
+    fn from_timing(timing: &RasterTiming) -> Self {
+        let first = WordPosition { row: 0, column: 0 };
+        Self { row_words: timing.row_words, rows: timing.rows, next: first }
+    }
+
+    /// Returns the position of the next word, or `None` beyond the end of the frame.
+    fn next_word(&self) -> Option<WordPosition> {
+        (self.next.row < self.rows).then_some(self.next)
+    }
+
+    /// Returns the position of the next word, and goes on to the word after it.
+    fn step(&mut self) -> Option<WordPosition> {
+        let word = self.next_word()?;
+        let WordPosition { row, column } = word;
+        let is_last = column + 1 == self.row_words;
+        self.next = if is_last {
+            WordPosition { row: row + 1, column: 0 }
+        } else {
+            WordPosition { row, column: column + 1 }
+        };
+        Some(word)
     }
 }

@@ -41,7 +41,7 @@ pub(super) struct ScoredRasterRegion {
 /// A region of one frame with its action.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DecidedRasterRegion {
-    pub(super) scored_region: ScoredRasterRegion,
+    pub(super) scored_region: Box<ScoredRasterRegion>,
     pub(super) action: RegionAction,
 }
 
@@ -49,7 +49,7 @@ pub(super) struct DecidedRasterRegion {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DecisionQueue {
     timing: RasterTiming,
-    due: DueQueue<ScoredRasterRegion>,
+    due: DueQueue<Box<ScoredRasterRegion>>,
     /// The first edge at which a second pass may begin, after the pass before.
     next_pass: u64,
 }
@@ -70,7 +70,7 @@ impl DecisionQueue {
     }
 
     /// Appends a scored region, whose last word came to the tail at edge `came`.
-    pub(super) fn push(&mut self, came: u64, scored_region: ScoredRasterRegion) {
+    pub(super) fn push(&mut self, came: u64, scored_region: Box<ScoredRasterRegion>) {
         let due = match self.timing.second_pass {
             None => came + u64::from(self.timing.decision_latency),
             Some(pass) => {
@@ -85,7 +85,7 @@ impl DecisionQueue {
     }
 
     /// Returns the region whose decision is on the ports after edge `now`, or `None`.
-    pub(super) fn step(&mut self, now: u64) -> Option<ScoredRasterRegion> {
+    pub(super) fn step(&mut self, now: u64) -> Option<Box<ScoredRasterRegion>> {
         take_due(&mut self.due, now)
     }
 }

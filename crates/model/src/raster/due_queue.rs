@@ -9,6 +9,6 @@ pub(super) type DueQueue<T> = VecDeque<(u64, T)>;
 
 /// Removes and returns the item that is due at edge `now`, or returns `None`.
 pub(super) fn take_due<T>(queue: &mut DueQueue<T>, now: u64) -> Option<T> {
-    let is_due = queue.front().is_some_and(|(due, _)| *due == now);
-    is_due.then(|| queue.pop_front()).flatten().map(|(_, thing)| thing)
+    queue.front().filter(|(due, _)| *due == now)?;
+    queue.pop_front().map(|(_, item)| item)
 }

@@ -9,6 +9,7 @@ use foveate_frame::Frame;
 use super::advances::WordPosition;
 use super::decisions::CompletedRegion;
 use super::due_queue::{DueQueue, take_due};
+use super::word_pixels::WordPixels;
 use crate::denoising::denoised_pixels;
 use crate::region::black_padded_frame;
 
@@ -41,10 +42,10 @@ struct ReferenceRequest {
 }
 
 /// A word on its way to the store.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct StoreWord {
     /// The scored pixels of the word.
-    pub(super) pixels: Vec<u16>,
+    pub(super) pixels: WordPixels,
     /// True if the word is the last of its row.
     pub(super) is_last: bool,
 }
@@ -132,11 +133,12 @@ impl ExternalStorePorts {
     }
 
     /// Returns the scored pixels of a word.
-    fn scored_word(&self, place: WordPosition, padded: &Frame) -> Vec<u16> {
+    fn scored_word(&self, place: WordPosition, padded: &Frame) -> WordPixels {
         let Self { camera, timing, .. } = self;
         let region = place.row / camera.region_size() * camera.columns()
             + place.column / timing.region_row_words;
         let left = place.column * timing.word_pixels;
-        denoised_pixels(camera, padded, region, left..left + timing.word_pixels, place.row)
+        let columns = left..left + timing.word_pixels;
+        WordPixels::from_slice(&denoised_pixels(camera, padded, region, columns, place.row))
     }
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The words of a region that leaves: its pixels, or the means of its blocks.
 
-use std::collections::VecDeque;
-
-use foveate_design::{Camera, Periphery, RegionAction};
+use foveate_design::{Camera, Periphery, RasterTiming, RegionAction};
 
 use super::decisions::{DecidedRasterRegion, ScoredRasterRegion};
+use super::word_pixels::WordPixels;
 use crate::conversions::index;
 use crate::periphery::first_position_of_block;
 
 /// A word on its way to the forward ports.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ForwardWord {
     pub(super) region: u32,
     /// The number of the frame of the region since reset.
@@ -18,9 +17,9 @@ pub(super) struct ForwardWord {
     /// The number, in the region, of the first pixel of the word or of its block.
     pub(super) position: u32,
     /// The pixels on the port.
-    pub(super) pixels: Vec<u16>,
+    pub(super) pixels: WordPixels,
     /// The scored pixels, which become the reference. They are empty for a mean.
-    pub(super) scored: Vec<u16>,
+    pub(super) scored: WordPixels,
     /// True if the word is the mean of a block.
     pub(super) is_mean: bool,
     /// True if no other word of the region follows.
@@ -29,85 +28,99 @@ pub(super) struct ForwardWord {
     pub(super) is_aborted: bool,
 }
 
-/// A region that leaves.
+/// A region that leaves, word by word.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DepartingRegion {
-    /// The number of the region.
-    pub(super) region: u32,
-    /// The number of the row of regions, counted through all frames since reset.
-    pub(super) row: u64,
-    /// The number of the frame since reset.
-    pub(super) frame: u64,
-    /// The words that have not been fetched yet, in order.
-    pub(super) words: VecDeque<ForwardWord>,
+    scored_region: Box<ScoredRasterRegion>,
+    content: DepartingContent,
+    /// Number of pixels of a word, K.
+    word_pixels: u32,
+    /// Number of words of the region that leave.
+    words: u32,
+    /// Number of words that have been fetched.
+    fetched_words: u32,
+}
+
+/// The content of the words of a region that leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum DepartingContent {
+    Pixels,
+    /// The means of the blocks, one in each word.
+    Means(Periphery),
 }
 
 impl DepartingRegion {
-    /// Makes the words, of `word_pixels` pixels each, of a region that was decided.
+    /// Makes the region that leaves of a region that was decided, or returns `None` if its action
+    /// sends nothing.
     pub(super) fn from_decided(
-        decided: &DecidedRasterRegion,
+        decided: DecidedRasterRegion,
         camera: &Camera,
-        word_pixels: u32,
-    ) -> Self {
+        timing: &RasterTiming,
+    ) -> Option<Self> {
         let DecidedRasterRegion { scored_region, action } = decided;
-        let mut words = match (action, camera.periphery()) {
-            (RegionAction::Forward, _) => pixel_words(scored_region, word_pixels),
-            (RegionAction::Summarize, Some(periphery)) => {
-                mean_words(scored_region, periphery, word_pixels)
+        let words = timing.words_sent(action)?;
+        let content = match action {
+            RegionAction::Forward => DepartingContent::Pixels,
+            RegionAction::Summarize => DepartingContent::Means(*camera.periphery()?),
+            RegionAction::Hold | RegionAction::Blank => return None,
+        };
+        let word_pixels = timing.word_pixels;
+        Some(Self { scored_region, content, word_pixels, words, fetched_words: 0 })
+    }
+
+    /// Returns the number of the region.
+    pub(super) fn region(&self) -> u32 {
+        self.scored_region.region
+    }
+
+    /// Returns the number of the row of regions, counted through all frames since reset.
+    pub(super) fn row(&self) -> u64 {
+        self.scored_region.row
+    }
+
+    /// Returns the number of the frame since reset.
+    pub(super) fn frame(&self) -> u64 {
+        self.scored_region.frame
+    }
+
+    /// Returns true if no word has been fetched.
+    pub(super) fn is_whole(&self) -> bool {
+        self.fetched_words == 0
+    }
+
+    /// Returns true if all words have been fetched.
+    pub(super) fn is_fully_fetched(&self) -> bool {
+        self.fetched_words == self.words
+    }
+
+    /// Fetches the next word.
+    #[inline]
+    pub(super) fn fetch_word(&mut self) -> ForwardWord {
+        let number = self.fetched_words;
+        self.fetched_words += 1;
+        let ScoredRasterRegion { region, frame, scored, payload, means, .. } = &*self.scored_region;
+        let word_at = |pixels: &[u16], position| {
+            WordPixels::from_slice(&pixels[index(position)..][..index(self.word_pixels)])
+        };
+        let (position, pixels, scored) = match &self.content {
+            DepartingContent::Pixels => {
+                let position = number * self.word_pixels;
+                (position, word_at(payload, position), word_at(scored, position))
             }
-            (RegionAction::Summarize, None) | (RegionAction::Hold | RegionAction::Blank, _) => {
-                VecDeque::new()
+            DepartingContent::Means(periphery) => {
+                let mean = WordPixels::repeat(means[index(number)], index(self.word_pixels));
+                (first_position_of_block(periphery, number), mean, WordPixels::empty())
             }
         };
-        if let Some(last) = words.back_mut() {
-            last.is_last = true;
+        ForwardWord {
+            region: *region,
+            frame: *frame,
+            position,
+            pixels,
+            scored,
+            is_mean: matches!(self.content, DepartingContent::Means(_)),
+            is_last: self.is_fully_fetched(),
+            is_aborted: false,
         }
-        Self {
-            region: scored_region.region,
-            row: scored_region.row,
-            frame: scored_region.frame,
-            words,
-        }
-    }
-}
-
-fn pixel_words(scored_region: &ScoredRasterRegion, word_pixels: u32) -> VecDeque<ForwardWord> {
-    let size = index(word_pixels);
-    let words =
-        scored_region.payload.chunks_exact(size).zip(scored_region.scored.chunks_exact(size));
-    let positions = (0..).step_by(size);
-    let word = |((pixels, scored), position): ((&[u16], &[u16]), u32)| ForwardWord {
-        pixels: pixels.to_vec(),
-        scored: scored.to_vec(),
-        is_mean: false,
-        ..empty_word(scored_region, position)
-    };
-    words.zip(positions).map(word).collect()
-}
-
-fn mean_words(
-    scored_region: &ScoredRasterRegion,
-    periphery: &Periphery,
-    word_pixels: u32,
-) -> VecDeque<ForwardWord> {
-    let word = |(&mean, block): (&u16, u32)| ForwardWord {
-        pixels: vec![mean; index(word_pixels)],
-        is_mean: true,
-        ..empty_word(scored_region, first_position_of_block(periphery, block))
-    };
-    scored_region.means.iter().zip(0..).map(word).collect()
-}
-
-/// Makes a word of a region without pixels.
-fn empty_word(scored_region: &ScoredRasterRegion, position: u32) -> ForwardWord {
-    ForwardWord {
-        region: scored_region.region,
-        frame: scored_region.frame,
-        position,
-        pixels: Vec::new(),
-        scored: Vec::new(),
-        is_mean: false,
-        is_last: false,
-        is_aborted: false,
     }
 }

@@ -6,7 +6,6 @@ use foveate_design::RasterDesign;
 use foveate_frame::Frame;
 
 use super::advances::WordPosition;
-use crate::conversions::index;
 use crate::region::black_padded_frame;
 
 /// The raw pixels of the current frame.
@@ -38,26 +37,16 @@ impl IncomingFrame {
     /// Writes a word, in the order of the advances. `port` is used only for pixels of the frame
     /// itself.
     pub(super) fn write(&mut self, place: WordPosition, port: &[u16]) {
-        let left = place.column * self.word_pixels;
-        let pixels: Vec<u16> = (left..left + self.word_pixels)
-            .zip(port)
-            .map(|(x, &pixel)| self.pixel(x, place.row, left, port, pixel))
-            .collect();
-        self.padded.write_row(left, place.row, &pixels);
+        let y = place.row;
+        for (x, &own) in (place.column * self.word_pixels..).zip(port) {
+            let is_inside = x < self.width && y < self.height;
+            let pixel = if is_inside { own } else { self.nearest_pixel(x, y) };
+            self.padded.write_row(x, y, &[pixel]);
+        }
     }
 
-    /// Returns the pixel at (x, y), which is `own` if it lies inside of the frame.
-    fn pixel(&self, x: u32, y: u32, left: u32, port: &[u16], own: u16) -> u16 {
-        let last = self.width - 1;
-        if y >= self.height {
-            self.padded.get(x, self.height - 1)
-        } else if x <= last {
-            own
-        } else if last >= left {
-            // The last column of the frame is in the same word.
-            port[index(last - left)]
-        } else {
-            self.padded.get(last, y)
-        }
+    /// Returns the pixel of the frame that is nearest to (x, y). It has come in before.
+    fn nearest_pixel(&self, x: u32, y: u32) -> u16 {
+        self.padded.get(x.min(self.width - 1), y.min(self.height - 1))
     }
 }

@@ -35,6 +35,7 @@ mod rcm;
 mod readout;
 mod regions;
 mod staleness;
+mod word_pixels;
 
 pub use ports::RasterOutput;
 pub use rcm::RasterRcm;

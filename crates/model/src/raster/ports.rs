@@ -113,7 +113,7 @@ impl RasterOutput {
         self.store_valid = word.is_some();
         self.store_last = word.is_some_and(|word| word.is_last);
         match word {
-            Some(word) => self.store_pixels.copy_from_slice(&word.pixels),
+            Some(word) => self.store_pixels.copy_from_slice(word.pixels.as_slice()),
             None => self.store_pixels.fill(0),
         }
     }
@@ -141,7 +141,7 @@ impl RasterOutput {
         self.forward_frame = word.map_or(0, |word| frame_number_on_port(word.frame));
         self.forward_summary = word.is_some_and(|word| word.is_mean);
         match word {
-            Some(word) => self.forward_pixels.copy_from_slice(&word.pixels),
+            Some(word) => self.forward_pixels.copy_from_slice(word.pixels.as_slice()),
             None => self.forward_pixels.fill(0),
         }
     }

@@ -91,8 +91,8 @@ impl RasterRcm {
         self.take_reference(input);
         self.advance(input);
         self.step_readout(input.forward_ready);
-        let decided = self.decisions.step(self.now);
-        self.decided = decided.map(|scored| self.regions.decide(scored));
+        let scored_region = self.decisions.step(self.now);
+        self.decided = scored_region.map(|scored_region| self.regions.decide(scored_region));
         self.step_store();
         self.update_output();
         &self.output
@@ -188,7 +188,7 @@ impl RasterRcm {
     /// Processes a word that comes to the tail, which may be the first of a row of regions or the
     /// last of a region.
     fn take_word_in_tail(&mut self, place: WordPosition, applied: &ThresholdInputs) {
-        if place.row.is_multiple_of(self.side) && place.column == 0 {
+        if place.column == 0 && place.row.is_multiple_of(self.side) {
             self.staleness.begin_row(self.now);
         }
         let completed = self.completed_region(place);
@@ -204,8 +204,8 @@ impl RasterRcm {
     /// Returns the region whose last word is at this position, or `None`.
     fn completed_region(&self, place: WordPosition) -> Option<CompletedRegion> {
         let region_words = self.timing.region_row_words;
-        let is_last = place.row % self.side == self.side - 1
-            && place.column % region_words == region_words - 1;
+        let is_last = (place.column + 1).is_multiple_of(region_words)
+            && (place.row + 1).is_multiple_of(self.side);
         is_last.then(|| CompletedRegion {
             region: place.row / self.side * self.columns + place.column / region_words,
             row: self.staleness.current_row(),
@@ -248,9 +248,9 @@ impl RasterRcm {
     /// that was on the ports before the edge is removed.
     fn step_readout(&mut self, sink_takes: bool) {
         if let Some(decided) = self.decided.take()
-            && self.has_words_to_send(&decided)
+            && let Some(departing) = self.regions.departing_region(decided, &self.timing)
         {
-            self.readout.enqueue(self.now, self.regions.departing_region(&decided));
+            self.readout.enqueue(self.now, departing);
         }
         let fresh = self.staleness.step(self.now);
         let read = self.readout.step(self.now, sink_takes, fresh);

@@ -21,7 +21,7 @@ pub(super) struct LostRegion {
 
 impl LostRegion {
     fn from_departing(departing: &DepartingRegion) -> Self {
-        Self { region: departing.region, frame: departing.frame }
+        Self { region: departing.region(), frame: departing.frame() }
     }
 }
 
@@ -41,32 +41,14 @@ pub(super) struct Readout {
     queue_latency: u64,
     /// Regions that wait to leave, with the edges at which they entered the queue.
     queue: VecDeque<(u64, DepartingRegion)>,
-    held: Option<HeldRegion>,
+    /// The region that the readout holds.
+    held: Option<DepartingRegion>,
     /// The edge at which the readout last started to hold a region.
     last_hold: Option<u64>,
     fetched_word: Option<ForwardWord>,
     shown_word: Option<ForwardWord>,
     /// Number of regions lost since reset.
     lost_count: u64,
-}
-
-/// The region that the readout holds.
-#[derive(Clone, Debug, PartialEq)]
-struct HeldRegion {
-    departing: DepartingRegion,
-    /// True if a word of the region has been fetched.
-    has_fetched_word: bool,
-}
-
-impl HeldRegion {
-    fn fetch(&mut self) -> Option<ForwardWord> {
-        self.has_fetched_word = true;
-        self.departing.words.pop_front()
-    }
-
-    fn is_fully_fetched(&self) -> bool {
-        self.departing.words.is_empty()
-    }
 }
 
 impl Readout {
@@ -105,7 +87,7 @@ impl Readout {
     /// Returns true if the readout holds a region of a row below `fresh` and has fetched a word of
     /// it.
     pub(super) fn has_partial_region_below(&self, fresh: u64) -> bool {
-        self.held.as_ref().is_some_and(|held| held.departing.row < fresh && held.has_fetched_word)
+        self.held.as_ref().is_some_and(|held| held.row() < fresh && !held.is_whole())
     }
 
     /// Returns true if nothing is left to leave.
@@ -118,24 +100,25 @@ impl Readout {
     /// `fresh` are stale.
     pub(super) fn step(&mut self, now: u64, sink_takes: bool, fresh: u64) -> ReadoutStep {
         let mut may_start = self.held.is_none();
-        let stale = self.held.take_if(|held| held.departing.row < fresh);
-        let lost = stale.as_ref().map(|held| LostRegion::from_departing(&held.departing));
-        let mut read = ReadoutStep { has_fetched: false, lost };
-        if stale.is_some_and(|held| held.has_fetched_word) {
-            self.mark_abort();
+        let mut read = ReadoutStep::default();
+        if let Some(stale) = self.held.take_if(|held| held.row() < fresh) {
+            read.lost = Some(LostRegion::from_departing(&stale));
+            if !stale.is_whole() {
+                self.mark_abort();
+            }
         }
         if self.shown_word.is_none() || sink_takes {
             self.shown_word = self.fetched_word.take();
-            self.fetched_word = self.held.as_mut().and_then(HeldRegion::fetch);
+            self.fetched_word = self.held.as_mut().map(DepartingRegion::fetch_word);
             read.has_fetched = self.fetched_word.is_some();
             may_start |= self.held.take_if(|held| held.is_fully_fetched()).is_some();
         }
         if may_start && let Some(departing) = self.next_region(now) {
             self.last_hold = Some(now);
-            if departing.row < fresh {
+            if departing.row() < fresh {
                 read.lost = Some(LostRegion::from_departing(&departing));
             } else {
-                self.held = Some(HeldRegion { departing, has_fetched_word: false });
+                self.held = Some(departing);
             }
         }
         self.lost_count += u64::from(read.lost.is_some());

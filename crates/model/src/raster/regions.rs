@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the core keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{Camera, RasterDesign, ReferencePolicy, RegionAction};
+use foveate_design::{Camera, RasterDesign, RasterTiming, ReferencePolicy, RegionAction};
 use foveate_frame::Frame;
 
 use super::decisions::{CompletedRegion, DecidedRasterRegion, ScoredRasterRegion};
@@ -18,8 +18,6 @@ pub(super) struct RasterRegions {
     scorer: RegionScorer,
     /// Number of pixels of a region, n.
     pixels: usize,
-    /// Number of pixels of a word, K.
-    word_pixels: u32,
     /// The references, region by region.
     references: Vec<u16>,
     /// True for every region with a valid reference.
@@ -34,7 +32,6 @@ impl RasterRegions {
         Self {
             scorer: RegionScorer::new(&design),
             pixels,
-            word_pixels: design.pixels_per_clock(),
             references: vec![0; regions * pixels],
             has_reference: vec![false; regions],
             summaries: no_summaries(&design),
@@ -67,7 +64,7 @@ impl RasterRegions {
         padded: &Frame,
         taken: Option<&Frame>,
         thresholds: &ThresholdInputs,
-    ) -> ScoredRasterRegion {
+    ) -> Box<ScoredRasterRegion> {
         let mut stream = Vec::new();
         region_stream(&self.camera, padded, region, &mut stream);
         self.scorer.load(stream.into_iter(), region_border(&self.camera, region));
@@ -75,7 +72,7 @@ impl RasterRegions {
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
         let decision =
             RegionDecision::from_scorer(&self.camera, &self.scorer, reference, thresholds);
-        let scored: Vec<u16> = self.scorer.pixels().collect();
+        let scored = self.scorer.pixel_rows().concat();
         match self.camera.temporal().reference {
             ReferencePolicy::Previous => {
                 self.write_reference(region, 0, &scored);
@@ -83,16 +80,25 @@ impl RasterRegions {
             }
             ReferencePolicy::LastSent => {}
         }
-        let payload: Vec<u16> = self.scorer.payload().collect();
+        let payload = self.scorer.payload_rows().concat();
         let frame = row / u64::from(self.camera.rows());
         let (means, summary_level) = (self.scorer.means(), thresholds.summary_level);
-        ScoredRasterRegion { region, row, frame, decision, scored, payload, means, summary_level }
+        Box::new(ScoredRasterRegion {
+            region,
+            row,
+            frame,
+            decision,
+            scored,
+            payload,
+            means,
+            summary_level,
+        })
     }
 
     /// Decides a region: returns its action, and updates its reference and its summary.
-    pub(super) fn decide(&mut self, scored_region: ScoredRasterRegion) -> DecidedRasterRegion {
+    pub(super) fn decide(&mut self, scored_region: Box<ScoredRasterRegion>) -> DecidedRasterRegion {
         let summary = &mut self.summaries[index(scored_region.region)];
-        let ScoredRasterRegion { decision, means, summary_level, .. } = &scored_region;
+        let ScoredRasterRegion { decision, means, summary_level, .. } = &*scored_region;
         let (irrelevant, level) = (self.camera.irrelevant(), *summary_level);
         let action = summary.decide(irrelevant, decision.srs, decision.trs, means, level);
         let referenced = &mut self.has_reference[index(scored_region.region)];
@@ -107,9 +113,13 @@ impl RasterRegions {
         DecidedRasterRegion { scored_region, action }
     }
 
-    /// Returns the words that leave of a region that was decided.
-    pub(super) fn departing_region(&self, decided: &DecidedRasterRegion) -> DepartingRegion {
-        DepartingRegion::from_decided(decided, &self.camera, self.word_pixels)
+    /// Returns the region that leaves of a region that was decided, or `None` if it sends nothing.
+    pub(super) fn departing_region(
+        &self,
+        decided: DecidedRasterRegion,
+        timing: &RasterTiming,
+    ) -> Option<DepartingRegion> {
+        DepartingRegion::from_decided(decided, &self.camera, timing)
     }
 
     /// Records a word that was fetched and will leave. The hardware writes it to the reference an
@@ -119,7 +129,7 @@ impl RasterRegions {
         match self.camera.temporal().reference {
             ReferencePolicy::Previous => {}
             ReferencePolicy::LastSent => {
-                self.write_reference(word.region, word.position, &word.scored);
+                self.write_reference(word.region, word.position, word.scored.as_slice());
             }
         }
     }
