@@ -16,17 +16,17 @@
 //! pixel N + 1 of the next frame comes.
 
 use super::pixel::StagePixel;
-use super::window_center::{WindowCenter, center_at};
+use super::window_center::WindowCenters;
 
-/// The window stage with all pixels of the current frame and of the frame before. The hardware
-/// stores two rows, which is enough. Whole frames make the model easier to check.
+/// The window stage with all pixels of the current frame and of the frame before, in all lanes. The
+/// hardware stores two rows, which is enough. Whole frames make the model easier to check.
 #[derive(Clone, Debug)]
 pub(super) struct IsolatedWindow {
     side: usize,
-    /// The frame whose pixels are being taken.
-    current: Vec<StagePixel>,
+    /// The frame whose pixels are being taken: at each position, the pixels of all lanes.
+    current: Vec<Vec<StagePixel>>,
     /// The frame that was taken before it.
-    previous: Vec<StagePixel>,
+    previous: Vec<Vec<StagePixel>>,
     /// Number of pixels of the current frame that have been taken, 0..n.
     position: usize,
     /// Number of centers of the previous frame that have not been given yet.
@@ -35,7 +35,7 @@ pub(super) struct IsolatedWindow {
 
 impl IsolatedWindow {
     pub(super) fn new(side: usize) -> Self {
-        let frame = vec![StagePixel::default(); side * side];
+        let frame = vec![Vec::new(); side * side];
         Self { side, current: frame.clone(), previous: frame, position: 0, owed: 0 }
     }
 
@@ -44,39 +44,34 @@ impl IsolatedWindow {
         self.owed = 0;
     }
 
-    pub(super) fn step(&mut self, pixel: Option<StagePixel>) -> Option<WindowCenter> {
-        match pixel {
-            Some(pixel) => self.take_pixel(pixel),
+    /// Applies one edge. `pixels` has a pixel per lane.
+    pub(super) fn step(&mut self, pixels: Option<Vec<StagePixel>>) -> Option<WindowCenters<'_>> {
+        match pixels {
+            Some(pixels) => self.take_pixels(pixels),
             // Between frames the stage flushes. Inside a frame it waits for pixels.
-            None if self.position == 0 => self.flush_center(),
-            None => None,
+            None if self.position == 0 => {}
+            None => return None,
         }
+        let behind = self.side + 1;
+        let (frame, place) = if self.owed > 0 {
+            self.owed -= 1;
+            (&self.previous, self.previous.len() - 1 - self.owed)
+        } else {
+            let last_taken = self.position.checked_sub(1)?;
+            (&self.current, last_taken.checked_sub(behind)?)
+        };
+        let at = (place % self.side, place / self.side);
+        Some(WindowCenters::at(frame, self.side, at, None))
     }
 
-    fn take_pixel(&mut self, pixel: StagePixel) -> Option<WindowCenter> {
-        let taken = self.position;
-        self.current[taken] = pixel;
-        let behind = self.side + 1;
-        let taken_center = || Some(self.center(&self.current, taken.checked_sub(behind)?));
-        let center = if self.owed > 0 { self.flush_center() } else { taken_center() };
-        self.position = taken + 1;
+    fn take_pixels(&mut self, pixels: Vec<StagePixel>) {
+        self.current[self.position] = pixels;
+        self.position += 1;
         if self.position == self.current.len() {
             std::mem::swap(&mut self.current, &mut self.previous);
             self.position = 0;
-            self.owed = behind;
+            // The first of the owed centers is given at this edge.
+            self.owed = self.side + 2;
         }
-        center
-    }
-
-    fn flush_center(&mut self) -> Option<WindowCenter> {
-        let place = (self.previous.len()).checked_sub(self.owed).filter(|_| self.owed > 0)?;
-        self.owed -= 1;
-        Some(self.center(&self.previous, place))
-    }
-
-    fn center(&self, frame: &[StagePixel], place: usize) -> WindowCenter {
-        let at = (place % self.side, place / self.side);
-        let last = self.side - 1;
-        center_at(frame, self.side, at, (0, 0), (last, last))
     }
 }

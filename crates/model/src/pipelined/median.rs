@@ -16,12 +16,13 @@ use super::pixel::StagePixel;
 use super::rpu_parameters::RpuParameters;
 use super::window_stage::WindowStage;
 use crate::denoising::median;
+use crate::window::PixelWindow;
 
-/// The stage that takes raw pixels and gives denoised pixels.
+/// The stage that takes raw pixels and gives denoised pixels, one per lane.
 #[derive(Clone, Debug)]
 pub(super) struct MedianStage {
     window: WindowStage,
-    results: DelayLine<StagePixel>,
+    results: DelayLine<Vec<StagePixel>>,
 }
 
 impl MedianStage {
@@ -37,13 +38,14 @@ impl MedianStage {
         self.results.reset();
     }
 
-    /// Applies one edge, and returns the pixel that the next stage takes at this edge.
-    pub(super) fn step(&mut self, pixel: Option<StagePixel>) -> Option<StagePixel> {
+    /// Applies one edge, and returns the pixels that the next stage takes at this edge.
+    pub(super) fn step(&mut self, pixels: Option<Vec<StagePixel>>) -> Option<Vec<StagePixel>> {
         // The raw halo of a shared region already repeats the border of the frame.
-        let no_border = 0;
-        let center = self.window.step(pixel, no_border);
-        let result = center
-            .map(|center| StagePixel { scored: median(&center.window), raw: center.pixel.raw });
-        self.results.step(result)
+        let centers = self.window.step(pixels, None);
+        let denoised = |center: StagePixel, window: &PixelWindow| StagePixel {
+            scored: median(window),
+            raw: center.raw,
+        };
+        self.results.step(centers.map(|centers| centers.map(denoised)))
     }
 }

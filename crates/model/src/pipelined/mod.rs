@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cycle-level model of the pipelined organization: every output port after every edge.
 //!
-//! One [`PipelinedRpu::step`] is one rising edge of the clock. The blocks are those of
+//! One [`PipelinedRcm::step`] is one rising edge of the clock of all RPUs. The blocks are those of
 //! `docs/timing.md`, one file each:
 //!
 //! ```text
@@ -11,7 +11,9 @@
 //!            +--------+       +---------+         +------------------------------------+
 //! ```
 //!
-//! A stage that the design does not need is left out. At an edge a stage takes one pixel or none.
+//! A stage that the design does not need is left out. At an edge a stage takes one pixel of every
+//! lane or none: all RPUs take their pixels at the same edges, so the model steps each stage in all
+//! lanes at once. A lane is one RPU.
 
 mod delay_line;
 mod frame_store;
@@ -23,6 +25,7 @@ mod rcm;
 mod region_sums;
 mod relevance;
 mod rpu;
+mod rpu_array;
 mod rpu_parameters;
 mod scores;
 mod shared_window;

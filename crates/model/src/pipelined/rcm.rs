@@ -3,7 +3,9 @@
 
 use foveate_design::{FeatureKind, PipelinedDesign, PortRole};
 
-use super::{PipelinedRpu, RpuInput, RpuOutput};
+use super::RpuOutput;
+use super::rpu_array::RpuArray;
+use crate::conversions::index;
 use crate::cycle_model::{CoreInput, CycleModel};
 use crate::{FrameSync, region_border};
 
@@ -12,44 +14,33 @@ use crate::{FrameSync, region_border};
 pub struct PipelinedRcm {
     feature_kinds: Vec<FeatureKind>,
     sync: FrameSync,
-    lanes: Vec<RpuLane>,
-    outputs: Vec<RpuOutput>,
-}
-
-#[derive(Clone, Debug)]
-struct RpuLane {
-    rpu: PipelinedRpu,
-    /// The borders of the region, or `None` for a lone RPU, whose borders are an input.
-    border: Option<u8>,
+    rpus: RpuArray,
+    /// The borders of every region, or `None` for a lone RPU, whose borders are an input.
+    borders: Option<Vec<u8>>,
 }
 
 impl PipelinedRcm {
     /// Makes the RCM of the design.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
-        let border = |region| Some(region_border(&design, region));
-        Self::with_borders(design, FrameSync::new(&design), (0..design.regions()).map(border))
+        let borders = (0..design.regions()).map(|region| region_border(&design, region)).collect();
+        Self {
+            feature_kinds: design.feature_kinds(),
+            sync: FrameSync::new(&design),
+            rpus: RpuArray::new(design, index(design.regions())),
+            borders: Some(borders),
+        }
     }
 
     /// Makes module `rpu`: one RPU of the design, whose borders are an input. It has no logic that
     /// finds frames.
     #[must_use]
     pub fn lone_rpu(design: PipelinedDesign<'_>) -> Self {
-        Self::with_borders(design, FrameSync::without_sync(), std::iter::once(None))
-    }
-
-    fn with_borders(
-        design: PipelinedDesign<'_>,
-        sync: FrameSync,
-        borders: impl Iterator<Item = Option<u8>>,
-    ) -> Self {
-        let rpu = PipelinedRpu::new(design);
-        let lanes: Vec<_> = borders.map(|border| RpuLane { rpu: rpu.clone(), border }).collect();
         Self {
             feature_kinds: design.feature_kinds(),
-            sync,
-            outputs: vec![RpuOutput::default(); lanes.len()],
-            lanes,
+            sync: FrameSync::without_sync(),
+            rpus: RpuArray::new(design, 1),
+            borders: None,
         }
     }
 
@@ -60,24 +51,22 @@ impl PipelinedRcm {
     /// Panics if there is not one pixel per region.
     pub fn step(&mut self, input: &CoreInput<'_>) -> &[RpuOutput] {
         let &CoreInput { reset, valid, sof, pixels, thresholds, .. } = input;
-        assert_eq!(pixels.len(), self.lanes.len(), "one pixel per region is needed");
-        let valid = if reset {
+        assert_eq!(pixels.len(), self.rpus.lanes(), "one pixel per region is needed");
+        if reset {
             self.sync.reset();
-            false
+            self.rpus.reset(thresholds);
         } else {
-            self.sync.step(valid, sof, true)
-        };
-        for ((lane, &pixel), output) in self.lanes.iter_mut().zip(pixels).zip(&mut self.outputs) {
-            let border = lane.border.unwrap_or(input.border);
-            *output = lane.rpu.step(&RpuInput { reset, valid, pixel, border }, thresholds);
+            let valid = self.sync.step(valid, sof, true);
+            let borders = self.borders.as_deref().unwrap_or(std::slice::from_ref(&input.border));
+            self.rpus.step(valid.then_some(pixels), borders, thresholds);
         }
-        &self.outputs
+        self.outputs()
     }
 
     /// Returns the outputs after the last edge. Element i belongs to region i.
     #[must_use]
     pub fn outputs(&self) -> &[RpuOutput] {
-        &self.outputs
+        self.rpus.outputs()
     }
 
     /// Returns `sync_error_o` after the last edge.
@@ -88,7 +77,7 @@ impl PipelinedRcm {
 
     /// Appends one value per lane.
     fn append_lanes(&self, values: &mut Vec<u64>, value: impl Fn(&RpuOutput) -> u64) {
-        values.extend(self.outputs.iter().map(value));
+        values.extend(self.outputs().iter().map(value));
     }
 }
 
@@ -101,7 +90,7 @@ impl CycleModel for PipelinedRcm {
         match role {
             PortRole::SyncError => values.push(self.sync_error().into()),
             // All lanes decide in the same clock.
-            PortRole::DecisionValid => values.push(self.outputs[0].decision_valid.into()),
+            PortRole::DecisionValid => values.push(self.outputs()[0].decision_valid.into()),
             PortRole::Srs => self.append_lanes(values, |shown| shown.srs.into()),
             PortRole::Trs => self.append_lanes(values, |shown| shown.trs.into()),
             PortRole::Active => self.append_lanes(values, |shown| shown.active.into()),

@@ -27,11 +27,12 @@ pub(super) struct RegionSums {
 
 impl RegionSums {
     /// Applies a tail step. `last` is true at position n - 1.
-    pub(super) fn step(&mut self, plan: &RpuParameters, pixel: u16, last: bool, n: u64) {
+    pub(super) fn step(&mut self, plan: &RpuParameters, pixel: u16, last: bool) {
         self.sum += u64::from(pixel);
         self.square_sum += variance::square(pixel);
         self.extremes = self.extremes.with(pixel);
         if last {
+            let n = u64::from(plan.pixel_count());
             self.mean = mad::mean(self.sum, n, plan.fraction_bits);
             self.variance = variance::score(n, self.sum, self.square_sum);
             self.sum = 0;

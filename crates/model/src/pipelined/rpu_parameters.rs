@@ -24,6 +24,8 @@ pub(super) struct RpuParameters {
     pub(super) stream_side: usize,
     pub(super) filter: DenoiseFilter,
     pub(super) has_feature_window: bool,
+    /// True if a score needs sums or extremes over the pixels of a region.
+    pub(super) needs_sums: bool,
     pub(super) needs_border: bool,
     /// Number of registers between the median window and the next stage, m.
     pub(super) median_registers: usize,
@@ -67,6 +69,7 @@ impl RpuParameters {
             stream_side: index(design.stream_side()),
             filter: design.filter(),
             has_feature_window: design.has_feature_window(),
+            needs_sums: design.features().iter().any(|feature| !feature.kind().has_window()),
             needs_border: design.needs_border(),
             median_registers: index(timing.median_registers),
             tail_delay: index(timing.tail_delay),
@@ -80,6 +83,11 @@ impl RpuParameters {
             periphery: design.periphery().copied(),
             constants: ThresholdInputs::constants(&design),
         }
+    }
+
+    /// Returns n as a count of pixels.
+    pub(super) fn pixel_count(&self) -> u32 {
+        u32::try_from(self.pixels).expect("a region has at most 4096 pixels")
     }
 
     /// Returns the thresholds that the core uses: its constants if it has them, else the inputs.

@@ -14,15 +14,15 @@ use foveate_design::FeatureKind;
 use super::pixel::TailStep;
 use super::region_sums::RegionSums;
 use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
+use crate::conversions::bool_as_count;
 use crate::feature::mad;
 
 /// The spatial scores of one RPU, by number of the feature.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RpuScores {
-    hits: [u64; MAX_FEATURES],
+    /// The current value of every score in its counter or accumulator.
+    running: [u64; MAX_FEATURES],
     sums: RegionSums,
-    /// The score of `mad`, which the second pass sums up over the frame before.
-    deviations: u64,
     hold_registers: [u64; MAX_FEATURES],
 }
 
@@ -35,51 +35,49 @@ impl RpuScores {
         step: &TailStep,
         before: Option<u16>,
         last: bool,
-        n: u64,
     ) {
-        for (count, hit) in self.hits.iter_mut().zip(step.hits) {
-            *count += crate::conversions::bool_as_count(hit);
+        let mean_before = self.sums.mean;
+        if plan.needs_sums {
+            self.sums.step(plan, step.pixel.scored, last);
         }
-        if let Some(before) = before {
-            self.deviations += mad::deviation(before, self.sums.mean, plan.fraction_bits);
+        for ((score, kind), hit) in self.running.iter_mut().zip(plan.features).zip(step.hits) {
+            match kind {
+                None => {}
+                Some(FeatureKind::Edge | FeatureKind::Corner) => *score += bool_as_count(hit),
+                // The second pass sums up over the frame before.
+                Some(FeatureKind::Mad) => {
+                    let deviation =
+                        |before| mad::deviation(before, mean_before, plan.fraction_bits);
+                    *score += before.map_or(0, deviation);
+                }
+                Some(FeatureKind::Variance) => *score = self.sums.variance,
+                Some(FeatureKind::Range) => *score = self.sums.range,
+            }
         }
-        self.sums.step(plan, step.pixel.scored, last, n);
     }
 
     /// Applies the edge after done.
     pub(super) fn finish(&mut self, plan: &RpuParameters) {
-        self.hold_registers = self.accumulated_scores(plan);
-        self.hits = [0; MAX_FEATURES];
-        self.deviations = 0;
+        self.hold_registers = self.running;
+        for (score, kind) in self.running.iter_mut().zip(plan.features) {
+            match kind {
+                Some(FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad) => *score = 0,
+                Some(FeatureKind::Variance | FeatureKind::Range) | None => {}
+            }
+        }
     }
 
     /// Returns the values of the score ports.
     pub(super) fn port_scores(&self, plan: &RpuParameters) -> [u64; MAX_FEATURES] {
-        let running = self.accumulated_scores(plan);
         if !plan.second_pass {
-            return running;
+            return self.running;
         }
         let mut shown = self.hold_registers;
-        for ((score, running), kind) in shown.iter_mut().zip(running).zip(plan.features) {
+        for ((score, running), kind) in shown.iter_mut().zip(self.running).zip(plan.features) {
             if kind.is_some_and(FeatureKind::has_second_pass) {
                 *score = running;
             }
         }
         shown
-    }
-
-    /// Returns the current value of every score in its counter or accumulator.
-    fn accumulated_scores(&self, plan: &RpuParameters) -> [u64; MAX_FEATURES] {
-        let mut scores = [0; MAX_FEATURES];
-        for ((score, hits), kind) in scores.iter_mut().zip(self.hits).zip(plan.features) {
-            *score = match kind {
-                None => 0,
-                Some(FeatureKind::Edge | FeatureKind::Corner) => hits,
-                Some(FeatureKind::Mad) => self.deviations,
-                Some(FeatureKind::Variance) => self.sums.variance,
-                Some(FeatureKind::Range) => self.sums.range,
-            };
-        }
-        scores
     }
 }

@@ -12,42 +12,55 @@
 //! flush.
 
 use super::pixel::StagePixel;
-use super::window_center::{WindowCenter, center_at};
-
+use super::window_center::{HiddenHalo, WindowCenters};
 use crate::stream::{BOTTOM, LEFT, RIGHT, TOP};
 
-/// The window stage with all pixels of the current square.
+/// The window stage with all pixels of the current square, in all lanes.
 #[derive(Clone, Debug)]
 pub(super) struct SharedWindow {
     side: usize,
-    square: Vec<StagePixel>,
+    /// The pixels of all lanes at each position.
+    square: Vec<Vec<StagePixel>>,
     /// Number of pixels of the square that have been taken.
     position: usize,
 }
 
 impl SharedWindow {
     pub(super) fn new(side: usize) -> Self {
-        Self { side, square: vec![StagePixel::default(); side * side], position: 0 }
+        Self { side, square: vec![Vec::new(); side * side], position: 0 }
     }
 
     pub(super) fn reset(&mut self) {
         self.position = 0;
     }
 
-    pub(super) fn step(&mut self, pixel: Option<StagePixel>, border: u8) -> Option<WindowCenter> {
+    /// Applies one edge. `pixels` has a pixel per lane, and `borders` the sides of the frame that
+    /// each lane touches, if windows must not use the halo there.
+    pub(super) fn step<'a>(
+        &'a mut self,
+        pixels: Option<Vec<StagePixel>>,
+        borders: Option<&'a [u8]>,
+    ) -> Option<WindowCenters<'a>> {
         let taken = self.position;
-        self.square[taken] = pixel?;
+        self.square[taken] = pixels?;
         self.position = (taken + 1) % self.square.len();
-        let (x, y) = (taken % self.side, taken / self.side);
-        if x < 2 || y < 2 {
+        let (right, below) = (taken % self.side, taken / self.side);
+        let (x, y) = (right.checked_sub(1)?, below.checked_sub(1)?);
+        if x == 0 || y == 0 {
             return None;
         }
-        // The outermost pixels of the square are halo. At a side of the frame the window must not
-        // use them.
-        let inset = |side: u8| usize::from(border & side != 0);
-        let last = self.side - 1;
-        let low = (inset(LEFT), inset(TOP));
-        let high = (last - inset(RIGHT), last - inset(BOTTOM));
-        Some(center_at(&self.square, self.side, (x - 1, y - 1), low, high))
+        let sides = self.sides_with_halo(x, y);
+        let hidden_halo =
+            borders.filter(|_| sides != 0).map(|borders| HiddenHalo { sides, borders });
+        Some(WindowCenters::at(&self.square, self.side, (x, y), hidden_halo))
+    }
+
+    /// Returns the sides at which a window sees the outermost pixels of the square, which are halo.
+    fn sides_with_halo(&self, x: usize, y: usize) -> u8 {
+        let last_inside = self.side - 2;
+        [(x == 1, LEFT), (x == last_inside, RIGHT), (y == 1, TOP), (y == last_inside, BOTTOM)]
+            .into_iter()
+            .filter_map(|(sees_halo, side)| sees_halo.then_some(side))
+            .sum()
     }
 }

@@ -29,7 +29,6 @@ use crate::ThresholdInputs;
 /// The part of an RPU behind the windows.
 #[derive(Clone, Debug)]
 pub(super) struct RpuTail {
-    plan: RpuParameters,
     store: RegionFrameStore,
     registers: TailRegisters,
 }
@@ -53,11 +52,7 @@ struct TailRegisters {
 
 impl RpuTail {
     pub(super) fn new(plan: &RpuParameters) -> Self {
-        Self {
-            plan: *plan,
-            store: RegionFrameStore::new(plan),
-            registers: TailRegisters::default(),
-        }
+        Self { store: RegionFrameStore::new(plan), registers: TailRegisters::default() }
     }
 
     pub(super) fn reset(&mut self) {
@@ -65,38 +60,41 @@ impl RpuTail {
     }
 
     /// Applies one edge.
-    pub(super) fn step(&mut self, step: Option<TailStep>, thresholds: &ThresholdInputs) {
+    pub(super) fn step(
+        &mut self,
+        plan: &RpuParameters,
+        step: Option<&TailStep>,
+        thresholds: &ThresholdInputs,
+    ) {
         if self.registers.done {
-            self.finish(thresholds);
+            self.finish(plan, thresholds);
         }
         self.registers.done = false;
         self.registers.forward = None;
         if let Some(step) = step {
-            self.take_step(&step, thresholds);
+            self.take_step(plan, step, thresholds);
         }
     }
 
     /// Applies the edge that ends the clock of a decision. The registers take the combinational
     /// values before the tail step of the next frame, which can be at the same edge.
-    fn finish(&mut self, thresholds: &ThresholdInputs) {
-        let decision = self.decision(thresholds);
-        let n = self.region_pixel_count();
+    fn finish(&mut self, plan: &RpuParameters, thresholds: &ThresholdInputs) {
+        let decision = self.decision(plan, thresholds);
         let registers = &mut self.registers;
-        registers.held_count = registers.temporal.final_count(&self.plan, decision, n);
-        registers.temporal.finish(&self.plan, decision);
-        registers.scores.finish(&self.plan);
+        registers.held_count = registers.temporal.final_count(plan, decision);
+        registers.temporal.finish(plan, decision);
+        registers.scores.finish(plan);
         registers.active = decision.is_some_and(RelevanceBits::is_active);
-        registers.periphery.finish(&self.plan, decision, thresholds.summary_level);
+        registers.periphery.finish(plan, decision, thresholds.summary_level);
         if registers.active {
-            self.store.send_decided(&self.plan);
+            self.store.send_decided(plan);
         }
         self.store.rotate();
     }
 
     /// Applies a tail step.
-    fn take_step(&mut self, step: &TailStep, thresholds: &ThresholdInputs) {
-        let n = u64::from(self.region_pixel_count());
-        let Self { plan, store, registers } = self;
+    fn take_step(&mut self, plan: &RpuParameters, step: &TailStep, thresholds: &ThresholdInputs) {
+        let Self { store, registers } = self;
         let position = registers.position;
         let last = position + 1 == plan.pixels;
         let before = registers.temporal.has_previous.then(|| store.previous(position));
@@ -109,53 +107,54 @@ impl RpuTail {
         registers.forward = leaving.or_else(|| registers.periphery.leaving_mean(plan, position));
         registers.periphery.step(plan, payload(step.pixel));
         registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
-        registers.scores.step(plan, step, before, last, n);
+        registers.scores.step(plan, step, before, last);
         store.write(position, step.pixel);
         registers.position = if last { 0 } else { position + 1 };
         registers.done = last;
     }
 
     /// Returns the decision of this clock, or `None` if there is none.
-    fn decision(&self, thresholds: &ThresholdInputs) -> Option<RelevanceBits> {
+    fn decision(
+        &self,
+        plan: &RpuParameters,
+        thresholds: &ThresholdInputs,
+    ) -> Option<RelevanceBits> {
         // With a second pass, the first frame that is done only starts the second pass.
         let valid =
-            self.registers.done && (!self.plan.second_pass || self.registers.temporal.has_previous);
+            self.registers.done && (!plan.second_pass || self.registers.temporal.has_previous);
         valid.then(|| {
-            let scores = self.registers.scores.port_scores(&self.plan);
-            RelevanceBits::from_scores(&self.plan, &scores, self.temporal_count(), thresholds)
+            let scores = self.registers.scores.port_scores(plan);
+            RelevanceBits::from_scores(plan, &scores, self.temporal_count(plan), thresholds)
         })
     }
 
-    fn temporal_count(&self) -> u32 {
-        if self.plan.second_pass {
+    fn temporal_count(&self, plan: &RpuParameters) -> u32 {
+        if plan.second_pass {
             self.registers.held_count
         } else {
-            self.registers.temporal.running_count(&self.plan)
+            self.registers.temporal.running_count(plan)
         }
     }
 
-    /// Returns n as a count of pixels.
-    fn region_pixel_count(&self) -> u32 {
-        u32::try_from(self.plan.pixels).expect("a region has at most 4096 pixels")
-    }
-
-    /// Returns the values of the output ports.
-    pub(super) fn output(&self, thresholds: &ThresholdInputs) -> RpuOutput {
-        let decision = self.decision(thresholds);
-        RpuOutput {
-            decision_valid: decision.is_some(),
-            srs: decision.is_some_and(|decision| decision.srs),
-            trs: decision.is_some_and(|decision| decision.trs),
-            active: decision.is_some_and(RelevanceBits::is_active),
-            summary: decision.is_some_and(|decision| {
-                let level = thresholds.summary_level;
-                self.registers.periphery.action(&self.plan, decision, level)
-                    == RegionAction::Summarize
-            }),
-            scores: self.registers.scores.port_scores(&self.plan),
-            temporal_count: self.temporal_count(),
-            forward_valid: self.registers.forward.is_some(),
-            forward_pixel: self.registers.forward.unwrap_or_default(),
-        }
+    /// Sets the output ports to their values in this clock.
+    pub(super) fn set_output(
+        &self,
+        plan: &RpuParameters,
+        thresholds: &ThresholdInputs,
+        output: &mut RpuOutput,
+    ) {
+        let decision = self.decision(plan, thresholds);
+        output.decision_valid = decision.is_some();
+        output.srs = decision.is_some_and(|decision| decision.srs);
+        output.trs = decision.is_some_and(|decision| decision.trs);
+        output.active = decision.is_some_and(RelevanceBits::is_active);
+        output.summary = decision.is_some_and(|decision| {
+            let level = thresholds.summary_level;
+            self.registers.periphery.action(plan, decision, level) == RegionAction::Summarize
+        });
+        output.scores = self.registers.scores.port_scores(plan);
+        output.temporal_count = self.temporal_count(plan);
+        output.forward_valid = self.registers.forward.is_some();
+        output.forward_pixel = self.registers.forward.unwrap_or_default();
     }
 }

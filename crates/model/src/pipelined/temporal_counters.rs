@@ -58,12 +58,7 @@ impl TemporalCounters {
 
     /// Returns the count of the frame that is done, for a design with a second pass. The frame
     /// before it is decided now, or does not exist.
-    pub(super) fn final_count(
-        &self,
-        plan: &RpuParameters,
-        decision: Option<RelevanceBits>,
-        n: u32,
-    ) -> u32 {
+    pub(super) fn final_count(&self, plan: &RpuParameters, decision: Option<RelevanceBits>) -> u32 {
         match (plan.reference, decision) {
             (ReferencePolicy::Previous, _) => self.against_previous,
             (ReferencePolicy::LastSent, Some(decision)) if decision.is_active() => {
@@ -72,7 +67,7 @@ impl TemporalCounters {
             (ReferencePolicy::LastSent, Some(decision))
                 if invalidates_reference(plan, decision) =>
             {
-                n
+                plan.pixel_count()
             }
             (ReferencePolicy::LastSent, _) => self.against_sent,
         }

@@ -7,9 +7,9 @@ use super::isolated_window::IsolatedWindow;
 use super::pixel::StagePixel;
 use super::rpu_parameters::RpuParameters;
 use super::shared_window::SharedWindow;
-use super::window_center::WindowCenter;
+use super::window_center::WindowCenters;
 
-/// A stage with a 3x3 window that moves over a region.
+/// A stage with a 3x3 window in every lane, which moves over the region of the lane.
 #[derive(Clone, Debug)]
 pub(super) enum WindowStage {
     Isolated(IsolatedWindow),
@@ -25,12 +25,16 @@ impl WindowStage {
         }
     }
 
-    /// Applies one edge. `border` has the sides beyond which a shared window repeats pixels of its
-    /// region.
-    pub(super) fn step(&mut self, pixel: Option<StagePixel>, border: u8) -> Option<WindowCenter> {
+    /// Applies one edge. `pixels` has a pixel per lane. `borders` has, for each lane, the sides
+    /// beyond which a shared window repeats pixels of its region, if there are any.
+    pub(super) fn step<'a>(
+        &'a mut self,
+        pixels: Option<Vec<StagePixel>>,
+        borders: Option<&'a [u8]>,
+    ) -> Option<WindowCenters<'a>> {
         match self {
-            Self::Isolated(window) => window.step(pixel),
-            Self::Shared(window) => window.step(pixel, border),
+            Self::Isolated(window) => window.step(pixels),
+            Self::Shared(window) => window.step(pixels, borders),
         }
     }
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! RPUs that are clocked together: their stages in sequence.
+
+use foveate_design::{DenoiseFilter, PipelinedDesign};
+
+use super::delay_line::DelayLine;
+use super::median::MedianStage;
+use super::pixel::{StagePixel, TailStep};
+use super::ports::RpuOutput;
+use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
+use super::tail::RpuTail;
+use super::window_center::WindowCenters;
+use super::window_stage::WindowStage;
+use crate::ThresholdInputs;
+use crate::feature::is_hit;
+
+/// The RPUs of an array, one per lane. A new one is in the state after a reset.
+#[derive(Clone, Debug)]
+pub(super) struct RpuArray {
+    plan: RpuParameters,
+    median: Option<MedianStage>,
+    feature: Option<WindowStage>,
+    /// The registers in front of the tails.
+    delay: DelayLine<Vec<TailStep>>,
+    tails: Vec<RpuTail>,
+    outputs: Vec<RpuOutput>,
+}
+
+impl RpuArray {
+    /// Makes `lanes` RPUs of the design.
+    pub(super) fn new(design: PipelinedDesign<'_>, lanes: usize) -> Self {
+        let plan = RpuParameters::from_design(design);
+        let denoises = match plan.filter {
+            DenoiseFilter::None => false,
+            DenoiseFilter::Median3x3 => true,
+        };
+        // A shared median window gives a square that is smaller by the halo of the window.
+        let feature_side = plan.side + (plan.stream_side - plan.side).min(2);
+        Self {
+            median: denoises.then(|| MedianStage::new(&plan)),
+            feature: plan.has_feature_window.then(|| WindowStage::new(&plan, feature_side)),
+            delay: DelayLine::new(plan.tail_delay),
+            tails: vec![RpuTail::new(&plan); lanes],
+            outputs: vec![RpuOutput::default(); lanes],
+            plan,
+        }
+    }
+
+    /// Returns the number of RPUs.
+    pub(super) fn lanes(&self) -> usize {
+        self.tails.len()
+    }
+
+    /// Returns the outputs after the last edge, by number of the lane.
+    pub(super) fn outputs(&self) -> &[RpuOutput] {
+        &self.outputs
+    }
+
+    /// Applies one rising edge without a reset. `pixels` has a pixel per lane if they are valid, and
+    /// `borders` the value of `border_i` of every lane.
+    pub(super) fn step(
+        &mut self,
+        pixels: Option<&[u16]>,
+        borders: &[u8],
+        applied: &ThresholdInputs,
+    ) {
+        let plan = self.plan;
+        let thresholds = plan.effective_thresholds(applied);
+        let pixels = pixels.map(|pixels| pixels.iter().map(|&pixel| StagePixel::from_input(pixel)));
+        let steps = self.step_windows(pixels.map(Iterator::collect), borders, thresholds);
+        let steps = self.delay.step(steps);
+        for (lane, tail) in self.tails.iter_mut().enumerate() {
+            tail.step(&plan, steps.as_ref().map(|steps| &steps[lane]), thresholds);
+        }
+        self.update_outputs(thresholds);
+    }
+
+    /// Applies one rising edge with a reset.
+    pub(super) fn reset(&mut self, applied: &ThresholdInputs) {
+        let plan = self.plan;
+        if let Some(median) = &mut self.median {
+            median.reset();
+        }
+        if let Some(feature) = &mut self.feature {
+            feature.reset();
+        }
+        self.delay.reset();
+        self.tails.iter_mut().for_each(RpuTail::reset);
+        self.update_outputs(plan.effective_thresholds(applied));
+    }
+
+    fn step_windows(
+        &mut self,
+        pixels: Option<Vec<StagePixel>>,
+        borders: &[u8],
+        thresholds: &ThresholdInputs,
+    ) -> Option<Vec<TailStep>> {
+        let denoised = match &mut self.median {
+            Some(median) => median.step(pixels),
+            None => pixels,
+        };
+        match &mut self.feature {
+            Some(feature) => {
+                let centers = feature.step(denoised, self.plan.needs_border.then_some(borders))?;
+                Some(tail_steps(&self.plan, &centers, thresholds))
+            }
+            None => {
+                let step = |pixel| TailStep { pixel, hits: [false; MAX_FEATURES] };
+                denoised.map(|pixels| pixels.into_iter().map(step).collect())
+            }
+        }
+    }
+
+    fn update_outputs(&mut self, thresholds: &ThresholdInputs) {
+        for (tail, output) in self.tails.iter().zip(&mut self.outputs) {
+            tail.set_output(&self.plan, thresholds, output);
+        }
+    }
+}
+
+/// Returns the centers with their hits, with the levels of the edge at which they step.
+fn tail_steps(
+    plan: &RpuParameters,
+    centers: &WindowCenters<'_>,
+    thresholds: &ThresholdInputs,
+) -> Vec<TailStep> {
+    let mut steps = centers.map(|pixel, _| TailStep { pixel, hits: [false; MAX_FEATURES] });
+    for (feature, (kind, level)) in plan.features.iter().zip(thresholds.level).enumerate() {
+        if let &Some(kind) = kind {
+            let hits = centers.map(|_, window| is_hit(kind, window, level));
+            for (step, hit) in steps.iter_mut().zip(hits) {
+                step.hits[feature] = hit;
+            }
+        }
+    }
+    steps
+}
