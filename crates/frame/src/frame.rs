@@ -126,6 +126,18 @@ impl Frame {
         row[index(x)..][..pixels.len()].copy_from_slice(pixels);
     }
 
+    /// Writes the pixel at column `x` and row `y`.
+    ///
+    /// # Panics
+    /// Panics if the position is outside of the frame, or if the pixel does not fit into the frame's
+    /// bits.
+    pub fn set(&mut self, x: u32, y: u32, pixel: u16) {
+        let max = u16::MAX >> (16 - self.bits);
+        assert!(pixel <= max, "a pixel above {max} in row {y}");
+        let from = index(y) * index(self.width);
+        self.pixels[from..from + index(self.width)][index(x)] = pixel;
+    }
+
     /// Returns the size and the depth as an error message names them.
     #[must_use]
     pub fn size_and_depth(&self) -> String {
@@ -164,7 +176,8 @@ mod tests {
     fn written_pixels_stay_in_their_row() {
         let mut frame = Frame::filled(3, 2, 4, 0).unwrap();
         frame.write_row(1, 1, &[15, 7]);
-        assert_eq!(frame.pixels(), [0, 0, 0, 0, 15, 7]);
+        frame.set(2, 0, 9);
+        assert_eq!(frame.pixels(), [0, 0, 9, 0, 15, 7]);
     }
 
     #[test]
@@ -174,9 +187,21 @@ mod tests {
     }
 
     #[test]
+    #[should_panic(expected = "a pixel above 15 in row 1")]
+    fn a_pixel_of_too_many_bits_is_not_written() {
+        Frame::filled(3, 2, 4, 0).unwrap().set(0, 1, 16);
+    }
+
+    #[test]
     #[should_panic(expected = "out of range")]
     fn no_pixel_is_written_beyond_its_row() {
         Frame::filled(3, 2, 4, 0).unwrap().write_row(2, 0, &[1, 1]);
+    }
+
+    #[test]
+    #[should_panic(expected = "out of bounds")]
+    fn no_single_pixel_is_written_beyond_its_row() {
+        Frame::filled(3, 2, 4, 0).unwrap().set(3, 0, 1);
     }
 
     #[test]

@@ -18,7 +18,8 @@ pub(super) struct CompletedRegion {
     pub(super) completion_edge: u64,
 }
 
-/// A region of one frame with its scores and relevance bits, before its decision is on the ports.
+/// A region of one frame with its scores and relevance bits, before its decision is on the ports. It
+/// is boxed, because it goes from queue to queue.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ScoredRasterRegion {
     /// The number of the region.

@@ -94,7 +94,7 @@ impl DepartingRegion {
     }
 
     /// Fetches the next word.
-    #[inline]
+    #[inline] // This is called at every clock.
     pub(super) fn fetch_word(&mut self) -> ForwardWord {
         let number = self.fetched_words;
         self.fetched_words += 1;

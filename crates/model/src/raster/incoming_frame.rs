@@ -41,7 +41,7 @@ impl IncomingFrame {
         for (x, &own) in (place.column * self.word_pixels..).zip(port) {
             let is_inside = x < self.width && y < self.height;
             let pixel = if is_inside { own } else { self.nearest_pixel(x, y) };
-            self.padded.write_row(x, y, &[pixel]);
+            self.padded.set(x, y, pixel);
         }
     }
 
