@@ -17,7 +17,7 @@ pub(crate) struct ArrayDecision {
 
 /// An array of any organization.
 pub(crate) enum AnyArray {
-    Pipelined(PipelinedRcm),
+    Pipelined(Box<PipelinedRcm>),
     Serial(Box<SerialRcm>),
     Raster(Box<RasterRcm>),
 }
@@ -36,7 +36,7 @@ impl AnyArray {
     pub(crate) fn new(design: &Design) -> Self {
         match design.hardware() {
             Hardware::Pipelined(own) => {
-                Self::Pipelined(PipelinedRcm::new(design.with_hardware(own)))
+                Self::Pipelined(Box::new(PipelinedRcm::new(design.with_hardware(own))))
             }
             Hardware::Serial(own) => {
                 Self::Serial(Box::new(SerialRcm::new(design.with_hardware(own))))
