@@ -121,6 +121,13 @@ impl DesignArgs {
         config.validate().or_else(|error| Err(self.config_error(&self.text()?, error)))
     }
 
+    /// Returns the validated design for frames of `width` x `height` pixels.
+    pub(crate) fn design_for_frames(&self, width: u32, height: u32) -> Result<Design, CliError> {
+        let config = self.config()?;
+        let design = config.validate_for_frames(width, height);
+        design.or_else(|error| Err(self.config_error(&self.text()?, error)))
+    }
+
     fn text(&self) -> Result<String, CliError> {
         Ok(match (&self.config, &self.preset) {
             (Some(file), _) => foveate_reading::read_settings(file)

@@ -6,21 +6,26 @@ use std::path::PathBuf;
 
 use clap::Args;
 use foveate_design::Decimal;
+use foveate_link::LinkRate;
 
 use super::DesignArgs;
+use super::input::InputArgs;
 
 /// Check a configuration and print the design that it describes: grid, widths, clocks, ports
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate check camera.toml
-          foveate check --preset serial --min-fps 1000 --clock 50MHz")]
+          foveate check --preset serial --min-fps 1000 --clock 50MHz
+          foveate check --preset raster --clip scene:street --frames 30 --link 10Mbit",
+    mut_group("InputArgs", |group| group.requires("clip")))]
 pub(crate) struct CheckArgs {
     /// Configuration file (TOML); the same as --config
     #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
     pub(crate) file: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Clock of the design, for example 100MHz or 1.5GHz, for frame rates. Without it, the clock
-    /// that a frame rate needs is printed; `foveate estimate` says what clock to expect
+    /// Clock of the design, for example 100MHz or 1.5GHz, for frame rates and for --clip. Without
+    /// it, the clock that a frame rate needs is printed; `foveate estimate` says what clock to
+    /// expect
     #[arg(long, value_name = "FREQUENCY", value_parser = ClockFrequency::parse)]
     pub(crate) clock: Option<ClockFrequency>,
     /// With --clock, check that the design reaches this many frames per second; the exit code is 1
@@ -28,13 +33,26 @@ pub(crate) struct CheckArgs {
     /// --clock, print the clock that this rate needs
     #[arg(long, value_name = "RATE", value_parser = FramesPerSecond::parse)]
     pub(crate) min_fps: Option<FramesPerSecond>,
+    /// Clip that the design is for, as one input of `foveate simulate`. Print which clock keeps up
+    /// with it, and the latency and the buffer in front of a link; for a raster design also the
+    /// regions that are lost without that buffer. With --clock, the exit code is 1 if it does not
+    /// keep up; without it, times leave out the array's clocks, whose number is printed
+    #[arg(long, value_name = "INPUT")]
+    pub(crate) clip: Option<PathBuf>,
+    /// Rate of the link behind the design in bits per second, for example 100Mbit or 1.5Gbit
+    #[arg(long, value_name = "RATE", default_value = "100Mbit", value_parser = LinkRate::parse, requires = "clip")]
+    pub(crate) link: LinkRate,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print only errors; the exit code says whether the design is valid, and with --min-fps
-    /// whether it is fast enough at --clock
+    /// Print only errors; the exit code says whether the design is valid, and at --clock whether it
+    /// is fast enough for --min-fps and for --clip
     #[arg(long, short, conflicts_with = "json")]
     pub(crate) quiet: bool,
+    /// The options for reading the clip. They are last, because clap lists later options under
+    /// their heading.
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
 }
 
 /// The frequency of a clock in Hz, 1..=10^12.
@@ -109,7 +127,7 @@ impl FramesPerSecond {
     }
 }
 
-pub(super) fn parse_decimal_or_none(text: &str) -> Option<Decimal> {
+fn parse_decimal_or_none(text: &str) -> Option<Decimal> {
     text.trim().parse().ok().and_then(Decimal::from_f64)
 }
 

@@ -22,6 +22,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// file in its place.
 const CALLS: &[(&str, &str, &str)] = &[
     ("check", "[FILE]", "check ENDLESS"),
+    ("check", "--clip", "check --clip ENDLESS"),
     ("build", "--config", "build --board icebreaker --project -o out --config ENDLESS"),
     ("build", "--board", "build --board endless.toml --project -o out"),
     ("cosim", "--rtl", "cosim --rtl rtl"),

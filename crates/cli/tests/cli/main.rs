@@ -6,6 +6,7 @@ mod area;
 mod bench;
 mod build;
 mod bus;
+mod check_clip;
 mod common;
 mod core;
 mod crate_map;

@@ -2,6 +2,7 @@
 //! The card: all values that follow from a configuration, in the form of its JSON.
 
 use foveate_design::{Design, DesignConfig, DesignTiming, Hardware, Port, PortDirection};
+use foveate_link::ClipLoad;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -34,6 +35,9 @@ pub(super) struct DesignCard {
     /// The proposed fold. It is left out unless both a clock and a frame rate are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) proposal: Option<FoldProposal>,
+    /// The load over a clip. It is left out if no clip is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) clip: Option<ClipLoad>,
     pub(super) rpu_ports: Vec<PortRow>,
     pub(super) rcm_ports: Vec<PortRow>,
 }
@@ -101,6 +105,7 @@ impl DesignCard {
         design: &Design,
         clock: Option<ClockFrequency>,
         wanted: Option<FramesPerSecond>,
+        clip: Option<ClipLoad>,
     ) -> Result<Self, CliError> {
         let clocks = design.timing().clocks_per_frame();
         let propose = |(clock, rate)| FoldProposal::for_design(design, rate, clock);
@@ -130,6 +135,7 @@ impl DesignCard {
             rate: clock.map(|clock| ReachedFrameRate::at_clock(clock, clocks)),
             needs: clock.is_none().then(|| RequiredClock::for_frame_rate(wanted, clocks)),
             proposal: clock.zip(wanted).map(propose).transpose()?,
+            clip,
             rpu_ports: design.rpu_ports().iter().map(PortRow::from_port).collect(),
             rcm_ports: design.rcm_ports().iter().map(PortRow::from_port).collect(),
         })

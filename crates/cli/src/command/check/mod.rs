@@ -3,6 +3,7 @@
 
 mod array;
 mod card;
+mod clip;
 mod text;
 
 use self::card::DesignCard;
@@ -17,22 +18,38 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
         preset: args.design.preset.clone(),
         overrides: args.design.overrides.clone(),
     };
-    let design = source.design()?;
-    if args.quiet && args.min_fps.is_some() && args.clock.is_none() {
-        return Err(CliError::Usage(
-            "--quiet tells by the exit code whether --min-fps is reached, and this needs a clock; \
-             give --clock, or leave --quiet out to see which clock is needed"
-                .to_owned(),
-        ));
-    }
-    let card = DesignCard::from_design(&design, args.clock, args.min_fps)?;
+    check_quiet(args)?;
+    let (design, load) = match &args.clip {
+        None => (source.design()?, None),
+        Some(clip) => {
+            let (design, load) = clip::measure(args, &source, clip)?;
+            (design, Some(load))
+        }
+    };
+    let card = DesignCard::from_design(&design, args.clock, args.min_fps, load)?;
     if args.json {
         output::print_json(&card)?;
     } else if !args.quiet {
         output::print_text(&text(&design, &card))?;
     }
-    match card.proposal {
-        Some(proposal) if !proposal.reached => Err(CliError::Failed(proposal.text)),
-        Some(_) | None => Ok(()),
+    let rate = card.proposal.filter(|proposal| !proposal.reached).map(|proposal| proposal.text);
+    let failures = rate.into_iter().chain(card.clip.iter().flat_map(clip::failures));
+    let failures: Vec<String> = failures.collect();
+    if failures.is_empty() { Ok(()) } else { Err(CliError::Failed(failures.join("; "))) }
+}
+
+/// Refuses `--quiet` if there is something to check by the exit code, but no clock to check it at.
+fn check_quiet(args: &CheckArgs) -> Result<(), CliError> {
+    let checked = match (&args.min_fps, &args.clip) {
+        (Some(_), _) => "--min-fps is reached",
+        (None, Some(_)) => "the design keeps up with --clip",
+        (None, None) => return Ok(()),
+    };
+    if args.quiet && args.clock.is_none() {
+        return Err(CliError::Usage(format!(
+            "--quiet tells by the exit code whether {checked}, and this needs a clock; give \
+             --clock, or leave --quiet out to see which clock is needed"
+        )));
     }
+    Ok(())
 }

@@ -7,6 +7,7 @@ use foveate_design::{Design, Hardware, Neighborhood, Periphery, RasterDesign, Ra
 
 use super::array::{LaneArray, LaneMemoryFigures};
 use super::card::{DesignCard, FeatureRow, PortRow};
+use super::clip::clip_lines;
 use crate::output;
 
 pub(super) fn text(design: &Design, card: &DesignCard) -> String {
@@ -61,6 +62,7 @@ pub(super) fn text(design: &Design, card: &DesignCard) -> String {
     if let Some(proposal) = &card.proposal {
         lines.push(("proposal", proposal.text.clone()));
     }
+    lines.extend(card.clip.iter().flat_map(clip_lines));
     let mut text = String::new();
     for (name, value) in lines {
         let start = format!("{name:<17} ");
