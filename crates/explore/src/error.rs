@@ -8,6 +8,7 @@ use foveate_estimate::EstimateError;
 use foveate_fidelity::FidelityError;
 use foveate_ideal::IdealError;
 use foveate_inference::InferenceError;
+use foveate_link::LinkError;
 use foveate_pictures::page::PageError;
 use foveate_playback::PlaybackError;
 use foveate_staging::StagingError;
@@ -86,6 +87,9 @@ pub enum ExploreError {
     /// The clips cannot be played, or the user stopped the exploration; finished results are kept.
     #[error(transparent)]
     Playback(#[from] PlaybackError),
+    /// A design cannot be measured in front of the link of the space.
+    #[error(transparent)]
+    Link(Box<LinkError>),
     /// A configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
@@ -113,6 +117,15 @@ impl ExploreError {
     ) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Io { action, path, source }
+    }
+}
+
+impl From<LinkError> for ExploreError {
+    fn from(error: LinkError) -> Self {
+        match error {
+            LinkError::Playback(error) => Self::Playback(error),
+            error => Self::Link(Box::new(error)),
+        }
     }
 }
 

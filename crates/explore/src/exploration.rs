@@ -22,6 +22,9 @@ pub struct Exploration {
     /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its
     /// estimated clock.
     pub clock_mhz: Option<u32>,
+    /// The rate in bits per second of the link behind all designs, if the space gives one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub link_bits_per_second: Option<u64>,
     /// The keys of the configuration that vary.
     pub axes: Vec<String>,
     /// The points, each with its figures.

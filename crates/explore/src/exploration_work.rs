@@ -2,6 +2,7 @@
 //! The work of an exploration: the clips, and the cameras of the designs.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use foveate_camera::Camera;
 use foveate_playback::RunHooks;
@@ -44,6 +45,13 @@ impl<'a> ExplorationWork<'a> {
         }
         let (cameras, camera_of_point) = distinct_cameras(&points)?;
         Ok(Self { footage, points, refused, cameras, camera_of_point })
+    }
+
+    /// Returns the points that have one of these cameras.
+    pub(crate) fn points_of_cameras(&self, cameras: &Range<usize>) -> Vec<&DesignPoint> {
+        let points = self.points.iter().zip(&self.camera_of_point);
+        let points = points.filter(|(_, camera)| cameras.contains(camera));
+        points.map(|(point, _)| point).collect()
     }
 
     /// Returns, for each camera, the first point that has it.

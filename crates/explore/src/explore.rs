@@ -5,18 +5,19 @@
 use std::path::Path;
 
 use foveate_design::Design;
-use foveate_files::tables::Table;
+use foveate_files::tables::{NamedCells, Table};
 use foveate_playback::RunHooks;
 
 use crate::cost::SynthesisResult;
 use crate::exploration_work::ExplorationWork;
 use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, write_mark};
+use crate::link_load::LoadMeasurement;
 use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
 use crate::row::DesignRow;
 use crate::store::MeasurementStore;
-use crate::table::{error_cells, point_cells};
-use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, Synthesizer};
+use crate::table::{error_cells, load_cells, name_cells, point_cells};
+use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, LoadFigures, Synthesizer};
 
 /// The names of the tables and of the page.
 const POINTS: &str = "points.csv";
@@ -51,6 +52,9 @@ pub fn explore(
     let store = MeasurementStore::open(output)?;
     let designs =
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
+    let loads = LoadMeasurement::of_space(space, &footage);
+    let loads = loads.map(|loads| loads.measure_clips(&designs, &store)).transpose()?;
+    let loads = loads.unwrap_or_default();
     let measured = footage.measure_clips(&cameras, &store)?;
     let (synthesized, failed) = synthesize_all(request.synthesizer, &designs, hooks)?;
     let mut rows = Vec::new();
@@ -61,7 +65,9 @@ pub fn explore(
             measured.iter().map(|clip| &clip[camera_of_point[index]]).collect();
         let settings = point.settings.clone();
         let clock = space.clock_mhz;
-        rows.extend(DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock));
+        let row = DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock);
+        let load = LoadFigures::of_clips(loads.iter().map(|clip| clip[index]));
+        rows.extend(row.map(|row| DesignRow { load, ..row }));
     }
     mark_fronts(&mut rows);
     let of_clip =
@@ -82,6 +88,7 @@ pub fn explore(
         size: footage.size,
         ideal: space.ideal.to_toml(),
         clock_mhz: space.clock_mhz,
+        link_bits_per_second: space.link.map(|rate| rate.0),
         axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
         rows,
         refused,
@@ -94,7 +101,7 @@ pub fn explore(
             .chain(failed)
             .collect(),
     };
-    write(&exploration, &measured, &camera_of_point, output)?;
+    write(&exploration, (&measured, &camera_of_point), &loads, output)?;
     Ok(exploration)
 }
 
@@ -115,24 +122,32 @@ fn synthesize_all(
 
 fn write(
     exploration: &Exploration,
-    measured: &[Vec<CameraMeasurement>],
-    camera_of_point: &[usize],
+    (measured, camera_of_point): (&[Vec<CameraMeasurement>], &[usize]),
+    loads: &[Vec<Option<LoadFigures>>],
     output: &Path,
 ) -> Result<(), ExploreError> {
-    let rows = &exploration.rows;
+    let (rows, has_link) = (&exploration.rows, exploration.link_bits_per_second.is_some());
+    let with_load = |mut cells: NamedCells, load: Option<LoadFigures>| {
+        if has_link {
+            cells.extend(load_cells(load.as_ref()));
+        }
+        cells
+    };
     let table = |rows: &mut dyn Iterator<Item = &DesignRow>| {
-        Table::from_rows(rows.map(|row| point_cells(row, &exploration.axes)))
+        let cells = |row: &DesignRow| with_load(point_cells(row, &exploration.axes), row.load);
+        Table::from_rows(rows.map(cells))
     };
     let points = table(&mut rows.iter());
     let parquet = points.to_parquet("points");
     let parquet = parquet.map_err(ExploreError::io("write", &output.join(POINTS_PARQUET)))?;
     let pareto = table(&mut rows.iter().filter(|row| row.front.all));
-    let clips = exploration.clips.iter().zip(measured).flat_map(|(clip, measured)| {
+    let clips = exploration.clips.iter().zip(measured).enumerate();
+    let clips = clips.flat_map(|(number, (clip, measured))| {
         rows.iter().map(move |row| {
             let figures = measured[camera_of_point[row.number - 1]].tally.figures();
-            let mut cells = crate::table::name_cells(row.number, &clip.name);
+            let mut cells = name_cells(row.number, &clip.name);
             cells.extend(error_cells(&figures));
-            cells
+            with_load(cells, loads.get(number).and_then(|clip| clip[row.number - 1]))
         })
     });
     let mut files = vec![

@@ -113,9 +113,15 @@ impl<'a> ExplorationFootage<'a> {
     /// Returns the names of the measurements of some cameras over one clip, which is given by its
     /// number.
     pub(crate) fn measurement_keys(&self, clip: usize, cameras: &[Camera]) -> Vec<String> {
-        let clip = clip_identity(&self.clips.clips()[clip], self.clips.options());
-        let ideal = self.ideal.to_toml();
+        let (clip, ideal) = self.clip_texts(clip);
         cameras.iter().map(|camera| measurement_key(&clip, &ideal, camera.config())).collect()
+    }
+
+    /// Returns a text that identifies a clip, which is given by its number, and the TOML of the
+    /// ideal camera. All measurements of the clip depend on both.
+    pub(crate) fn clip_texts(&self, clip: usize) -> (String, String) {
+        let clip = clip_identity(&self.clips.clips()[clip], self.clips.options());
+        (clip, self.ideal.to_toml())
     }
 
     /// Returns the number of bits per pixel.

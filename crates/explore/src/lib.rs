@@ -19,6 +19,7 @@ mod fit;
 mod folder;
 mod footage;
 mod front;
+mod link_load;
 mod measure;
 mod method;
 mod objective;
@@ -44,6 +45,7 @@ pub use fit::{
 };
 pub use folder::check_folder;
 pub use foveate_fidelity::{FidelityFigures, ScoreError};
+pub use link_load::LoadFigures;
 pub use method::{SamplingMethod, SpaceAxis};
 pub use point::{DesignPoint, RefusedCombination};
 pub use request::ExploreRequest;

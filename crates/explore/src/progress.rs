@@ -14,6 +14,11 @@ pub(crate) fn measuring_progress(done_pairs: usize, all: usize) -> RunProgress<'
     RunProgress::steps("designs over clips", done_pairs as u64, all as u64)
 }
 
+/// Reports that a design runs over a clip in front of a link, so far this number of frames.
+pub(crate) fn load_progress(frames: u64) -> RunProgress<'static> {
+    RunProgress::frames(frames, None, "designs in front of the link")
+}
+
 /// Reports that a network runs behind cameras, so far behind this number.
 pub(crate) fn network_progress(cameras: usize) -> RunProgress<'static> {
     RunProgress::work(format!("running the network behind cameras, {cameras} so far"))

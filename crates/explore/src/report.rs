@@ -26,6 +26,7 @@ use crate::{DesignRow, Exploration, ExploreError, RefusedCombination};
 use card::PointCard;
 use colour::PointGrouping;
 use setting::PointSettings;
+use table::MeasuredGroups;
 
 /// The most points that a page shows; with more it would be too large to open.
 const MAX_POINTS_SHOWN: usize = 2000;
@@ -88,9 +89,10 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let titles: Vec<String> = rows.iter().map(|row| card::mark_title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
-    let columns = table::columns(&settings, areas);
+    let groups = MeasuredGroups { area: areas, link: exploration.link_bits_per_second.is_some() };
+    let columns = table::columns(&settings, groups);
     let lines: Vec<TableRow> =
-        rows.iter().map(|row| table::point_row(row, &settings, areas)).collect();
+        rows.iter().map(|row| table::point_row(row, &settings, groups)).collect();
     let table = |prefix, tall, rows| SortableTable {
         prefix,
         number: "number of the point",

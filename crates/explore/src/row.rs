@@ -7,6 +7,7 @@ use foveate_estimate::FrameRate;
 use foveate_fidelity::{ErrorTally, FidelityFigures};
 use serde::Serialize;
 
+use crate::LoadFigures;
 use crate::cost::{DesignArea, SynthesisResult};
 use crate::measure::CameraMeasurement;
 
@@ -35,6 +36,9 @@ pub struct DesignRow {
     pub speed: Option<FrameRate>,
     /// The area, if it was synthesized.
     pub silicon: Option<DesignArea>,
+    /// The load on the link over all clips, if the space has a link and the design sends pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<LoadFigures>,
     /// The fronts that the point is on.
     pub front: FrontMembership,
 }
@@ -74,6 +78,7 @@ impl DesignRow {
             speed: given.or(estimated),
             silicon: synthesized.map(|synthesized| synthesized.silicon),
             figures,
+            load: None,
             front: FrontMembership::default(),
         })
     }

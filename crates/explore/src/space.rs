@@ -3,6 +3,7 @@
 
 use foveate_camera::{CameraConfig, ConfigError};
 use foveate_design::{DesignConfig, Preset};
+use foveate_link::LinkRate;
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -23,6 +24,8 @@ pub struct DesignSpace {
     pub method: SamplingMethod,
     /// The clock of all designs in MHz, if it is known; otherwise it is estimated for each design.
     pub clock_mhz: Option<u32>,
+    /// The rate of a link behind all designs. With it, the load of each design is measured.
+    pub link: Option<LinkRate>,
 }
 
 /// A configuration as TOML without the keys that it leaves out, so that a point can change it.
@@ -87,6 +90,7 @@ struct SpaceFile {
     points: Option<usize>,
     seed: Option<u64>,
     clock_mhz: Option<u32>,
+    link: Option<String>,
     #[serde(default)]
     design: Table,
     #[serde(default)]
@@ -123,7 +127,12 @@ impl DesignSpace {
         if let Some(clock_mhz) = file.clock_mhz.filter(|mhz| !(1..=10_000).contains(mhz)) {
             return Err(space_error(format!("clock_mhz = {clock_mhz} is not within 1 to 10000")));
         }
-        let space = Self { start, ideal, axes, method, clock_mhz: file.clock_mhz };
+        let link = file.link.as_deref().map(|text| {
+            let rate = LinkRate::parse(text);
+            rate.map_err(|problem| space_error(format!("link = \"{text}\": {problem}")))
+        });
+        let link = link.transpose()?;
+        let space = Self { start, ideal, axes, method, clock_mhz: file.clock_mhz, link };
         match space.method.count(&space.axes) {
             Some(count) if count <= MAX_POINTS => {
                 space.axes.iter().try_for_each(|axis| axis.check_key(&space.start)).map(|()| space)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The store of finished measurements in the folder of the exploration. It has a file for every
-//! clip and camera, whose name is a hash of everything that the figures depend on. A rerun measures
-//! only what is missing.
+//! clip and camera, and for every clip and design in front of a link. Its name is a hash of
+//! everything that the figures depend on. A rerun measures only what is missing.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -9,16 +9,21 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use foveate_camera::CameraConfig;
+use foveate_design::DesignConfig;
 use foveate_footage::{ComparedInput, InputOptions};
+use foveate_link::ArrayLink;
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::ExploreError;
-use crate::measure::CameraMeasurement;
 
 /// The version of the figures. It grows if figures change their meaning, so that older figures are
 /// not used.
 const FIGURES_VERSION: u32 = 4;
+/// The version of the loads on a link, which grows in the same way.
+const LOAD_VERSION: u32 = 1;
 /// The number of hexadecimal digits of a name: 96 bits.
 pub(crate) const KEY_DIGITS: usize = 24;
 const STORE_FOLDER: &str = "measured";
@@ -39,7 +44,7 @@ impl MeasurementStore {
     }
 
     /// Returns a finished measurement; `None` if it does not exist or cannot be read.
-    pub(crate) fn get(&self, key: &str) -> Option<CameraMeasurement> {
+    pub(crate) fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         serde_json::from_slice(
             &foveate_reading::read_bytes(&self.measurement_path(key), MAX_MEASUREMENT_BYTES)
                 .ok()?,
@@ -47,7 +52,7 @@ impl MeasurementStore {
         .ok()
     }
 
-    pub(crate) fn put(&self, key: &str, measured: &CameraMeasurement) -> Result<(), ExploreError> {
+    pub(crate) fn put(&self, key: &str, measured: &impl Serialize) -> Result<(), ExploreError> {
         let path = self.measurement_path(key);
         let text = serde_json::to_string(measured);
         let text = text.map_err(|error| ExploreError::io("write", &path)(error.into()))?;
@@ -62,6 +67,13 @@ impl MeasurementStore {
 /// Returns the name of a measurement; `ideal` is the TOML of the ideal camera.
 pub(crate) fn measurement_key(clip: &str, ideal: &str, camera: &CameraConfig) -> String {
     let text = format!("{FIGURES_VERSION}\n{clip}\n{ideal}\n{}", camera.to_toml());
+    sha256_hex(text)[..KEY_DIGITS].to_owned()
+}
+
+/// Returns the name of the load of a design on a link; `ideal` is the TOML of the ideal camera, by
+/// which the frames are read.
+pub(crate) fn load_key(clip: &str, ideal: &str, link: ArrayLink, design: &DesignConfig) -> String {
+    let text = format!("load {LOAD_VERSION}\n{clip}\n{ideal}\n{link:?}\n{}", design.to_toml());
     sha256_hex(text)[..KEY_DIGITS].to_owned()
 }
 

@@ -6,6 +6,7 @@ use foveate_estimate::FrameRate;
 use foveate_fidelity::FidelityFigures;
 use foveate_files::tables::{NamedCells, TableCell};
 
+use crate::LoadFigures;
 use crate::row::{DesignRow, count_to_f64};
 
 /// Returns the cells of a point.
@@ -43,6 +44,21 @@ pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
         .map(|(name, cell)| (name.to_owned(), cell)),
     );
     cells
+}
+
+/// Returns the cells of a load, which are empty without one.
+pub(crate) fn load_cells(load: Option<&LoadFigures>) -> NamedCells {
+    let of = |take: fn(&LoadFigures) -> Option<u64>| TableCell::Count(load.and_then(take));
+    [
+        ("needed_clock_hz", of(|load| Some(load.needed_clock_hz))),
+        ("delivery_longest_ns", of(|load| load.delivery_longest_ns)),
+        ("buffer_bytes", of(|load| load.buffer_bytes)),
+        ("overloaded_clips", of(|load| load.overloaded_clips)),
+        ("unbuffered_lost_regions", of(|load| load.unbuffered_lost_regions)),
+        ("unbuffered_frames_with_losses", of(|load| load.unbuffered_frames_with_losses)),
+    ]
+    .map(|(name, cell)| (name.to_owned(), cell))
+    .into()
 }
 
 /// Returns the cells that name the point and the clip of a row.

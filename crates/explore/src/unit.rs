@@ -10,6 +10,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
+use foveate_design::Design;
 use foveate_footage::input_without_secrets;
 use foveate_playback::RunHooks;
 use foveate_staging::write_file;
@@ -19,8 +20,9 @@ use serde::{Deserialize, Serialize};
 use crate::exploration_work::ExplorationWork;
 use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
 use crate::footage::{CAMERAS_PER_UNIT, MeasurementCount};
+use crate::link_load::LoadMeasurement;
 use crate::store::{KEY_DIGITS, MeasurementStore};
-use crate::{ExploreError, ExploreRequest};
+use crate::{DesignSpace, ExploreError, ExploreRequest};
 
 /// A unit of work.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,6 +53,8 @@ struct PlannedUnit {
     /// The number of the clip.
     clip: usize,
     cameras: Range<usize>,
+    /// The designs that are measured in front of the link; none if the space has no link.
+    designs: Vec<Design>,
     keys: Vec<String>,
 }
 
@@ -66,7 +70,7 @@ pub fn plan_units(
 ) -> Result<Vec<WorkUnit>, ExploreError> {
     check_folder(output)?;
     let work = ExplorationWork::new(request, None, hooks)?;
-    Ok(planned_units(&work, output).map(|part| part.unit).collect())
+    Ok(planned_units(request.space, &work, output)?.into_iter().map(|part| part.unit).collect())
 }
 
 /// Does one unit of an exploration into `output`. `unit` is its name or its whole line of the plan,
@@ -87,10 +91,14 @@ pub fn measure_unit(
         None => (unit, None),
     };
     let work = ExplorationWork::new(request, some, hooks)?;
-    let part = planned_units(&work, output).find(|part| part.unit.name == name);
+    let mut parts = planned_units(request.space, &work, output)?.into_iter();
+    let part = parts.find(|part| part.unit.name == name);
     let part = part.ok_or_else(|| ExploreError::NoUnit { unit: name.to_owned() })?;
     claim_folder(output)?;
     let store = MeasurementStore::open(output)?;
+    if let Some(loads) = LoadMeasurement::of_space(request.space, &work.footage) {
+        loads.measure_clip(part.clip, &part.designs, &store)?;
+    }
     let cameras = &work.cameras[part.cameras.clone()];
     let measured = work.footage.measure_clip(
         part.clip,
@@ -110,33 +118,40 @@ pub fn measure_unit(
     Ok(part.unit)
 }
 
-/// Returns the units clip by clip, each with as many designs as a run measures together.
-fn planned_units<'a>(
-    work: &'a ExplorationWork<'_>,
-    output: &'a Path,
-) -> impl Iterator<Item = PlannedUnit> + 'a {
-    let clips = work.footage.clips.clips().iter().enumerate();
-    let points = work.first_point_of_cameras();
-    clips.flat_map(move |(clip, subject)| {
-        let points = points.clone();
-        let keys = work.footage.measurement_keys(clip, &work.cameras);
-        let starts = (0..keys.len()).step_by(CAMERAS_PER_UNIT);
-        starts.map(move |start| {
-            let cameras = start..(start + CAMERAS_PER_UNIT).min(keys.len());
-            let keys = keys[cameras.clone()].to_vec();
+/// Returns the units clip by clip, each with as many cameras as a run measures together, and with
+/// their designs if these are measured in front of a link.
+fn planned_units(
+    space: &DesignSpace,
+    work: &ExplorationWork<'_>,
+    output: &Path,
+) -> Result<Vec<PlannedUnit>, ExploreError> {
+    let loads = LoadMeasurement::of_space(space, &work.footage);
+    let first_points = work.first_point_of_cameras();
+    let mut units = Vec::new();
+    for (clip, subject) in work.footage.clips.clips().iter().enumerate() {
+        let camera_keys = work.footage.measurement_keys(clip, &work.cameras);
+        for start in (0..camera_keys.len()).step_by(CAMERAS_PER_UNIT) {
+            let cameras = start..(start + CAMERAS_PER_UNIT).min(camera_keys.len());
+            let mut keys = camera_keys[cameras.clone()].to_vec();
+            let (mut points, mut designs) = (first_points[cameras.clone()].to_vec(), Vec::new());
+            if let Some(loads) = &loads {
+                points = work.points_of_cameras(&cameras);
+                let all = points.iter().map(|point| point.config.validate());
+                designs = all.collect::<Result<_, _>>()?;
+                designs.retain(|design| design.has_forwarding());
+                keys.extend(loads.keys(clip, &designs));
+            }
             let unit = sha256_hex(keys.join("\n"))[..KEY_DIGITS].to_owned();
             let file = output.join(UNITS_FOLDER).join(format!("{unit}.json"));
             let unit = WorkUnit {
                 name: unit,
                 clip: subject.name.clone(),
                 inputs: subject.inputs.iter().map(|path| input_without_secrets(path)).collect(),
-                combinations: points[cameras.clone()]
-                    .iter()
-                    .map(|point| point.combination)
-                    .collect(),
+                combinations: points.iter().map(|point| point.combination).collect(),
                 file: file.display().to_string(),
             };
-            PlannedUnit { unit, clip, cameras, keys }
-        })
-    })
+            units.push(PlannedUnit { unit, clip, cameras, designs, keys });
+        }
+    }
+    Ok(units)
 }

@@ -67,6 +67,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
                 array: area(1.0),
                 logic_levels: 9,
             }),
+            load: None,
             front: FrontMembership::default(),
         });
     }
@@ -84,6 +85,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
         size: (224, 224),
         ideal: space.ideal.to_toml(),
         clock_mhz: space.clock_mhz,
+        link_bits_per_second: None,
         axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
         rows,
         refused: refused.into_iter().chain([refused_sample()]).collect(),

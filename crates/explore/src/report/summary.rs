@@ -3,6 +3,7 @@
 
 use std::cmp::Ordering;
 
+use foveate_link::LinkRate;
 use foveate_pictures::page::HeadingFigure;
 use foveate_pictures::page::number_text::{MISSING, counted, grouped, percent, real_number};
 
@@ -36,7 +37,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
     let (width, height) = exploration.size;
     let fact = |name, value, note| HeadingFigure { name, value, note };
     let count = |count: usize| grouped(count as u64);
-    vec![
+    let mut facts = vec![
         fact(
             "Designs",
             count(rows.len()),
@@ -54,7 +55,11 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
         fact("Frames", grouped(frames), counted(clips.len(), "clip")),
         fact("Frame", format!("{width}×{height}"), "pixels".to_owned()),
         clock(exploration),
-    ]
+    ];
+    let link = exploration.link_bits_per_second.map(LinkRate);
+    let note = "behind each design".to_owned();
+    facts.extend(link.map(|rate| HeadingFigure { name: "Link", value: rate.to_string(), note }));
+    facts
 }
 
 /// Returns the clock of the frame rates.

@@ -7,7 +7,7 @@ use foveate_pictures::page::{TableCell, TableColumn, TableRow};
 
 use super::setting::{PointSettings, axes_set};
 use crate::row::count_to_f64 as number;
-use crate::{DesignArea, DesignRow};
+use crate::{DesignArea, DesignRow, LoadFigures};
 
 /// The name, unit and meaning of every figure of the table.
 const FIGURES: [(&str, &str, &str); 8] = [
@@ -30,8 +30,23 @@ const AREA: [(&str, &str, &str); 5] = [
     ("RAMB36", "array", "block RAM of the array; half of one is a RAMB18"),
 ];
 
-/// Returns the headings after the number; with `area` also those of the area.
-pub(crate) fn columns(settings: &PointSettings, area: bool) -> Vec<TableColumn> {
+/// The name, unit and meaning of every figure of a design in front of a link.
+const LINK: [(&str, &str, &str); 4] = [
+    ("needs", "MHz", "the slowest clock that keeps up with every clip"),
+    ("last byte", "ms", "longest time from reading a pixel to its last byte behind the link"),
+    ("buffer", "bytes", "buffer in front of the link that loses nothing of these clips"),
+    ("lost", "regions", "regions that a raster core loses without this buffer"),
+];
+
+/// The groups of columns that a table has only if they were measured.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeasuredGroups {
+    pub(crate) area: bool,
+    pub(crate) link: bool,
+}
+
+/// Returns the headings after the number.
+pub(crate) fn columns(settings: &PointSettings, groups: MeasuredGroups) -> Vec<TableColumn> {
     let axis = |name: &str, title: &str| TableColumn {
         name: name.to_owned(),
         unit: "",
@@ -53,15 +68,20 @@ pub(crate) fn columns(settings: &PointSettings, area: bool) -> Vec<TableColumn> 
         ("clock", "MHz", "estimated from the netlist, 25 % either way, if the space gives none"),
         ("frames", "/s", "frames per second at that clock"),
     ];
-    let areas = if area { &AREA[..] } else { &[] };
+    let areas = if groups.area { &AREA[..] } else { &[] };
+    let links = if groups.link { &LINK[..] } else { &[] };
     axes.into_iter()
         .chain(FIGURES.into_iter().chain(speed).map(figure))
-        .chain(areas.iter().copied().map(figure))
+        .chain(areas.iter().chain(links).copied().map(figure))
         .collect()
 }
 
 /// Returns the row of a point, with as many cells as there are headings.
-pub(crate) fn point_row(row: &DesignRow, settings: &PointSettings, area: bool) -> TableRow {
+pub(crate) fn point_row(
+    row: &DesignRow,
+    settings: &PointSettings,
+    groups: MeasuredGroups,
+) -> TableRow {
     let figures = &row.figures;
     let setting = |text: String, set: bool| {
         let class = if set { "" } else { "start" };
@@ -91,7 +111,7 @@ pub(crate) fn point_row(row: &DesignRow, settings: &PointSettings, area: bool) -
         ],
         None => [TableCell::missing(), TableCell::missing()],
     });
-    if area {
+    if groups.area {
         let of = |take: fn(&DesignArea) -> u64| match &row.silicon {
             Some(silicon) => TableCell::count(take(silicon)),
             None => TableCell::missing(),
@@ -109,7 +129,25 @@ pub(crate) fn point_row(row: &DesignRow, settings: &PointSettings, area: bool) -
             },
         ]);
     }
+    if groups.link {
+        cells.extend(link_cells(row.load.as_ref()));
+    }
     TableRow { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
+}
+
+/// Returns the cells of a load on the link, in the order of [`LINK`].
+fn link_cells(load: Option<&LoadFigures>) -> [TableCell; LINK.len()] {
+    let scaled = |value: Option<u64>, unit: f64| match value.map(|value| number(value) / unit) {
+        Some(value) => TableCell::number(real_number(value, 3), Some(value)),
+        None => TableCell::missing(),
+    };
+    let count = |value: Option<u64>| value.map_or_else(TableCell::missing, TableCell::count);
+    [
+        scaled(load.map(|load| load.needed_clock_hz), 1e6),
+        scaled(load.and_then(|load| load.delivery_longest_ns), 1e6),
+        count(load.and_then(|load| load.buffer_bytes)),
+        count(load.and_then(|load| load.unbuffered_lost_regions)),
+    ]
 }
 
 /// Formats a PSNR. Equal frames have no PSNR and are the best.

@@ -34,6 +34,21 @@ fn classed<'a>(document: &'a Document<'_>, class: &'static str) -> Vec<Node<'a, 
     document.descendants().filter(of).collect()
 }
 
+/// Checks that the rows of a table have one number of cells. Returns that of the first table.
+fn check_columns(document: &Document<'_>) -> usize {
+    let tables = classed(document, "sortable").into_iter().map(|table| {
+        let cells = |node: &Node<'_, '_>| node.children().filter(Node::is_element).count();
+        let rows = table
+            .descendants()
+            .filter(|node| node.has_tag_name("tr") || node.tag_name().name() == "tr");
+        let counts: Vec<usize> = rows.map(|row| cells(&row)).collect();
+        assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+        counts[0]
+    });
+    let columns: Vec<usize> = tables.collect();
+    columns[0]
+}
+
 #[test]
 fn every_point_is_there_with_its_configuration_rows_and_marks() {
     let sample = sample_exploration(GRID, true);
@@ -52,18 +67,35 @@ fn every_point_is_there_with_its_configuration_rows_and_marks() {
         let front = document.descendants().any(|node| node.attribute("id") == Some(&front));
         assert_eq!(front, row.front.all);
     }
-    for table in classed(&document, "sortable") {
-        let cells = |node: &Node<'_, '_>| node.children().filter(Node::is_element).count();
-        let rows = table
-            .descendants()
-            .filter(|node| node.has_tag_name("tr") || node.tag_name().name() == "tr");
-        let counts: Vec<usize> = rows.map(|row| cells(&row)).collect();
-        assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
-    }
+    check_columns(&document);
     for text in
         ["hall.mp4: frame 300 of 450 is damaged", "region.size = 65", "48 to 56 MHz", "224×224"]
     {
         assert!(page.contains(text), "{text}");
+    }
+}
+
+/// A point may have no load, or only the clock that it needs.
+#[test]
+fn a_link_adds_columns() {
+    let mut sample = sample_exploration(GRID, true);
+    let without = render_page(&sample).unwrap();
+    let columns = check_columns(&tree(&without));
+    sample.link_bits_per_second = Some(2_500_000);
+    let load = crate::LoadFigures {
+        needed_clock_hz: 2_313_864,
+        delivery_longest_ns: Some(1_451_000),
+        buffer_bytes: Some(28_901),
+        overloaded_clips: Some(0),
+        unbuffered_lost_regions: Some(77_777),
+        unbuffered_frames_with_losses: Some(3),
+    };
+    sample.rows[0].load = Some(load);
+    sample.rows[1].load = Some(crate::LoadFigures { buffer_bytes: None, ..load });
+    let page = render_page(&sample).unwrap();
+    assert_eq!(check_columns(&tree(&page)), columns + 4);
+    for text in ["2.5 Mbit/s", "2.314", "1.451", "28,901", "77,777"] {
+        assert!(page.contains(text) && !without.contains(text), "{text}");
     }
 }
 

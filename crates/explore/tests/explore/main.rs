@@ -4,5 +4,6 @@
 
 mod explore;
 mod fit;
+mod link;
 mod space;
 mod unit;

@@ -33,12 +33,12 @@ fn with_request<T>(space: &str, inputs: &[&str], then: impl FnOnce(&ExploreReque
     then(&ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesizer: None })
 }
 
-fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<WorkUnit> {
+pub(crate) fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<WorkUnit> {
     with_request(space, inputs, |request| plan_units(request, output, &RecordingHooks::new()))
         .unwrap()
 }
 
-fn measure_only(
+pub(crate) fn measure_only(
     space: &str,
     inputs: &[&str],
     unit: &str,
@@ -49,7 +49,7 @@ fn measure_only(
 }
 
 /// Returns every file of a folder by its name, sorted.
-fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let file = |entry: fs::DirEntry| {
         (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
     };
