@@ -226,7 +226,7 @@ fn a_buffer_keeps_the_regions_of_a_slow_link() {
     let units = play(&design, Some(MEGAHERTZ), rate, &[0, 1, 2, 3, 4]).units;
     assert_eq!(times(&units)[1], (1_000, 4_009, 4_077, 640));
     let figures = LinkFigures::from_units(units, &timeline(), rate);
-    // Of the decisions 4.56 bits are left when the pixels come.
+    // 4.56 bits of the decisions are left when the pixels come.
     assert_eq!(figures.buffer_bytes, 645_u64.div_ceil(8));
     // The last bit has left 650 bits after 4,009.
     assert_eq!(figures.delivery_ns.longest, (4_009 - 1_000) * 1000 + 650 * 12_500);

@@ -105,7 +105,7 @@ fn expected_frames(run: &MeteredRun) -> Vec<FrameTraffic> {
         let last = |wanted: fn(RegionEvent) -> bool| {
             own().filter(|(.., event)| wanted(*event)).map(|&(clock, ..)| clock).max()
         };
-        // What waits at the begin of the frame was decided before.
+        // The regions that wait at the begin of the frame were decided before.
         let begin = (since as usize).saturating_sub(1);
         let until = run.begins.get(number + 1).map_or(end, |&begin| begin) as usize;
         FrameTraffic {
