@@ -47,7 +47,7 @@ impl<'a> RowRecord<'a> {
             }
             Transaction::Words(run) => {
                 for (first, region) in run.senders() {
-                    let last = first + u64::from(run.words - 1) * run.word_step;
+                    let last = run.last_clock(first);
                     let row = self.row(run.frame, region);
                     row.last_word = row.last_word.max(Some(last));
                 }

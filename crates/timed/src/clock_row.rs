@@ -117,10 +117,9 @@ impl ClockRow {
             SentKind::Pixels => ClockEvent::Pixels,
             SentKind::Means => ClockEvent::Means,
         };
-        let length = u64::from(run.words.saturating_sub(1)) * run.word_step;
         for (clock, region) in run.senders() {
             visit(&Self {
-                last_clock: clock + length,
+                last_clock: run.last_clock(clock),
                 first_word: run.first,
                 words: run.words,
                 is_last: run.is_last,

@@ -126,9 +126,8 @@ impl TrafficMeter {
     }
 
     fn add_words(&mut self, run: &WordRun<'_>) {
-        let length = u64::from(run.words.saturating_sub(1)) * run.word_step;
         for (clock, _) in run.senders() {
-            let last = clock + length;
+            let last = run.last_clock(clock);
             if let Some(frame) = self.frame_mut(run.frame) {
                 frame.last_word = frame.last_word.max(Some(last));
             }

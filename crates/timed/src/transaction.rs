@@ -141,6 +141,12 @@ impl WordRun<'_> {
         })
     }
 
+    /// Returns the clock of a region's last word in the run, from that of its first.
+    #[must_use]
+    pub fn last_clock(&self, first: u64) -> u64 {
+        first + u64::from(self.words.saturating_sub(1)) * self.word_step
+    }
+
     /// Appends the values of the run's words of a region: the pixels of each word, or one mean for
     /// each word.
     pub fn append_values(&self, region: u32, values: &mut Vec<u16>) {
