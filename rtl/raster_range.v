@@ -33,8 +33,8 @@ module raster_range #(
         word_low  = word_i[WIDTH-1:0];
         word_high = word_i[WIDTH-1:0];
         for (lane = 1; lane < LANES; lane = lane + 1) begin
-            if (word_i[lane*WIDTH+:WIDTH] < word_low) word_low = word_i[lane*WIDTH+:WIDTH];
-            if (word_i[lane*WIDTH+:WIDTH] > word_high) word_high = word_i[lane*WIDTH+:WIDTH];
+            word_low  = word_i[lane*WIDTH+:WIDTH] < word_low ? word_i[lane*WIDTH+:WIDTH] : word_low;
+            word_high = word_i[lane*WIDTH+:WIDTH] > word_high ? word_i[lane*WIDTH+:WIDTH] : word_high;
         end
     end
     always @(posedge clk_i) begin
