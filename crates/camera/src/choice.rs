@@ -61,6 +61,11 @@ choice! {
         /// The median: the fifth of the nine sorted values of a 3x3 window.
         #[default]
         Median3x3 = "median3x3",
+        /// The median where the pixel is the largest or the smallest of its 3x3 window, elsewhere
+        /// the pixel itself.
+        Switching3x3 = "switching3x3",
+        /// The weighted mean of a 3x3 window, with the weights 1, 2, 1 in both directions.
+        Binomial3x3 = "binomial3x3",
     }
 }
 choice! {
@@ -78,6 +83,10 @@ choice! {
         Variance = "variance",
         /// The largest minus the smallest pixel of the region.
         Range = "range",
+        /// The smallest sum of differences of the region from itself, moved by one pixel.
+        Surface = "surface",
+        /// The smaller number of pixels that lie more than a level above, or below, the mean.
+        Segment = "segment",
     }
 }
 choice! {

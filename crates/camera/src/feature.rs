@@ -21,7 +21,7 @@ pub struct SpatialFeature {
     variance: Option<VarianceWidths>,
 }
 
-/// The arithmetic of the mean of `mad`: `floor((2^f * sum + floor(n/2)) / n)`.
+/// The arithmetic of the mean of `mad` and `segment`: `floor((2^f * sum + floor(n/2)) / n)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MeanDivision {
     /// Fraction bits f of the mean.
@@ -80,7 +80,8 @@ impl SpatialFeature {
         self.kind
     }
 
-    /// Returns the per-pixel threshold of `edge` and `corner`, or `None` for other features.
+    /// Returns the per-pixel threshold of `edge`, `corner` and `segment`, or `None` for other
+    /// features.
     #[must_use]
     pub fn level(&self) -> Option<u32> {
         self.level
@@ -139,7 +140,7 @@ impl SpatialFeature {
         bits_for(self.score_max)
     }
 
-    /// Returns the arithmetic of the mean, for `mad` only.
+    /// Returns the arithmetic of the mean, for `mad` and `segment` only.
     #[must_use]
     pub fn mean(&self) -> Option<&MeanDivision> {
         self.mean.as_ref()

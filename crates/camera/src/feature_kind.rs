@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The differences between kinds of features. Every match in this file must be extended for a new
+//! The differences between kinds of features, and between filters. Every match in this file must be extended for a new
 //! kind.
 
 use crate::feature::{MeanDivision, VarianceWidths};
 use crate::width::{edge_magnitude_max, variance_score_max};
-use crate::{FeatureKind, mad_score_max};
+use crate::{DenoiseFilter, FeatureKind, mad_score_max};
 
 /// The unit of a score, which says how the score scales with the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -58,16 +58,36 @@ pub(crate) struct FeatureDefaults {
     pub(crate) mean_fraction_bits: Option<u32>,
 }
 
+impl DenoiseFilter {
+    /// Returns true if the filter uses the 3x3 window of raw pixels around each pixel.
+    #[must_use]
+    pub fn has_window(self) -> bool {
+        match self {
+            Self::None => false,
+            Self::Median3x3 | Self::Switching3x3 | Self::Binomial3x3 => true,
+        }
+    }
+}
+
 impl FeatureKind {
     /// Number of kinds, which is the length of arrays with one element per kind.
     pub const COUNT: usize = Self::ALL.len();
 
-    /// Returns true if the feature uses a 3x3 window and counts the pixels whose window is a hit.
+    /// Returns true if the feature uses the 3x3 window around each pixel.
     #[must_use]
     pub fn has_window(self) -> bool {
         match self {
+            Self::Edge | Self::Corner | Self::Surface => true,
+            Self::Mad | Self::Variance | Self::Range | Self::Segment => false,
+        }
+    }
+
+    /// Returns true if the score is the number of pixels whose 3x3 window is a hit.
+    #[must_use]
+    pub fn counts_window_hits(self) -> bool {
+        match self {
             Self::Edge | Self::Corner => true,
-            Self::Mad | Self::Variance | Self::Range => false,
+            Self::Mad | Self::Variance | Self::Range | Self::Surface | Self::Segment => false,
         }
     }
 
@@ -76,8 +96,8 @@ impl FeatureKind {
     #[must_use]
     pub fn has_second_pass(self) -> bool {
         match self {
-            Self::Mad => true,
-            Self::Edge | Self::Corner | Self::Variance | Self::Range => false,
+            Self::Mad | Self::Segment => true,
+            Self::Edge | Self::Corner | Self::Variance | Self::Range | Self::Surface => false,
         }
     }
 
@@ -85,8 +105,8 @@ impl FeatureKind {
     #[must_use]
     pub fn score_unit(self) -> ScoreUnit {
         match self {
-            Self::Edge | Self::Corner => ScoreUnit::Pixels,
-            Self::Mad | Self::Range => ScoreUnit::Levels,
+            Self::Edge | Self::Corner | Self::Segment => ScoreUnit::Pixels,
+            Self::Mad | Self::Range | Self::Surface => ScoreUnit::Levels,
             Self::Variance => ScoreUnit::SquaredLevels,
         }
     }
@@ -98,7 +118,8 @@ impl FeatureKind {
         match self {
             Self::Edge => &[50, 75, 100, 150],
             Self::Corner => &[8, 12, 20, 30],
-            Self::Mad | Self::Variance | Self::Range => &[],
+            Self::Segment => &[4, 8, 12, 20],
+            Self::Mad | Self::Variance | Self::Range | Self::Surface => &[],
         }
     }
 
@@ -109,6 +130,8 @@ impl FeatureKind {
             Self::Mad => (None, 5, Some(0)),
             Self::Variance => (None, 50, None),
             Self::Range => (None, 20, None),
+            Self::Surface => (None, 5, None),
+            Self::Segment => (Some(8), 8, Some(0)),
         };
         FeatureDefaults { level, min_score, mean_fraction_bits }
     }
@@ -118,15 +141,16 @@ impl FeatureKind {
     pub(crate) fn level_max(self, pixel_max: u32) -> Option<u32> {
         match self {
             Self::Edge => Some(edge_magnitude_max(pixel_max)),
-            Self::Corner => Some(pixel_max),
-            Self::Mad | Self::Variance | Self::Range => None,
+            Self::Corner | Self::Segment => Some(pixel_max),
+            Self::Mad | Self::Variance | Self::Range | Self::Surface => None,
         }
     }
 
     /// Returns the number of score units in one unit of `min_score`, for regions of `n` pixels.
     pub(crate) fn unit(self, n: u64, fraction_bits: u32) -> u64 {
         match self {
-            Self::Edge | Self::Corner | Self::Range => 1,
+            Self::Edge | Self::Corner | Self::Range | Self::Segment => 1,
+            Self::Surface => n,
             Self::Mad => n << fraction_bits,
             Self::Variance => n * n,
         }
@@ -139,11 +163,13 @@ impl FeatureKind {
             Self::Mad => mad_score_max(n, pixel_max, fraction_bits),
             Self::Variance => variance_score_max(n, pixel_max),
             Self::Range => pixel_max,
+            Self::Surface => n * pixel_max,
+            Self::Segment => n / 2,
         }
     }
 
-    /// Returns the arithmetic of the mean of `mad` and the accumulators of `variance`, each for
-    /// that feature only.
+    /// Returns the arithmetic of the mean of `mad` and `segment`, and the accumulators of
+    /// `variance`, each for these features only.
     pub(crate) fn mean_and_variance(
         self,
         n: u64,
@@ -151,8 +177,10 @@ impl FeatureKind {
         fraction_bits: u32,
     ) -> (Option<MeanDivision>, Option<VarianceWidths>) {
         match self {
-            Self::Edge | Self::Corner | Self::Range => (None, None),
-            Self::Mad => (Some(MeanDivision::new(n, pixel_max, fraction_bits)), None),
+            Self::Edge | Self::Corner | Self::Range | Self::Surface => (None, None),
+            Self::Mad | Self::Segment => {
+                (Some(MeanDivision::new(n, pixel_max, fraction_bits)), None)
+            }
             Self::Variance => (None, Some(VarianceWidths::new(n, pixel_max))),
         }
     }
@@ -164,13 +192,19 @@ mod tests {
 
     /// Code that tests only one of these properties would miss a feature in which they differ.
     #[test]
-    fn levels_belong_to_features_that_count_hits() {
+    fn levels_belong_to_features_that_count_pixels() {
         for kind in FeatureKind::ALL {
-            let counts = kind.has_window();
+            let counts = kind.score_unit().is_count();
             assert_eq!(kind.level_max(255).is_some(), counts, "{kind}");
             assert_eq!(kind.defaults().level.is_some(), counts, "{kind}");
             assert_eq!(kind.trial_levels().is_empty(), !counts, "{kind}");
-            assert_eq!(kind.score_unit().is_count(), counts, "{kind}");
+        }
+    }
+
+    #[test]
+    fn hits_of_windows_are_counts_of_pixels() {
+        for kind in FeatureKind::ALL.iter().filter(|kind| kind.counts_window_hits()) {
+            assert!(kind.has_window() && kind.score_unit().is_count(), "{kind}");
         }
     }
 }

@@ -140,6 +140,26 @@ impl CameraConfig {
                 });
             }
         }
-        Ok(())
+        self.check_means()
+    }
+
+    /// Refuses features that would need two different means of the same pixels.
+    fn check_means(&self) -> Result<(), ConfigError> {
+        let mut entries = (self.spatial.iter().enumerate())
+            .filter_map(|(index, entry)| Some((index, entry.feature, entry.mean_fraction_bits?)));
+        let Some((first_index, first_feature, first_bits)) = entries.next() else { return Ok(()) };
+        match entries.find(|&(_, _, bits)| bits != first_bits) {
+            None => Ok(()),
+            Some((index, _, bits)) => Err(ConfigError::Combination {
+                key: format!("spatial[{index}].mean_fraction_bits"),
+                value: bits.to_string(),
+                with: format!(
+                    "`spatial[{first_index}].mean_fraction_bits` = {first_bits} of \
+                     `{first_feature}`"
+                ),
+                remedy: "all features of a camera use one mean; give both keys the same value"
+                    .to_owned(),
+            }),
+        }
     }
 }

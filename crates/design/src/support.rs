@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The features, references, renderings and sources of thresholds that each organization supports.
+//! The features, filters, references, renderings and sources of thresholds that each organization supports.
 //! A new organization, or a new value of one of these keys, does not compile until it is entered
 //! here. A value that the organization does not support is refused by name.
 
 use crate::{HardwareConfig, Organization, ThresholdSource};
-use foveate_camera::{Camera, ConfigError, FeatureKind, IrrelevantRendering, ReferencePolicy};
+use foveate_camera::{
+    Camera, ConfigError, DenoiseFilter, FeatureKind, IrrelevantRendering, ReferencePolicy,
+};
 
 use Organization::{Pipelined, Raster, Serial};
 
@@ -17,6 +19,10 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
         let (key, kind) = (format!("spatial[{index}].feature"), feature.kind());
         refuse_unless(organization, &key, quoted(kind.name()), |one| supports_feature(one, kind))?;
     }
+    let filter = camera.filter();
+    refuse_unless(organization, "denoise.filter", quoted(filter.name()), |one| {
+        supports_filter(one, filter)
+    })?;
     let reference = camera.temporal().reference;
     refuse_unless(organization, "temporal.reference", quoted(reference.name()), |one| {
         supports_reference(one, reference)
@@ -35,9 +41,26 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
 
 /// Returns true if the organization computes the score of the feature.
 fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
-    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
+    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
     match (organization, kind) {
         (Pipelined | Serial | Raster, Edge | Corner | Mad | Variance | Range) => true,
+        (Pipelined, Surface) => false,
+        (Pipelined, Segment) => false,
+        (Serial, Surface) => false,
+        (Serial, Segment) => false,
+        (Raster, Surface) => false,
+        (Raster, Segment) => false,
+    }
+}
+
+/// Returns true if the organization has the filter.
+fn supports_filter(organization: Organization, filter: DenoiseFilter) -> bool {
+    use DenoiseFilter::{Binomial3x3, Median3x3, None, Switching3x3};
+    match (organization, filter) {
+        (Pipelined | Serial | Raster, None | Median3x3) => true,
+        (Pipelined, Switching3x3 | Binomial3x3) => false,
+        (Serial, Switching3x3 | Binomial3x3) => false,
+        (Raster, Switching3x3 | Binomial3x3) => false,
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) fn score_latency(kind: FeatureKind, pipelining: Pipelining) -> u32 {
         // Three registers: the comparison of the hit, the hit, the count.
         (FeatureKind::Edge | FeatureKind::Corner, Pipelining::Deep) => 3,
         // Two registers: the sum, the mean.
-        (FeatureKind::Mad, Pipelining::Plain | Pipelining::Deep) => 2,
+        (FeatureKind::Mad | FeatureKind::Segment, Pipelining::Plain | Pipelining::Deep) => 2,
         // Two registers: the sums, the score.
         (FeatureKind::Variance, Pipelining::Plain) => 2,
         // Three registers: the square, the sums, the score.
@@ -22,5 +22,9 @@ pub(super) fn score_latency(kind: FeatureKind, pipelining: Pipelining) -> u32 {
         (FeatureKind::Range, Pipelining::Plain) => 2,
         // Three registers: the pixel, the extremes, the score.
         (FeatureKind::Range, Pipelining::Deep) => 3,
+        // Two registers: the sums, the score.
+        (FeatureKind::Surface, Pipelining::Plain) => 2,
+        // Three registers: the differences, the sums, the score.
+        (FeatureKind::Surface, Pipelining::Deep) => 3,
     }
 }

@@ -3,7 +3,7 @@
 
 use super::feature::score_latency;
 use crate::timing::DepartureTiming;
-use crate::{DenoiseFilter, DesignTiming, Neighborhood, PipelinedDesign, Pipelining};
+use crate::{DesignTiming, Neighborhood, PipelinedDesign, Pipelining};
 
 /// Registers between a median window and the stream behind it in a plain design: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
@@ -56,15 +56,12 @@ impl PipelinedTiming {
         let latencies = design.features().iter().map(|f| score_latency(f.kind(), pipelining));
         // The tail is delayed so far that every score is final when the frame is done.
         let tail_delay = latencies.fold(count_latency, u32::max) - 1;
-        let median = match design.filter() {
-            DenoiseFilter::None => 0,
-            DenoiseFilter::Median3x3 => flush + median_registers,
-        };
+        let filter = if design.filter().has_window() { flush + median_registers } else { 0 };
         let window = if design.has_feature_window() { flush } else { 0 };
         let decision_frames = u32::from(design.has_second_pass());
         Self {
             cycles_per_frame: design.stream_pixels(),
-            decision_latency: median + window + tail_delay,
+            decision_latency: filter + window + tail_delay,
             decision_frames,
             forward_frames: decision_frames + 1,
             median_registers,

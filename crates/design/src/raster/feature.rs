@@ -16,6 +16,8 @@ pub(super) enum FeatureAccumulation<'a> {
     Squares(&'a VarianceWidths),
     /// The smallest and the largest pixel.
     Extremes,
+    /// The four sums of differences from the region moved by one pixel.
+    Displacements,
 }
 
 impl<'a> FeatureAccumulation<'a> {
@@ -28,6 +30,8 @@ impl<'a> FeatureAccumulation<'a> {
                 Self::Squares(feature.variance().expect("variance has accumulators"))
             }
             FeatureKind::Range => Self::Extremes,
+            FeatureKind::Surface => Self::Displacements,
+            FeatureKind::Segment => Self::Deviations(feature.mean().expect("segment has a mean")),
         }
     }
 
@@ -38,6 +42,7 @@ impl<'a> FeatureAccumulation<'a> {
             Self::Hits | Self::Deviations(_) => 0,
             Self::Squares(_) => 3,
             Self::Extremes => 1,
+            Self::Displacements => 2,
         }
     }
 }

@@ -82,7 +82,8 @@ impl MemorySizes {
             FeatureAccumulation::Hits => true,
             FeatureAccumulation::Deviations(_)
             | FeatureAccumulation::Squares(_)
-            | FeatureAccumulation::Extremes => false,
+            | FeatureAccumulation::Extremes
+            | FeatureAccumulation::Displacements => false,
         };
         let hits = design.features().iter().filter(counts).count();
         Self {
@@ -150,14 +151,17 @@ impl MemorySizes {
         let sums = column("sums of pixels", design.pixel_sum_bits());
         let of_pixels = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
         {
-            FeatureAccumulation::Hits | FeatureAccumulation::Extremes => None,
+            FeatureAccumulation::Hits
+            | FeatureAccumulation::Extremes
+            | FeatureAccumulation::Displacements => None,
             FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => Some(sums),
         };
         let of_squares = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
         {
             FeatureAccumulation::Hits
             | FeatureAccumulation::Deviations(_)
-            | FeatureAccumulation::Extremes => None,
+            | FeatureAccumulation::Extremes
+            | FeatureAccumulation::Displacements => None,
             FeatureAccumulation::Squares(widths) => {
                 Some(column("sums of squares", widths.square_sum_bits))
             }
@@ -169,6 +173,7 @@ impl MemorySizes {
                 | FeatureAccumulation::Deviations(_)
                 | FeatureAccumulation::Squares(_) => None,
                 FeatureAccumulation::Extremes => Some(extremes),
+                FeatureAccumulation::Displacements => None,
             };
         list.extend(design.features().iter().find_map(of_pixels));
         list.extend(design.features().iter().find_map(of_squares));
@@ -239,7 +244,9 @@ impl MemorySizes {
         let bits = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
             FeatureAccumulation::Hits => design.count_bits(),
             FeatureAccumulation::Deviations(_) => 0,
-            FeatureAccumulation::Squares(_) | FeatureAccumulation::Extremes => feature.score_bits(),
+            FeatureAccumulation::Squares(_)
+            | FeatureAccumulation::Extremes
+            | FeatureAccumulation::Displacements => feature.score_bits(),
         };
         let decision_bits = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let decision_bits = decision_bits + 2 * u32::from(design.periphery().is_some());
@@ -247,7 +254,8 @@ impl MemorySizes {
             match FeatureAccumulation::from_feature(feature) {
                 FeatureAccumulation::Hits
                 | FeatureAccumulation::Squares(_)
-                | FeatureAccumulation::Extremes => None,
+                | FeatureAccumulation::Extremes
+                | FeatureAccumulation::Displacements => None,
                 FeatureAccumulation::Deviations(mean) => Some(queue(
                     "regions that wait for the second pass",
                     mean.mean_bits + start + decision_bits,

@@ -3,10 +3,7 @@
 
 use super::feature::FeatureAccumulation;
 use crate::timing::DepartureTiming;
-use crate::{
-    DenoiseFilter, DesignTiming, Periphery, Pipelining, RasterDesign, ReferenceWriteTime,
-    RegionAction,
-};
+use crate::{DesignTiming, Periphery, Pipelining, RasterDesign, ReferenceWriteTime, RegionAction};
 
 /// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
 /// the queue, without a second pass.
@@ -74,7 +71,7 @@ impl RasterTiming {
     #[must_use]
     pub fn from_design(design: RasterDesign<'_>) -> Self {
         let word_pixels = design.pixels_per_clock();
-        let median = u32::from(design.filter() == DenoiseFilter::Median3x3);
+        let median = u32::from(design.filter().has_window());
         let feature = u32::from(design.has_feature_window());
         let (store_latency, after_store, lookup_to_store, queue_latency) = match design.pipelining()
         {

@@ -22,6 +22,7 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
             n + pixel_bits * n * ones + 2 * sum + pixel_bits + count + 2
         }
         FeatureKind::Range => 4 * n + pixel_bits + 2,
+        FeatureKind::Surface | FeatureKind::Segment => 0,
     }
 }
 
@@ -30,7 +31,11 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
 pub(super) fn has_computed_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => false,
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => true,
+        FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Segment => true,
     }
 }
 
@@ -55,7 +60,9 @@ pub(super) fn feature_register_widths(
         FeatureKind::Edge => {
             FeatureRegisterWidths { accumulator: pixel + 3, ..FeatureRegisterWidths::default() }
         }
-        FeatureKind::Corner => FeatureRegisterWidths::default(),
+        FeatureKind::Corner | FeatureKind::Surface | FeatureKind::Segment => {
+            FeatureRegisterWidths::default()
+        }
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");
             let second = pixel + mean.fraction_bits;

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::{DenoiseFilter, LaneMemoryKind, ReferencePolicy, SerialDesign, index_bits};
+use crate::{LaneMemoryKind, ReferencePolicy, SerialDesign, index_bits};
 
 /// Largest number of memory LUTs of the distributed memory of a lane, unless the configuration
 /// chooses the kind. A RAMB18 is the same share of the block RAM of a VU9P as 137 memory LUTs are
@@ -100,10 +100,7 @@ pub enum MemoryChoice {
 
 impl LaneMemory {
     fn from_design(design: SerialDesign<'_>) -> Self {
-        let denoises = match design.filter() {
-            DenoiseFilter::None => false,
-            DenoiseFilter::Median3x3 => true,
-        };
+        let denoises = design.filter().has_window();
         let reference = design.temporal().reference;
         let keeps_reference = match reference {
             ReferencePolicy::Previous => !denoises,

@@ -237,7 +237,7 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     let reference = design.temporal().reference;
     let mut list = Vec::new();
     match design.filter() {
-        DenoiseFilter::Median3x3 => {
+        DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => {
             let pixels = u64::from(design.denoised_side()).pow(2);
             let looked_up = match reference {
                 // The reference is the word that the median overwrites.

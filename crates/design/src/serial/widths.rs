@@ -39,7 +39,9 @@ impl LaneWidths {
             scale: pixel,
             center: index_bits(match design.filter() {
                 DenoiseFilter::None => design.region_pixels().into(),
-                DenoiseFilter::Median3x3 => u64::from(design.denoised_side()).pow(2),
+                DenoiseFilter::Median3x3
+                | DenoiseFilter::Switching3x3
+                | DenoiseFilter::Binomial3x3 => u64::from(design.denoised_side()).pow(2),
             }),
         };
         for feature in design.features() {
