@@ -12,9 +12,12 @@ pub(crate) fn parameter_prefix(kind: FeatureKind) -> String {
 /// otherwise `None`.
 pub(crate) fn deviation_mean(feature: &SpatialFeature) -> Option<&MeanDivision> {
     match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Variance | FeatureKind::Range => {
-            None
-        }
+        FeatureKind::Edge
+        | FeatureKind::Corner
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Segment => None,
         FeatureKind::Mad => feature.mean(),
     }
 }

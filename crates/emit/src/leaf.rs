@@ -195,6 +195,8 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
             }
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
             FeatureKind::Range => need(true, &["region_range"]),
+            // No pipelined design has these features yet.
+            FeatureKind::Surface | FeatureKind::Segment => {}
         }
     }
     match design.temporal().reference {

@@ -193,7 +193,9 @@ fn score_rank(kind: FeatureKind) -> u32 {
         FeatureKind::Corner => 1,
         FeatureKind::Variance => 2,
         FeatureKind::Range => 3,
-        FeatureKind::Mad => 4,
+        FeatureKind::Surface => 4,
+        FeatureKind::Mad => 5,
+        FeatureKind::Segment => 6,
     }
 }
 
@@ -257,6 +259,8 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
     let sum = ("SUM_BITS", design.pixel_sum_bits());
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range => vec![],
+        // No raster design has these features yet.
+        FeatureKind::Surface | FeatureKind::Segment => vec![],
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");
             vec![
@@ -286,8 +290,10 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
 fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
     let most = match kind {
         FeatureKind::Edge => design.pixel_bits() + 3,
-        FeatureKind::Corner => design.pixel_bits(),
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => return None,
+        FeatureKind::Corner | FeatureKind::Segment => design.pixel_bits(),
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface => {
+            return None;
+        }
     };
     Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
 }

@@ -225,6 +225,8 @@ impl SpatialParts {
                     own.variance = Some(variance_widths(feature, widths));
                 }
                 FeatureKind::Range => own.range = true,
+                // No pipelined design has these features yet.
+                FeatureKind::Surface | FeatureKind::Segment => {}
             }
         }
         own

@@ -246,6 +246,8 @@ fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static 
             Some(("corner_level_i", level))
         }
         FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => None,
+        // No serial design has these features yet.
+        FeatureKind::Surface | FeatureKind::Segment => None,
     }
 }
 

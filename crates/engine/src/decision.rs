@@ -40,6 +40,7 @@ impl<T: PixelLane> CameraPlan<T> {
                     });
                 }
                 FeatureKind::Range => update_affected(scores, affected, |at| sums.range[at]),
+                FeatureKind::Surface | FeatureKind::Segment => {}
             }
         }
         self.update_srs(results);

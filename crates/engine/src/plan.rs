@@ -241,6 +241,7 @@ impl<T: PixelLane> FeaturePasses<T> {
                 }
                 FeatureKind::Variance => (passes.needs_sums, passes.needs_squares) = (true, true),
                 FeatureKind::Range => passes.needs_extremes = true,
+                FeatureKind::Surface | FeatureKind::Segment => {}
             }
         }
         passes

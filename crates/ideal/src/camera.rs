@@ -5,6 +5,7 @@ use foveate_camera::RegionAction;
 use foveate_camera::{Camera, DenoiseFilter, Payload};
 use foveate_frame::ByteFrame;
 
+use crate::binomial::filter_binomial;
 use crate::feature::{ScoreBuffers, count_changed_pixels, score};
 use crate::grid::RegionGrid;
 use crate::median::{SortedColumns, filter_median};
@@ -12,12 +13,14 @@ use crate::memory::ReferenceMemory;
 use crate::periphery::PeripheryState;
 use crate::plane::PaddedPlane;
 use crate::rules::DecisionRules;
+use crate::switching::filter_switching;
 use crate::{IdealError, IdealOutcome};
 
 /// A camera that computes the contract in real numbers.
 ///
 /// It ignores the neighborhood of the configuration (every window sees the whole frame, as with
-/// `shared`) and the fraction bits of the mean (it uses the real mean).
+/// `shared`) and the fraction bits of the mean (it uses the real mean). It does not round the pixels
+/// of `binomial3x3`, so its denoised and rendered pixels may be fractions of grey levels.
 #[derive(Clone, Debug)]
 pub struct IdealCamera {
     camera: Camera,
@@ -86,6 +89,10 @@ impl IdealCamera {
             DenoiseFilter::Median3x3 => {
                 filter_median(&self.raw, &mut self.denoised, &mut self.columns);
             }
+            DenoiseFilter::Switching3x3 => {
+                filter_switching(&self.raw, &mut self.denoised, &mut self.columns);
+            }
+            DenoiseFilter::Binomial3x3 => filter_binomial(&self.raw, &mut self.denoised),
         }
         self.score();
         for region in 0..self.grid.regions() {

@@ -4,11 +4,12 @@
 //!
 //! [`IdealCamera`] has the regions, filter, features, thresholds, reference and rendering of a
 //! configured camera, without the limits of hardware. Its windows always contain their real
-//! neighbors, its mean is the real mean, and its thresholds are the decimal numbers of the
+//! neighbors, its means are real means, and its thresholds are the decimal numbers of the
 //! configuration. It is written from the contract in `f64`, independently of the integers of the
 //! other models, and does no I/O.
 #![forbid(unsafe_code)]
 
+mod binomial;
 mod camera;
 mod error;
 mod feature;
@@ -19,6 +20,7 @@ mod outcome;
 mod periphery;
 mod plane;
 mod rules;
+mod switching;
 mod view;
 
 pub use camera::IdealCamera;

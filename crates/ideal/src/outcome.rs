@@ -17,13 +17,14 @@ pub struct IdealOutcome {
     pub active: Vec<bool>,
     /// The action that the receiver's screen takes for every region.
     pub actions: Vec<RegionAction>,
-    /// The scores by feature, in the order of the camera, and then by region: 0..=n hits for `edge`
-    /// and `corner`, grey levels for `mad` and `range`, squared grey levels for `variance`.
+    /// The scores by feature, in the order of the camera, and then by region: numbers of pixels for
+    /// `edge`, `corner` and `segment`, grey levels for `mad`, `range` and `surface`, squared grey
+    /// levels for `variance`.
     pub scores: Vec<Vec<f64>>,
     /// The number of changed pixels of every region, 0..=n; n without a valid reference.
     pub changed: Vec<f64>,
-    /// The denoised frame without padding: `width * height` whole grey levels, 0..=2^P - 1, in
-    /// row-major order.
+    /// The denoised frame without padding: `width * height` grey levels, 0..=2^P - 1, in row-major
+    /// order. They are whole numbers, or sixteenths of them with `binomial3x3`.
     pub denoised: Vec<f64>,
     /// The screen after this frame, in the same form as `denoised`.
     pub rendered: Vec<f64>,

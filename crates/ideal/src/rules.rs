@@ -29,7 +29,7 @@ impl DecisionRules {
     pub(crate) fn from_camera(camera: &Camera) -> Self {
         let feature = |entry: &foveate_camera::SpatialConfig| FeatureRule {
             kind: entry.feature,
-            // A feature that counts no hits does not use its level.
+            // A feature without a level ignores it.
             level: f64::from(entry.level.unwrap_or(0)),
             min_score: decimal_to_f64(entry.min_score.expect("a camera has every key filled in")),
         };

@@ -37,6 +37,7 @@ mod stream;
 mod temporal;
 mod thresholds;
 pub mod window;
+mod window_filter;
 
 pub use self::core_models::{rcm_model, rpu_model};
 pub use cycle_model::{CoreInput, CycleModel};
@@ -54,3 +55,4 @@ pub use serial::{SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
 pub use temporal::{changed_pixels, temporal_differences};
 pub use thresholds::ThresholdInputs;
+pub use window_filter::filtered_pixel;

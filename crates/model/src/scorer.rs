@@ -5,13 +5,13 @@ use foveate_camera::{Camera, DenoiseFilter, FeatureKind, Payload, Periphery, Spa
 
 use crate::ThresholdInputs;
 use crate::conversions::{as_u64, index};
-use crate::denoising::median;
 use crate::feature::score;
 use crate::periphery::block_means;
 use crate::pixel_square::PixelSquare;
 use crate::region_view::RegionView;
 use crate::temporal::changed_pixels;
 use crate::window::PixelWindow;
+use crate::window_filter::filtered_pixel;
 
 /// A scorer of one region after the other. A test driver uses it to know the scores of a frame
 /// before the array outputs them, so that it can set thresholds next to them.
@@ -51,15 +51,15 @@ impl RegionScorer {
     /// Takes the stream of a region, as [`crate::region_stream`] makes it, and denoises it.
     /// `border` is the value of [`crate::region_border`].
     pub fn load(&mut self, stream: impl Iterator<Item = u16>, border: u8) {
-        match self.filter {
-            DenoiseFilter::None => self.scored.fill(stream),
-            DenoiseFilter::Median3x3 => {
-                self.raw.fill(stream);
-                self.scored.fill_from_windows(&self.raw, median);
-                if self.needs_border {
-                    self.scored.repeat_borders(border);
-                }
-            }
+        let filter = self.filter;
+        if !filter.has_window() {
+            self.scored.fill(stream);
+            return;
+        }
+        self.raw.fill(stream);
+        self.scored.fill_from_windows(&self.raw, |window| filtered_pixel(filter, window));
+        if self.needs_border {
+            self.scored.repeat_borders(border);
         }
     }
 
@@ -85,9 +85,9 @@ impl RegionScorer {
 
     /// Returns the square that has the pixels that the region forwards.
     fn sent(&self) -> &PixelSquare {
-        match (self.payload, self.filter) {
-            (Payload::Denoised, _) | (Payload::Raw, DenoiseFilter::None) => &self.scored,
-            (Payload::Raw, DenoiseFilter::Median3x3) => &self.raw,
+        match self.payload {
+            Payload::Raw if self.filter.has_window() => &self.raw,
+            Payload::Raw | Payload::Denoised => &self.scored,
         }
     }
 

@@ -23,11 +23,14 @@ pub(crate) fn config(
     config.camera.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     for spatial in &mut config.camera.spatial {
         match spatial.feature {
-            FeatureKind::Edge | FeatureKind::Corner => {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => {
                 spatial.level = Some((1 << bits) / 4);
                 spatial.min_score = Some(Decimal::from_whole(2));
             }
-            FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => {
+            FeatureKind::Mad
+            | FeatureKind::Variance
+            | FeatureKind::Range
+            | FeatureKind::Surface => {
                 spatial.min_score = Decimal::from_f64(0.2);
             }
         }
@@ -42,13 +45,15 @@ pub(crate) fn design(config: &DesignConfig) -> Design {
 
 /// Returns a list of features that contains this one, alone or among others.
 fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
-    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
+    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
     match kind {
         Edge => &[Edge],
         Corner => &[Edge, Corner],
         Mad => &[Mad, Edge],
         Variance => &[Variance, Corner, Edge, Mad],
         Range => &[Range, Mad],
+        Surface => &[Surface, Edge],
+        Segment => &[Segment, Corner],
     }
 }
 
@@ -86,12 +91,13 @@ pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<
         config.camera.periphery.level = Some((1 << bits) >> (number % 7 + 1));
         for spatial in &mut config.camera.spatial {
             spatial.min_score = match spatial.feature {
-                FeatureKind::Edge | FeatureKind::Corner => {
+                FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => {
                     Some(Decimal::from_whole(u64::from(side * side / 2)))
                 }
-                FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => {
-                    Some(Decimal::from_whole(1 << (bits - 2)))
-                }
+                FeatureKind::Mad
+                | FeatureKind::Variance
+                | FeatureKind::Range
+                | FeatureKind::Surface => Some(Decimal::from_whole(1 << (bits - 2))),
             };
         }
         designs.push(design(&config));

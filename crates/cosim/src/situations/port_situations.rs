@@ -284,16 +284,18 @@ fn can_refuse_pixels(design: &Design) -> bool {
 /// Returns the number of windows that flush behind a frame.
 pub(super) fn flushed_windows(design: &Design) -> u64 {
     let is_windowed = |kind| match kind {
-        FeatureKind::Edge | FeatureKind::Corner => true,
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => false,
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Surface => true,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Segment => {
+            false
+        }
     };
-    let median = match design.filter() {
-        DenoiseFilter::Median3x3 => 1,
+    let filter = match design.filter() {
+        DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => 1,
         DenoiseFilter::None => 0,
     };
     let feature = design.features().iter().any(|feature| is_windowed(feature.kind()));
     match design.neighborhood() {
-        Neighborhood::Isolated if is_pipelined(design) => median + u64::from(feature),
+        Neighborhood::Isolated if is_pipelined(design) => filter + u64::from(feature),
         Neighborhood::Isolated | Neighborhood::Shared => 0,
     }
 }

@@ -4,8 +4,8 @@
 use super::random::Random;
 use foveate_design::{DenoiseFilter, Design, FeatureKind, SpatialFeature};
 use foveate_model::ThresholdInputs;
-use foveate_model::denoising::median;
 use foveate_model::feature::decisive_level;
+use foveate_model::filtered_pixel;
 use foveate_model::window::PixelWindow;
 
 /// The largest value of every threshold port.
@@ -20,7 +20,7 @@ pub(crate) struct ThresholdRanges {
     temporal_min_count: u32,
     /// The largest summary level; `None` if irrelevant regions send no means.
     summary_level: Option<u32>,
-    denoise: bool,
+    filter: DenoiseFilter,
 }
 
 impl ThresholdRanges {
@@ -44,7 +44,7 @@ impl ThresholdRanges {
             temporal_level: design.pixel_max(),
             temporal_min_count: top_u32(design.count_bits()),
             summary_level: design.periphery().map(|_| design.pixel_max()),
-            denoise: design.filter() == DenoiseFilter::Median3x3,
+            filter: design.filter(),
         }
     }
 
@@ -57,11 +57,7 @@ impl ThresholdRanges {
         thresholds: &mut ThresholdInputs,
         random: &mut Random,
     ) {
-        let (now, before) = if self.denoise {
-            (median_filtered(now), median_filtered(before))
-        } else {
-            (now.to_vec(), before.to_vec())
-        };
+        let (now, before) = (self.denoised(now), self.denoised(before));
         let (at, changed) = (random_place(&now, random), random_place(&now, random));
         self.aim_at_window(&window_at(&now, at), thresholds, random);
         self.aim_temporal_level(now[changed].abs_diff(before[changed]), thresholds, random);
@@ -75,12 +71,16 @@ impl ThresholdRanges {
         random: &mut Random,
     ) {
         let at = random_place(square, random);
-        let window = if self.denoise {
-            window_at(&median_filtered(square), at)
-        } else {
-            window_at(square, at)
-        };
-        self.aim_at_window(&window, thresholds, random);
+        self.aim_at_window(&window_at(&self.denoised(square), at), thresholds, random);
+    }
+
+    /// Returns the pixels of a square after the filter.
+    fn denoised(&self, square: &[u16]) -> Vec<u16> {
+        if !self.filter.has_window() {
+            return square.to_vec();
+        }
+        let pixel = |at| filtered_pixel(self.filter, &window_at(square, at));
+        (0..square.len()).map(pixel).collect()
     }
 
     fn aim_at_window(
@@ -90,7 +90,7 @@ impl ThresholdRanges {
         random: &mut Random,
     ) {
         for (index, &kind) in self.kinds.iter().enumerate() {
-            if !kind.has_window() {
+            if !kind.counts_window_hits() {
                 continue;
             }
             let value = decisive_level(kind, window).unwrap_or(0);
@@ -240,11 +240,6 @@ fn window_at(square: &[u16], at: usize) -> PixelWindow {
     let around = |place: usize| [place.saturating_sub(1), place, (place + 1).min(side - 1)];
     let (columns, rows) = (around(at % side), around(at / side));
     std::array::from_fn(|number| square[rows[number / 3] * side + columns[number % 3]])
-}
-
-/// Returns the median of every window.
-fn median_filtered(square: &[u16]) -> Vec<u16> {
-    (0..square.len()).map(|at| median(&window_at(square, at))).collect()
 }
 
 fn random_place(square: &[u16], random: &mut Random) -> usize {

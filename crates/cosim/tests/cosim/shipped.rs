@@ -111,6 +111,11 @@ fn feature_keys(turn: usize, bits: u32, size: u32) -> String {
         ),
         FeatureKind::Variance => "[[spatial]]\nfeature = 'variance'\nmin_score = 0.1\n".to_owned(),
         FeatureKind::Range => "[[spatial]]\nfeature = 'range'\nmin_score = 1\n".to_owned(),
+        FeatureKind::Surface => "[[spatial]]\nfeature = 'surface'\nmin_score = 0.1\n".to_owned(),
+        FeatureKind::Segment => format!(
+            "[[spatial]]\nfeature = 'segment'\nlevel = {level}\nmin_score = 1\nmean_fraction_bits = {}\n",
+            size.ilog2()
+        ),
     };
     let all = FeatureKind::ALL;
     let of = match turn % 6 {

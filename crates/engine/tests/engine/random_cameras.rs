@@ -20,18 +20,21 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
     (side, bits).prop_flat_map(|(side, bits)| {
         let width = prop_oneof![1..=3 * side, 60u32..=70, 120u32..=260, 190u32..=194];
         let height = 1..=3 * side + 1;
-        let features = subsequence(FeatureKind::ALL.to_vec(), 1..=FeatureKind::COUNT)
-            .prop_shuffle()
-            .prop_flat_map(move |kinds| {
-                kinds.into_iter().map(|kind| feature(kind, side, bits)).collect::<Vec<_>>()
-            });
+        // All features of a camera share one mean.
+        let fraction_max = (0u32..).find(|bits| 1 << bits >= side * side).unwrap();
+        let kinds = subsequence(FeatureKind::ALL.to_vec(), 1..=FeatureKind::COUNT).prop_shuffle();
+        let features = (kinds, 0..=fraction_max).prop_flat_map(move |(kinds, fraction_bits)| {
+            let feature = |kind| feature(kind, side, bits, fraction_bits);
+            kinds.into_iter().map(feature).collect::<Vec<_>>()
+        });
+        let filter = select(DenoiseFilter::ALL);
         let max = (1u32 << bits) - 1;
         let temporal = (small(max - 1).prop_map(Some), small(side * side));
-        let switches = proptest::array::uniform6(any::<bool>());
+        let switches = proptest::array::uniform5(any::<bool>());
         let blocks: Vec<u32> = [1, 2, 4].into_iter().filter(|q| side.is_multiple_of(*q)).collect();
         let periphery = proptest::option::of((select(blocks), small(max - 1)));
-        (width, height, features, temporal, switches, periphery).prop_map(
-            move |(width, height, features, temporal, on, periphery)| {
+        (width, height, features, filter, temporal, switches, periphery).prop_map(
+            move |(width, height, features, filter, temporal, on, periphery)| {
                 let mut config = CameraConfig::default();
                 (config.frame.width, config.frame.height) = (Some(width), Some(height));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
@@ -40,23 +43,21 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
                 if on[0] {
                     config.region.neighborhood = Neighborhood::Shared;
                 }
+                config.denoise.filter = filter;
                 if on[1] {
-                    config.denoise.filter = DenoiseFilter::None;
-                }
-                if on[2] {
                     config.decision.combine = VoteCombination::All;
                 }
-                if on[3] {
+                if on[2] {
                     config.temporal.reference = ReferencePolicy::LastSent;
                 }
-                if on[4] {
+                if on[3] {
                     config.render.irrelevant = IrrelevantRendering::Hold;
                 }
                 if let Some((blocks, level)) = periphery {
                     config.render.irrelevant = IrrelevantRendering::Mean;
                     (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
                 }
-                if on[5] {
+                if on[4] {
                     config.render.payload = Payload::Raw;
                 }
                 config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
@@ -70,7 +71,12 @@ fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
-fn feature(kind: FeatureKind, side: u32, bits: u32) -> BoxedStrategy<SpatialConfig> {
+fn feature(
+    kind: FeatureKind,
+    side: u32,
+    bits: u32,
+    fraction_bits: u32,
+) -> BoxedStrategy<SpatialConfig> {
     let (max, n) = ((1u32 << bits) - 1, side * side);
     let (level_max, minimum) = match kind {
         FeatureKind::Edge => (6 * max, small(n).boxed()),
@@ -78,14 +84,15 @@ fn feature(kind: FeatureKind, side: u32, bits: u32) -> BoxedStrategy<SpatialConf
         FeatureKind::Mad => (0, small(max / 3).boxed()),
         FeatureKind::Variance => (0, small(max * (max / 6)).boxed()),
         FeatureKind::Range => (0, small(max).boxed()),
+        FeatureKind::Surface => (0, small(max / 2).boxed()),
+        FeatureKind::Segment => (max, small(n / 2).boxed()),
     };
-    let fraction_max = (0..).find(|bits| 1 << bits >= n).unwrap();
-    (small(level_max.saturating_sub(1)), minimum, 0u32..=fraction_max)
-        .prop_map(move |(level, minimum, fraction_bits)| SpatialConfig {
+    (small(level_max.saturating_sub(1)), minimum)
+        .prop_map(move |(level, minimum)| SpatialConfig {
             feature: kind,
             level: (level_max > 0).then_some(level),
             min_score: Some(Decimal::from_whole(minimum.into())),
-            mean_fraction_bits: (kind == FeatureKind::Mad).then_some(fraction_bits),
+            mean_fraction_bits: kind.has_second_pass().then_some(fraction_bits),
         })
         .boxed()
 }

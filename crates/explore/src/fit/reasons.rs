@@ -25,6 +25,8 @@ pub(super) fn design_text(design: &Design) -> String {
         match design.filter() {
             DenoiseFilter::None => "no denoising",
             DenoiseFilter::Median3x3 => "median",
+            DenoiseFilter::Switching3x3 => "switching median",
+            DenoiseFilter::Binomial3x3 => "binomial filter",
         },
         design.temporal().reference,
         match (design.irrelevant(), design.periphery()) {
@@ -108,7 +110,15 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
             *config = config.scaled_to_depth(fewer);
         });
     }
-    step("without the median".to_owned(), &|config| config.denoise.filter = DenoiseFilter::None);
+    for &filter in DenoiseFilter::ALL {
+        let name = match filter {
+            DenoiseFilter::None => "without a filter",
+            DenoiseFilter::Median3x3 => "with the median",
+            DenoiseFilter::Switching3x3 => "with the switching median",
+            DenoiseFilter::Binomial3x3 => "with the binomial filter",
+        };
+        step(name.to_owned(), &|config| config.denoise.filter = filter);
+    }
     step("isolated windows".to_owned(), &|config| {
         config.region.neighborhood = Neighborhood::Isolated;
     });

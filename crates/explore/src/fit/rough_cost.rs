@@ -22,7 +22,9 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                     FeatureKind::Edge
                     | FeatureKind::Mad
                     | FeatureKind::Variance
-                    | FeatureKind::Range => 10.0,
+                    | FeatureKind::Range
+                    | FeatureKind::Segment => 10.0,
+                    FeatureKind::Surface => 20.0,
                 })
                 .sum();
             let unit = 8.0 + features + if median { 37.0 } else { 0.0 };
@@ -34,7 +36,11 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                 .map(|kind| match kind {
                     FeatureKind::Edge => 2.0,
                     FeatureKind::Corner => 3.5,
-                    FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => 6.0,
+                    FeatureKind::Mad
+                    | FeatureKind::Variance
+                    | FeatureKind::Range
+                    | FeatureKind::Segment => 6.0,
+                    FeatureKind::Surface => 10.0,
                 })
                 .sum();
             let lanes = f64::from(array.lanes());
@@ -50,7 +56,11 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                 .map(|kind| match kind {
                     FeatureKind::Edge => 11.0,
                     FeatureKind::Corner => 14.0,
-                    FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => 6.0,
+                    FeatureKind::Mad
+                    | FeatureKind::Variance
+                    | FeatureKind::Range
+                    | FeatureKind::Segment => 6.0,
+                    FeatureKind::Surface => 10.0,
                 })
                 .sum();
             let pixels = f64::from(own.pixels_per_clock);

@@ -48,6 +48,8 @@ fn complexity(config: &CameraConfig) -> CameraComplexity {
     let filter = match config.denoise.filter {
         DenoiseFilter::None => 0,
         DenoiseFilter::Median3x3 => 1,
+        DenoiseFilter::Switching3x3 => 2,
+        DenoiseFilter::Binomial3x3 => 1,
     };
     let reference = match config.temporal.reference {
         ReferencePolicy::Previous => 0,

@@ -7,6 +7,8 @@ mod corner;
 mod edge;
 mod mad;
 mod range;
+mod segment;
+mod surface;
 mod variance;
 
 use foveate_camera::FeatureKind;
@@ -24,8 +26,9 @@ pub(crate) struct ScoreBuffers {
     regions: [Vec<f64>; 2],
 }
 
-/// Scores every region: a number of hits for `edge` and `corner`, grey levels for `mad`
-/// and `range`, squared grey levels for `variance`. Only features that count hits use `level`.
+/// Scores every region: a number of pixels for `edge`, `corner` and `segment`, grey levels for
+/// `mad`, `range` and `surface`, squared grey levels for `variance`. Only features that count pixels
+/// use `level`.
 pub(crate) fn score(
     (kind, level): (FeatureKind, f64),
     view: &FrameView,
@@ -38,6 +41,8 @@ pub(crate) fn score(
         FeatureKind::Mad => mad::score(view, scratch, scores),
         FeatureKind::Variance => variance::score(view, scratch, scores),
         FeatureKind::Range => range::score(view, scratch, scores),
+        FeatureKind::Surface => surface::score(view, scratch, scores),
+        FeatureKind::Segment => segment::score(level, view, scratch, scores),
     }
 }
 

@@ -9,6 +9,10 @@ use foveate_frame::Frame;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
+/// The filters that do not round.
+const EXACT_FILTERS: &[DenoiseFilter] =
+    &[DenoiseFilter::None, DenoiseFilter::Median3x3, DenoiseFilter::Switching3x3];
+
 /// The changes that make each frame of a clip from the one before.
 pub(crate) type ChangeScript = Vec<FrameChange>;
 
@@ -35,9 +39,9 @@ pub(crate) fn scripts() -> impl Strategy<Value = ChangeScript> {
     proptest::collection::vec(change, 2..7)
 }
 
-/// Returns cameras with shared windows. With `rounded` they may have `mad` with any fraction bits,
-/// and odd sides. Without it, cameras with `mad` have a side that is a power of two and an exact
-/// mean.
+/// Returns cameras with shared windows. With `rounded` they may have a mean with any fraction bits,
+/// and odd sides. Without it, cameras with a mean have a side that is a power of two and an exact
+/// mean. No camera has the filter `binomial3x3`, which always rounds.
 pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
     let sides =
         if rounded { vec![2, 3, 4, 5, 7, 8, 9] } else { vec![2, 3, 4, 6, 7, 8, 16, 32, 64] };
@@ -47,39 +51,42 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
         let possible: Vec<FeatureKind> = FeatureKind::ALL
             .iter()
             .copied()
-            .filter(|&kind| rounded || exact || kind != FeatureKind::Mad)
+            .filter(|&kind| rounded || exact || !kind.has_second_pass())
             .collect();
-        let count = possible.len();
-        let features =
-            subsequence(possible, 1..=count).prop_shuffle().prop_flat_map(move |kinds| {
-                kinds.into_iter().map(|kind| feature(kind, side, bits, rounded)).collect::<Vec<_>>()
-            });
+        let kinds = subsequence(possible.clone(), 1..=possible.len()).prop_shuffle();
+        let log2 = (0_u32..).find(|bits| 1 << bits >= side * side).unwrap();
+        // All features of a camera share one mean.
+        let fraction = if rounded { 0..=log2 } else { log2..=log2 };
+        let features = (kinds, fraction).prop_flat_map(move |(kinds, fraction_bits)| {
+            let feature = |kind| feature(kind, side, bits, fraction_bits);
+            kinds.into_iter().map(feature).collect::<Vec<_>>()
+        });
+        let filter = select(EXACT_FILTERS);
         let (max, n) = ((1_u32 << bits) - 1, side * side);
         let size = (1..=3 * side + 2, 1..=2 * side + 3);
-        let on = proptest::array::uniform5(any::<bool>());
+        let on = proptest::array::uniform4(any::<bool>());
         let blocks: Vec<u32> = [1, 2, 4].into_iter().filter(|q| side.is_multiple_of(*q)).collect();
         let periphery = proptest::option::of((select(blocks), small(max - 1)));
-        (size, features, small(max - 1), small(n), on, periphery).prop_map(
-            move |(size, features, level, min_count, on, periphery)| {
+        (size, features, filter, small(max - 1), small(n), on, periphery).prop_map(
+            move |(size, features, filter, level, min_count, on, periphery)| {
                 let mut config = CameraConfig::default();
                 (config.frame.width, config.frame.height) = (Some(size.0), Some(size.1));
                 (config.frame.pixel_bits, config.region.size) = (bits, side);
                 config.region.neighborhood = Neighborhood::Shared;
                 config.spatial = features;
                 (config.temporal.level, config.temporal.min_count) = (Some(level), min_count);
-                config.denoise.filter =
-                    if on[0] { DenoiseFilter::None } else { DenoiseFilter::Median3x3 };
+                config.denoise.filter = filter;
                 config.decision.combine =
-                    if on[1] { VoteCombination::All } else { VoteCombination::Any };
+                    if on[0] { VoteCombination::All } else { VoteCombination::Any };
                 config.temporal.reference =
-                    if on[2] { ReferencePolicy::LastSent } else { ReferencePolicy::Previous };
+                    if on[1] { ReferencePolicy::LastSent } else { ReferencePolicy::Previous };
                 config.render.irrelevant =
-                    if on[3] { IrrelevantRendering::Hold } else { IrrelevantRendering::Zero };
+                    if on[2] { IrrelevantRendering::Hold } else { IrrelevantRendering::Zero };
                 if let Some((blocks, level)) = periphery {
                     config.render.irrelevant = IrrelevantRendering::Mean;
                     (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
                 }
-                config.render.payload = if on[4] { Payload::Raw } else { Payload::Denoised };
+                config.render.payload = if on[3] { Payload::Raw } else { Payload::Denoised };
                 config.validate().unwrap()
             },
         )
@@ -90,7 +97,7 @@ fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
-fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrategy<SpatialConfig> {
+fn feature(kind: FeatureKind, side: u32, bits: u32, fraction: u32) -> BoxedStrategy<SpatialConfig> {
     let (max, n) = ((1_u32 << bits) - 1, side * side);
     let (level_max, unit, min_max) = match kind {
         FeatureKind::Edge => (6 * max, 1, n),
@@ -98,20 +105,20 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrat
         FeatureKind::Mad => (0, 100, max / 3),
         FeatureKind::Variance => (0, 100, max * (max / 6)),
         FeatureKind::Range => (0, 100, max),
+        FeatureKind::Surface => (0, 100, max / 2),
+        FeatureKind::Segment => (max, 1, n / 2),
     };
-    let log2 = (0_u32..).find(|bits| 1 << bits >= n).unwrap();
-    let fraction = if rounded { 0..=log2 } else { log2..=log2 };
     // Minima in grey levels have two digits after the decimal point.
     let decimal = move |whole: u32, part: u32| {
         let value = f64::from(whole) + f64::from(part % unit) / 100.0;
         Decimal::from_f64((value * 100.0).round() / 100.0)
     };
-    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32, fraction)
-        .prop_map(move |(level, whole, part, fraction)| SpatialConfig {
+    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32)
+        .prop_map(move |(level, whole, part)| SpatialConfig {
             feature: kind,
             level: (level_max > 0).then_some(level),
             min_score: decimal(whole, if whole < min_max { part } else { 0 }),
-            mean_fraction_bits: (kind == FeatureKind::Mad).then_some(fraction),
+            mean_fraction_bits: kind.has_second_pass().then_some(fraction),
         })
         .boxed()
 }

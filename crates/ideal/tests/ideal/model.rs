@@ -16,7 +16,10 @@ fn score_in_ideal_unit(camera: &Camera, feature: usize, score: u64) -> f64 {
     let n = f64::from(camera.region_pixels());
     let feature = &camera.features()[feature];
     match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range => score as f64,
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range | FeatureKind::Segment => {
+            score as f64
+        }
+        FeatureKind::Surface => score as f64 / n,
         FeatureKind::Mad => {
             let bits = feature.mean().unwrap().fraction_bits;
             score as f64 / (n * f64::from(1_u32 << bits))
@@ -95,7 +98,8 @@ proptest! {
             let model = model.step(&frame).unwrap();
             let ideal = ideal.step(&ByteFrame::from(&frame)).unwrap();
             for (feature, kind) in camera.features().iter().enumerate() {
-                let Some(mean) = kind.mean() else { continue };
+                let FeatureKind::Mad = kind.kind() else { continue };
+                let mean = kind.mean().unwrap();
                 let n = camera.region_pixels();
                 let quantum = 1.0 / f64::from(1_u32 << mean.fraction_bits);
                 let bound = f64::from(n / 2) / f64::from(n) * quantum;

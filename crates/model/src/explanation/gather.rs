@@ -10,7 +10,8 @@ use super::{
     FrameIdentification, RegionExplanation, RegionPosition, SpatialExplanation, SquareRows,
     SummaryExplanation, TemporalExplanation,
 };
-use crate::feature::{mad, region_hits};
+use crate::feature::mean::rounded_mean;
+use crate::feature::region_hits;
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 
 /// Version of the format. It changes when a key is removed or changes its meaning.
@@ -92,7 +93,7 @@ impl SpatialExplanation {
         let hits = region_hits(camera, feature, denoised, region);
         let mean = feature.mean().map(|mean| {
             let sum = pixels(camera, denoised, region).into_iter().map(u64::from).sum();
-            mad::mean(sum, n, mean.fraction_bits)
+            rounded_mean(sum, n, mean.fraction_bits)
         });
         Self {
             feature: feature.kind(),

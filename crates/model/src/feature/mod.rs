@@ -4,7 +4,10 @@
 pub mod corner;
 pub mod edge;
 pub mod mad;
+pub mod mean;
 pub mod range;
+pub mod segment;
+pub mod surface;
 pub mod variance;
 
 use foveate_camera::{Camera, FeatureKind, SpatialFeature};
@@ -16,18 +19,22 @@ use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
+use mean::rounded_mean;
 use range::PixelExtremes;
+use segment::{SegmentCounts, side_of_mean};
+use surface::DisplacementSums;
 
-/// Returns the score of a region. `level` is ignored for a feature that counts no hits.
+/// Returns the score of a region. `level` is ignored for a feature without one.
 pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> u64 {
     let sum = || region.pixels().map(u64::from).sum();
+    let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
+    let mean = || rounded_mean(sum(), region.pixel_count(), fraction_bits);
     match feature.kind() {
         kind @ (FeatureKind::Edge | FeatureKind::Corner) => {
             count_true(region.windows().map(|window| is_hit(kind, &window, level))).into()
         }
         FeatureKind::Mad => {
-            let fraction_bits = feature.mean().expect("mad has a mean").fraction_bits;
-            let mean = mad::mean(sum(), region.pixel_count(), fraction_bits);
+            let mean = mean();
             region.pixels().map(|pixel| mad::deviation(pixel, mean, fraction_bits)).sum()
         }
         FeatureKind::Variance => {
@@ -38,11 +45,21 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
             let seen = PixelExtremes::default();
             region.pixels().fold(seen, PixelExtremes::with).range()
         }
+        FeatureKind::Surface => {
+            let seen = DisplacementSums::default();
+            region.windows().fold(seen, |seen, window| seen.with(&window)).score()
+        }
+        FeatureKind::Segment => {
+            let mean = mean();
+            let sides =
+                region.pixels().map(|pixel| side_of_mean(pixel, mean, level, fraction_bits));
+            sides.fold(SegmentCounts::default(), SegmentCounts::with).score()
+        }
     }
 }
 
 /// Returns true for every pixel of a region of a denoised padded frame that is a hit, in row-major
-/// order. Returns `None` for a feature that counts no hits.
+/// order. Returns `None` for a feature that counts no hits of windows.
 ///
 /// # Panics
 /// Panics if the frame does not have the size of the padded frame of the camera, or has no such
@@ -54,7 +71,7 @@ pub fn region_hits(
     denoised: &Frame,
     region: u32,
 ) -> Option<Vec<bool>> {
-    let level = feature.level().filter(|_| feature.kind().score_unit().is_count())?;
+    let level = feature.level().filter(|_| feature.kind().counts_window_hits())?;
     let region = FrameRegion::new(camera, denoised, region);
     Some(region.windows().map(|window| is_hit(feature.kind(), &window, level)).collect())
 }
@@ -68,7 +85,11 @@ pub fn is_hit(kind: FeatureKind, window: &PixelWindow, level: u32) -> bool {
         FeatureKind::Corner => {
             corner::corner_strength(window).is_some_and(|strength| level <= strength)
         }
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => false,
+        FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Segment => false,
     }
 }
 
@@ -79,6 +100,10 @@ pub fn decisive_level(kind: FeatureKind, window: &PixelWindow) -> Option<u32> {
     match kind {
         FeatureKind::Edge => Some(edge::edge_magnitude(window)),
         FeatureKind::Corner => corner::corner_strength(window),
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => None,
+        FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Segment => None,
     }
 }

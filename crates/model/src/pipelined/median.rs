@@ -15,8 +15,8 @@ use super::delay_line::DelayLine;
 use super::pixel::StagePixel;
 use super::rpu_parameters::RpuParameters;
 use super::window_stage::WindowStage;
-use crate::denoising::median;
 use crate::window::PixelWindow;
+use crate::window_filter::median;
 
 /// The stage that takes raw pixels and gives denoised pixels, one per lane.
 #[derive(Clone, Debug)]

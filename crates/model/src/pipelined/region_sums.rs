@@ -8,8 +8,9 @@
 //! ```
 
 use super::rpu_parameters::RpuParameters;
+use crate::feature::mean::rounded_mean;
 use crate::feature::range::PixelExtremes;
-use crate::feature::{mad, variance};
+use crate::feature::variance;
 
 /// The accumulators, and the results of the last complete frame.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +34,7 @@ impl RegionSums {
         self.extremes = self.extremes.with(pixel);
         if last {
             let n = u64::from(plan.pixel_count());
-            self.mean = mad::mean(self.sum, n, plan.fraction_bits);
+            self.mean = rounded_mean(self.sum, n, plan.fraction_bits);
             self.variance = variance::score(n, self.sum, self.square_sum);
             self.sum = 0;
             self.square_sum = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! RPUs that are clocked together: their stages in sequence.
 
-use foveate_design::{DenoiseFilter, PipelinedDesign};
+use foveate_design::PipelinedDesign;
 
 use super::delay_line::DelayLine;
 use super::median::MedianStage;
@@ -30,14 +30,10 @@ impl RpuArray {
     /// Makes `lanes` RPUs of the design.
     pub(super) fn new(design: PipelinedDesign<'_>, lanes: usize) -> Self {
         let plan = RpuParameters::from_design(design);
-        let denoises = match plan.filter {
-            DenoiseFilter::None => false,
-            DenoiseFilter::Median3x3 => true,
-        };
         // A shared median window gives a square that is smaller by the halo of the window.
         let feature_side = plan.side + (plan.stream_side - plan.side).min(2);
         Self {
-            median: denoises.then(|| MedianStage::new(&plan)),
+            median: plan.filter.has_window().then(|| MedianStage::new(&plan)),
             feature: plan.has_feature_window.then(|| WindowStage::new(&plan, feature_side)),
             delay: DelayLine::new(plan.tail_delay),
             tails: vec![RpuTail::new(&plan); lanes],

@@ -33,7 +33,7 @@ pub(super) struct RpuParameters {
     pub(super) tail_delay: usize,
     /// The features in the order of the design.
     pub(super) features: [Option<FeatureKind>; MAX_FEATURES],
-    /// Fraction bits of the mean of `mad`, else 0.
+    /// Fraction bits of the mean of `mad` and `segment`, else 0.
     pub(super) fraction_bits: u32,
     /// True if the decision waits for one more frame.
     pub(super) second_pass: bool,
@@ -54,14 +54,7 @@ impl RpuParameters {
             *place = Some(feature.kind());
         }
         let timing = PipelinedTiming::from_design(design);
-        let deviations = |feature: &SpatialFeature| match feature.kind() {
-            FeatureKind::Edge
-            | FeatureKind::Corner
-            | FeatureKind::Variance
-            | FeatureKind::Range => None,
-            FeatureKind::Mad => feature.mean().map(|mean| mean.fraction_bits),
-        };
-        let fraction_bits = design.features().iter().find_map(deviations);
+        let mean = design.features().iter().find_map(SpatialFeature::mean);
         Self {
             side: index(design.region_size()),
             pixels: index(design.region_pixels()),
@@ -74,7 +67,7 @@ impl RpuParameters {
             median_registers: index(timing.median_registers),
             tail_delay: index(timing.tail_delay),
             features,
-            fraction_bits: fraction_bits.unwrap_or(0),
+            fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
             second_pass: design.has_second_pass(),
             combine: design.combine(),
             reference: design.temporal().reference,

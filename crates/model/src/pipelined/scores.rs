@@ -52,6 +52,8 @@ impl RpuScores {
                 }
                 Some(FeatureKind::Variance) => *score = self.sums.variance,
                 Some(FeatureKind::Range) => *score = self.sums.range,
+                // No pipelined design has these features yet.
+                Some(FeatureKind::Surface | FeatureKind::Segment) => {}
             }
         }
     }
@@ -63,6 +65,7 @@ impl RpuScores {
             match kind {
                 Some(FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Mad) => *score = 0,
                 Some(FeatureKind::Variance | FeatureKind::Range) | None => {}
+                Some(FeatureKind::Surface | FeatureKind::Segment) => {}
             }
         }
     }

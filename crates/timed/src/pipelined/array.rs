@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The stages of an RPU, by the edges at which they step.
 
-use foveate_design::{DenoiseFilter, Design, PipelinedTiming};
+use foveate_design::{Design, PipelinedTiming};
 
 use super::tail::Tail;
 use super::window::Window;
@@ -28,12 +28,9 @@ impl PipelinedCore {
     pub(crate) fn new(design: &Design, timing: PipelinedTiming) -> Self {
         let neighborhood = design.neighborhood();
         let mut windows = Vec::new();
-        match design.filter() {
-            DenoiseFilter::None => {}
-            DenoiseFilter::Median3x3 => windows.push((
-                Window::new(neighborhood, design.stream_side()),
-                u64::from(timing.median_registers),
-            )),
+        if design.filter().has_window() {
+            let filter_window = Window::new(neighborhood, design.stream_side());
+            windows.push((filter_window, u64::from(timing.median_registers)));
         }
         if design.has_feature_window() {
             windows.push((Window::new(neighborhood, design.denoised_side()), 0));

@@ -78,6 +78,8 @@ fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
                 let median = match filter {
                     DenoiseFilter::None => "",
                     DenoiseFilter::Median3x3 => " median",
+                    DenoiseFilter::Switching3x3 => " switching",
+                    DenoiseFilter::Binomial3x3 => " binomial",
                 };
                 list.push(PlannedRow {
                     name: format!("{organization} {kind}{median}"),
