@@ -18,7 +18,8 @@ pub(crate) struct OracleOutcome {
 }
 
 pub(crate) struct OracleRegion {
-    /// Hits, or deviations from the mean for `mad`, by feature and pixel.
+    /// Hits, deviations from the mean for `mad`, or sides of the mean for `segment`, by feature and
+    /// pixel. A side is 1 above, -1 below, and otherwise 0.
     pub(crate) terms: Vec<Vec<i64>>,
     pub(crate) scores: Vec<i64>,
     pub(crate) temporal_hits: Vec<bool>,
@@ -74,19 +75,32 @@ pub(crate) fn outcome_without_regions(recipe: &DesignParameters, frame: &Frame) 
     let padded: OracleFrame =
         (0..height).map(|y| (0..width).map(|x| frame.get_clamped(x, y).into()).collect()).collect();
     let mut denoised = padded.clone();
-    if recipe.median {
+    if recipe.has_filter() {
         for y in 0..height {
             for x in 0..width {
-                let mut nine: Vec<i64> = Vec::new();
-                for (dx, dy) in window_offsets() {
-                    nine.push(neighbor(recipe, &padded, (x, y), (dx, dy)));
-                }
-                nine.sort_unstable();
-                denoised[y as usize][x as usize] = nine[4];
+                denoised[y as usize][x as usize] = filtered(recipe, &padded, (x, y));
             }
         }
     }
     OracleOutcome { padded, denoised, regions: Vec::new(), rendered: Vec::new() }
+}
+
+fn filtered(recipe: &DesignParameters, image: &OracleFrame, place: (i64, i64)) -> i64 {
+    let at = |offset| neighbor(recipe, image, place, offset);
+    let mut nine: Vec<i64> = window_offsets().map(at).collect();
+    nine.sort_unstable();
+    match recipe.filter {
+        "median3x3" => nine[4],
+        "switching3x3" if nine[0] < at((0, 0)) && at((0, 0)) < nine[8] => at((0, 0)),
+        "switching3x3" => nine[4],
+        "binomial3x3" => {
+            let weight = |(dx, dy): (i64, i64)| (2 - dx.abs()) * (2 - dy.abs());
+            let sum: i64 = window_offsets().map(|offset| weight(offset) * at(offset)).sum();
+            // The nearest integer, or the upper one of two that are equally near.
+            [sum / 16 + 1, sum / 16].into_iter().min_by_key(|mean| (16 * mean - sum).abs()).unwrap()
+        }
+        other => panic!("the oracle does not know {other}"),
+    }
 }
 
 fn window_offsets() -> impl Iterator<Item = (i64, i64)> {
@@ -147,10 +161,13 @@ pub(crate) fn oracle_region(
         let score: i64 = match feature.name {
             "variance" => scaled_variance(&pixels),
             "range" => largest_difference(&pixels),
+            "surface" => smallest_change(recipe, denoised, region),
+            "segment" => smaller_part(terms),
             _ => terms.iter().sum(),
         };
         let unit: i128 = match feature.name {
             "mad" => i128::from(recipe.region_pixels()) << feature.fraction_bits,
+            "surface" => recipe.region_pixels().into(),
             "variance" => i128::from(recipe.region_pixels() * recipe.region_pixels()),
             _ => 1,
         };
@@ -262,16 +279,54 @@ fn terms(
             })
         }),
         "mad" => {
-            let pixels = region_values(recipe, denoised, region);
-            let scale = 1i64 << feature.fraction_bits;
-            let mean = (pixels.iter().sum::<i64>() * scale + recipe.region_pixels() / 2)
-                / recipe.region_pixels();
-            pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
+            let deviations = deviations(recipe, feature, denoised, region);
+            deviations.into_iter().map(i64::abs).collect()
         }
-        // Variance and range are not sums over pixels.
-        "variance" | "range" => vec![0; places.len()],
+        "segment" => {
+            let level = feature.level << feature.fraction_bits;
+            let side = |deviation: i64| deviation.signum() * i64::from(deviation.abs() > level);
+            deviations(recipe, feature, denoised, region).into_iter().map(side).collect()
+        }
+        // These are not sums over pixels.
+        "variance" | "range" | "surface" => vec![0; places.len()],
         other => panic!("the oracle does not know {other}"),
     }
+}
+
+/// Returns the deviations from the rounded mean, in units of `2^-f` grey levels.
+fn deviations(
+    recipe: &DesignParameters,
+    feature: &FeatureParameters,
+    denoised: &OracleFrame,
+    region: i64,
+) -> Vec<i64> {
+    let pixels = region_values(recipe, denoised, region);
+    let scale = 1i64 << feature.fraction_bits;
+    let mean =
+        (pixels.iter().sum::<i64>() * scale + recipe.region_pixels() / 2) / recipe.region_pixels();
+    pixels.iter().map(|pixel| pixel * scale - mean).collect()
+}
+
+/// Returns the smaller one of the numbers of terms 1 and -1: half of what is left of all of them
+/// after the difference of both numbers.
+pub(crate) fn smaller_part(sides: &[i64]) -> i64 {
+    let all: i64 = sides.iter().map(|side| side.abs()).sum();
+    let difference = sides.iter().sum::<i64>().abs();
+    (all - difference) / 2
+}
+
+/// Returns the smallest sum of differences between a region and the region one pixel further.
+fn smallest_change(recipe: &DesignParameters, image: &OracleFrame, region: i64) -> i64 {
+    let change = |offset| -> i64 {
+        let pairs = positions(recipe, region).into_iter();
+        let pairs = pairs.map(|place| {
+            [neighbor(recipe, image, place, (0, 0)), neighbor(recipe, image, place, offset)]
+        });
+        pairs.map(|pair| pair.iter().max().unwrap() - pair.iter().min().unwrap()).sum()
+    };
+    let mut changes = [(-1, 1), (0, 1), (1, 1), (1, 0)].map(change);
+    changes.sort_unstable();
+    changes[0]
 }
 
 /// Returns `n^2 sigma^2`, computed from the deviations: `sum((n x - sum)^2) / n`.

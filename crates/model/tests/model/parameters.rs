@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Design, DesignConfig, FeatureKind};
+use foveate_design::{Camera, DenoiseFilter, Design, DesignConfig, FeatureKind, Organization};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
@@ -14,7 +14,8 @@ pub(crate) struct DesignParameters {
     pub(crate) bits: u32,
     pub(crate) side: i64,
     pub(crate) shared: bool,
-    pub(crate) median: bool,
+    /// The name of the filter.
+    pub(crate) filter: &'static str,
     pub(crate) features: Vec<FeatureParameters>,
     pub(crate) all_must_vote: bool,
     pub(crate) temporal_level: i64,
@@ -70,6 +71,15 @@ impl DesignParameters {
         self.blank_irrelevant || self.periphery.is_some()
     }
 
+    pub(crate) fn has_filter(&self) -> bool {
+        self.filter != "none"
+    }
+
+    /// Returns true if a feature uses windows.
+    pub(crate) fn has_feature_window(&self) -> bool {
+        ["edge", "corner", "surface"].iter().any(|name| self.has_feature(name))
+    }
+
     pub(crate) fn has_feature(&self, name: &str) -> bool {
         self.features.iter().any(|feature| feature.name == name)
     }
@@ -82,10 +92,20 @@ impl DesignParameters {
         (self.height + self.side - 1) / self.side
     }
 
+    /// Returns the camera, which needs no organization that supports it.
+    pub(crate) fn camera(&self) -> Camera {
+        self.config().camera.validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))
+    }
+
+    /// Returns the pipelined design.
     pub(crate) fn design(&self) -> Design {
+        self.config().validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))
+    }
+
+    /// Returns the configuration of the pipelined design.
+    pub(crate) fn config(&self) -> DesignConfig {
         let toml = self.toml();
-        let config = DesignConfig::from_toml(&toml).unwrap_or_else(|e| panic!("{e}\n{toml}"));
-        config.validate().unwrap_or_else(|e| panic!("{e}\n{toml}"))
+        DesignConfig::from_toml(&toml).unwrap_or_else(|e| panic!("{e}\n{toml}"))
     }
 
     fn toml(&self) -> String {
@@ -101,7 +121,7 @@ impl DesignParameters {
             self.bits,
             self.side,
             pick(self.shared, "shared", "isolated"),
-            pick(self.median, "median3x3", "none"),
+            self.filter,
             pick(self.all_must_vote, "all", "any"),
             self.temporal_level,
             self.temporal_min,
@@ -122,14 +142,14 @@ impl DesignParameters {
         }
         for feature in &self.features {
             let (whole, rest) = (feature.min_milli / 1000, feature.min_milli % 1000);
-            let counts = matches!(feature.name, "edge" | "corner");
+            let counts = matches!(feature.name, "edge" | "corner" | "segment");
             let fraction = if counts { String::new() } else { format!(".{rest:03}") };
             write!(text, "[[spatial]]\nfeature = \"{}\"\n", feature.name).unwrap();
             writeln!(text, "min_score = {whole}{fraction}").unwrap();
             if counts {
                 writeln!(text, "level = {}", feature.level).unwrap();
             }
-            if feature.name == "mad" {
+            if matches!(feature.name, "mad" | "segment") {
                 writeln!(text, "mean_fraction_bits = {}", feature.fraction_bits).unwrap();
             }
         }
@@ -137,19 +157,71 @@ impl DesignParameters {
     }
 }
 
+/// The features and filters that designs are made of, by name.
+#[derive(Clone, Debug)]
+pub(crate) struct Capabilities {
+    features: Vec<&'static str>,
+    filters: Vec<&'static str>,
+}
+
+impl Capabilities {
+    /// Returns all features and filters.
+    pub(crate) fn all() -> Self {
+        Self { features: FeatureKind::NAMES.to_vec(), filters: DenoiseFilter::NAMES.to_vec() }
+    }
+
+    /// Returns those that an organization supports.
+    pub(crate) fn of(organization: Organization) -> Self {
+        let is_supported = |feature: &str, filter: &str| {
+            let toml = format!(
+                "[frame]\nwidth = 64\nheight = 64\n[denoise]\nfilter = \"{filter}\"\n\
+                 [[spatial]]\nfeature = \"{feature}\"\n\
+                 [hardware]\norganization = \"{organization}\""
+            );
+            DesignConfig::from_toml(&toml).unwrap().validate().is_ok()
+        };
+        let mut own = Self::all();
+        own.features.retain(|feature| is_supported(feature, "none"));
+        own.filters.retain(|filter| is_supported("edge", filter));
+        assert!(own.features.len() > 1 && own.filters.len() > 1, "{organization}: {own:?}");
+        own
+    }
+
+    pub(crate) fn has_feature(&self, name: &str) -> bool {
+        self.features.contains(&name)
+    }
+
+    pub(crate) fn has_filter(&self, name: &str) -> bool {
+        self.filters.contains(&name)
+    }
+}
+
 /// Generates every kind of pipelined design, with frames of about three regions.
 pub(crate) fn arbitrary_parameters() -> impl Strategy<Value = DesignParameters> {
+    arbitrary_small_parameters(Capabilities::of(Organization::Pipelined))
+}
+
+/// Generates every kind of camera, with frames of about three regions. Some of them have no
+/// pipelined design.
+pub(crate) fn arbitrary_camera_parameters() -> impl Strategy<Value = DesignParameters> {
+    arbitrary_small_parameters(Capabilities::all())
+}
+
+fn arbitrary_small_parameters(
+    capabilities: Capabilities,
+) -> impl Strategy<Value = DesignParameters> {
     let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
-    (arbitrary_parameters_with_sides(sides), any::<bool>())
+    (arbitrary_parameters_with_sides(sides, capabilities), any::<bool>())
         .prop_map(|(recipe, deep)| DesignParameters { deep, ..recipe })
 }
 
 /// Generates every kind of design with plain pipelining, for regions of these sides.
 pub(crate) fn arbitrary_parameters_with_sides(
     sides: impl Strategy<Value = i64>,
+    capabilities: Capabilities,
 ) -> impl Strategy<Value = DesignParameters> {
     let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
-    (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
+    (without_periphery(sides, capabilities), blocks).prop_flat_map(|(recipe, blocks)| {
         let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
         small_numbers(recipe.pixel_max() - 1).prop_map(move |level| DesignParameters {
             periphery: blocks.map(|blocks| PeripheryParameters { blocks, level }),
@@ -158,38 +230,41 @@ pub(crate) fn arbitrary_parameters_with_sides(
     })
 }
 
-fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = DesignParameters> {
+fn without_periphery(
+    sides: impl Strategy<Value = i64>,
+    Capabilities { features, filters }: Capabilities,
+) -> impl Strategy<Value = DesignParameters> {
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
-    (sides, bits).prop_flat_map(|(side, bits)| {
+    (sides, bits).prop_flat_map(move |(side, bits)| {
         let size = 1..=2 * side + 1;
-        let names: Vec<_> = FeatureKind::ALL.iter().map(|kind| kind.name()).collect();
-        let features =
-            subsequence(names, 1..=FeatureKind::COUNT).prop_shuffle().prop_flat_map(move |names| {
-                names
-                    .into_iter()
-                    .map(|name| arbitrary_feature(name, side, bits))
-                    .collect::<Vec<_>>()
-            });
-        let switches = proptest::array::uniform8(any::<bool>());
+        let names = subsequence(features.clone(), 1..=features.len()).prop_shuffle();
+        let fraction_max = (0..).find(|bits| 1i64 << bits >= side * side).unwrap();
+        // All features of a camera share one mean.
+        let features = (names, 0u32..=fraction_max).prop_flat_map(move |(names, fraction_bits)| {
+            let feature = |name| arbitrary_feature(name, side, bits, fraction_bits);
+            names.into_iter().map(feature).collect::<Vec<_>>()
+        });
+        let filter = select(filters.clone());
+        let switches = proptest::array::uniform7(any::<bool>());
         let max = (1i64 << bits) - 1;
         let temporal = (small_numbers(max - 1), small_numbers(side * side));
-        ((size.clone(), size), features, switches, temporal).prop_map(
-            move |((width, height), features, on, (temporal_level, temporal_min))| {
+        ((size.clone(), size), features, filter, switches, temporal).prop_map(
+            move |((width, height), features, filter, on, (temporal_level, temporal_min))| {
                 DesignParameters {
                     width,
                     height,
                     bits,
                     side,
                     shared: on[0],
-                    median: on[1],
+                    filter,
                     features,
-                    all_must_vote: on[2],
+                    all_must_vote: on[1],
                     temporal_level,
                     temporal_min,
-                    last_sent: on[3],
-                    blank_irrelevant: on[4],
-                    raw_payload: on[5],
-                    constant: on[6] && on[7],
+                    last_sent: on[2],
+                    blank_irrelevant: on[3],
+                    raw_payload: on[4],
+                    constant: on[5] && on[6],
                     periphery: None,
                     deep: false,
                 }
@@ -203,7 +278,12 @@ fn small_numbers(max: i64) -> impl Strategy<Value = i64> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
-fn arbitrary_feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<FeatureParameters> {
+fn arbitrary_feature(
+    name: &'static str,
+    side: i64,
+    bits: u32,
+    fraction_bits: u32,
+) -> BoxedStrategy<FeatureParameters> {
     let (max, n) = ((1i64 << bits) - 1, side * side);
     // The minimum score is a share of the pixel range or of its square, in thousandths, that some
     // region is sure to reach.
@@ -215,11 +295,12 @@ fn arbitrary_feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<
         "variance" => {
             (0, small_numbers(200).prop_map(move |permille| permille * max * max).boxed())
         }
+        "surface" => (0, small_numbers(500).prop_map(move |permille| permille * max).boxed()),
+        "segment" => (max - 1, small_numbers(n / 2).prop_map(|pixels| 1000 * pixels).boxed()),
         _ => panic!("`{name}` needs thresholds that some regions reach"),
     };
-    let fraction_max = (0..).find(|bits| 1i64 << bits >= n).unwrap();
-    (small_numbers(level_max), minimum, 0u32..=fraction_max)
-        .prop_map(move |(level, min_milli, fraction_bits)| FeatureParameters {
+    (small_numbers(level_max), minimum)
+        .prop_map(move |(level, min_milli)| FeatureParameters {
             name,
             level,
             min_milli,

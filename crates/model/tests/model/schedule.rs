@@ -46,15 +46,15 @@ fn shared_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
 
 /// Returns the edges of the tail steps by frame for the edges of the pixels of the stream.
 pub(crate) fn tail_steps(recipe: &DesignParameters, stream: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let windows = recipe.has_feature("edge") || recipe.has_feature("corner");
+    let windows = recipe.has_feature_window();
     let median_delay = if recipe.deep { 3 } else { 2 };
     let tail_delay = tail_delay(recipe);
     let mut side = recipe.side as usize;
     if recipe.shared {
-        side += 2 * (usize::from(recipe.median) + usize::from(windows));
+        side += 2 * (usize::from(recipe.has_filter()) + usize::from(windows));
     }
     let mut steps = stream.to_vec();
-    for (there, registers) in [(recipe.median, median_delay), (windows, 0)] {
+    for (there, registers) in [(recipe.has_filter(), median_delay), (windows, 0)] {
         if there && recipe.shared {
             steps = shared_centers(&steps, side);
             side -= 2;

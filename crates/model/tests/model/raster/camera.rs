@@ -133,7 +133,7 @@ fn recipe(number: usize) -> RasterParameters {
             bits: 8,
             side,
             shared: on(1),
-            median: on(2),
+            filter: if on(2) { "median3x3" } else { "none" },
             features,
             all_must_vote: on(8),
             temporal_level: 9,

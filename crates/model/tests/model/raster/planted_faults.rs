@@ -27,7 +27,7 @@ fn recipe(last: FeatureParameters) -> RasterParameters {
             bits: 8,
             side: 4,
             shared: true,
-            median: true,
+            filter: "median3x3",
             features: vec![feature("edge", 150, 6000), last],
             all_must_vote: false,
             temporal_level: 20,
@@ -108,7 +108,7 @@ const FAULTS: [PlantedFault; 22] = [
     ("edge minimum", |recipe| recipe.base.features[0].min_milli += 4000),
     ("order of features", |recipe| recipe.base.features.reverse()),
     ("combination", |recipe| recipe.base.all_must_vote = true),
-    ("median", |recipe| recipe.base.median = false),
+    ("median", |recipe| recipe.base.filter = "none"),
     ("neighborhood", |recipe| recipe.base.shared = false),
     ("temporal level", |recipe| recipe.base.temporal_level += 5),
     ("temporal minimum", |recipe| recipe.base.temporal_min = 16),
@@ -170,7 +170,7 @@ fn faults_of_an_external_store_are_noticed() {
                 ("taking always", |recipe| recipe.misread.always_takes = true),
                 ("trusting", |recipe| recipe.misread.trusts_memory = true),
                 ("S", |recipe| recipe.misread.stored = 1),
-                ("median", |recipe| recipe.base.median = false),
+                ("median", |recipe| recipe.base.filter = "none"),
             ];
             for (fault, spoil) in faults {
                 assert!(check_with_change(&built, spoil).is_err(), "{fault} goes unnoticed");

@@ -2,11 +2,11 @@
 //! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow from
 //! it.
 
-use foveate_design::{Design, FrameStoreKind, Pipelining};
+use foveate_design::{Design, FrameStoreKind, Organization, Pipelining};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::parameters::{DesignParameters, arbitrary_parameters_with_sides};
+use crate::parameters::{Capabilities, DesignParameters, arbitrary_parameters_with_sides};
 
 #[derive(Clone, Debug)]
 pub(crate) struct RasterParameters {
@@ -53,7 +53,7 @@ pub(crate) struct PlantedMisreading {
 
 impl RasterParameters {
     pub(crate) fn design(&self) -> Design {
-        let mut config = self.base.design().config();
+        let mut config = self.base.config();
         config.hardware.make_raster().pixels_per_clock = Some(self.word_pixels as u32);
         config.hardware.pipelining = if self.deep { Pipelining::Deep } else { Pipelining::Plain };
         config.hardware.make_raster().store = Some(self.store);
@@ -62,11 +62,11 @@ impl RasterParameters {
     }
 
     fn median(&self) -> i64 {
-        i64::from(self.base.median)
+        i64::from(self.base.has_filter())
     }
 
     fn window(&self) -> i64 {
-        i64::from(self.base.has_feature("edge") || self.base.has_feature("corner"))
+        i64::from(self.base.has_feature_window())
     }
 
     pub(crate) fn has_mad(&self) -> bool {
@@ -196,6 +196,7 @@ impl RasterParameters {
 
 /// Generates every kind of raster design, with about four regions or sixteen words in a row.
 pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParameters> {
+    let capabilities = Capabilities::of(Organization::Raster);
     let sides = prop_oneof![6 => select(vec![2i64, 3, 4, 4, 5, 6, 8, 8]), 1 => 2i64..=9];
     let size = (0i64..=100, 0i64..=100, 0i64..=1);
     let stores = select(vec![
@@ -205,8 +206,8 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
         FrameStoreKind::External,
     ]);
     let built = (any::<bool>(), stores, select(vec![true, true, false]));
-    (arbitrary_parameters_with_sides(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
-        |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
+    (arbitrary_parameters_with_sides(sides, capabilities), select(vec![1i64, 2, 4]), built, size)
+        .prop_map(|(mut base, pixels, (deep, store, forward), (wide, high, more))| {
             let side = base.side;
             let block = base.periphery.map_or(side, |periphery| side / periphery.blocks);
             let pixels = if block % pixels == 0 { pixels } else { 2 - block % 2 };
@@ -226,6 +227,5 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
                 forward,
                 misread: PlantedMisreading::default(),
             }
-        },
-    )
+        })
 }

@@ -2,12 +2,13 @@
 //! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow from
 //! it.
 
-use foveate_design::{Design, PixelFeed};
+use foveate_design::{Design, Organization, PixelFeed};
 use proptest::prelude::*;
 use proptest::sample::select;
 
 use crate::parameters::{
-    DesignParameters, FeatureParameters, PeripheryParameters, arbitrary_parameters_with_sides,
+    Capabilities, DesignParameters, FeatureParameters, PeripheryParameters,
+    arbitrary_parameters_with_sides,
 };
 
 #[derive(Clone, Debug)]
@@ -28,7 +29,7 @@ pub(crate) enum ExpectedPhase {
 
 impl SerialParameters {
     pub(crate) fn design(&self) -> Design {
-        let mut config = self.base.design().config();
+        let mut config = self.base.config();
         config.hardware.make_serial().feed =
             Some(if self.raster { PixelFeed::Raster } else { PixelFeed::Parallel });
         config.hardware.make_serial().fold = self.fold as u32;
@@ -49,12 +50,12 @@ impl SerialParameters {
     }
 
     fn has_window(&self) -> bool {
-        self.base.has_feature("edge") || self.base.has_feature("corner")
+        self.base.has_feature_window()
     }
 
     pub(crate) fn halo(&self) -> i64 {
         if self.base.shared {
-            i64::from(self.base.median) + i64::from(self.has_window())
+            i64::from(self.base.has_filter()) + i64::from(self.has_window())
         } else {
             0
         }
@@ -68,10 +69,10 @@ impl SerialParameters {
     /// Returns the clocks from an address to the accumulator, Q.
     pub(crate) fn read_latency(&self) -> i64 {
         let mut words = (self.base.side + 2 * self.halo()).pow(2);
-        if self.base.median {
+        if self.base.has_filter() {
             words += self.denoised_side().pow(2);
         }
-        if !self.base.median || self.base.last_sent {
+        if !self.base.has_filter() || self.base.last_sent {
             words += self.base.region_pixels();
         }
         let mut slot = 1;
@@ -93,7 +94,7 @@ impl SerialParameters {
     pub(crate) fn phases(&self) -> Vec<ExpectedPhase> {
         use ExpectedPhase::{Rotation, Unload, UnloadMeans, WithoutOutput};
         let (n, p, q) = (self.base.region_pixels(), i64::from(self.base.bits), self.read_latency());
-        let (median, last_sent) = (self.base.median, self.base.last_sent);
+        let (median, last_sent) = (self.base.has_filter(), self.base.last_sent);
         let mut phases = Vec::new();
         if median {
             let per_pixel = 10 * p + 3 + q + i64::from(last_sent);
@@ -197,8 +198,9 @@ impl SerialParameters {
 
 /// Generates every kind of serial design, with a few regions.
 pub(crate) fn arbitrary_serial_parameters() -> impl Strategy<Value = SerialParameters> {
+    let capabilities = Capabilities::of(Organization::Serial);
     let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
-    (arbitrary_parameters_with_sides(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(
+    (arbitrary_parameters_with_sides(sides, capabilities), any::<[bool; 2]>(), 0i64..=9).prop_map(
         |(base, [raster, deep], fold)| {
             let regions = base.columns() * base.rows();
             SerialParameters {
