@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use foveate_camera::{CameraConfig, FeatureKind, Neighborhood, SpatialConfig};
+use foveate_camera::{CameraConfig, DenoiseFilter, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_engine::{BatchScreens, Engine, EngineOptions, InstructionSet};
 
 fn main() {
@@ -17,6 +17,7 @@ struct BenchmarkCase {
     height: u32,
     side: u32,
     neighborhood: Neighborhood,
+    filter: DenoiseFilter,
     features: &'static [FeatureKind],
 }
 
@@ -27,6 +28,7 @@ const HD: BenchmarkCase = BenchmarkCase {
     height: 1080,
     side: 32,
     neighborhood: Neighborhood::Shared,
+    filter: DenoiseFilter::Median3x3,
     features: EDGE,
 };
 const SMALL: BenchmarkCase = BenchmarkCase { width: 224, height: 224, side: 8, ..HD };
@@ -46,6 +48,7 @@ fn setup(case: BenchmarkCase, options: EngineOptions) -> (Engine, Vec<Vec<u8>>) 
     (config.frame.width, config.frame.height) = (Some(case.width), Some(case.height));
     config.region.size = case.side;
     config.region.neighborhood = case.neighborhood;
+    config.denoise.filter = case.filter;
     config.spatial = case.features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     let camera = config.validate().expect("a valid camera");
     let engine = Engine::with_options(&camera, options).expect("threads");
@@ -75,18 +78,19 @@ fn run_single(bencher: Bencher, case: BenchmarkCase, options: EngineOptions, sti
     });
 }
 
+/// Times frames that are computed as a whole.
+fn run_moving(bencher: Bencher, case: BenchmarkCase) {
+    let options = EngineOptions { skips_identical_regions: false, ..EngineOptions::default() };
+    run_single(bencher, case, options, false);
+}
+
 fn case(name: &str) -> BenchmarkCase {
     CASES.iter().find(|(case_name, _)| *case_name == name).expect("a case").1
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
 fn moving(bencher: Bencher, name: &str) {
-    run_single(
-        bencher,
-        case(name),
-        EngineOptions { skips_identical_regions: false, ..EngineOptions::default() },
-        false,
-    );
+    run_moving(bencher, case(name));
 }
 
 #[divan::bench(args = CASES.map(|(name, _)| name))]
@@ -97,6 +101,21 @@ fn moving_with_skip(bencher: Bencher, name: &str) {
 #[divan::bench(args = CASES.map(|(name, _)| name))]
 fn still_with_skip(bencher: Bencher, name: &str) {
     run_single(bencher, case(name), EngineOptions::default(), true);
+}
+
+/// Times each feature alone, without a filter.
+#[divan::bench(args = FeatureKind::ALL)]
+fn one_feature(bencher: Bencher, kind: &FeatureKind) {
+    let features = FeatureKind::ALL.chunks(1).find(|alone| alone[0] == *kind).expect("a kind");
+    let case = BenchmarkCase { filter: DenoiseFilter::None, features, ..HD };
+    run_moving(bencher, case);
+}
+
+/// Times each filter with `range`, the cheapest feature.
+#[divan::bench(args = DenoiseFilter::ALL)]
+fn one_filter(bencher: Bencher, filter: &DenoiseFilter) {
+    let case = BenchmarkCase { filter: *filter, features: &[FeatureKind::Range], ..HD };
+    run_moving(bencher, case);
 }
 
 #[divan::bench(args = [1, 2])]

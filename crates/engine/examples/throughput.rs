@@ -4,7 +4,7 @@
 //! ```text
 //! throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
 //!     [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]
-//!     [--blocks 2]
+//!     [--blocks 2] [--filter median3x3]
 //! ```
 //!
 //! With `--blocks`, irrelevant regions send means of that many blocks per side. Frames are given
@@ -17,8 +17,8 @@ use std::sync::Barrier;
 use std::time::{Duration, Instant};
 
 use foveate_camera::{
-    CameraConfig, Decimal, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy,
-    SpatialConfig,
+    CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood,
+    ReferencePolicy, SpatialConfig,
 };
 use foveate_engine::{BatchScreens, Engine, EngineOptions, FrameOutcome, InstructionSet};
 
@@ -50,6 +50,10 @@ fn main() -> Result<(), BoxError> {
         config.render.irrelevant = IrrelevantRendering::Mean;
         config.periphery.blocks = Some(blocks.parse()?);
     }
+    if let Some(name) = value("--filter") {
+        let filter = DenoiseFilter::ALL.iter().find(|filter| filter.name() == name);
+        config.denoise.filter = *filter.ok_or("no such filter")?;
+    }
     let features = value("--features").unwrap_or("edge");
     config.spatial = features.split(',').map(feature).collect::<Result<_, _>>()?;
     let level_name = value("--level").unwrap_or_else(|| InstructionSet::detect().name());
@@ -72,6 +76,7 @@ fn main() -> Result<(), BoxError> {
     print(&serde_json::json!({
         "clip": path, "width": width, "height": height, "side": config.region.size,
         "neighborhood": config.region.neighborhood.name(), "features": features,
+        "filter": config.denoise.filter.name(),
         "reference": config.temporal.reference.name(), "threads": options.threads,
         "batch": delivery.batch, "screens": delivery.screens, "level": options.level.name(), "skip": options.skips_identical_regions,
         "mpixel_s": measured.mpixel_s, "mpixel_s_mean": measured.mpixel_s_mean,

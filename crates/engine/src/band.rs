@@ -6,8 +6,10 @@ use std::ops::Range;
 use foveate_camera::ReferencePolicy;
 
 use crate::denoised::Denoiser;
+use crate::kernel::segment::SegmentPlan;
 use crate::kernel::{
-    SharedSides, WindowRows, WindowSides, corner, edge, mad, range, sums, temporal,
+    SharedSides, WindowRows, WindowSides, corner, edge, mad, range, segment, sums, surface,
+    temporal,
 };
 use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
@@ -37,9 +39,9 @@ fn row_blocks_mut<'a, T>(
     plane[y * stride + run.start * BLOCK_LANES..][..run.len() * BLOCK_LANES].as_chunks_mut().0
 }
 
-/// Counts the hits of the features that use windows in one row.
+/// Adds one row to the values of the features that use windows.
 #[inline(always)]
-fn count_window_features<T: PixelLane>(
+fn add_window_features<T: PixelLane>(
     plan: &CameraPlan<T>,
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
@@ -51,6 +53,11 @@ fn count_window_features<T: PixelLane>(
     }
     if let Some(level) = plan.passes.corner {
         corner::count_corners(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
+    }
+    if plan.passes.needs_differences {
+        let sums = columns.differences.each_mut();
+        let sums = sums.map(|sums| &mut sums.blocks_mut()[run.clone()]);
+        surface::add_differences(windows, sides, sums);
     }
 }
 
@@ -78,19 +85,10 @@ impl<T: PixelLane> BandPass<'_, T> {
         }
         self.columns_to_regions(&scratch.columns, &mut scratch.region_sums);
         if let Some(fraction_bits) = self.plan.passes.mad {
-            self.spread_means(scratch, fraction_bits);
-            for run in &runs {
-                self.second_pass(&mut scratch.columns, run, fraction_bits);
-            }
-            let side = self.plan.side;
-            sums::sum_by_region(&scratch.columns.above, side, &mut scratch.region_sums.above);
-            if fraction_bits > 0 {
-                sums::sum_by_region(
-                    &scratch.columns.count_above,
-                    side,
-                    &mut scratch.region_sums.count_above,
-                );
-            }
+            self.sum_deviations(scratch, &runs, fraction_bits);
+        }
+        if let Some(segment) = self.plan.passes.segment {
+            self.count_parts(scratch, &runs, segment);
         }
         if PERIPHERY && let Some(periphery) = self.plan.periphery {
             for run in &runs {
@@ -134,12 +132,14 @@ impl<T: PixelLane> BandPass<'_, T> {
     #[inline(always)]
     fn first_pass(&mut self, scratch: &mut WorkingMemory<T>, run: &Range<usize>) {
         let plan = self.plan;
-        let WorkingMemory { sorted, narrow_window: tail, denoised, columns, .. } = scratch;
+        let WorkingMemory { sorted, column_sums, narrow_window: tail, denoised, columns, .. } =
+            scratch;
         let top = self.number * plan.side;
         let mut denoiser = Denoiser {
             plan,
             raw: self.raw,
             sorted,
+            column_sums,
             tail,
             rows: denoised,
             slots: plan.row_slots(run.len()),
@@ -157,9 +157,9 @@ impl<T: PixelLane> BandPass<'_, T> {
                 for y in top + rows.start..top + rows.end {
                     let windows = denoiser.windows(y);
                     match &plan.seams {
-                        None => count_window_features(plan, windows, SharedSides, columns, run),
+                        None => add_window_features(plan, windows, SharedSides, columns, run),
                         Some(seams) => {
-                            count_window_features(plan, windows, seams.masks_of(run), columns, run);
+                            add_window_features(plan, windows, seams.masks_of(run), columns, run);
                         }
                     }
                 }
@@ -211,8 +211,8 @@ impl<T: PixelLane> BandPass<'_, T> {
     #[inline(always)]
     fn columns_to_regions(&self, columns: &ColumnSums<T>, regions: &mut RegionSums) {
         let side = self.plan.side;
-        // The pattern names every field, so that a new one is not forgotten. The sums of `mad`
-        // follow in a second pass.
+        // The pattern names every field, so that a new one is not forgotten. The values of `mad`
+        // and `segment` follow in a second pass.
         let FeaturePasses {
             edge,
             corner,
@@ -220,7 +220,9 @@ impl<T: PixelLane> BandPass<'_, T> {
             needs_sums: sums,
             needs_squares: squares,
             needs_extremes: extremes,
+            needs_differences: differences,
             mad: _,
+            segment: _,
         } = self.plan.passes;
         sums::sum_by_region(&columns.changed, side, &mut regions.changed);
         if edge.is_some() {
@@ -237,6 +239,65 @@ impl<T: PixelLane> BandPass<'_, T> {
         }
         if extremes {
             range::ranges_by_region(&columns.smallest, &columns.largest, side, &mut regions.range);
+        }
+        if differences {
+            for (columns, regions) in columns.differences.iter().zip(&mut regions.differences) {
+                sums::sum_by_region(columns, side, regions);
+            }
+        }
+    }
+
+    /// Sums the amounts by which pixels exceed the mean of their region, for `mad`.
+    #[inline(always)]
+    fn sum_deviations(
+        &self,
+        scratch: &mut WorkingMemory<T>,
+        runs: &[Range<usize>],
+        fraction_bits: u32,
+    ) {
+        self.spread_means(scratch, fraction_bits);
+        for run in runs {
+            self.sum_deviations_of_run(&mut scratch.columns, run, fraction_bits);
+        }
+        let (columns, regions) = (&scratch.columns, &mut scratch.region_sums);
+        sums::sum_by_region(&columns.above, self.plan.side, &mut regions.above);
+        if fraction_bits > 0 {
+            sums::sum_by_region(&columns.count_above, self.plan.side, &mut regions.count_above);
+        }
+    }
+
+    /// Counts the pixels above and below the bounds of their region, for `segment`.
+    #[inline(always)]
+    fn count_parts(
+        &self,
+        scratch: &mut WorkingMemory<T>,
+        runs: &[Range<usize>],
+        segment: SegmentPlan,
+    ) {
+        let WorkingMemory { columns, region_sums, .. } = scratch;
+        let (side, n) = (self.plan.side, u64::from(self.plan.region_pixels()));
+        let lane = |bound: u64| {
+            saturated_threshold(u32::try_from(bound).expect("a bound is below twice the pixels"))
+        };
+        let [upper, lower] = &mut columns.segment_bounds;
+        let sums = &region_sums.sum;
+        sums::spread_over_columns(sums, side, |sum| lane(segment.upper_bound(sum, n)), upper);
+        sums::spread_over_columns(sums, side, |sum| lane(segment.lower_bound(sum, n)), lower);
+        for run in runs {
+            let bounds = columns.segment_bounds.each_ref();
+            let bounds = bounds.map(|bound| &bound.blocks()[run.clone()]);
+            for counts in &mut columns.segment {
+                counts.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+            }
+            for row in 0..side {
+                let current = row_blocks(self.denoised, self.plan.stride(), row, run);
+                let counts = columns.segment.each_mut();
+                let counts = counts.map(|counts| &mut counts.blocks_mut()[run.clone()]);
+                segment::count_parts(current, bounds, counts);
+            }
+        }
+        for (columns, regions) in columns.segment.iter().zip(&mut region_sums.segment) {
+            sums::sum_by_region(columns, side, regions);
         }
     }
 
@@ -257,7 +318,12 @@ impl<T: PixelLane> BandPass<'_, T> {
     }
 
     #[inline(always)]
-    fn second_pass(&self, columns: &mut ColumnSums<T>, run: &Range<usize>, fraction_bits: u32) {
+    fn sum_deviations_of_run(
+        &self,
+        columns: &mut ColumnSums<T>,
+        run: &Range<usize>,
+        fraction_bits: u32,
+    ) {
         let stride = self.plan.stride();
         let above = &mut columns.above.blocks_mut()[run.clone()];
         let count_above = &mut columns.count_above.blocks_mut()[run.clone()];
@@ -287,7 +353,9 @@ impl<T: PixelLane> ColumnSums<T> {
             needs_sums: sums,
             needs_squares: squares,
             needs_extremes: extremes,
+            needs_differences: differences,
             mad: _,
+            segment: _,
         } = plan.passes;
         self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
         if edge.is_some() {
@@ -305,6 +373,11 @@ impl<T: PixelLane> ColumnSums<T> {
         if extremes {
             self.smallest.blocks_mut()[run.clone()].fill([T::MAX; BLOCK_LANES]);
             self.largest.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+        }
+        if differences {
+            for sums in &mut self.differences {
+                sums.blocks_mut()[run.clone()].fill([T::ColumnSum::default(); BLOCK_LANES]);
+            }
         }
     }
 }

@@ -40,7 +40,17 @@ impl<T: PixelLane> CameraPlan<T> {
                     });
                 }
                 FeatureKind::Range => update_affected(scores, affected, |at| sums.range[at]),
-                FeatureKind::Surface | FeatureKind::Segment => {}
+                FeatureKind::Surface => {
+                    let [right, below, below_right, below_left] = &sums.differences;
+                    let score = |at: usize| {
+                        right[at].min(below[at]).min(below_right[at]).min(below_left[at])
+                    };
+                    update_affected(scores, affected, score);
+                }
+                FeatureKind::Segment => {
+                    let [above, below] = &sums.segment;
+                    update_affected(scores, affected, |at| above[at].min(below[at]));
+                }
             }
         }
         self.update_srs(results);

@@ -4,7 +4,9 @@
 
 use std::ops::Range;
 
-use crate::kernel::{IsolatedSides, SharedSides, WindowRows, median};
+use foveate_camera::DenoiseFilter;
+
+use crate::kernel::{IsolatedSides, SharedSides, WindowRows, binomial, median, switching};
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, SeamMasks};
 use crate::working_memory::{BlockRow, DenoisedRow};
@@ -31,6 +33,7 @@ pub(crate) struct Denoiser<'a, T: PixelLane> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) raw: BorrowedFrame<'a, T>,
     pub(crate) sorted: &'a mut [[BlockRow<T>; 3]],
+    pub(crate) column_sums: &'a mut [BlockRow<T::ColumnSum>],
     pub(crate) tail: &'a mut [Block<T>; 3],
     pub(crate) rows: &'a mut [DenoisedRow<T>],
     /// The number of entries of `rows` in use, a power of two.
@@ -41,7 +44,7 @@ pub(crate) struct Denoiser<'a, T: PixelLane> {
     pub(crate) run: Range<usize>,
 }
 
-impl<T: PixelLane> Denoiser<'_, T> {
+impl<'a, T: PixelLane> Denoiser<'a, T> {
     /// Makes rows available: at most a batch and one row on each side of it.
     #[inline(always)]
     pub(crate) fn ensure_rows(&mut self, rows: Range<usize>) {
@@ -57,9 +60,9 @@ impl<T: PixelLane> Denoiser<'_, T> {
         // The windows of the features reach beyond the blocks that are asked for.
         let margin = plan.margin_blocks();
         let span = self.run.start.saturating_sub(margin)..(self.run.end + margin).min(plan.blocks);
-        if plan.median {
+        if plan.filter.has_window() {
             for y in missing.clone() {
-                self.sort_row_columns(y, &span, y - missing.start);
+                self.compute_columns(y, &span, y - missing.start);
             }
         }
         for y in missing.clone() {
@@ -96,76 +99,165 @@ impl<T: PixelLane> Denoiser<'_, T> {
         &self.rows[y & (self.slots - 1)]
     }
 
-    /// Fills row `y` from the sorted columns with index `at`, or from raw pixels if there is no
-    /// median.
+    /// Fills row `y` from the columns with index `at`, or from raw pixels.
     #[inline(always)]
     fn fill_row(&mut self, y: usize, span: &Range<usize>, at: usize) {
         let plan = self.plan;
-        let row = &mut self.rows[y & (self.slots - 1)];
-        if plan.median {
-            let [low, mid, high] = &self.sorted[at];
-            let sorted = [
-                low.blocks_with_neighbors(span),
-                mid.blocks_with_neighbors(span),
-                high.blocks_with_neighbors(span),
-            ];
-            let pixels = row.pixels.blocks_mut(span);
-            let ahead = self.raw.row(y + PREFETCH_ROWS);
-            let ahead = blocks_of(ahead, (span.start * BLOCK_LANES).min(plan.width));
-            match &plan.seams {
-                None => median::combine_columns(sorted, SharedSides, ahead, pixels),
-                Some(seams) => median::combine_columns(sorted, seams.masks_of(span), ahead, pixels),
+        match plan.filter {
+            DenoiseFilter::None => self.fill_raw(y, span),
+            DenoiseFilter::Median3x3 => self.fill_medians(y, span, at),
+            DenoiseFilter::Switching3x3 => {
+                self.fill_raw(y, span);
+                self.replace_extremes(y, span, at);
             }
-            row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
-        } else {
-            let columns = span.start * BLOCK_LANES..(span.end * BLOCK_LANES).min(plan.width);
-            let raw = self.raw.row(y);
-            row.pixels.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
-            row.pixels.repeat_border(plan.width, plan.padded_width());
+            DenoiseFilter::Binomial3x3 => self.fill_means(y, span, at),
         }
+        let row = &mut self.rows[y & (self.slots - 1)];
+        row.pixels.repeat_border(plan.padded_width(), plan.padded_width());
         row.row_and_run = Some((y, self.run.clone()));
     }
 
-    /// Sorts the columns of the three raw rows around `y`.
+    /// Fills row `y` with raw pixels and their padding.
     #[inline(always)]
-    fn sort_row_columns(&mut self, y: usize, span: &Range<usize>, at: usize) {
-        let width = self.plan.width;
-        let [a, b, c] = self.window_rows(y);
-        let rows = [self.raw.row(a), self.raw.row(b), self.raw.row(c)];
-        let whole = span.start..span.end.min(width / BLOCK_LANES);
-        let [low, mid, high] = &mut self.sorted[at];
-        let sorted = [low.blocks_mut(&whole), mid.blocks_mut(&whole), high.blocks_mut(&whole)];
-        let start = whole.start * BLOCK_LANES;
-        median::sort_columns(blocks_of_rows(rows, start), sorted);
-        if whole.end < span.end {
-            // The last block is ragged: it is sorted together with pixels before it, or alone if
-            // there are none.
-            let start = width.saturating_sub(BLOCK_LANES);
-            let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
-            if start > 0 {
-                median::sort_columns(blocks_of_rows(rows, start), sorted);
-            } else {
-                for (tail, row) in self.tail.iter_mut().zip(rows) {
-                    tail[..width].copy_from_slice(row);
-                }
-                let [a, b, c] = &*self.tail;
-                median::sort_columns([&[*a], &[*b], &[*c]], sorted);
-            }
-        }
-        for row in [low, mid, high] {
-            row.repeat_border(width, self.plan.padded_width());
+    fn fill_raw(&mut self, y: usize, span: &Range<usize>) {
+        let (plan, raw) = (self.plan, self.raw.row(y));
+        let columns = span.start * BLOCK_LANES..(span.end * BLOCK_LANES).min(plan.width);
+        let pixels = &mut self.rows[y & (self.slots - 1)].pixels;
+        pixels.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
+        pixels.repeat_border(plan.width, plan.padded_width());
+    }
+
+    /// Fills row `y` with the medians of windows.
+    #[inline(always)]
+    fn fill_medians(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let ahead = self.prefetched_blocks(y, span);
+        let sorted = self.sorted[at].each_ref().map(|row| row.blocks_with_neighbors(span));
+        let pixels = self.rows[y & (self.slots - 1)].pixels.blocks_mut(span);
+        match &self.plan.seams {
+            None => median::combine_columns(sorted, SharedSides, ahead, pixels),
+            Some(seams) => median::combine_columns(sorted, seams.masks_of(span), ahead, pixels),
         }
     }
+
+    /// Replaces the raw pixels of row `y` that are extremes of their windows.
+    #[inline(always)]
+    fn replace_extremes(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let ahead = self.prefetched_blocks(y, span);
+        let sorted = self.sorted[at].each_ref().map(|row| row.blocks_with_neighbors(span));
+        let pixels = self.rows[y & (self.slots - 1)].pixels.blocks_mut(span);
+        match &self.plan.seams {
+            None => switching::replace_extremes(sorted, SharedSides, ahead, pixels),
+            Some(seams) => {
+                switching::replace_extremes(sorted, seams.masks_of(span), ahead, pixels);
+            }
+        }
+    }
+
+    /// Fills row `y` with the binomial means of windows.
+    #[inline(always)]
+    fn fill_means(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let ahead = self.prefetched_blocks(y, span);
+        let sums = self.column_sums[at].blocks_with_neighbors(span);
+        let pixels = self.rows[y & (self.slots - 1)].pixels.blocks_mut(span);
+        match &self.plan.seams {
+            None => binomial::combine_columns(sums, SharedSides, ahead, pixels),
+            Some(seams) => binomial::combine_columns(sums, seams.masks_of(span), ahead, pixels),
+        }
+    }
+
+    /// Returns the raw blocks of a row that is needed soon after row `y`.
+    #[inline(always)]
+    fn prefetched_blocks(&self, y: usize, span: &Range<usize>) -> &'a [Block<T>] {
+        let ahead = self.raw.row(y + PREFETCH_ROWS);
+        blocks_of(ahead, (span.start * BLOCK_LANES).min(self.plan.width))
+    }
+
+    /// Computes what the filter needs of the columns of the three raw rows around `y`.
+    #[inline(always)]
+    fn compute_columns(&mut self, y: usize, span: &Range<usize>, at: usize) {
+        let rows = self.window_rows(y).map(|y| self.raw.row(y));
+        match self.plan.filter {
+            DenoiseFilter::None => {}
+            DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 => {
+                compute_all_blocks(self.plan, rows, self.tail, span, &mut self.sorted[at]);
+            }
+            DenoiseFilter::Binomial3x3 => {
+                compute_all_blocks(self.plan, rows, self.tail, span, &mut self.column_sums[at]);
+            }
+        }
+    }
+}
+
+/// Values of the columns of three raw rows.
+trait WindowColumns<T: PixelLane> {
+    /// Computes the values of some blocks that begin at a column.
+    fn compute_blocks(&mut self, rows: [&[Block<T>]; 3], start: usize);
+
+    /// Repeats the values of the border columns of a row of `width` pixels outwards.
+    fn repeat_border(&mut self, width: usize, padded: usize);
+}
+
+/// Sorted columns.
+impl<T: PixelLane> WindowColumns<T> for [BlockRow<T>; 3] {
+    #[inline(always)]
+    fn compute_blocks(&mut self, rows: [&[Block<T>]; 3], start: usize) {
+        let count = rows[0].len();
+        median::sort_columns(rows, self.each_mut().map(|row| row.blocks_at(start, count)));
+    }
+
+    #[inline(always)]
+    fn repeat_border(&mut self, width: usize, padded: usize) {
+        for row in self {
+            row.repeat_border(width, padded);
+        }
+    }
+}
+
+/// Weighted sums of columns.
+impl<T: PixelLane> WindowColumns<T> for BlockRow<T::ColumnSum> {
+    #[inline(always)]
+    fn compute_blocks(&mut self, rows: [&[Block<T>]; 3], start: usize) {
+        binomial::sum_columns(rows, self.blocks_at(start, rows[0].len()));
+    }
+
+    #[inline(always)]
+    fn repeat_border(&mut self, width: usize, padded: usize) {
+        self.repeat_border(width, padded);
+    }
+}
+
+/// Computes the values of the columns of three raw rows, and of their padding.
+#[inline(always)]
+fn compute_all_blocks<T: PixelLane>(
+    plan: &CameraPlan<T>,
+    rows: [&[T]; 3],
+    tail: &mut [Block<T>; 3],
+    span: &Range<usize>,
+    columns: &mut impl WindowColumns<T>,
+) {
+    let width = plan.width;
+    let whole = span.start..span.end.min(width / BLOCK_LANES);
+    let start = whole.start * BLOCK_LANES;
+    columns.compute_blocks(rows.map(|row| &blocks_of(row, start)[..whole.len()]), start);
+    if whole.end < span.end {
+        // The last block is ragged: it is computed together with pixels before it, or alone if
+        // there are none.
+        let start = width.saturating_sub(BLOCK_LANES);
+        if start > 0 {
+            columns.compute_blocks(rows.map(|row| blocks_of(row, start)), start);
+        } else {
+            for (tail, row) in tail.iter_mut().zip(rows) {
+                tail[..width].copy_from_slice(row);
+            }
+            let [a, b, c] = &*tail;
+            columns.compute_blocks([&[*a], &[*b], &[*c]], start);
+        }
+    }
+    columns.repeat_border(width, plan.padded_width());
 }
 
 /// Returns the whole blocks of a row from a column on.
 #[inline(always)]
 fn blocks_of<T>(row: &[T], start: usize) -> &[Block<T>] {
     row[start..].as_chunks().0
-}
-
-/// Returns the whole blocks of three rows from a column on.
-#[inline(always)]
-fn blocks_of_rows<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
-    [blocks_of(a, start), blocks_of(b, start), blocks_of(c, start)]
 }

@@ -8,6 +8,7 @@ use foveate_camera::{
     ReferencePolicy, VoteCombination,
 };
 
+use crate::kernel::segment::SegmentPlan;
 use crate::periphery::PeripheryPlan;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::{BLOCK_LANES, PixelLane, saturated_threshold};
@@ -30,7 +31,7 @@ pub(crate) struct CameraPlan<T: PixelLane> {
     pub(crate) rows: usize,
     /// The number of blocks of a padded row. The last block may reach beyond the padding.
     pub(crate) blocks: usize,
-    pub(crate) median: bool,
+    pub(crate) filter: DenoiseFilter,
     /// The masks of the first and last columns of regions, if neighborhoods are isolated.
     pub(crate) seams: Option<SeamMasks<T>>,
     pub(crate) passes: FeaturePasses<T>,
@@ -61,8 +62,11 @@ pub(crate) struct FeaturePasses<T: PixelLane> {
     pub(crate) needs_squares: bool,
     /// True if a feature needs the smallest and the largest pixel.
     pub(crate) needs_extremes: bool,
+    /// True if a feature needs the sums of differences of neighbors.
+    pub(crate) needs_differences: bool,
     /// The fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,
+    pub(crate) segment: Option<SegmentPlan>,
 }
 
 /// A feature of the camera and its threshold.
@@ -91,7 +95,7 @@ impl<T: PixelLane> CameraPlan<T> {
             columns,
             rows: index(camera.rows()),
             blocks,
-            median: camera.filter() == DenoiseFilter::Median3x3,
+            filter: camera.filter(),
             seams: (camera.neighborhood() == Neighborhood::Isolated)
                 .then(|| SeamMasks::new(side, blocks)),
             passes: FeaturePasses::from_camera(camera),
@@ -228,20 +232,29 @@ impl<T: PixelLane> FeaturePasses<T> {
             needs_sums: false,
             needs_squares: false,
             needs_extremes: false,
+            needs_differences: false,
             mad: None,
+            segment: None,
         };
         for feature in camera.features() {
-            let level = || feature.level().expect("a feature that counts hits has a level");
+            let level = || feature.level().expect("a feature that counts pixels has a level");
+            let fraction_bits =
+                || feature.mean().expect("mad and segment have a mean").fraction_bits;
             match feature.kind() {
                 FeatureKind::Edge => passes.edge = Some(half_level(level())),
                 FeatureKind::Corner => passes.corner = Some(saturated_threshold(level())),
                 FeatureKind::Mad => {
                     passes.needs_sums = true;
-                    passes.mad = Some(feature.mean().expect("mad has a mean").fraction_bits);
+                    passes.mad = Some(fraction_bits());
                 }
                 FeatureKind::Variance => (passes.needs_sums, passes.needs_squares) = (true, true),
                 FeatureKind::Range => passes.needs_extremes = true,
-                FeatureKind::Surface | FeatureKind::Segment => {}
+                FeatureKind::Surface => passes.needs_differences = true,
+                FeatureKind::Segment => {
+                    passes.needs_sums = true;
+                    let plan = SegmentPlan { fraction_bits: fraction_bits(), level: level() };
+                    passes.segment = Some(plan);
+                }
             }
         }
         passes

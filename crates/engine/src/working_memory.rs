@@ -4,15 +4,16 @@
 use std::ops::Range;
 
 use crate::kernel::ExtendedRow;
+use crate::kernel::surface::DISPLACEMENTS;
 use crate::plan::CameraPlan;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// A row with a spare block on each side, so that it can be read shifted by one lane.
 #[derive(Clone, Debug)]
-pub(crate) struct BlockRow<T: PixelLane>(AlignedBuffer<T>);
+pub(crate) struct BlockRow<T: Copy + Default>(AlignedBuffer<T>);
 
-impl<T: PixelLane> BlockRow<T> {
+impl<T: Copy + Default> BlockRow<T> {
     fn new(blocks: usize) -> Self {
         Self(AlignedBuffer::new((blocks + 2) * BLOCK_LANES))
     }
@@ -23,10 +24,10 @@ impl<T: PixelLane> BlockRow<T> {
         &mut self.0.blocks_mut()[1 + span.start..1 + span.end]
     }
 
-    /// Returns the block that begins at any column, to be written.
+    /// Returns some blocks from any column on, to be written.
     #[inline(always)]
-    pub(crate) fn blocks_at(&mut self, start: usize) -> &mut [Block<T>] {
-        self.0[BLOCK_LANES + start..][..BLOCK_LANES].as_chunks_mut().0
+    pub(crate) fn blocks_at(&mut self, start: usize, count: usize) -> &mut [Block<T>] {
+        self.0[BLOCK_LANES + start..][..count * BLOCK_LANES].as_chunks_mut().0
     }
 
     /// Returns the values from column 0 on, to be written.
@@ -78,10 +79,16 @@ pub(crate) struct ColumnSums<T: PixelLane> {
     pub(crate) square: AlignedBuffer<T::SquareSum>,
     pub(crate) smallest: AlignedBuffer<T>,
     pub(crate) largest: AlignedBuffer<T>,
+    /// The sums of differences for each displacement of `surface`.
+    pub(crate) differences: [AlignedBuffer<T::ColumnSum>; DISPLACEMENTS],
     /// The whole part of the mean of each column's region.
     pub(crate) mean: AlignedBuffer<T>,
     pub(crate) above: AlignedBuffer<T::ColumnSum>,
     pub(crate) count_above: AlignedBuffer<T>,
+    /// The upper and the lower bound of `segment` of each column's region.
+    pub(crate) segment_bounds: [AlignedBuffer<T>; 2],
+    /// The numbers of pixels above and below the bounds of `segment`.
+    pub(crate) segment: [AlignedBuffer<T>; 2],
 }
 
 /// The sums and ranges of one band by region.
@@ -93,8 +100,10 @@ pub(crate) struct RegionSums {
     pub(crate) sum: Vec<u64>,
     pub(crate) square: Vec<u64>,
     pub(crate) range: Vec<u64>,
+    pub(crate) differences: [Vec<u64>; DISPLACEMENTS],
     pub(crate) above: Vec<u64>,
     pub(crate) count_above: Vec<u64>,
+    pub(crate) segment: [Vec<u64>; 2],
 }
 
 /// The working memory of one worker.
@@ -102,6 +111,8 @@ pub(crate) struct RegionSums {
 pub(crate) struct WorkingMemory<T: PixelLane> {
     /// The low, mid and high values of the columns, for each row of a batch.
     pub(crate) sorted: Vec<[BlockRow<T>; 3]>,
+    /// The weighted sums of the columns, for each row of a batch.
+    pub(crate) column_sums: Vec<BlockRow<T::ColumnSum>>,
     /// Three rows of a window in a frame that is narrower than a block.
     pub(crate) narrow_window: [Block<T>; 3],
     /// The denoised rows of a batch and the rows around it.
@@ -128,6 +139,7 @@ impl<T: PixelLane> WorkingMemory<T> {
         let width = plan.stride();
         Self {
             sorted: (0..rows).map(|_| [row(), row(), row()]).collect(),
+            column_sums: (0..rows).map(|_| BlockRow::new(plan.blocks)).collect(),
             narrow_window: [[T::default(); BLOCK_LANES]; 3],
             denoised: (0..rows).map(|_| denoised()).collect(),
             columns: ColumnSums {
@@ -138,9 +150,12 @@ impl<T: PixelLane> WorkingMemory<T> {
                 square: AlignedBuffer::new(width),
                 smallest: AlignedBuffer::new(width),
                 largest: AlignedBuffer::new(width),
+                differences: std::array::from_fn(|_| AlignedBuffer::new(width)),
                 mean: AlignedBuffer::new(width),
                 above: AlignedBuffer::new(width),
                 count_above: AlignedBuffer::new(width),
+                segment_bounds: std::array::from_fn(|_| AlignedBuffer::new(width)),
+                segment: std::array::from_fn(|_| AlignedBuffer::new(width)),
             },
             region_sums: RegionSums {
                 changed: regions(),
@@ -149,8 +164,10 @@ impl<T: PixelLane> WorkingMemory<T> {
                 sum: regions(),
                 square: regions(),
                 range: regions(),
+                differences: std::array::from_fn(|_| regions()),
                 above: regions(),
                 count_above: regions(),
+                segment: [regions(), regions()],
             },
             raw: row(),
             means: vec![T::default(); plan.band_means()],

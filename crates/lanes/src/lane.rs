@@ -68,6 +68,9 @@ pub trait PixelLane:
     fn square(self) -> Self::SquareSum;
     /// Returns 1 for true and 0 for false.
     fn from_hit(hit: bool) -> Self;
+    /// Returns a sixteenth of the sum, rounded to the nearest integer; a half is rounded up. It must
+    /// fit into the type.
+    fn rounded_sixteenth(sum: Self::ColumnSum) -> Self;
     /// Converts a number that fits into the type; higher bits would be cut off.
     fn from_low_bits(value: u32) -> Self;
 }
@@ -105,6 +108,12 @@ macro_rules! lane {
             #[inline(always)]
             fn from_hit(hit: bool) -> Self {
                 Self::from(hit)
+            }
+
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, reason = "there are no higher bits")]
+            fn rounded_sixteenth(sum: Self::ColumnSum) -> Self {
+                ((sum + 8) >> 4) as Self
             }
 
             #[inline(always)]

@@ -57,8 +57,13 @@ pub(crate) fn combine_columns<T: PixelLane>(
     }
 }
 
+/// Returns the median of a window from the lows, mids and highs of its sorted columns.
 #[inline(always)]
-fn median_of_columns<T: PixelLane>(low: (T, T, T), mid: (T, T, T), high: (T, T, T)) -> T {
+pub(crate) fn median_of_columns<T: PixelLane>(
+    low: (T, T, T),
+    mid: (T, T, T),
+    high: (T, T, T),
+) -> T {
     middle((low.0.max(low.1).max(low.2), middle(mid), high.0.min(high.1).min(high.2)))
 }
 

@@ -10,12 +10,16 @@
     reason = "lanes by number, in one loop: what vectorises"
 )]
 
+pub(crate) mod binomial;
 pub(crate) mod corner;
 pub(crate) mod edge;
 pub(crate) mod mad;
 pub(crate) mod median;
 pub(crate) mod range;
+pub(crate) mod segment;
 pub(crate) mod sums;
+pub(crate) mod surface;
+pub(crate) mod switching;
 pub(crate) mod temporal;
 
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
@@ -42,6 +46,15 @@ pub(crate) trait WindowSides<T: PixelLane>: Copy {
     /// Returns the pixels at the left, center and right of the window of lane `i` of block `at`, in
     /// one row.
     fn window_row(self, row: &[T; BLOCK_LANES + 2], at: usize, i: usize) -> (T, T, T);
+
+    /// Returns the sums of the left, center and right column of the window of lane `i` of block
+    /// `at`.
+    fn window_sums(
+        self,
+        row: &[T::ColumnSum; BLOCK_LANES + 2],
+        at: usize,
+        i: usize,
+    ) -> (T::ColumnSum, T::ColumnSum, T::ColumnSum);
 }
 
 /// The neighborhood `shared`: windows see the real neighbors.
@@ -61,6 +74,16 @@ impl<T: PixelLane> WindowSides<T> for SharedSides {
     fn window_row(self, row: &[T; BLOCK_LANES + 2], _at: usize, i: usize) -> (T, T, T) {
         (row[i], row[i + 1], row[i + 2])
     }
+
+    #[inline(always)]
+    fn window_sums(
+        self,
+        row: &[T::ColumnSum; BLOCK_LANES + 2],
+        _at: usize,
+        i: usize,
+    ) -> (T::ColumnSum, T::ColumnSum, T::ColumnSum) {
+        (row[i], row[i + 1], row[i + 2])
+    }
 }
 
 impl<T: PixelLane> WindowSides<T> for IsolatedSides<'_, T> {
@@ -72,6 +95,18 @@ impl<T: PixelLane> WindowSides<T> for IsolatedSides<'_, T> {
             center,
             select(self.last[at][i], center, row[i + 2]),
         )
+    }
+
+    #[inline(always)]
+    fn window_sums(
+        self,
+        row: &[T::ColumnSum; BLOCK_LANES + 2],
+        at: usize,
+        i: usize,
+    ) -> (T::ColumnSum, T::ColumnSum, T::ColumnSum) {
+        let center = row[i + 1];
+        let side = |mask: T, side| if mask == T::MAX { center } else { side };
+        (side(self.first[at][i], row[i]), center, side(self.last[at][i], row[i + 2]))
     }
 }
 

@@ -2,7 +2,7 @@
 //! Cases that random cameras reach too seldom.
 
 use foveate_camera::{
-    Camera, CameraConfig, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy,
+    Camera, CameraConfig, Decimal, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy,
     SpatialConfig,
 };
 use foveate_engine::EngineOptions;
@@ -26,6 +26,12 @@ pub(crate) fn camera(
 
 fn every_feature(config: &mut CameraConfig) {
     config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    // The default of `segment` is more than half of the pixels of a small region.
+    entry(config, FeatureKind::Segment).min_score = Some(Decimal::from_whole(2));
+}
+
+fn entry(config: &mut CameraConfig, kind: FeatureKind) -> &mut SpatialConfig {
+    config.spatial.iter_mut().find(|entry| entry.feature == kind).unwrap()
 }
 
 /// Regions of 64 x 64 extreme pixels give the largest sums, in both lane widths.
@@ -35,9 +41,12 @@ fn the_largest_sums_stay_inside_their_lanes() {
         let camera = camera(128, 128, 64, |config| {
             every_feature(config);
             config.frame.pixel_bits = bits;
-            config.spatial[0].level = Some(0);
-            config.spatial[1].level = Some(0);
-            config.spatial[2].mean_fraction_bits = Some(12);
+            for kind in [FeatureKind::Edge, FeatureKind::Corner, FeatureKind::Segment] {
+                entry(config, kind).level = Some(0);
+            }
+            for kind in [FeatureKind::Mad, FeatureKind::Segment] {
+                entry(config, kind).mean_fraction_bits = Some(12);
+            }
         });
         let max = u16::try_from(camera.pixel_max()).unwrap();
         let full = Frame::filled(128, 128, bits, max).unwrap();
