@@ -8,16 +8,15 @@ pub(crate) fn parameter_prefix(kind: FeatureKind) -> String {
     kind.name().to_uppercase()
 }
 
-/// Returns the mean of a feature if the Verilog sums deviations from a mean for its score;
-/// otherwise `None`.
+/// Returns the mean that a feature compares pixels with, in a second pass; `None` for other
+/// features. It is the same for all features of a design.
 pub(crate) fn deviation_mean(feature: &SpatialFeature) -> Option<&MeanDivision> {
     match feature.kind() {
         FeatureKind::Edge
         | FeatureKind::Corner
         | FeatureKind::Variance
         | FeatureKind::Range
-        | FeatureKind::Surface
-        | FeatureKind::Segment => None,
-        FeatureKind::Mad => feature.mean(),
+        | FeatureKind::Surface => None,
+        FeatureKind::Mad | FeatureKind::Segment => feature.mean(),
     }
 }
