@@ -321,7 +321,7 @@ module rpu (
         .clk_i(clk_i), .rst_i(rst_i), .done_i(square_done), .sum_i(pixel_sum), .square_sum_i(square_sum),
         .score_o(variance_score)
     );
-    {%- if mad.is_none() %}
+    {%- if mean.is_none() %}
     wire unused_sum_done = sum_done;
     {%- endif %}
 {%- endif %}
@@ -341,22 +341,33 @@ module rpu (
         .value_i({% if deep %}range_pixel_q{% else %}front_pixel{% endif %}), .range_o(range_score)
     );
 {%- endif %}
-{%- if let Some(mad) = mad %}
-    wire [{= mad.mean_bits - 1 =}:0] mean;
+{%- if let Some(mean) = mean %}
+    wire [{= mean.bits - 1 =}:0] mean;
     region_mean #(
-        .SUM_BITS({= sum_bits =}), .FRACTION({= mad.fraction =}), .DIVIDEND_BITS({= mad.dividend_bits =}),
-        .MEAN_BITS({= mad.mean_bits =}), .FACTOR_BITS({= mad.factor_bits =}),
-        .HALF({= mad.dividend_bits =}'d{= pixels / 2 =}), .FACTOR({= mad.factor_bits =}'d{= mad.factor =}), .SHIFT({= mad.shift =})
+        .SUM_BITS({= sum_bits =}), .FRACTION({= mean.fraction =}), .DIVIDEND_BITS({= mean.dividend_bits =}),
+        .MEAN_BITS({= mean.bits =}), .FACTOR_BITS({= mean.factor_bits =}),
+        .HALF({= mean.dividend_bits =}'d{= pixels / 2 =}), .FACTOR({= mean.factor_bits =}'d{= mean.factor =}), .SHIFT({= mean.shift =})
     ) u_mean (
         .clk_i(clk_i), .done_i(sum_done), .sum_i(pixel_sum), .mean_o(mean)
     );
-    wire [{= mad.score_bits - 1 =}:0] mad_score;
+    {%- if let Some(mad_bits) = mad_bits %}
+    wire [{= mad_bits - 1 =}:0] mad_score;
     deviation_sum #(
-        .WIDTH({= p =}), .FRACTION({= mad.fraction =}), .MEAN_BITS({= mad.mean_bits =}), .SUM_BITS({= mad.score_bits =}){% if deep %}, .DEEP(1){% endif %}
+        .WIDTH({= p =}), .FRACTION({= mean.fraction =}), .MEAN_BITS({= mean.bits =}), .SUM_BITS({= mad_bits =}){% if deep %}, .DEEP(1){% endif %}
     ) u_deviation (
         .clk_i(clk_i), .rst_i(rst_i), .enable_i(stored), .restart_i(done), .step_i({= count =}_step),
         .pixel_i(previous_pixel), .mean_i(mean), .sum_o(mad_score)
     );
+    {%- endif %}
+    {%- if let Some(segment) = segment %}
+    wire [{= segment.score_bits - 1 =}:0] segment_score;
+    segment_score #(
+        .WIDTH({= p =}), .FRACTION({= mean.fraction =}), .MEAN_BITS({= mean.bits =}), .PIXELS({= pixels =}), .SCORE_BITS({= segment.score_bits =}){% if deep %}, .DEEP(1){% endif %}
+    ) u_segment (
+        .clk_i(clk_i), .rst_i(rst_i), .enable_i(stored), .restart_i(done), .step_i({= count =}_step),
+        .pixel_i(previous_pixel), .mean_i(mean), .level_i({= segment.level =}), .score_o(segment_score)
+    );
+    {%- endif %}
 {%- endif %}
 
     // Decision.

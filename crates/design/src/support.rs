@@ -44,8 +44,8 @@ fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
     use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
     match (organization, kind) {
         (Pipelined | Serial | Raster, Edge | Corner | Mad | Variance | Range) => true,
+        (Pipelined, Segment) => true,
         (Pipelined, Surface) => false,
-        (Pipelined, Segment) => false,
         (Serial, Surface) => false,
         (Serial, Segment) => false,
         (Raster, Surface) => false,

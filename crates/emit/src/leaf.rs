@@ -75,6 +75,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "region_sum" => [],
     "region_mean" => [],
     "deviation_sum" => [],
+    "segment_score" => ["magnitude_above"],
     "variance_score" => [],
     "region_range" => [],
     "block_place" => [],
@@ -193,10 +194,13 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
             FeatureKind::Mad => {
                 need(true, &["region_sum", "region_mean", "deviation_sum", "score_hold"]);
             }
+            FeatureKind::Segment => {
+                need(true, &["region_sum", "region_mean", "segment_score", "score_hold"]);
+            }
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
             FeatureKind::Range => need(true, &["region_range"]),
-            // No pipelined design has these features yet.
-            FeatureKind::Surface | FeatureKind::Segment => {}
+            // No pipelined design has this feature yet.
+            FeatureKind::Surface => {}
         }
     }
     match design.temporal().reference {

@@ -56,7 +56,9 @@ struct RpuModule {
     windowed: Vec<WindowFeature>,
     sums: bool,
     sum_bits: u32,
-    mad: Option<MadParameters>,
+    mean: Option<MeanParameters>,
+    mad_bits: Option<u32>,
+    segment: Option<SegmentParameters>,
     variance: Option<VarianceWidths>,
     range: bool,
     compared: Vec<&'static str>,
@@ -77,7 +79,11 @@ struct SpatialParts {
     windowed: Vec<WindowFeature>,
     /// True if the pixels of a region are summed.
     sums: bool,
-    mad: Option<MadParameters>,
+    /// The mean of the pixels of a region, which `mad` and `segment` share.
+    mean: Option<MeanParameters>,
+    /// Bits of the score of `mad`.
+    mad_bits: Option<u32>,
+    segment: Option<SegmentParameters>,
     variance: Option<VarianceWidths>,
     range: bool,
 }
@@ -90,13 +96,17 @@ struct WindowFeature {
     parameters: String,
 }
 
-struct MadParameters {
+struct MeanParameters {
     fraction: u32,
-    mean_bits: u32,
+    bits: u32,
     dividend_bits: u32,
     factor: u64,
     factor_bits: u32,
     shift: u32,
+}
+
+struct SegmentParameters {
+    level: String,
     score_bits: u32,
 }
 
@@ -141,7 +151,8 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
     let window_side = design.denoised_side();
     let timing = PipelinedTiming::from_design(design);
     let deep = design.pipelining() == Pipelining::Deep;
-    let SpatialParts { windowed, sums, mad, variance, range } = SpatialParts::of(design);
+    let SpatialParts { windowed, sums, mean, mad_bits, segment, variance, range } =
+        SpatialParts::of(design);
     RpuModule {
         banner: banner(&design),
         summary: scores_text(&design),
@@ -175,7 +186,9 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         windowed,
         sums,
         sum_bits: design.pixel_sum_bits(),
-        mad,
+        mean,
+        mad_bits,
+        segment,
         variance,
         range,
         compared: compared_values(reference, second_pass, deep),
@@ -215,9 +228,12 @@ impl SpatialParts {
                     own.windowed.push(window_feature(design, feature));
                 }
                 FeatureKind::Mad => {
-                    own.sums = true;
-                    own.mad =
-                        Some(mad_parameters(feature, feature.mean().expect("mad has a mean")));
+                    own.take_mean(feature);
+                    own.mad_bits = Some(feature.score_bits());
+                }
+                FeatureKind::Segment => {
+                    own.take_mean(feature);
+                    own.segment = Some(segment_parameters(design, feature));
                 }
                 FeatureKind::Variance => {
                     own.sums = true;
@@ -225,11 +241,17 @@ impl SpatialParts {
                     own.variance = Some(variance_widths(feature, widths));
                 }
                 FeatureKind::Range => own.range = true,
-                // No pipelined design has these features yet.
-                FeatureKind::Surface | FeatureKind::Segment => {}
+                // No pipelined design has this feature yet.
+                FeatureKind::Surface => {}
             }
         }
         own
+    }
+
+    /// Enters the mean that the second pass of a feature needs. It is the same for all features.
+    fn take_mean(&mut self, feature: &SpatialFeature) {
+        self.sums = true;
+        self.mean = feature.mean().map(mean_parameters);
     }
 }
 
@@ -244,14 +266,20 @@ fn window_feature(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Wind
     WindowFeature { name: kind.name(), level, parameters }
 }
 
-fn mad_parameters(feature: &SpatialFeature, mean: &MeanDivision) -> MadParameters {
-    MadParameters {
+fn mean_parameters(mean: &MeanDivision) -> MeanParameters {
+    MeanParameters {
         fraction: mean.fraction_bits,
-        mean_bits: mean.mean_bits,
+        bits: mean.mean_bits,
         dividend_bits: mean.dividend_bits,
         factor: mean.reciprocal.multiplier(),
         factor_bits: bits_for(mean.reciprocal.multiplier()),
         shift: mean.reciprocal.shift(),
+    }
+}
+
+fn segment_parameters(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> SegmentParameters {
+    SegmentParameters {
+        level: threshold_signal(&design, PortRole::Level(feature.kind())),
         score_bits: feature.score_bits(),
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums and extremes over the pixels of a region, for `mad`, `variance` and `range`.
+//! Sums and extremes over the pixels of a region, for `mad`, `segment`, `variance` and `range`.
 //!
 //! ```text
 //! tail step               0    1   ..  n-1   0 (next frame)

@@ -2,7 +2,7 @@
 //! The tail of an RPU: positions, scores, temporal score, decision, forwarding.
 //!
 //! ```text
-//! n = 4, no mad
+//! n = 4, no second pass
 //! edge              0   1   2   3   4   5   6   7   8
 //! tail step        a0  a1  a2  a3   -  b0  b1  b2  b3
 //! done (after)      0   0   0   1   0   0   0   0   1
@@ -11,7 +11,7 @@
 //! forward (after)   -   -   -   -   -  a0  a1  a2  a3     if frame a was active
 //! ```
 //!
-//! With `mad` the decision after edge 8 is that of frame a, and its pixels leave while frame c
+//! With a second pass the decision after edge 8 is that of frame a, and its pixels leave while frame c
 //! comes in.
 
 use foveate_design::{Payload, RegionAction};
@@ -107,7 +107,7 @@ impl RpuTail {
         registers.forward = leaving.or_else(|| registers.periphery.leaving_mean(plan, position));
         registers.periphery.step(plan, payload(step.pixel));
         registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
-        registers.scores.step(plan, step, before, last);
+        registers.scores.step(plan, step, before, last, &thresholds.level);
         store.write(position, step.pixel);
         registers.position = if last { 0 } else { position + 1 };
         registers.done = last;

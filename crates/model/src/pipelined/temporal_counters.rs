@@ -8,8 +8,8 @@
 //! last-sent             no                  what was sent before it, if still valid
 //! ```
 //!
-//! Without `mad` the reference is known at the first tail step of frame t. With `mad` it is known
-//! when frame t is done, so both counts run.
+//! Without a second pass the reference is known at the first tail step of frame t. With a second
+//! pass it is known when frame t is done, so both counts run.
 
 use foveate_design::{IrrelevantRendering, ReferencePolicy};
 
