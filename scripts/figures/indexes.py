@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Compares the relevance indexes over clips, for docs/data/indexes.csv.
+
+    indexes.py NETWORK CLIP... --calibrate CLIP... [--share PERCENT] [--frames N]
+
+NETWORK is YOLOX-nano. Each index is the only feature of preset `fovea`. So that all indexes send as much, each gets the minimum
+score with which the clips of --calibrate send nearest to PERCENT of their bytes, 6 by default. These clips are best others than
+those of the table. For each clip and index, the network runs on N frames, spread evenly over the clip, of which the camera sees
+all: on whole frames, on these with noise, and on the receiver's screen. The column `relevant_percent` is the share of the objects
+of whole frames of which at least half of the regions have SRS = 1, and `missed_percent` the share of those without an active
+region in that frame. LUTs, flip-flops and the clock are those of one RPU, as
+`foveate estimate` prints them. The rows go to standard output.
+
+Needs `foveate` on the path (or its path in FOVEATE), and ffprobe, of ffmpeg.
+"""
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+# The levels of an index, if it has one, and the minimum scores that are tried.
+INDEXES = {
+    "edge": ([100], [1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20]),
+    "corner": ([12], [1, 2, 3, 4, 5, 6, 8]),
+    "mad": ([], [1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
+    "variance": ([], [5, 10, 15, 20, 30, 45, 60, 90, 130]),
+    "range": ([], [8, 12, 16, 20, 25, 30, 40, 50, 60]),
+    "surface": ([], [1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
+    "segment": ([8], [1, 2, 3, 4, 6, 8, 10, 13, 16, 20, 24]),
+}
+FRAMING = ["--framing", "letterbox", "--scale", "1/255", "--detect", "yolox"]
+# The standard deviations of the noise, in grey levels.
+NOISE = [1, 2, 4]
+COLUMNS = ["clip", "index", "level", "min_score", "frames", "sent_percent", "active_percent", "found", "kept_percent", "right_percent", "relevant_percent", "missed_percent",
+           *(f"noise{level}_agreement" for level in NOISE), "lut", "ff", "clock_mhz"]
+
+
+def foveate(*words):
+    """Returns what a command prints as JSON."""
+    command = [os.environ.get("FOVEATE", "foveate"), *map(str, words), "--json", "--quiet"]
+    result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise SystemExit(f"indexes: {' '.join(command)}: {result.stderr.strip()}")
+    return json.loads(result.stdout)
+
+
+def settings(index, level, minimum):
+    """Returns the options of a camera."""
+    level_text = "" if level is None else f",level={level}"
+    return ["--preset", "fovea", "--set", f'spatial=[{{feature="{index}",min_score={minimum}{level_text}}}]']
+
+
+def frame_count(clip):
+    """Returns the number of frames of a clip."""
+    command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-count_packets"]
+    command += ["-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", clip]
+    result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise SystemExit(f"indexes: {' '.join(command)}: {result.stderr.strip()}")
+    return int(result.stdout.strip().strip(","))
+
+
+def sent_percent(clips, camera):
+    """Returns the mean share of bytes that a camera sends of some clips."""
+    shares = []
+    for clip in clips:
+        with tempfile.TemporaryDirectory() as folder:
+            summary = foveate("simulate", clip, "-o", os.path.join(folder, "out"), *camera)
+        rates = summary["bandwidth"]
+        shares.append(100 * rates["region"]["bytes"] / rates["raw"]["bytes"])
+    return sum(shares) / len(shares)
+
+
+def calibrated_minimum(index, level, minima, clips, share):
+    """Returns the minimum score with which the camera sends nearest to a share of the bytes. A higher minimum never sends more."""
+    low, high = 0, len(minima) - 1
+    measured = {}
+
+    def error(place):
+        if place not in measured:
+            measured[place] = sent_percent(clips, settings(index, level, minima[place])) - share
+        return measured[place]
+
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if error(middle) > 0 else (low, middle)
+    return minima[min((low, high), key=lambda place: abs(error(place)))]
+
+
+def recall_percents(folder, clip, camera):
+    """Returns the shares of relevant and of missed objects, among those that an inference found in whole frames."""
+    boxes = os.path.join(folder, "gt.txt")
+    with open(os.path.join(folder, "out", "detections.csv")) as source, open(boxes, "w") as target:
+        rows = csv.DictReader(line for line in source if not line.startswith("#"))
+        for number, row in enumerate(row for row in rows if row["whole"] == "true"):
+            x0, y0, x1, y1 = (float(row[key]) for key in ("x0", "y0", "x1", "y1"))
+            target.write(f"{int(row['frame']) + 1},{number},{x0:.2f},{y0:.2f},{x1 - x0:.2f},{y1 - y0:.2f},1,1,1\n")
+    if os.path.getsize(boxes) == 0:
+        return ["", ""]
+    study = foveate("analyze", "recall", clip, "--boxes", boxes, "-o", os.path.join(folder, "recall"), *camera)
+    rows = [dict(zip(study["columns"], row, strict=True)) for row in study["rows"]]
+    shares = {row["vote"]: row for row in rows if row["key"] == "design" and row["group"] == row["class"] == "all"}
+    return [f"{100 * float(shares[vote][key]):.1f}" for vote, key in (("srs", "half"), ("active", "missed"))]
+
+
+def area(camera):
+    """Returns the LUTs, flip-flops and clock of an RPU."""
+    report = foveate("estimate", *camera)
+    return report["rpu"]["lut_total_packed"], report["rpu"]["ff"], f"{report['clock']['mhz']:.0f}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("network")
+    parser.add_argument("clips", nargs="+")
+    parser.add_argument("--calibrate", nargs="+", required=True)
+    parser.add_argument("--share", type=float, default=6.0)
+    parser.add_argument("--frames", type=int, default=60)
+    arguments = parser.parse_args()
+    cameras = {}
+    for index, (levels, minima) in INDEXES.items():
+        for level in levels or [None]:
+            minimum = calibrated_minimum(index, level, minima, arguments.calibrate, arguments.share)
+            cameras[index, level, minimum] = settings(index, level, minimum)
+    areas = {key: area(camera) for key, camera in cameras.items()}
+    table = csv.writer(sys.stdout, lineterminator="\n")
+    table.writerow(COLUMNS)
+    for clip in arguments.clips:
+        every, noise = max(frame_count(clip) // arguments.frames, 1), None
+        name = os.path.basename(clip).rsplit(".", 1)[0]
+        for (index, level, minimum), camera in cameras.items():
+            with tempfile.TemporaryDirectory() as folder:
+                levels = "0" if noise is not None else ",".join(map(str, NOISE))
+                out = os.path.join(folder, "out")
+                summary = foveate("infer", arguments.network, clip, "-o", out, "--every", every, "--noise", levels, *FRAMING, *camera)
+                recall = recall_percents(folder, clip, camera)
+            sight = summary["sight"]
+            # Whole frames, also those with noise, are the same for every camera.
+            noise = noise if noise is not None else [f"{100 * level['agreement']:.1f}" for level in sight["noise"]]
+            found = sight["detections"]["all"]["whole"]
+            shares = [f"{100 * sight['detections'][key]:.1f}" if found else "" for key in ("kept_share", "precision")]
+            table.writerow([name, index, "" if level is None else level, minimum, summary["counted_frames"], f"{100 * sight['sent_share']:.2f}",
+                            f"{100 * summary['active_share']:.2f}", found, *shares, *recall, *noise, *areas[index, level, minimum]])
+            sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
