@@ -55,12 +55,22 @@ impl Camera {
             let largest = feature.largest_min_score();
             let whole = feature.kind().score_unit().is_count();
             bounds.push((key("min_score"), KeyBound::Maximum { largest, whole }));
-            if entry.has_mean_fraction() {
-                let bits = index_bits(pixels.into());
-                bounds.push((key("mean_fraction_bits"), KeyBound::whole_maximum(bits)));
+            if let Some(bits) = entry.mean_fraction_bits {
+                bounds.push((key("mean_fraction_bits"), self.mean_fraction_bound(bits)));
             }
         }
         bounds
+    }
+
+    /// Returns the valid fraction bits of the mean of one feature, which has `bits` now. The mean of
+    /// two features cannot be changed by the key of only one of them.
+    fn mean_fraction_bound(&self, bits: u32) -> KeyBound {
+        let means = self.features().iter().filter(|feature| feature.mean().is_some());
+        if means.count() > 1 {
+            KeyBound::OneOf(vec![bits])
+        } else {
+            KeyBound::whole_maximum(index_bits(self.region_pixels().into()))
+        }
     }
 }
 
@@ -72,7 +82,8 @@ mod tests {
     /// Validation accepts both ends of every bound and refuses the next value beyond the upper end.
     #[test]
     fn bounds_are_what_is_taken() {
-        const ALL: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"},{feature=\"range\"}]";
+        const ALL: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\",mean_fraction_bits=1}]";
+        const SEGMENT: &str = "spatial=[{feature=\"segment\",min_score=3}]";
         let mut keys = 0;
         for overrides in [
             vec![],
@@ -80,6 +91,7 @@ mod tests {
             vec![ALL, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
             vec![ALL, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
             vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
+            vec![SEGMENT, "region.size=3"],
         ] {
             let camera = |more: &str| {
                 let all = [&overrides[..], &[more]].concat();
@@ -115,6 +127,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 12 + 12 + 10 + 4);
+        assert_eq!(keys, 4 + 16 + 16 + 14 + 4 + 5);
     }
 }

@@ -121,17 +121,18 @@ pub struct DenoiseConfig {
 pub struct SpatialConfig {
     /// The kind of the feature.
     pub feature: FeatureKind,
-    /// Per-pixel threshold of `edge` (default 100) and `corner` (default 20), in grey levels. The
-    /// defaults are those of 8 bits, and are scaled to the depth.
+    /// Per-pixel threshold of `edge` (default 100), `corner` (default 20) and `segment` (default 8),
+    /// in grey levels. The defaults are those of 8 bits, and are scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
-    /// Per-region threshold: hits for `edge` and `corner` (default 5), grey levels for `mad`
-    /// (default 5) and `range` (default 20), squared grey levels for `variance` (default 50). That
-    /// of `mad`, `variance` and `range` may be decimal; its default is that of 8 bits, and is
-    /// scaled to the depth.
+    /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8), grey
+    /// levels for `mad`, `surface` (default 5) and `range` (default 20), squared grey levels for
+    /// `variance` (default 50). In grey levels and their squares it may be decimal; its default is
+    /// that of 8 bits, and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
-    /// Fraction bits of the mean of `mad`, 0..=ceil(log2 n). The default is 0.
+    /// Fraction bits of the mean of `mad` and `segment`, 0..=ceil(log2 n). The default is 0. A
+    /// camera with both has one mean, so their values must be equal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_fraction_bits: Option<u32>,
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The differences between kinds of features, and between filters. Every match in this file must be extended for a new
-//! kind.
+//! The differences between kinds of features, and between filters. Every match in this file must be
+//! extended for a new kind.
 
 use crate::feature::{MeanDivision, VarianceWidths};
 use crate::width::{edge_magnitude_max, variance_score_max};

@@ -47,6 +47,7 @@ impl CameraConfig {
         config.spatial = self.spatial.iter().map(|entry| entry.with_defaults(bits)).collect();
         let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
+        config.check_means()?;
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
         let periphery = Periphery::resolve(self)?;
         config.periphery.blocks = periphery.map(|periphery| periphery.blocks);
@@ -140,10 +141,11 @@ impl CameraConfig {
                 });
             }
         }
-        self.check_means()
+        Ok(())
     }
 
-    /// Refuses features that would need two different means of the same pixels.
+    /// Refuses features that would need two different means of the same pixels. Every key must have
+    /// its value or its default.
     fn check_means(&self) -> Result<(), ConfigError> {
         let mut entries = (self.spatial.iter().enumerate())
             .filter_map(|(index, entry)| Some((index, entry.feature, entry.mean_fraction_bits?)));
@@ -160,6 +162,33 @@ impl CameraConfig {
                 remedy: "all features of a camera use one mean; give both keys the same value"
                     .to_owned(),
             }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SpatialConfig;
+
+    #[test]
+    fn features_share_one_mean() {
+        let camera = |bits: [Option<u32>; 2]| {
+            let kinds = [FeatureKind::Segment, FeatureKind::Mad];
+            let entry = |(kind, mean_fraction_bits)| SpatialConfig {
+                mean_fraction_bits,
+                ..SpatialConfig::new(kind)
+            };
+            let spatial = kinds.into_iter().zip(bits).map(entry).collect();
+            CameraConfig { spatial, ..CameraConfig::default() }.validate()
+        };
+        // A key that is left out is 0.
+        for bits in [[None, None], [Some(0), None], [None, Some(0)], [Some(3), Some(3)]] {
+            assert!(camera(bits).is_ok(), "{bits:?}");
+        }
+        for bits in [[Some(2), Some(3)], [Some(1), None], [None, Some(6)]] {
+            let error = camera(bits).unwrap_err().to_string();
+            assert!(error.contains("all features of a camera use one mean"), "{bits:?}: {error}");
         }
     }
 }

@@ -148,7 +148,7 @@ fn wrong_types_name_the_key() {
         ),
         (
             "[[spatial]]\nfeature = \"edges\"\n",
-            "`spatial[0].feature`: \"edges\" is not valid; it takes \"edge\", \"corner\", \"mad\", \"variance\" or \"range\"",
+            "`spatial[0].feature`: \"edges\" is not valid; it takes \"edge\", \"corner\", \"mad\", \"variance\", \"range\", \"surface\" or \"segment\"",
         ),
         ("[[spatial]]\nlevel = 3\n", "`spatial[0]`: it lacks `feature`"),
         ("region = 8\n", "`region`: 8 is not valid; it takes a table"),
@@ -199,6 +199,17 @@ fn impossible_combinations_say_what_to_do() {
             "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"edge\"\n",
             "list each feature once",
         ),
+        (
+            "[[spatial]]\nfeature = \"segment\"\nmean_fraction_bits = 2\n\
+             [[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 3\n",
+            "`spatial[1].mean_fraction_bits` = 3 cannot be combined with `spatial[0].mean_fraction_bits` = 2 of `segment`; all features of a camera use one mean; give both keys the same value",
+        ),
+        // A key that is left out is 0.
+        (
+            "[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 3\n\
+             [[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"segment\"\n",
+            "`spatial[2].mean_fraction_bits` = 0 cannot be combined with `spatial[0].mean_fraction_bits` = 3 of `mad`",
+        ),
         ("[hardware]\nfeed = \"raster\"\n", "leave the key out"),
         (
             "[hardware]\norganization = \"serial\"\n[region]\nsize = 3\n",
@@ -213,7 +224,7 @@ fn impossible_combinations_say_what_to_do() {
             "[hardware]\norganization = \"serial\"\nmemory = \"flash\"\n",
             "it takes \"distributed\" or \"block\"",
         ),
-        ("spatial = []\n", "1..=5 features"),
+        ("spatial = []\n", "1..=7 features"),
         ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),
     ] {
         assert!(refusal(toml).contains(part), "{}", refusal(toml));

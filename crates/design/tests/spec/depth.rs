@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of thresholds in grey levels at different depths of pixels.
 
-use foveate_design::{Decimal, Design, DesignConfig, FeatureKind, PRESETS, SpatialConfig};
+use foveate_design::{
+    CameraConfig, Decimal, Design, DesignConfig, FeatureKind, PRESETS, SpatialConfig,
+    SpatialFeature,
+};
 
 fn config_with(text: &str, overrides: &[&str]) -> DesignConfig {
     DesignConfig::from_toml_with(text, overrides).unwrap()
@@ -16,12 +19,13 @@ fn refusal(text: &str, overrides: &[&str]) -> String {
 }
 
 /// Returns the name and the text of every preset, and of a configuration for every feature alone
-/// with its default thresholds.
+/// with its default thresholds, if pipelined designs have it.
 fn base_configs() -> Vec<(String, String)> {
     let presets = PRESETS.iter().map(|preset| (preset.name.to_owned(), preset.toml.to_owned()));
     let features = FeatureKind::ALL
         .iter()
-        .map(|kind| (format!("feature {kind}"), format!("[[spatial]]\nfeature = \"{kind}\"\n")));
+        .map(|kind| (format!("feature {kind}"), format!("[[spatial]]\nfeature = \"{kind}\"\n")))
+        .filter(|(_, text)| config_with(text, &[]).validate().is_ok());
     presets.chain(features).collect()
 }
 
@@ -44,13 +48,16 @@ fn fingerprints_of_8_bits_do_not_change() {
         ("feature mad", "a981aba3ff9adc74"),
         ("feature variance", "a4010676e4d65b40"),
         ("feature range", "89dfcf11d0e58a37"),
+        ("feature surface", "a15808c24da4c046"),
+        ("feature segment", "379a073ec4a1fb83"),
     ];
     let found: Vec<(String, String)> = base_configs()
         .into_iter()
         .map(|(name, text)| (name, design(&text, &[]).fingerprint()))
         .collect();
-    let expected: Vec<(String, String)> =
+    let mut expected: Vec<(String, String)> =
         expected.map(|(name, print)| (name.to_owned(), print.to_owned())).into();
+    expected.retain(|(name, _)| found.iter().any(|(found, _)| found == name));
     assert_eq!(found, expected);
 }
 
@@ -82,26 +89,31 @@ fn defaults_follow_the_depth_and_are_within_reach_at_every_one() {
 #[test]
 fn defaults_of_some_depths_by_hand() {
     let at = |bits: u32| {
-        let all = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\"},{feature=\"variance\"}]";
-        let design = design("", &[&format!("frame.pixel_bits={bits}"), all]);
-        let spatial = &design.config().camera.spatial;
-        let text = |entry: &SpatialConfig| entry.min_score.unwrap().to_string();
-        (
-            design.temporal().level,
-            spatial[0].level.unwrap(),
-            spatial[1].level.unwrap(),
-            text(&spatial[2]),
-            text(&spatial[3]),
-        )
+        let mut config = CameraConfig::default();
+        config.frame.pixel_bits = bits;
+        config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+        let camera = config.validate().unwrap();
+        let mut levels = vec![camera.temporal().level];
+        levels.extend(camera.features().iter().filter_map(SpatialFeature::level));
+        let entries = camera.config().spatial.iter();
+        let minima = entries.map(|entry| entry.min_score.unwrap().to_string());
+        (levels, minima.collect::<Vec<_>>())
     };
-    let row = |temporal, edge, corner, mad: &str, variance: &str| {
-        (temporal, edge, corner, mad.to_owned(), variance.to_owned())
-    };
-    assert_eq!(at(8), row(8, 100, 20, "5", "50"));
-    assert_eq!(at(5), row(1, 12, 2, "0.625", "0.78125"));
-    assert_eq!(at(1), row(0, 0, 0, "0.0390625", "0.003051758"));
-    assert_eq!(at(10), row(32, 400, 80, "20", "800"));
-    assert_eq!(at(16), row(2048, 25_600, 5_120, "1280", "3276800"));
+    // The levels are those of `temporal`, `edge`, `corner` and `segment`. The minima are those of
+    // all features in the order of the documentation.
+    let row =
+        |levels: [u32; 4], minima: [&str; 7]| (levels.to_vec(), minima.map(str::to_owned).to_vec());
+    assert_eq!(at(8), row([8, 100, 20, 8], ["5", "5", "5", "50", "20", "5", "8"]));
+    assert_eq!(at(5), row([1, 12, 2, 1], ["5", "5", "0.625", "0.78125", "2.5", "0.625", "8"]));
+    assert_eq!(
+        at(1),
+        row([0; 4], ["5", "5", "0.0390625", "0.003051758", "0.15625", "0.0390625", "8"])
+    );
+    assert_eq!(at(10), row([32, 400, 80, 32], ["5", "5", "20", "800", "80", "20", "8"]));
+    assert_eq!(
+        at(16),
+        row([2048, 25_600, 5_120, 2048], ["5", "5", "1280", "3276800", "5120", "1280", "8"])
+    );
 }
 
 #[test]
@@ -154,6 +166,18 @@ fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
         (
             [five, "spatial=[{feature=\"corner\",level=31}]"],
             "`spatial[0].level` = 31 is out of range; the valid range is 0..=30 (pixels of 5 bits reach 31) for `corner`; 31 at 8 bits is 3 at 5 bits",
+        ),
+        (
+            [five, "spatial=[{feature=\"segment\",level=31}]"],
+            "`spatial[0].level` = 31 is out of range; the valid range is 0..=30 (pixels of 5 bits reach 31) for `segment`; 31 at 8 bits is 3 at 5 bits",
+        ),
+        (
+            [five, "spatial=[{feature=\"segment\",min_score=33}]"],
+            "`spatial[0].min_score` = 33 is out of range; the valid range is 0..=32 for `segment`",
+        ),
+        (
+            [five, "spatial=[{feature=\"surface\",min_score=40}]"],
+            "`spatial[0].min_score` = 40 is out of range; the valid range is 0..=31 for `surface`; 40 at 8 bits is 5 at 5 bits",
         ),
         (
             [five, "spatial=[{feature=\"mad\",min_score=20}]"],
