@@ -341,6 +341,17 @@ module rpu (
         .value_i({% if deep %}range_pixel_q{% else %}front_pixel{% endif %}), .range_o(range_score)
     );
 {%- endif %}
+{%- if let Some(surface_bits) = surface_bits %}
+    wire [{= surface_bits - 1 =}:0] surface_score;
+    region_surface #(.WIDTH({= p =}), .SCORE_BITS({= surface_bits =}){% if deep %}, .DEEP(1){% endif %}) u_surface (
+        .clk_i(clk_i), .rst_i(rst_i), .advance_i(window_advance), .step_i(front_step), .last_i(front_last),
+        .left_i(window_left), .right_i(window_right), .middle_i(window_middle), .lower_i(window_lower),
+        .score_o(surface_score)
+    );
+    {%- if windowed.is_empty() %}
+    wire unused_window_upper = |window_upper;
+    {%- endif %}
+{%- endif %}
 {%- if let Some(mean) = mean %}
     wire [{= mean.bits - 1 =}:0] mean;
     region_mean #(

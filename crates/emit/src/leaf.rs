@@ -61,6 +61,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "window_column" => ["line_delay"],
     "median3x3" => [],
     "adder" => [],
+    "carry_adder" => [],
     "magnitude_above" => [],
     "edge_detector" => ["adder", "magnitude_above"],
     "corner_detector" => [],
@@ -78,6 +79,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "segment_score" => ["magnitude_above"],
     "variance_score" => [],
     "region_range" => [],
+    "region_surface" => ["carry_adder"],
     "block_place" => [],
     "block_mean" => ["block_place", "adder", "line_delay"],
     "region_summary" => ["block_mean", "line_delay", "magnitude_above"],
@@ -85,7 +87,6 @@ pub const LEAVES: &[Leaf] = leaves! {
     "vote" => [],
     "decision" => [],
     "forward_gate" => [],
-    "carry_adder" => [],
     "serial_memory" => ["frame_store"],
     "serial_lane" => ["serial_memory", "carry_adder"],
     "serial_control" => [],
@@ -199,8 +200,7 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
             }
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
             FeatureKind::Range => need(true, &["region_range"]),
-            // No pipelined design has this feature yet.
-            FeatureKind::Surface => {}
+            FeatureKind::Surface => need(true, &["region_surface"]),
         }
     }
     match design.temporal().reference {

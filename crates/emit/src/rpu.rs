@@ -61,6 +61,7 @@ struct RpuModule {
     segment: Option<SegmentParameters>,
     variance: Option<VarianceWidths>,
     range: bool,
+    surface_bits: Option<u32>,
     compared: Vec<&'static str>,
     references: Vec<ReferenceCandidate>,
     temporal_level: String,
@@ -86,6 +87,8 @@ struct SpatialParts {
     segment: Option<SegmentParameters>,
     variance: Option<VarianceWidths>,
     range: bool,
+    /// Bits of the score of `surface`.
+    surface_bits: Option<u32>,
 }
 
 /// A feature whose score is the number of hits of a window.
@@ -151,7 +154,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
     let window_side = design.denoised_side();
     let timing = PipelinedTiming::from_design(design);
     let deep = design.pipelining() == Pipelining::Deep;
-    let SpatialParts { windowed, sums, mean, mad_bits, segment, variance, range } =
+    let SpatialParts { windowed, sums, mean, mad_bits, segment, variance, range, surface_bits } =
         SpatialParts::of(design);
     RpuModule {
         banner: banner(&design),
@@ -191,6 +194,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         segment,
         variance,
         range,
+        surface_bits,
         compared: compared_values(reference, second_pass, deep),
         references: reference_candidates(reference, second_pass, deep),
         temporal_level: threshold_signal(&design, PortRole::TemporalLevel),
@@ -241,8 +245,7 @@ impl SpatialParts {
                     own.variance = Some(variance_widths(feature, widths));
                 }
                 FeatureKind::Range => own.range = true,
-                // No pipelined design has this feature yet.
-                FeatureKind::Surface => {}
+                FeatureKind::Surface => own.surface_bits = Some(feature.score_bits()),
             }
         }
         own

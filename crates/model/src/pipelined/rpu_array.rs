@@ -7,7 +7,7 @@ use super::delay_line::DelayLine;
 use super::median::MedianStage;
 use super::pixel::{StagePixel, TailStep};
 use super::ports::RpuOutput;
-use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
+use super::rpu_parameters::RpuParameters;
 use super::tail::RpuTail;
 use super::window_center::WindowCenters;
 use super::window_stage::WindowStage;
@@ -101,7 +101,7 @@ impl RpuArray {
                 Some(tail_steps(&self.plan, &centers, thresholds))
             }
             None => {
-                let step = |pixel| TailStep { pixel, hits: [false; MAX_FEATURES] };
+                let step = |pixel| TailStep { pixel, ..TailStep::default() };
                 denoised.map(|pixels| pixels.into_iter().map(step).collect())
             }
         }
@@ -120,7 +120,8 @@ fn tail_steps(
     centers: &WindowCenters<'_>,
     thresholds: &ThresholdInputs,
 ) -> Vec<TailStep> {
-    let mut steps = centers.map(|pixel, _| TailStep { pixel, hits: [false; MAX_FEATURES] });
+    let mut steps =
+        centers.map(|pixel, &window| TailStep { pixel, window, ..TailStep::default() });
     for (feature, (kind, level)) in plan.features.iter().zip(thresholds.level).enumerate() {
         if let &Some(kind) = kind {
             let hits = centers.map(|_, window| is_hit(kind, window, level));

@@ -62,7 +62,7 @@ impl RpuParameters {
             stream_side: index(design.stream_side()),
             filter: design.filter(),
             has_feature_window: design.has_feature_window(),
-            needs_sums: design.features().iter().any(|feature| !feature.kind().has_window()),
+            needs_sums: design.features().iter().any(|f| !f.kind().counts_window_hits()),
             needs_border: design.needs_border(),
             median_registers: index(timing.median_registers),
             tail_delay: index(timing.tail_delay),

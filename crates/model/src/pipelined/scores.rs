@@ -43,7 +43,7 @@ impl RpuScores {
     ) {
         let (mean_before, fraction_bits) = (self.sums.mean, plan.fraction_bits);
         if plan.needs_sums {
-            self.sums.step(plan, step.pixel.scored, last);
+            self.sums.step(plan, step, last);
         }
         let features = plan.features.iter().zip(step.hits).zip(levels);
         for (score, ((&kind, hit), &level)) in self.running.iter_mut().zip(features) {
@@ -61,8 +61,7 @@ impl RpuScores {
                 }
                 Some(FeatureKind::Variance) => *score = self.sums.variance,
                 Some(FeatureKind::Range) => *score = self.sums.range,
-                // No pipelined design has this feature yet.
-                Some(FeatureKind::Surface) => {}
+                Some(FeatureKind::Surface) => *score = self.sums.surface,
             }
         }
     }
