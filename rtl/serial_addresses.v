@@ -22,9 +22,9 @@ module serial_addresses #(
     parameter POSITION_BITS = 6     // bits of the number of a pixel in the larger square of centers
 ) (
     input  wire                     clk_i,          // clock, rising edge
-    input  wire [             35:0] step_i,         // the step: one bit for each action, in the order of serial_states
+    input  wire [             44:0] step_i,         // the step: one bit for each action, in the order of serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor that is read
-    input  wire [              1:0] part_i,         // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
+    input  wire [              1:0] part_i,         // half of a gradient or of a step of `range` or `surface`, part of a ring's step, or side of the border
     input  wire                     walks_i,        // the next step works on the next center
     input  wire                     slot_ends_i,    // the next step works on the next slot
     input  wire                     last_lane_i,    // the score of the last lane passes
@@ -84,14 +84,16 @@ module serial_addresses #(
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
-    wire [10:0] unused_sums;
+    wire [14:0] unused_sums;
+    wire spanning;
+    wire [3:0] unused_bounds;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        unused_sums,
+        unused_sums, spanning, unused_bounds,
         averaging, returning, storing, showing
     } = step_i;
     wire unused_step = starting || adjusting || reading || gradient_test || ring_test || ring_last || showing;
@@ -177,7 +179,7 @@ module serial_addresses #(
     // The neighbors, clockwise from the upper left one. The last number is the center itself.
     reg [3:0] neighbor;
     always @* begin
-        if (searching) neighbor = tap_i;
+        if (searching || (spanning && part_i[0])) neighbor = tap_i;
         else if (gradient) neighbor = {1'b0, tap_i[2:0] + (part_i[0] ? 3'd1 : 3'd7)};
         else if (ring) neighbor = {part_i[0], tap_i[2:0]};
         else neighbor = 4'd8;

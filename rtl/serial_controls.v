@@ -9,14 +9,14 @@
 module serial_controls #(
     parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
     parameter RASTER = 0,     // 1: pixels leave through the chain of scores
-    parameter KEEPS = 0       // 1: the score can take the accumulator, for `mad`, `variance`, `range` or the sum of a block
+    parameter KEEPS = 0       // 1: the score can take the accumulator
 ) (
-    input  wire [35:0] step_i,     // the step: one bit for each action, in the order of serial_states
+    input  wire [44:0] step_i,     // the step: one bit for each action, in the order of serial_states
     input  wire [ 3:0] tap_i,      // number of the neighbor that is read
-    input  wire [ 1:0] part_i,     // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
+    input  wire [ 1:0] part_i,     // half of a gradient or of a step of `range` or `surface`, part of a ring's step, or side of the border
     input  wire        counts_i,   // the center is a pixel of the region
     input  wire        spent_i,    // the shifted number has no bits left
-    output wire [27:0] controls_o  // the control word
+    output wire [33:0] controls_o  // the control word
 );
 
     // The bits of the step.
@@ -24,6 +24,7 @@ module serial_controls #(
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
+    wire recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
@@ -31,6 +32,7 @@ module serial_controls #(
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
+        recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
         averaging, returning, storing, showing
     } = step_i;
     wire unused_step = denoising || averaging || returning || |tap_i;
@@ -49,32 +51,44 @@ module serial_controls #(
     wire write_mean = storing;                                 // write the score instead of the accumulator
 
     // Controls for the word read: the choice of the operand, which is the constant without any of these.
-    wire from_memory = !tests && !starting && !adjusting && !halving && !dividing;  // the operand is the word
+    wire from_memory = !tests && !starting && !adjusting && !halving && !dividing
+        && !recalling && !retrieving && !leveling && !rounding;  // the operand is the word
     wire deviate = deviating || (ranging && spreading);        // the operand is |2^FRACTION * word - aux|
     wire masked = squaring || correcting;                      // take the sum only if the bit of the operand under the constant is 1
     wire from_aux = correcting || (ranging && spreading);      // the operand is aux; with deviate: |word - aux|
 
+    wire hold = spanning && !part_i[0];                        // hold the word: the next is read as its distance from it
+
     // Controls for the accumulator, which takes the sum of itself and the operand.
     wire subtract = compares || writing || relating || dividing || correcting || (ranging && !part_i[0])  // invert the operand
+        || removing || counting || below || rounding
         || (gradient && !gradient_test && part_i[0] == tap_i[2]) || (ring && part_i[0]);
     wire larger = ranging;                                     // keep the larger: first compare, then take the operand if it is
     wire by_sign = tests;                                      // invert the operand if the accumulator is not negative
-    wire by_run = adjusting;                                   // invert the operand if five were counted
-    wire carry = (!tests && !searching) || (adjusting && !spent_i);  // add one to an inverted operand
+    wire by_run = adjusting || (leveling && !below);           // invert the operand if five were counted, or below is the smaller side
+    wire carry = (!tests && !searching && !rounding) || (adjusting && !spent_i);  // add one to an inverted operand
     wire enable = starting || adjusting || reading || takes_old || relating || gradient || ring || summing
-        || doubling || halving || dividing || deviating || squaring || correcting || (ranging && part_i[0]);  // take the sum
+        || doubling || halving || dividing || deviating || squaring || correcting || (ranging && part_i[0])
+        || recalling || retrieving || leveling || (spanning && part_i[0]);  // take the sum
     wire clear = idle || tests || (writing && !temporal) || clearing || keeping;    // clear the accumulator
 
     // Controls for the counts.
     wire run = compares || half_done || ring_test;             // count in unary
     wire run_corner = ring;                                    // count in unary the hits of equal sign in a row
     wire run_clear = idle || adjusting || scores;              // the unary count becomes 0
-    wire count = (testing && counts_i) || scores;              // add a hit to the score
+    wire count = (testing && counts_i) || scores || counting;  // add a hit to the score
     wire count_corner = ring;                                  // this hit is one of `corner`
+    wire count_side = counting;                                // this hit is one of `segment`
+
+    // Controls for `aux` and for the bounds.
+    wire recall_sum = retrieving;                              // with divide: the next bit is that of a sum in `aux`, which comes back
+    wire recall_mean = recalling;                              // with divide: the next bit is that of a mean in `aux`, which comes back
+    wire ceiling = leveling || rounding;                       // add one only if the mean has a fraction; with clear: find out
+    wire shrink = shrinking;                                   // clear the accumulator unless it is negative
 
     // Other controls.
     wire twice = doubling;                                     // the operand is the accumulator itself
-    wire divide = dividing;                                    // keep the sum only if it is not negative
+    wire divide = dividing || recalling || retrieving;         // take the sum only if the next bit of `aux` is 1: here, if the sum is not negative
     wire shift = rotating || shifting;                         // scores move to the next lane
     wire coded = RASTER != 0 && KEEPS != 0;                    // keep and fetch together have a meaning of their own here: scores move on
     wire keep = keeping || (coded && shift);                   // the score becomes the accumulator
@@ -84,9 +98,10 @@ module serial_controls #(
 
     assign controls_o = {
         write_active, write_border, side, write_mean,
-        from_memory, deviate, masked, from_aux,
+        from_memory, deviate, masked, from_aux, hold,
         larger, subtract, by_sign, by_run, carry, enable, clear,
-        run, run_corner, run_clear, count, count_corner,
+        run, run_corner, run_clear, count, count_corner, count_side,
+        recall_sum, recall_mean, ceiling, shrink,
         twice, divide, shift, keep, fetch, unload, unload_mean
     };
 

@@ -44,9 +44,7 @@ fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
     use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
     match (organization, kind) {
         (Pipelined | Serial | Raster, Edge | Corner | Mad | Variance | Range) => true,
-        (Pipelined, Surface | Segment) => true,
-        (Serial, Surface) => false,
-        (Serial, Segment) => false,
+        (Pipelined | Serial, Surface | Segment) => true,
         (Raster, Surface) => false,
         (Raster, Segment) => false,
     }

@@ -239,16 +239,16 @@ fn score_index(design: SerialDesign<'_>, kind: FeatureKind) -> (String, String) 
 fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, String)> {
     match kind {
         FeatureKind::Edge => Some(("edge_half_i", half_edge_level(design))),
-        FeatureKind::Corner => {
-            let given =
-                design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
-            let level = given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()));
-            Some(("corner_level_i", level))
-        }
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range => None,
-        // No serial design has these features yet.
-        FeatureKind::Surface | FeatureKind::Segment => None,
+        FeatureKind::Corner => Some(("corner_level_i", pixel_level(design, kind))),
+        FeatureKind::Segment => Some(("segment_level_i", pixel_level(design, kind))),
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface => None,
     }
+}
+
+/// Returns the signal of a level that has the bits of a pixel, or zero without the feature.
+fn pixel_level(design: SerialDesign<'_>, kind: FeatureKind) -> String {
+    let given = design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
+    given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()))
 }
 
 /// Returns floor(level / 2) of `edge`, two bits wider than a pixel.

@@ -2,7 +2,7 @@
 //! The steps of the pass of a feature in a serial array, and the widths of the registers that it
 //! uses.
 
-use crate::{Design, FeatureKind, SpatialFeature};
+use crate::{Design, FeatureKind, SpatialFeature, bits_for};
 
 /// Returns the number of steps of the pass of a feature.
 pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
@@ -22,7 +22,8 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
             n + pixel_bits * n * ones + 2 * sum + pixel_bits + count + 2
         }
         FeatureKind::Range => 4 * n + pixel_bits + 2,
-        FeatureKind::Surface | FeatureKind::Segment => 0,
+        FeatureKind::Surface => 8 * n + 11 * u64::from(design.pixel_sum_bits()) + 5,
+        FeatureKind::Segment => 4 * n + 4 * pixel_bits + 9,
     }
 }
 
@@ -30,12 +31,37 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
 /// bits.
 pub(super) fn has_computed_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => false,
+        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface => {
+            true
+        }
+    }
+}
+
+/// Returns true if the score of a lane takes the accumulator, or is cleared with it.
+pub(super) fn takes_accumulator(feature: &SpatialFeature) -> bool {
+    match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => false,
         FeatureKind::Mad
         | FeatureKind::Variance
         | FeatureKind::Range
         | FeatureKind::Surface
         | FeatureKind::Segment => true,
+    }
+}
+
+/// Returns the bits that the word of the ring needs for a feature besides those of its score.
+pub(super) fn chain_bits(design: &Design, feature: &SpatialFeature) -> u32 {
+    match feature.kind() {
+        FeatureKind::Edge
+        | FeatureKind::Corner
+        | FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface => 0,
+        // The pixels above are counted, and then those that are not below. A region has no mean
+        // that all of its pixels are above.
+        FeatureKind::Segment => bits_for(u64::from(2 * design.region_pixels() - 1)),
     }
 }
 
@@ -60,9 +86,7 @@ pub(super) fn feature_register_widths(
         FeatureKind::Edge => {
             FeatureRegisterWidths { accumulator: pixel + 3, ..FeatureRegisterWidths::default() }
         }
-        FeatureKind::Corner | FeatureKind::Surface | FeatureKind::Segment => {
-            FeatureRegisterWidths::default()
-        }
+        FeatureKind::Corner => FeatureRegisterWidths::default(),
         FeatureKind::Mad => {
             let mean = feature.mean().expect("mad has a mean");
             let second = pixel + mean.fraction_bits;
@@ -87,5 +111,22 @@ pub(super) fn feature_register_widths(
             second: pixel,
             scale: pixel,
         },
+        // The accumulator holds the difference of two sums. The second word holds the smallest.
+        FeatureKind::Surface => {
+            let sum = design.pixel_sum_bits();
+            FeatureRegisterWidths { accumulator: (sum + 1).max(chain), second: sum, scale: sum }
+        }
+        // The accumulator holds the sum of the region and half of n. The second word holds the
+        // mean without its fraction.
+        FeatureKind::Segment => {
+            let n = u64::from(design.region_pixels());
+            let dividend = n * ((1 << pixel) - 1) + n / 2;
+            FeatureRegisterWidths {
+                accumulator: (bits_for(dividend) + 1).max(chain),
+                second: pixel,
+                // The scale holds the shifted divisor.
+                scale: design.count_bits() + pixel - 1,
+            }
+        }
     }
 }

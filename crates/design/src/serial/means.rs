@@ -38,7 +38,7 @@ impl SerialDesign<'_> {
     #[must_use]
     pub fn block_mean_division(&self) -> Option<BlockMeanDivision> {
         let periphery = self.periphery()?;
-        let takes_all = self.features().iter().any(feature::has_computed_operand);
+        let takes_all = self.features().iter().any(feature::takes_accumulator);
         Some(BlockMeanDivision::from_reciprocal(
             periphery.sum_bits,
             periphery.reciprocal,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The widths of the registers of a serial lane and of the sequencer.
 
-use super::feature::feature_register_widths;
+use super::feature::{chain_bits, feature_register_widths};
 use crate::{DenoiseFilter, PixelFeed, SerialDesign, index_bits};
 
 /// The widths of the registers of a serial array, in bits.
@@ -28,8 +28,11 @@ impl LaneWidths {
             PixelFeed::Raster => pixel,
         };
         let sums = design.block_mean_division();
-        let chain =
-            design.max_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing_bits));
+        let counts = design.features().iter().map(|feature| chain_bits(&design, feature));
+        let chain = counts
+            .fold(design.max_score_bits(), u32::max)
+            .max(raster)
+            .max(sums.map_or(0, |sums| sums.passing_bits));
         // The accumulator holds the difference of two pixels. The scale holds the power of two that
         // the median search starts with.
         let mut widths = Self {
