@@ -123,7 +123,11 @@ function withChange(key, value) {
 function toggleFeature(feature, on) {
   const others = config.spatial.filter(one => one.feature !== feature);
   const order = tables.features.map(one => one.feature);
-  const spatial = on ? [...others, { feature }].sort((a, b) => order.indexOf(a.feature) - order.indexOf(b.feature)) : others;
+  const added = { feature };
+  // All features of a camera use one mean.
+  if (tables.features[order.indexOf(feature)].mean_fraction_bits !== undefined)
+    added.mean_fraction_bits = others.find(one => (one.mean_fraction_bits ?? null) !== null)?.mean_fraction_bits;
+  const spatial = on ? [...others, added].sort((a, b) => order.indexOf(a.feature) - order.indexOf(b.feature)) : others;
   if (!spatial.length) return `a camera needs a feature; turn another on first, then ${feature} off`;
   return messageOf(() => configure({ ...config, spatial }));
 }

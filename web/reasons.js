@@ -23,9 +23,16 @@ export function showReasons(place, { json, text }) {
 
 const sentence = text => `${text.replace(/^TRS any, SRS 0: |^TRS \d, SRS \d: /, "").replace(/^./, letter => letter.toUpperCase())}.`;
 
-function feature({ feature, level, score, min_score, unit, vote }) {
+function feature({ feature, level, mean, mean_fraction_bits, parts, displacements, score, min_score, unit, vote }) {
   const perPixel = value => unit > 1 ? `${(value / unit).toFixed(2)} per pixel` : value;
-  const title = level === undefined ? `${feature}: ${perPixel(score)}` : `${feature}: ${score} pixels above level ${level}`;
+  let title = `${feature}: ${perPixel(score)}`;
+  if (parts) {
+    const grey = Number((mean / 2 ** mean_fraction_bits).toFixed(2));
+    title = `${feature}: ${parts.count_above} pixels above and ${parts.count_below} below the mean ${grey} by more than ${level}`;
+  } else if (displacements) {
+    const { right, below, below_right, below_left } = displacements;
+    title += `, the smallest of ${[right, below, below_right, below_left].map(perPixel).join(", ")}`;
+  } else if (level !== undefined) title = `${feature}: ${score} pixels above level ${level}`;
   return `${title}; ${perPixel(min_score)} needed: ${vote ? "votes" : "does not vote"}.`;
 }
 
@@ -45,7 +52,11 @@ function grids(json) {
   const maxValue = 2 ** json.pixel_bits - 1, { temporal } = json;
   const pictures = [grid("pixels", json.raw, maxValue)];
   if (json.filter !== "none") pictures.push(grid(`after ${json.filter}`, json.denoised, maxValue));
-  for (const { feature, hits } of json.spatial) if (hits) pictures.push(grid(`${feature}: what counts`, json.denoised, maxValue, hits, "--k5"));
+  for (const { feature, hits, parts } of json.spatial) {
+    if (hits) pictures.push(grid(`${feature}: what counts`, json.denoised, maxValue, hits, "--k5"));
+    for (const side of ["above", "below"])
+      if (parts) pictures.push(grid(`${feature}: ${side} the mean`, json.denoised, maxValue, parts[side], "--k5"));
+  }
   if (temporal.reference) pictures.push(grid(`reference, ${temporal.against}: what changed`, temporal.reference, maxValue, temporal.hits, "--k6"));
   return pictures;
 }

@@ -68,7 +68,7 @@ fn untyped<T: Element + Copy>(
 /// changed : array of int64, shape (rows, columns)
 ///     Number of changed pixels of a region; all of its pixels without a valid reference.
 /// scores : dict of str to array of int64, shape (rows, columns)
-///     Scores by feature, in the units of the contract: hits for `edge` and `corner`, grey levels for `range`; `mad` and `variance` have fraction bits.
+///     Scores by feature, in the units of the contract: pixels for `edge`, `corner` and `segment`, grey levels for `range`; `surface` is the sum over the n pixels of the region, and `mad` and `variance` have fraction bits.
 /// rendered : array of uint8 or uint16, shape (height, width)
 ///     Frame on the receiver's screen. An outcome of `Camera.step` reads it from the camera at the first use, and
 ///     raises a RuntimeError if the camera has taken another frame since, unless the step was called with `keep`.

@@ -24,6 +24,12 @@ min_score = 90
 [[spatial]]
 feature = "range"
 min_score = 30
+[[spatial]]
+feature = "surface"
+[[spatial]]
+feature = "segment"
+min_score = 6
+mean_fraction_bits = 2
 """
 RENDERINGS = {
     "zero": "",
@@ -43,7 +49,7 @@ def toml_at_depth(toml, bits):
 def cameras():
     """Name, TOML, size: every preset, then features x references x what is shown x depths x sides of a region x sizes, each
     value with many of the others."""
-    one = [f'[[spatial]]\nfeature = "{feature}"\n' for feature in ["edge", "corner", "mad", "variance", "range"]]
+    one = [f'[[spatial]]\nfeature = "{feature}"\n' for feature in ["edge", "corner", "mad", "variance", "range", "surface", "segment"]]
     features = [*one, ALL_FEATURES, ALL_FEATURES + '[decision]\ncombine = "all"\n']
     depths = [8, 10, 8, 5, 8, 16, 8, 1, 12]
     sides = [8, 16, 5, 4, 12, 64]
@@ -55,7 +61,7 @@ def cameras():
                 toml = toml_at_depth(feature, bits) + shown
                 toml += f'[temporal]\nreference = "{reference}"\n'
                 toml += f'[region]\nsize = {sides[number % len(sides)]}\nneighborhood = "{["isolated", "shared"][number // 2 % 2]}"\n'
-                toml += f'[denoise]\nfilter = "{["none", "median3x3"][number // 3 % 2]}"\n'
+                toml += f'[denoise]\nfilter = "{["none", "median3x3", "switching3x3", "binomial3x3"][number // 3 % 4]}"\n'
                 yield f"camera {number}", toml, SIZES[number % len(SIZES)]
                 number += 1
 

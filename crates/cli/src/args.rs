@@ -272,8 +272,8 @@ pub(crate) enum SimulatorChoice {
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Print one table of variants instead: the design in each organization, with each feature,
-    /// with and without the median
+    /// Print one table of variants instead: the design in each organization, with each feature with
+    /// and without the median, and with edge and each other filter
     #[arg(long)]
     pub(crate) compare: bool,
     /// Place and route the design with nextpnr instead, and print its use of these devices and the

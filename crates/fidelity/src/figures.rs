@@ -65,9 +65,9 @@ fn is_zero_share(share: &f64) -> bool {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScoreError {
-    /// The name of the score: `edge`, `corner`, `mad`, `variance`, `range` or `temporal`.
+    /// The name of the score: `temporal`, or that of a feature.
     pub feature: String,
-    /// The unit of the error: shares of the region's pixels (hits / n), grey levels of the ideal,
+    /// The unit of the error: shares of the region's pixels (pixels / n), grey levels of the ideal,
     /// or squared grey levels. Scores of a candidate with fewer bits are scaled up to those of the
     /// ideal.
     pub unit: String,

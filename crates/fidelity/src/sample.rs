@@ -23,7 +23,9 @@ pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
     /// Converts a value that is known to fit.
     fn from_word(value: u16) -> Self;
 
-    /// Converts a whole grey level that is known to fit.
+    /// Converts a grey level that is known to fit. Of a fraction, which must be a multiple of 1/16,
+    /// the nearest whole level is returned, and a half is rounded up, as the filter `binomial3x3`
+    /// does.
     fn from_grey_level(value: f64) -> Self;
 
     /// Returns the pixels of a plane, if they have this type.
@@ -34,6 +36,10 @@ pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
 /// whose lowest bits are the whole number. A conversion by this sum takes one addition in every
 /// vector instruction set.
 const SHIFT: f64 = 4_503_599_627_370_496.0; // 2^52
+
+/// Half of a sixteenth. The addition of [`SHIFT`] rounds halves to an even number; with this addend,
+/// it rounds halves up, and other multiples of a sixteenth as before.
+const HALVES_UP: f64 = 0.031_25;
 
 impl PixelSample for u8 {
     type Product = u32;
@@ -62,7 +68,7 @@ impl PixelSample for u8 {
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, reason = "the digits are in the lowest bits")]
     fn from_grey_level(value: f64) -> Self {
-        (value + SHIFT).to_bits() as Self
+        (value + HALVES_UP + SHIFT).to_bits() as Self
     }
 
     fn plane_pixels<'p>(plane: FramePixels<'p>) -> Option<&'p [Self]> {
@@ -99,7 +105,7 @@ impl PixelSample for u16 {
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, reason = "the digits are in the lowest bits")]
     fn from_grey_level(value: f64) -> Self {
-        (value + SHIFT).to_bits() as Self
+        (value + HALVES_UP + SHIFT).to_bits() as Self
     }
 
     fn plane_pixels<'p>(plane: FramePixels<'p>) -> Option<&'p [Self]> {
@@ -121,6 +127,10 @@ mod tests {
         }
         for value in 0..=u8::MAX {
             assert_eq!(u8::from_grey_level(f64::from(value)), value);
+        }
+        for sixteenths in 0..=16 * 255_u16 {
+            let rounded = u8::try_from((sixteenths + 8) / 16).unwrap();
+            assert_eq!(u8::from_grey_level(f64::from(sixteenths) / 16.0), rounded, "{sixteenths}");
         }
         assert_eq!((u8::sum_to_f64(0), u8::sum_to_f64(u32::MAX)), (0.0, 4_294_967_295.0));
         assert_eq!(u16::sum_to_f64(1 << 51), 2_f64.powi(51));

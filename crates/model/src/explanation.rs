@@ -46,7 +46,7 @@ pub struct RegionExplanation {
     pub raw: SquareRows<u16>,
     /// The pixels that were scored, which are denoised if the camera has a filter.
     pub denoised: SquareRows<u16>,
-    /// The filter: `none` or `median3x3`.
+    /// The filter: `none`, `median3x3`, `switching3x3` or `binomial3x3`.
     pub filter: DenoiseFilter,
     /// The spatial scores, one for every feature.
     pub spatial: Vec<SpatialExplanation>,
@@ -93,17 +93,26 @@ pub struct RegionPosition {
 /// A spatial score with its threshold and its vote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpatialExplanation {
-    /// Kind of the feature: `edge`, `corner`, `mad`, `variance` or `range`.
+    /// Kind of the feature: `edge`, `corner`, `mad`, `variance`, `range`, `surface` or `segment`.
     pub feature: FeatureKind,
-    /// Per-pixel threshold, for `edge` and `corner`.
+    /// Per-pixel threshold, for `edge`, `corner` and `segment`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// True for every pixel that is a hit, for `edge` and `corner`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hits: Option<SquareRows<bool>>,
-    /// The mean in units of `2^-f` grey levels, for `mad`.
+    /// The mean in units of `2^-f` grey levels, for `mad` and `segment`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean: Option<u64>,
+    /// Fraction bits f of the mean, for `mad` and `segment`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_fraction_bits: Option<u32>,
+    /// The pixels that lie more than the level above, or below, the mean, for `segment`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parts: Option<SegmentParts>,
+    /// The sums of differences from the region moved by one pixel, for `surface`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacements: Option<DisplacementTotals>,
     /// The score.
     pub score: u64,
     /// The smallest score that votes.
@@ -113,6 +122,32 @@ pub struct SpatialExplanation {
     pub unit: u64,
     /// True if the feature votes.
     pub vote: bool,
+}
+
+/// The two parts of a region that `segment` counts.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SegmentParts {
+    /// True for every pixel above.
+    pub above: SquareRows<bool>,
+    /// True for every pixel below.
+    pub below: SquareRows<bool>,
+    /// Number of pixels above.
+    pub count_above: u64,
+    /// Number of pixels below.
+    pub count_below: u64,
+}
+
+/// The sums of `surface` over the differences between each pixel and one of its neighbors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct DisplacementTotals {
+    /// The sum for the neighbors to the right.
+    pub right: u64,
+    /// The sum for the neighbors below.
+    pub below: u64,
+    /// The sum for the neighbors below to the right.
+    pub below_right: u64,
+    /// The sum for the neighbors below to the left.
+    pub below_left: u64,
 }
 
 /// The temporal score with its reference and its thresholds.

@@ -53,7 +53,7 @@ fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
         Variance => &[Variance, Corner, Edge, Mad],
         Range => &[Range, Mad],
         Surface => &[Surface, Edge],
-        Segment => &[Segment, Corner],
+        Segment => &[Segment, Corner, Mad],
     }
 }
 
@@ -91,9 +91,10 @@ pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<
         config.camera.periphery.level = Some((1 << bits) >> (number % 7 + 1));
         for spatial in &mut config.camera.spatial {
             spatial.min_score = match spatial.feature {
-                FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => {
+                FeatureKind::Edge | FeatureKind::Corner => {
                     Some(Decimal::from_whole(u64::from(side * side / 2)))
                 }
+                FeatureKind::Segment => Some(Decimal::from_whole(u64::from(side * side / 8))),
                 FeatureKind::Mad
                 | FeatureKind::Variance
                 | FeatureKind::Range

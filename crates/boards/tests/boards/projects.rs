@@ -57,7 +57,7 @@ fn no_tool_warns_of_a_board() {
         return;
     }
     let small = "frame={width=24,height=16}";
-    let all = "spatial=[{feature='edge',min_score=1},{feature='mad',min_score=1},{feature='corner',min_score=1},{feature='variance',min_score=1},{feature='range',min_score=1}]";
+    let all = "spatial=[{feature='edge',min_score=1},{feature='mad',min_score=1},{feature='corner',min_score=1},{feature='variance',min_score=1},{feature='range',min_score=1},{feature='surface',min_score=1},{feature='segment',min_score=1}]";
     let means = "render.irrelevant='mean'";
     let arrays: [&[&str]; 5] = [
         &[small],

@@ -21,6 +21,8 @@ pub(crate) struct ThresholdRanges {
     /// The largest summary level; `None` if irrelevant regions send no means.
     summary_level: Option<u32>,
     filter: DenoiseFilter,
+    /// Side of a region in pixels.
+    side: usize,
 }
 
 impl ThresholdRanges {
@@ -45,6 +47,7 @@ impl ThresholdRanges {
             temporal_min_count: top_u32(design.count_bits()),
             summary_level: design.periphery().map(|_| design.pixel_max()),
             filter: design.filter(),
+            side: design.region_size() as usize,
         }
     }
 
@@ -59,7 +62,7 @@ impl ThresholdRanges {
     ) {
         let (now, before) = (self.denoised(now), self.denoised(before));
         let (at, changed) = (random_place(&now, random), random_place(&now, random));
-        self.aim_at_window(&window_at(&now, at), thresholds, random);
+        self.aim_at_pixel(&now, at, thresholds, random);
         self.aim_temporal_level(now[changed].abs_diff(before[changed]), thresholds, random);
     }
 
@@ -71,7 +74,7 @@ impl ThresholdRanges {
         random: &mut Random,
     ) {
         let at = random_place(square, random);
-        self.aim_at_window(&window_at(&self.denoised(square), at), thresholds, random);
+        self.aim_at_pixel(&self.denoised(square), at, thresholds, random);
     }
 
     /// Returns the pixels of a square after the filter.
@@ -83,20 +86,36 @@ impl ThresholdRanges {
         (0..square.len()).map(pixel).collect()
     }
 
-    fn aim_at_window(
+    /// Sets the levels of features near the level that decides whether a pixel counts.
+    fn aim_at_pixel(
         &self,
-        window: &PixelWindow,
+        denoised: &[u16],
+        at: usize,
         thresholds: &mut ThresholdInputs,
         random: &mut Random,
     ) {
         for (index, &kind) in self.kinds.iter().enumerate() {
-            if !kind.counts_window_hits() {
+            let value = if kind.counts_window_hits() {
+                decisive_level(kind, &window_at(denoised, at)).unwrap_or(0)
+            } else if kind == FeatureKind::Segment {
+                self.mean(denoised).abs_diff(denoised[at].into())
+            } else {
                 continue;
-            }
-            let value = decisive_level(kind, window).unwrap_or(0);
+            };
             let max = self.level[index].into();
             thresholds.level[index] = to_u32(value_near(value.into(), max, random));
         }
+    }
+
+    /// Returns the mean of the region in the center of a square, rounded to a whole level.
+    fn mean(&self, square: &[u16]) -> u32 {
+        let stride = square.len().isqrt();
+        let margin = (stride - self.side) / 2;
+        let rows = square.chunks_exact(stride).skip(margin).take(self.side);
+        let pixels = rows.flat_map(|row| &row[margin..][..self.side]);
+        let sum: u32 = pixels.map(|&pixel| u32::from(pixel)).sum();
+        let count = to_u32((self.side * self.side) as u64);
+        (sum + count / 2) / count
     }
 
     /// Sets the temporal level near the change `difference` of a pixel.

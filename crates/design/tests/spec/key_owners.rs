@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tests of keys that belong to one organization, one feature or one rendering of irrelevant
+//! Tests of keys that belong to one organization, to some features or to one rendering of irrelevant
 //! regions, as `docs/configuration.md` states. All others refuse such a key, whatever its value. A
 //! key without an owner is accepted by all organizations.
 
@@ -45,25 +45,31 @@ fn values(row: &KeyRow<'_>) -> Vec<String> {
     words.filter(is_value).map(str::to_owned).collect()
 }
 
-/// Returns the owner of a key: the only setting with which it is accepted.
-fn owner(row: &KeyRow<'_>) -> Option<String> {
-    let alone = row.meaning.strip_prefix("Only for `").and_then(|rest| rest.split('`').next());
-    if let Some(name) = alone {
-        let key = if Organization::NAMES.contains(&name) {
-            "hardware.organization"
-        } else if FeatureKind::NAMES.contains(&name) {
-            "spatial.0.feature"
-        } else {
-            panic!("{}: `{name}` is neither an organization nor a feature", row.key)
+/// Returns the owners of a key: the only settings with which it is accepted. The list is empty if
+/// all settings accept it.
+fn owners(row: &KeyRow<'_>) -> Vec<String> {
+    if let Some(names) =
+        row.meaning.strip_prefix("Only for ").and_then(|rest| rest.split(':').next())
+    {
+        let setting = |name: &str| {
+            let name = name.trim_matches('`');
+            let key = if Organization::NAMES.contains(&name) {
+                "hardware.organization"
+            } else if FeatureKind::NAMES.contains(&name) {
+                "spatial.0.feature"
+            } else {
+                panic!("{}: `{name}` is neither an organization nor a feature", row.key)
+            };
+            format!("{key}=\"{name}\"")
         };
-        return Some(format!("{key}=\"{name}\""));
+        return names.split(" and ").map(setting).collect();
     }
     let with = row.section.split_once("These keys apply only with `").map(|(_, rest)| rest);
-    let setting = with?.split('`').next()?;
-    Some(setting.replace(' ', ""))
+    let setting = with.and_then(|rest| rest.split('`').next());
+    setting.map(|setting| setting.replace(' ', "")).into_iter().collect()
 }
 
-/// Returns all settings of the key that `owner` sets.
+/// Returns all settings of the key that an owner sets.
 fn all_settings(owner: &str) -> Vec<String> {
     let (key, _) = owner.split_once('=').unwrap();
     let names = match key {
@@ -86,14 +92,15 @@ fn validate_with(keys: &[&str]) -> Result<(), String> {
 fn a_key_of_one_is_refused_by_all_others_whatever_its_value() {
     let mut owned = BTreeMap::new();
     for row in rows() {
-        let Some(owner) = owner(&row) else { continue };
+        let owners = owners(&row);
+        let Some(owner) = owners.first() else { continue };
         let key = row.key.replace("spatial.", "spatial.0.");
         let mut taken = 0;
         for value in values(&row) {
             let setting = format!("{key}={value}");
-            for other in all_settings(&owner) {
+            for other in all_settings(owner) {
                 let said = validate_with(&[&other, &setting]);
-                if other == owner {
+                if owners.contains(&other) {
                     taken += usize::from(said.is_ok());
                     continue;
                 }
@@ -103,8 +110,8 @@ fn a_key_of_one_is_refused_by_all_others_whatever_its_value() {
                 assert!(error.contains("leave the key out"), "{error}");
             }
         }
-        assert!(taken > 0, "{owner} takes no value of {key}");
-        *owned.entry(owner).or_insert(0) += 1;
+        assert!(taken > 0, "{owners:?} take no value of {key}");
+        *owned.entry(owners.join(", ")).or_insert(0) += 1;
     }
     let owned: Vec<_> = owned.iter().map(|(owner, keys)| (owner.as_str(), *keys)).collect();
     assert_eq!(
@@ -113,7 +120,7 @@ fn a_key_of_one_is_refused_by_all_others_whatever_its_value() {
             ("hardware.organization=\"raster\"", 4),
             ("hardware.organization=\"serial\"", 2),
             ("render.irrelevant=\"mean\"", 2),
-            ("spatial.0.feature=\"mad\"", 1),
+            ("spatial.0.feature=\"mad\", spatial.0.feature=\"segment\"", 1),
         ]
     );
 }
@@ -121,7 +128,8 @@ fn a_key_of_one_is_refused_by_all_others_whatever_its_value() {
 #[test]
 fn a_key_of_an_organization_is_refused_with_one_message() {
     for row in rows() {
-        let Some(owner) = owner(&row) else { continue };
+        let owners = owners(&row);
+        let Some(owner) = owners.first() else { continue };
         let Some(name) = owner.strip_prefix("hardware.organization=") else { continue };
         let (name, value) = (name.trim_matches('"'), values(&row).remove(0));
         for other in Organization::NAMES.iter().filter(|&&other| other != name) {
@@ -142,7 +150,7 @@ fn a_key_of_an_organization_is_refused_with_one_message() {
 #[test]
 fn a_key_of_all_is_taken_by_all_with_its_default() {
     let mut checked = 0;
-    for row in rows().iter().filter(|row| owner(row).is_none()) {
+    for row in rows().iter().filter(|row| owners(row).is_empty()) {
         // The default of a threshold of a feature depends on the feature.
         let features = ["spatial.feature", "spatial.level", "spatial.min_score"];
         let Some(value) = values(row).into_iter().next() else { continue };
@@ -167,7 +175,7 @@ fn a_key_of_all_is_taken_by_all_with_its_default() {
 fn a_threshold_of_pixels_is_refused_where_pixels_have_none() {
     for feature in FeatureKind::NAMES {
         let feature = format!("spatial=[{{feature=\"{feature}\",level=3}}]");
-        let is_taken = feature.contains("edge") || feature.contains("corner");
+        let is_taken = ["edge", "corner", "segment"].iter().any(|name| feature.contains(name));
         assert_eq!(validate_with(&[&feature]).is_ok(), is_taken, "{feature}");
     }
 }

@@ -12,6 +12,7 @@ use foveate_estimate::{FrameRate, ramb36};
 use super::FitRequest;
 use super::camera_search::{CameraSearch, ExaminedCamera};
 use super::constraints::ConstraintCheck;
+use super::simplest_cameras::filter_complexity;
 use super::synthesis::{SynthesizedDesign, SynthesizedDesigns};
 
 /// Describes a design in a few words.
@@ -111,13 +112,15 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
         });
     }
     for &filter in DenoiseFilter::ALL {
-        let name = match filter {
-            DenoiseFilter::None => "without a filter",
-            DenoiseFilter::Median3x3 => "with the median",
-            DenoiseFilter::Switching3x3 => "with the switching median",
-            DenoiseFilter::Binomial3x3 => "with the binomial filter",
-        };
-        step(name.to_owned(), &|config| config.denoise.filter = filter);
+        if filter_complexity(filter) < filter_complexity(chosen.denoise.filter) {
+            let name = match filter {
+                DenoiseFilter::None => "without a filter".to_owned(),
+                DenoiseFilter::Median3x3
+                | DenoiseFilter::Switching3x3
+                | DenoiseFilter::Binomial3x3 => format!("{filter} as the filter"),
+            };
+            step(name, &|config| config.denoise.filter = filter);
+        }
     }
     step("isolated windows".to_owned(), &|config| {
         config.region.neighborhood = Neighborhood::Isolated;

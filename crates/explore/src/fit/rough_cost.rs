@@ -7,13 +7,23 @@ use foveate_estimate::FpgaDevice;
 
 use crate::row::count_to_f64;
 
+/// Returns roughly the cost of a filter, as a multiple of the cost of the median.
+fn relative_filter_cost(filter: DenoiseFilter) -> f64 {
+    match filter {
+        DenoiseFilter::None => 0.0,
+        DenoiseFilter::Binomial3x3 => 0.5,
+        DenoiseFilter::Median3x3 => 1.0,
+        DenoiseFilter::Switching3x3 => 1.2,
+    }
+}
+
 /// Returns roughly the share of the device that a design takes. The constants are read from the
 /// area table of 8x8 regions.
 pub(super) fn rough_cost(design: &Design) -> f64 {
     let device = FpgaDevice::xcvu9p();
     let bits = f64::from(design.pixel_bits());
     let kinds = design.features().iter().map(|feature| feature.kind());
-    let median = design.filter() == DenoiseFilter::Median3x3;
+    let filter = relative_filter_cost(design.filter());
     match design.hardware() {
         Hardware::Pipelined(_) => {
             let features: f64 = kinds
@@ -27,7 +37,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                     FeatureKind::Surface => 20.0,
                 })
                 .sum();
-            let unit = 8.0 + features + if median { 37.0 } else { 0.0 };
+            let unit = 8.0 + features + 37.0 * filter;
             f64::from(design.regions()) * unit * bits / count_to_f64(device.lut)
         }
         Hardware::Serial(own) => {
@@ -44,7 +54,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                 })
                 .sum();
             let lanes = f64::from(array.lanes());
-            let logic = (2.5 + features + if median { 0.5 } else { 0.0 }) * bits;
+            let logic = (2.5 + features + 0.5 * filter) * bits;
             let (luts, blocks) = array.lane_memory().resources();
             (300.0 + lanes * (logic + count_to_f64(luts))) / count_to_f64(device.lut)
                 + lanes * count_to_f64(blocks) / count_to_f64(device.bram18)
@@ -64,7 +74,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                 })
                 .sum();
             let pixels = f64::from(own.pixels_per_clock);
-            let logic = 380.0 + pixels * (2.0 + features + if median { 17.0 } else { 0.0 }) * bits;
+            let logic = 380.0 + pixels * (2.0 + features + 17.0 * filter) * bits;
             let blocks = |memory: &RasterMemory| memory.total_bits().div_ceil(18_432);
             let blocks: u64 =
                 RasterMemory::all_memories(design.with_hardware(own)).iter().map(blocks).sum();

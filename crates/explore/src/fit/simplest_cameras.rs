@@ -45,12 +45,7 @@ type CameraComplexity =
 fn complexity(config: &CameraConfig) -> CameraComplexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
     let fraction = config.spatial.iter().filter_map(|entry| entry.mean_fraction_bits).sum();
-    let filter = match config.denoise.filter {
-        DenoiseFilter::None => 0,
-        DenoiseFilter::Median3x3 => 1,
-        DenoiseFilter::Switching3x3 => 2,
-        DenoiseFilter::Binomial3x3 => 1,
-    };
+    let filter = filter_complexity(config.denoise.filter);
     let reference = match config.temporal.reference {
         ReferencePolicy::Previous => 0,
         ReferencePolicy::LastSent => 1,
@@ -58,6 +53,17 @@ fn complexity(config: &CameraConfig) -> CameraComplexity {
     let ordered = [config.frame.pixel_bits, filter, reference, fraction];
     let (region, shown) = (&config.region, config.render.irrelevant);
     ((region.size, region.neighborhood, features, shown, config.periphery.blocks), ordered)
+}
+
+/// Returns a number that is larger for a filter that costs more: a weighted sum costs less than a
+/// median, and the switching median is a median and two comparisons.
+pub(super) fn filter_complexity(filter: DenoiseFilter) -> u32 {
+    match filter {
+        DenoiseFilter::None => 0,
+        DenoiseFilter::Binomial3x3 => 1,
+        DenoiseFilter::Median3x3 => 2,
+        DenoiseFilter::Switching3x3 => 3,
+    }
 }
 
 /// Returns the cameras that send the fewest bytes.

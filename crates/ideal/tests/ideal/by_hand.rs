@@ -10,13 +10,14 @@ use foveate_frame::ByteFrame;
 use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
 
 /// Returns a configuration with all features, in the order of `FeatureKind::ALL`, and without
-/// a filter.
+/// a filter. The minimum of `segment` is one that every region can have.
 fn config(width: u32, height: u32, side: u32) -> CameraConfig {
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
     config.region.size = side;
     config.denoise.filter = DenoiseFilter::None;
     config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    config.spatial[6].min_score = Some(Decimal::from_whole(1));
     config
 }
 
@@ -35,7 +36,7 @@ fn outcome_of_first_frame(config: &CameraConfig, pixel: impl Fn(u32, u32) -> u8)
 #[test]
 fn a_constant_frame_scores_nothing() {
     let outcome = outcome_of_first_frame(&config(20, 13, 8), |_, _| 77);
-    assert_eq!(outcome.scores, vec![vec![0.0; 6]; 5]);
+    assert_eq!(outcome.scores, vec![vec![0.0; 6]; 7]);
     assert_eq!(outcome.changed, vec![64.0; 6], "no reference: all pixels");
     assert_eq!((outcome.srs, outcome.trs), (vec![false; 6], vec![true; 6]));
     assert_eq!((outcome.denoised, outcome.rendered), (vec![77.0; 260], vec![0.0; 260]));
@@ -54,7 +55,8 @@ fn a_step_is_an_edge_two_pixels_wide() {
     // The step lies inside one region: half of the pixels are 15 above the mean, half 15 below.
     let outcome = outcome_of_first_frame(&config(8, 8, 8), |x, _| if x < 4 { 0 } else { 30 });
     let scores: Vec<f64> = outcome.scores.iter().map(|scores| scores[0]).collect();
-    assert_eq!(scores, [16.0, 0.0, 15.0, 225.0, 30.0]);
+    // A column is equal to itself below, and all pixels are more than 8 away from the mean.
+    assert_eq!(scores, [16.0, 0.0, 15.0, 225.0, 30.0, 0.0, 32.0]);
 }
 
 /// The ideal camera ignores the neighborhood and the fraction bits of the configuration.
@@ -65,17 +67,21 @@ fn properties_of_hardware_have_no_effect() {
     let mut shared = isolated.clone();
     shared.region.neighborhood = Neighborhood::Shared;
     shared.spatial[2].mean_fraction_bits = Some(6);
+    shared.spatial[6].mean_fraction_bits = Some(6);
     let pixel = |x: u32, y: u32| u8::try_from((x * 37 + y * 101 + x * y * 7) % 256).unwrap();
     assert_eq!(outcome_of_first_frame(&isolated, pixel), outcome_of_first_frame(&shared, pixel));
 }
 
 /// The checkerboard of 0 and 200 has mean 100; every pixel is 100 away from it, the variance is
-/// 10,000, and the range is 200.
+/// 10,000, and the range is 200. Moved to the right or down, it differs everywhere but in the last
+/// column or row, which meets itself. Moved along a diagonal, it differs only there.
 #[test]
 fn a_checkerboard_has_the_scores_of_its_amplitude() {
     let pixel = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 0 } else { 200 };
     let outcome = outcome_of_first_frame(&config(8, 8, 8), pixel);
     assert_eq!([2, 3, 4].map(|place| outcome.scores[place][0]), [100.0, 10_000.0, 200.0]);
+    assert_eq!(outcome.scores[5][0], 14.0 * 200.0 / 64.0, "7 pixels of two sides");
+    assert_eq!(outcome.scores[6][0], 32.0);
     // Inside the region Gx and Gy are 0. At the border the window repeats a line, so |G| is 0 along
     // a side, too.
     assert_eq!(outcome.scores[1][0], 0.0, "neighbors alternate");
@@ -97,6 +103,56 @@ fn a_bright_pixel_is_a_corner_only_at_its_own_place() {
     config.denoise.filter = DenoiseFilter::Median3x3;
     let outcome = outcome_of_first_frame(&config, |x, y| if (x, y) == (4, 4) { 250 } else { 0 });
     assert_eq!((outcome.scores[1][0], outcome.denoised), (0.0, vec![0.0; 81]));
+}
+
+/// Two levels around the mean 8.5 of four pixels: 6 and 11 are 2.5 away from it.
+#[test]
+fn a_segment_is_farther_from_the_real_mean_than_the_level() {
+    let segment = |level: u32| {
+        let mut config = config(2, 2, 2);
+        config.spatial = vec![SpatialConfig::new(FeatureKind::Segment)];
+        config.temporal.min_count = 1;
+        (config.spatial[0].level, config.spatial[0].min_score) =
+            (Some(level), Some(Decimal::from_whole(1)));
+        let pixel = |x: u32, y: u32| [[6, 11], [8, 9]][y as usize][x as usize];
+        outcome_of_first_frame(&config, pixel).scores[0][0]
+    };
+    assert_eq!([0, 1, 2, 3].map(segment), [2.0, 1.0, 1.0, 0.0]);
+}
+
+/// The differences of a frame to the pixels at the four displacements; the window repeats the last
+/// column and row.
+#[test]
+fn a_surface_is_the_smallest_of_four_mean_differences() {
+    let mut config = config(2, 2, 2);
+    config.spatial = vec![SpatialConfig::new(FeatureKind::Surface)];
+    config.temporal.min_count = 1;
+    let pixel = |x: u32, y: u32| [[10, 20], [14, 50]][y as usize][x as usize];
+    // Right: 10 + 36. Below: 4 + 30. Below to the right: 40 + 30 + 36. Below to the left: 4 + 6 +
+    // 0 + 36.
+    assert_eq!(outcome_of_first_frame(&config, pixel).scores, [[34.0 / 4.0]]);
+}
+
+/// The filters around a single pixel of 160 and at the border of a step of 1.
+#[test]
+fn the_binomial_filter_is_not_rounded_and_the_switching_median_removes_single_pixels() {
+    let filtered = |filter: DenoiseFilter, pixel: &dyn Fn(u32, u32) -> u8| {
+        let mut config = config(3, 3, 3);
+        config.denoise.filter = filter;
+        outcome_of_first_frame(&config, pixel).denoised
+    };
+    let spot = |x: u32, y: u32| if (x, y) == (1, 1) { 160 } else { 0 };
+    let means = [10.0, 20.0, 10.0, 20.0, 40.0, 20.0, 10.0, 20.0, 10.0];
+    assert_eq!(filtered(DenoiseFilter::Binomial3x3, &spot), means);
+    assert_eq!(filtered(DenoiseFilter::Switching3x3, &spot), [0.0; 9]);
+    let step = |x: u32, _: u32| u8::from(x > 0);
+    let row = [0.25, 0.75, 1.0];
+    assert_eq!(filtered(DenoiseFilter::Binomial3x3, &step), [row, row, row].concat());
+    // Every pixel is the largest or the smallest of its window, and the median keeps the step.
+    let row = [0.0, 1.0, 1.0];
+    assert_eq!(filtered(DenoiseFilter::Switching3x3, &step), [row, row, row].concat());
+    let ramp = |x: u32, y: u32| u8::try_from(10 * x + y).unwrap();
+    assert_eq!(filtered(DenoiseFilter::Switching3x3, &ramp)[4], 11.0, "a value in between stays");
 }
 
 /// A decimal minimum is compared exactly: the first equals the score, the second is just above it.

@@ -3,8 +3,8 @@
 #![allow(clippy::cast_precision_loss, reason = "scores are below 2^53, or compared within 1e-12")]
 
 use crate::generators;
-use crate::generators::{ChangeScript, cameras, script_frames};
-use foveate_camera::{Camera, FeatureKind};
+use crate::generators::{ChangeScript, FrameChange, cameras, script_frames};
+use foveate_camera::{Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood};
 use foveate_frame::ByteFrame;
 use foveate_frame::Frame;
 use foveate_ideal::{IdealCamera, IdealOutcome};
@@ -108,6 +108,28 @@ proptest! {
                     prop_assert!((ideal_score - model_score).abs() <= bound * (1.0 + 1e-9), "{ideal_score} {model_score}");
                 }
             }
+        }
+    }
+}
+
+/// The model rounds each pixel of `binomial3x3` to the nearest integer, halves up.
+#[test]
+fn the_pixels_of_the_binomial_filter_are_those_of_the_model_before_rounding() {
+    for (width, height, side, bits) in [(9, 7, 4, 8), (16, 16, 8, 12), (5, 5, 2, 1)] {
+        let mut config = CameraConfig::default();
+        (config.frame.width, config.frame.height) = (Some(width), Some(height));
+        (config.region.size, config.frame.pixel_bits) = (side, bits);
+        config.region.neighborhood = Neighborhood::Shared;
+        config.denoise.filter = DenoiseFilter::Binomial3x3;
+        config.temporal.min_count = 1;
+        config.spatial[0].min_score = Some(Decimal::from_whole(1));
+        let camera = config.validate().unwrap();
+        let (mut ideal, mut model) = (IdealCamera::new(&camera), FunctionalCamera::new(&camera));
+        for frame in script_frames(&camera, 3, &[FrameChange::Noise, FrameChange::Binary]) {
+            let ideal = ideal.step(&ByteFrame::from(&frame)).unwrap();
+            let model = crop(&camera, &model.step(&frame).unwrap().denoised);
+            let rounded: Vec<f64> = ideal.denoised.iter().map(|x| (x + 0.5).floor()).collect();
+            assert_eq!(rounded, model);
         }
     }
 }

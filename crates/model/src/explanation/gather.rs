@@ -2,16 +2,23 @@
 //! The construction of an explanation from the outcome of a frame. The hits of single pixels come
 //! from the arithmetic of the model.
 
-use foveate_camera::{Camera, IrrelevantRendering, Periphery, RegionAction, SpatialFeature};
+use std::cmp::Ordering;
+
+use foveate_camera::{
+    Camera, FeatureKind, IrrelevantRendering, Periphery, RegionAction, SpatialFeature,
+};
 use foveate_design::Design;
 use foveate_frame::Frame;
 
 use super::{
-    FrameIdentification, RegionExplanation, RegionPosition, SpatialExplanation, SquareRows,
-    SummaryExplanation, TemporalExplanation,
+    DisplacementTotals, FrameIdentification, RegionExplanation, RegionPosition, SegmentParts,
+    SpatialExplanation, SquareRows, SummaryExplanation, TemporalExplanation,
 };
-use crate::feature::mean::rounded_mean;
+use crate::feature::mean::region_mean;
 use crate::feature::region_hits;
+use crate::feature::segment::{SegmentCounts, sides_of_mean};
+use crate::feature::surface::displacement_sums;
+use crate::region_view::FrameRegion;
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 
 /// Version of the format. It changes when a key is removed or changes its meaning.
@@ -88,23 +95,48 @@ impl SpatialExplanation {
         region: u32,
         score: u64,
     ) -> Self {
-        let n = u64::from(camera.region_pixels());
         let denoised = &outcome.denoised;
         let hits = region_hits(camera, feature, denoised, region);
-        let mean = feature.mean().map(|mean| {
-            let sum = pixels(camera, denoised, region).into_iter().map(u64::from).sum();
-            rounded_mean(sum, n, mean.fraction_bits)
-        });
+        let mean_fraction_bits = feature.mean().map(|mean| mean.fraction_bits);
+        let view = FrameRegion::new(camera, denoised, region);
+        let parts = sides_of_mean(camera, feature, denoised, region);
+        let displacements = (feature.kind() == FeatureKind::Surface)
+            .then(|| DisplacementTotals::from_sums(displacement_sums(&view).sums()));
         Self {
             feature: feature.kind(),
             level: feature.level(),
             hits: hits.map(|hits| rows(camera, &hits)),
-            mean,
+            mean: mean_fraction_bits.map(|bits| region_mean(&view, bits)),
+            mean_fraction_bits,
+            parts: parts.map(|sides| SegmentParts::of(camera, &sides)),
+            displacements,
             score,
             min_score: feature.min_score(),
             unit: feature.unit(),
             vote: score >= feature.min_score(),
         }
+    }
+}
+
+impl SegmentParts {
+    fn of(camera: &Camera, sides: &[Ordering]) -> Self {
+        let pixels_on = |side: Ordering| {
+            let marks: Vec<bool> = sides.iter().map(|&own| own == side).collect();
+            rows(camera, &marks)
+        };
+        let counts = sides.iter().copied().fold(SegmentCounts::default(), SegmentCounts::with);
+        Self {
+            above: pixels_on(Ordering::Greater),
+            below: pixels_on(Ordering::Less),
+            count_above: counts.above,
+            count_below: counts.below,
+        }
+    }
+}
+
+impl DisplacementTotals {
+    fn from_sums([right, below, below_right, below_left]: [u64; 4]) -> Self {
+        Self { right, below, below_right, below_left }
     }
 }
 

@@ -3,18 +3,21 @@
 //!
 //! Regions up to 16x16 pixels are shown as numbers, hexadecimal above 8 bits, with a mark at every
 //! hit. Larger regions are shown with one character per pixel, so that no row is cut off: ten
-//! shades for pixels, `X` for a hit.
+//! shades for pixels, `X` for a hit. The marks of `segment` are `+` above the mean and `-` below.
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
 use super::{
-    RegionExplanation, SpatialExplanation, SquareRows, SummaryExplanation, TemporalExplanation,
+    DisplacementTotals, RegionExplanation, SegmentParts, SpatialExplanation, SquareRows,
+    SummaryExplanation, TemporalExplanation,
 };
 
 /// Width of a terminal in columns.
 const WIDTH: usize = 80;
 /// Largest side of a region that is shown as numbers.
 const MAX_NUMBER_SIDE: usize = 16;
+/// The mark of a pixel that does not count.
+const UNMARKED: char = ' ';
 /// Shades from black to white.
 const SHADES: &[u8; 10] = b" .:-=+*#%@";
 
@@ -43,10 +46,9 @@ impl Display for RegionExplanation {
         }
         writeln!(f, "{}", grid.note())?;
         grid.show(f, "raw", &self.raw, None)?;
-        let denoised = format!("scored ({})", self.filter);
-        grid.show(f, &denoised, &self.denoised, None)?;
+        grid.show(f, &self.filter_text(), &self.denoised, None)?;
         for spatial in &self.spatial {
-            spatial.show_hits(f, &grid, &self.denoised)?;
+            spatial.show_marks(f, &grid, &self.denoised)?;
         }
         self.temporal.show_hits(f, &grid)?;
         writeln!(f)?;
@@ -66,20 +68,50 @@ impl Display for RegionExplanation {
     }
 }
 
+impl RegionExplanation {
+    /// Returns the title of the scored pixels: the filter and its effect.
+    fn filter_text(&self) -> String {
+        let Self { filter, .. } = self;
+        if !filter.has_window() {
+            return format!("scored ({filter})");
+        }
+        let pairs = self.raw.iter().flatten().zip(self.denoised.iter().flatten());
+        let changes: Vec<u16> =
+            pairs.map(|(raw, denoised)| raw.abs_diff(*denoised)).filter(|&by| by > 0).collect();
+        match changes.iter().max() {
+            None => format!("scored ({filter}): no pixel is changed"),
+            Some(most) => {
+                format!("scored ({filter}): {} pixels changed, by up to {most}", changes.len())
+            }
+        }
+    }
+}
+
 impl SpatialExplanation {
-    fn show_hits(
+    /// Shows the pixels that count.
+    fn show_marks(
         &self,
         f: &mut Formatter<'_>,
         grid: &GridFormat,
         denoised: &SquareRows<u16>,
     ) -> fmt::Result {
-        match (&self.hits, self.level) {
-            (Some(hits), Some(level)) => {
-                let title = format!("{}: hits ({}), level {level}", self.feature, grid.mark());
-                grid.show(f, &title, denoised, Some(hits))
-            }
-            _ => Ok(()),
+        let Some(level) = self.level else { return Ok(()) };
+        if let Some(hits) = &self.hits {
+            let title = format!("{}: hits ({}), level {level}", self.feature, grid.mark());
+            grid.show(f, &title, denoised, Some(&grid.hit_marks(hits)))?;
         }
+        if let (Some(parts), Some(mean)) = (&self.parts, self.mean_text()) {
+            let title =
+                format!("{}: above (+) and below (-) the mean {mean}, level {level}", self.feature);
+            grid.show(f, &title, denoised, Some(&parts.marks()))?;
+        }
+        Ok(())
+    }
+
+    /// Returns the mean in grey levels.
+    fn mean_text(&self) -> Option<String> {
+        let (mean, bits) = (self.mean?, self.mean_fraction_bits?);
+        Some(if bits == 0 { mean.to_string() } else { quotient_text(mean, 1 << bits) })
     }
 
     fn line(&self) -> String {
@@ -91,7 +123,36 @@ impl SpatialExplanation {
             // Writing to a string cannot fail.
             let _ = write!(line, "; {} per pixel", quotient_text(self.score, self.unit));
         }
+        if let Some(parts) = &self.parts {
+            let _ = write!(line, "; {} above, {} below", parts.count_above, parts.count_below);
+        }
+        if let Some(sums) = &self.displacements {
+            let DisplacementTotals { right, below, below_right, below_left } = sums;
+            let _ = write!(
+                line,
+                "\n{:<9} the smallest of: right {right}, below {below},\n{:<9} below right \
+                 {below_right}, below left {below_left}",
+                "", ""
+            );
+        }
         line
+    }
+}
+
+impl SegmentParts {
+    /// Returns the marks of all pixels.
+    fn marks(&self) -> SquareRows<char> {
+        let row = |(above, below): (&Vec<bool>, &Vec<bool>)| {
+            let sides = above.iter().zip(below);
+            sides
+                .map(|(&above, &below)| match (above, below) {
+                    (true, _) => '+',
+                    (false, true) => '-',
+                    (false, false) => UNMARKED,
+                })
+                .collect()
+        };
+        self.above.iter().zip(&self.below).map(row).collect()
     }
 }
 
@@ -102,7 +163,7 @@ impl TemporalExplanation {
                 let mark = grid.mark();
                 let title =
                     format!("reference ({}): changed ({mark}), level {}", self.against, self.level);
-                grid.show(f, &title, reference, Some(&self.hits))
+                grid.show(f, &title, reference, Some(&grid.hit_marks(&self.hits)))
             }
             None => {
                 writeln!(f, "\nreference ({}): none is valid, every pixel counts", self.against)
@@ -151,7 +212,7 @@ impl GridFormat {
         match (self.side > MAX_NUMBER_SIDE, self.hexadecimal) {
             (true, _) => {
                 "one character per pixel: ten shades from black to white (the numbers are in\n\
-                 --json), or X for a hit"
+                 --json), or a mark where a pixel counts"
             }
             (false, true) => "pixels are hexadecimal",
             (false, false) => "pixels are decimal",
@@ -162,20 +223,28 @@ impl GridFormat {
         if self.side > MAX_NUMBER_SIDE { 'X' } else { '*' }
     }
 
-    /// Writes a square of pixels with a title. Hits are marked.
+    /// Returns the marks of hits.
+    fn hit_marks(&self, hits: &SquareRows<bool>) -> SquareRows<char> {
+        let row = |row: &Vec<bool>| {
+            row.iter().map(|&hit| if hit { self.mark() } else { UNMARKED }).collect()
+        };
+        hits.iter().map(row).collect()
+    }
+
+    /// Writes a square of pixels with a title, and the marks of pixels if there are any.
     fn show(
         &self,
         f: &mut Formatter<'_>,
         title: &str,
         pixels: &SquareRows<u16>,
-        hits: Option<&SquareRows<bool>>,
+        marks: Option<&SquareRows<char>>,
     ) -> fmt::Result {
         writeln!(f, "\n{title}")?;
         for (y, row) in pixels.iter().enumerate() {
             let mut line = String::new();
             for (x, &pixel) in row.iter().enumerate() {
-                let hit = hits.map(|hits| hits[y][x]);
-                self.cell(&mut line, pixel, hit)?;
+                let mark = marks.map(|marks| marks[y][x]);
+                self.cell(&mut line, pixel, mark)?;
             }
             debug_assert!(line.len() <= WIDTH, "a row of the region fits");
             writeln!(f, "{}", line.trim_end())?;
@@ -183,21 +252,22 @@ impl GridFormat {
         Ok(())
     }
 
-    fn cell(&self, line: &mut String, pixel: u16, hit: Option<bool>) -> fmt::Result {
+    /// Writes a pixel. `mark` is `None` in a square without marks.
+    fn cell(&self, line: &mut String, pixel: u16, mark: Option<char>) -> fmt::Result {
         let width = self.digits;
-        match (self.side > MAX_NUMBER_SIDE, hit) {
-            (true, Some(hit)) => line.push(if hit { self.mark() } else { '.' }),
+        match (self.side > MAX_NUMBER_SIDE, mark) {
+            (true, Some(mark)) => line.push(if mark == UNMARKED { '.' } else { mark }),
             (true, None) => {
                 let shade = usize::from(pixel) * (SHADES.len() - 1) / usize::from(self.max.max(1));
                 line.push(char::from(SHADES[shade]));
             }
-            (false, hit) => {
+            (false, mark) => {
                 if self.hexadecimal {
                     write!(line, "{pixel:>width$x}")?;
                 } else {
                     write!(line, "{pixel:>width$}")?;
                 }
-                line.push(if hit == Some(true) { self.mark() } else { ' ' });
+                line.push(mark.unwrap_or(UNMARKED));
             }
         }
         Ok(())

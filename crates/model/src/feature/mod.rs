@@ -19,22 +19,21 @@ use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
-use mean::rounded_mean;
+use mean::region_mean;
 use range::PixelExtremes;
 use segment::{SegmentCounts, side_of_mean};
-use surface::DisplacementSums;
+use surface::displacement_sums;
 
 /// Returns the score of a region. `level` is ignored for a feature without one.
 pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> u64 {
     let sum = || region.pixels().map(u64::from).sum();
     let fraction_bits = feature.mean().map_or(0, |mean| mean.fraction_bits);
-    let mean = || rounded_mean(sum(), region.pixel_count(), fraction_bits);
     match feature.kind() {
         kind @ (FeatureKind::Edge | FeatureKind::Corner) => {
             count_true(region.windows().map(|window| is_hit(kind, &window, level))).into()
         }
         FeatureKind::Mad => {
-            let mean = mean();
+            let mean = region_mean(region, fraction_bits);
             region.pixels().map(|pixel| mad::deviation(pixel, mean, fraction_bits)).sum()
         }
         FeatureKind::Variance => {
@@ -45,12 +44,9 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
             let seen = PixelExtremes::default();
             region.pixels().fold(seen, PixelExtremes::with).range()
         }
-        FeatureKind::Surface => {
-            let seen = DisplacementSums::default();
-            region.windows().fold(seen, |seen, window| seen.with(&window)).score()
-        }
+        FeatureKind::Surface => displacement_sums(region).score(),
         FeatureKind::Segment => {
-            let mean = mean();
+            let mean = region_mean(region, fraction_bits);
             let sides =
                 region.pixels().map(|pixel| side_of_mean(pixel, mean, level, fraction_bits));
             sides.fold(SegmentCounts::default(), SegmentCounts::with).score()

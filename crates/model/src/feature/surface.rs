@@ -2,6 +2,7 @@
 //! The feature `surface`: the smallest sum of differences between the region and itself, moved by
 //! one pixel in four directions.
 
+use crate::region_view::RegionView;
 use crate::window::{CENTER, PixelWindow};
 
 /// The places in a window of the pixels at the displacements (1, 0), (0, 1), (1, 1) and (-1, 1):
@@ -35,6 +36,12 @@ impl DisplacementSums {
         let [right, below, below_right, below_left] = self.0;
         right.min(below).min(below_right).min(below_left)
     }
+}
+
+/// Returns the sums of all windows of a region.
+#[must_use]
+pub fn displacement_sums(region: &impl RegionView) -> DisplacementSums {
+    region.windows().fold(DisplacementSums::default(), |seen, window| seen.with(&window))
 }
 
 #[cfg(test)]

@@ -2,13 +2,14 @@
 //! Explanations agree with the model, are consistent, and fit a terminal.
 
 use crate::support::{design, frames};
-use foveate_design::DesignConfig;
+use foveate_design::{DesignConfig, FeatureKind};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
+use foveate_model::explanation::{DisplacementTotals, SpatialExplanation};
 use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_simulator::{RegionExplanation, SimulatorError, explain_region};
 
-const FOUR: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90}]"#;
+const MANY: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90},{feature="surface"},{feature="segment",mean_fraction_bits=1}]"#;
 
 fn explained(
     overrides: &[&str],
@@ -24,6 +25,28 @@ fn hits(rows: &[Vec<bool>]) -> u64 {
     rows.iter().flatten().map(|&hit| u64::from(hit)).sum()
 }
 
+/// Checks that the parts that are shown add up to the score.
+fn check_parts_of_score(spatial: &SpatialExplanation) {
+    let SpatialExplanation { feature, score, .. } = spatial;
+    if let Some(rows) = &spatial.hits {
+        assert_eq!(hits(rows), *score, "{feature}");
+    }
+    assert_eq!(spatial.parts.is_some(), *feature == FeatureKind::Segment);
+    if let Some(parts) = &spatial.parts {
+        assert_eq!(
+            (hits(&parts.above), hits(&parts.below)),
+            (parts.count_above, parts.count_below)
+        );
+        assert_eq!(parts.count_above.min(parts.count_below), *score);
+    }
+    assert_eq!(spatial.displacements.is_some(), *feature == FeatureKind::Surface);
+    if let Some(DisplacementTotals { right, below, below_right, below_left }) =
+        spatial.displacements
+    {
+        assert_eq!([right, below, below_right, below_left].into_iter().min(), Some(*score));
+    }
+}
+
 /// Tests every region of every frame: bits and scores are the model's, the hits add up to the
 /// scores, and the reference follows the rule of the contract.
 #[test]
@@ -31,8 +54,10 @@ fn every_explanation_is_the_models_and_adds_up() {
     for more in [
         &["temporal.reference=\"last-sent\"", "region.neighborhood=\"shared\""][..],
         &["render.irrelevant=\"hold\"", "denoise.filter=\"none\"", "decision.combine=\"all\""],
+        &["denoise.filter=\"switching3x3\""],
+        &["denoise.filter=\"binomial3x3\""],
     ] {
-        let overrides = [&["frame.width=30", "frame.height=20", FOUR], more].concat();
+        let overrides = [&["frame.width=30", "frame.height=20", MANY], more].concat();
         let design = design(&overrides);
         let frames: Vec<Frame> = frames(&design).collect();
         let mut camera = FunctionalCamera::new(&design);
@@ -47,9 +72,7 @@ fn every_explanation_is_the_models_and_adds_up() {
                 for (spatial, scores) in told.spatial.iter().zip(&outcome.scores) {
                     assert_eq!(spatial.score, scores[at]);
                     assert_eq!(spatial.vote, spatial.score >= spatial.min_score);
-                    if let Some(rows) = &spatial.hits {
-                        assert_eq!(hits(rows), spatial.score, "{}", spatial.feature);
-                    }
+                    check_parts_of_score(spatial);
                 }
                 assert_eq!(told.temporal.count, outcome.temporal_count[at]);
                 assert_eq!(hits(&told.temporal.hits), u64::from(told.temporal.count));
@@ -90,7 +113,7 @@ fn texts_fit_80_columns_at_every_size_and_depth() {
             let overrides = [
                 format!("region.size={size}"),
                 format!("frame.pixel_bits={bits}"),
-                "spatial=[{feature=\"edge\",level=1,min_score=1},{feature=\"variance\",min_score=0.1}]".into(),
+                "spatial=[{feature=\"edge\",level=1,min_score=1},{feature=\"variance\",min_score=0.1},{feature=\"surface\",min_score=0.1},{feature=\"segment\",level=0,min_score=1,mean_fraction_bits=2}]".into(),
                 "temporal={level=0,min_count=1}".into(),
             ];
             let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
@@ -107,7 +130,7 @@ fn texts_fit_80_columns_at_every_size_and_depth() {
 
 #[test]
 fn a_small_scene_is_explained_as_in_the_golden_file() {
-    let overrides = ["frame.width=64", "frame.height=64", FOUR];
+    let overrides = ["frame.width=64", "frame.height=64", MANY];
     let text = explained(&overrides, 3, (2, 5)).unwrap().to_string();
     let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/simulator/golden/explain.txt");
     if std::env::var_os("FOVEATE_BLESS").is_some() {

@@ -67,9 +67,9 @@ fn score_thresholds(kind: FeatureKind, rounds: u64) -> CaseRow {
             answers.push(false);
             continue;
         };
-        let score = u32::try_from(score).expect("no more than the pixels of a region");
-        for min in [score.saturating_sub(1), score, (score + 1).min(SIDE * SIDE)] {
-            config.camera.spatial[0].min_score = Some(Decimal::from_whole(min.into()));
+        let largest = design(&config).features()[0].score_max();
+        for min in [score.saturating_sub(1), score, (score + 1).min(largest)] {
+            config.camera.spatial[0].min_score = Some(Decimal::from_whole(min));
             let voted = compare_answers(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
             answers.push(voted == Some(score >= min));
         }

@@ -7,22 +7,33 @@ use foveate_model::FunctionalCamera;
 use foveate_web::PageCameras;
 
 pub(crate) const SIZE: (u32, u32) = (61, 43);
-const FIVE: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"},{feature=\"range\"}]";
+const ALL: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\"}]";
 
 /// Returns the presets, and configurations for what they do not reach: other depths, sizes with
 /// padding, means of raw pixels.
 pub(crate) fn configurations() -> Vec<String> {
     let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
     let more = [
-        &[FIVE, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
-        &[FIVE, "frame.pixel_bits=5", "region.size=7", "temporal.reference=\"last-sent\""],
+        &[ALL, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
+        &[
+            ALL,
+            "frame.pixel_bits=5",
+            "region.size=7",
+            "temporal.reference=\"last-sent\"",
+            "denoise.filter=\"switching3x3\"",
+        ],
         &[
             "region.size=12",
             "render.irrelevant=\"mean\"",
             "periphery.blocks=4",
             "region.neighborhood=\"shared\"",
         ],
-        &["frame.pixel_bits=16", "region.size=16", "render.irrelevant=\"hold\""],
+        &[
+            "frame.pixel_bits=16",
+            "region.size=16",
+            "render.irrelevant=\"hold\"",
+            "denoise.filter=\"binomial3x3\"",
+        ],
     ];
     let more = more.map(|keys| DesignConfig::from_toml_with("", keys).unwrap().to_toml());
     presets.map(|preset| preset.toml.to_owned()).chain(more).collect()

@@ -62,27 +62,27 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
     }
 }
 
-/// Returns the rows of the design in each organization with each feature, without and with
-/// denoising. The keys that only one organization has are those of the design in its own
+/// Returns the rows of the design in each organization, with each feature without a filter and with
+/// the median, and with the default feature and each other filter. The keys that only one organization has are those of the design in its own
 /// organization, and have their defaults in the others.
 fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
     let mut list = Vec::new();
     for &organization in Organization::ALL {
         for &filter in DenoiseFilter::ALL {
-            for &kind in FeatureKind::ALL {
+            for kind in compared_features(filter) {
                 let mut config = with_feature(base, kind, filter);
                 if organization != base.hardware.organization.kind() {
                     config.hardware.organization = organization.into();
                 }
                 config.hardware.unfold();
-                let median = match filter {
+                let filter_name = match filter {
                     DenoiseFilter::None => "",
                     DenoiseFilter::Median3x3 => " median",
                     DenoiseFilter::Switching3x3 => " switching",
                     DenoiseFilter::Binomial3x3 => " binomial",
                 };
                 list.push(PlannedRow {
-                    name: format!("{organization} {kind}{median}"),
+                    name: format!("{organization} {kind}{filter_name}"),
                     family: organization.to_string(),
                     design: config.validate(),
                 });
@@ -90,6 +90,14 @@ fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
         }
     }
     list
+}
+
+/// Returns the features that are compared with a filter.
+fn compared_features(filter: DenoiseFilter) -> Vec<FeatureKind> {
+    match filter {
+        DenoiseFilter::None | DenoiseFilter::Median3x3 => FeatureKind::ALL.to_vec(),
+        DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => vec![FeatureKind::default()],
+    }
 }
 
 fn with_feature(base: &DesignConfig, kind: FeatureKind, filter: DenoiseFilter) -> DesignConfig {
