@@ -16,9 +16,9 @@ always @* begin
 end
 
 // Places. Either a frame enters or the array works on it.
-wire f_write_active = controls[27];
-wire f_write_border = controls[26];
-wire f_write_mean = controls[23];
+wire f_write_active = controls[33];
+wire f_write_border = controls[32];
+wire f_write_mean = controls[29];
 wire f_shift = controls[4];
 wire f_shows_mean = controls[0];
 wire f_in_reference = F_HAS_REFERENCE && word >= REFERENCE_BASE && word < REFERENCE_BASE + F_N;
@@ -124,10 +124,12 @@ function integer f_ones(input integer value);
 endfunction
 localparam F_PASSES = (EDGE != 0 ? 14 * F_N : 0) + (CORNER != 0 ? 36 * F_N : 0)
     + (RANGE != 0 ? 4 * F_N + WIDTH + 2 : 0)
+    + (SURFACE != 0 ? 8 * F_N + 11 * f_bits(F_N * ((1 << WIDTH) - 1)) + 5 : 0)
+    + (SEGMENT != 0 ? 4 * F_N + 4 * WIDTH + 9 : 0)
     + (MAD != 0 ? 2 * F_N + WIDTH + 2 * FRACTION + 3 : 0)
     + (VARIANCE != 0 ? F_N + WIDTH * F_N * f_ones(F_N) + 2 * f_bits(F_N * ((1 << WIDTH) - 1)) + WIDTH + f_bits(F_N) + 2 : 0);
-localparam F_SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0;
-localparam F_Q = (BLOCK != 0 ? 1 : 0) + (DEEP == 0 ? 0 : F_SUMS ? 2 : 1);
+localparam F_COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0;
+localparam F_Q = (BLOCK != 0 ? 1 : 0) + (DEEP == 0 ? 0 : F_COMPUTES ? 2 : 1);
 localparam F_SENT = LAST_SENT != 0;
 localparam F_STEPS = FOLD * (
     (MEDIAN != 0 ? F_DENOISED * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))

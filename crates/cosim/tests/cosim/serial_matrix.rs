@@ -14,7 +14,7 @@ use foveate_design::{
 };
 use foveate_toolchain::testing::{CoverDepth, cover};
 
-use FeatureKind::{Corner, Edge, Mad, Range, Variance};
+use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
 
 /// A design at a level; the grid of level `rcm` is that of its frame.
 struct SerialCase {
@@ -115,7 +115,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
 /// put every region into one lane. Features are alone and together.
 #[test]
 fn arrays_agree_for_every_feed_neighborhood_and_fold() {
-    let sets: [&[FeatureKind]; 8] = [
+    let sets: [&[FeatureKind]; 11] = [
         &[Edge],
         &[Corner],
         &[Edge, Corner],
@@ -124,6 +124,9 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
         FeatureKind::ALL,
         &[Mad, Variance],
         &[Range, Edge],
+        &[Segment, Mad],
+        &[Surface],
+        &[Segment, Surface],
     ];
     let mut cases = Vec::new();
     for &feed in PixelFeed::ALL {
@@ -158,12 +161,13 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
 #[test]
 fn depths_sizes_memories_and_constants_agree() {
     let mut cases = Vec::new();
-    for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
-        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad]][turn % 3];
+    for (turn, bits) in [1, 10, 12, 16, 1, 16, 1, 12].into_iter().enumerate() {
+        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad], [Segment, Surface]]
+            [if turn < 6 { turn % 3 } else { 3 }];
         let mut config = serial_config(&kinds.map(|kind| feature(kind, 4)));
         config.camera.frame.pixel_bits = bits;
         for spatial in &mut config.camera.spatial {
-            spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
+            spatial.level = matches!(spatial.feature, Edge | Corner | Segment).then_some(1);
             spatial.min_score = Some(Decimal::from_whole(0));
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));
@@ -177,9 +181,10 @@ fn depths_sizes_memories_and_constants_agree() {
     // The memory is distributed up to 128 LUTs, so it is block memory for the larger regions and
     // folds.
     for (turn, (size, fold)) in
-        [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2)].into_iter().enumerate()
+        [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2), (8, 1), (7, 2)].into_iter().enumerate()
     {
-        let kinds = [[Edge, Variance], [Mad, Corner], [Range, Edge]][turn % 3];
+        let kinds = [[Edge, Variance], [Mad, Corner], [Range, Edge], [Surface, Segment]]
+            [if turn < 6 { turn % 3 } else { 3 }];
         let mut config =
             with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
@@ -211,8 +216,16 @@ fn depths_sizes_memories_and_constants_agree() {
 /// register and without.
 #[test]
 fn deep_arrays_agree() {
-    let sets: [&[FeatureKind]; 6] =
-        [&[Edge], FeatureKind::ALL, &[Corner], &[Variance], &[Mad, Edge], &[Range]];
+    let sets: [&[FeatureKind]; 8] = [
+        &[Edge],
+        FeatureKind::ALL,
+        &[Corner],
+        &[Variance],
+        &[Mad, Edge],
+        &[Range],
+        &[Segment],
+        &[Surface],
+    ];
     let mut cases = Vec::new();
     for &filter in DenoiseFilter::ALL {
         for &reference in ReferencePolicy::ALL {
@@ -256,6 +269,8 @@ fn summaries_agree() {
         (6, 1, 10, &[Variance], 2, block, deep),
         (4, 2, 16, &[Edge], 6, distributed, deep),
         (4, 1, 8, &[Range], 2, distributed, deep),
+        (6, 2, 8, &[Segment], 2, distributed, plain),
+        (4, 1, 8, &[Surface, Segment], 3, block, deep),
     ]
     .into_iter()
     .enumerate()

@@ -15,7 +15,7 @@ use std::thread;
 
 pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConfig {
     let mut feature = SpatialConfig::new(kind);
-    feature.mean_fraction_bits = (kind == FeatureKind::Mad).then_some(mean_fraction_bits);
+    feature.mean_fraction_bits = kind.has_second_pass().then_some(mean_fraction_bits);
     feature
 }
 

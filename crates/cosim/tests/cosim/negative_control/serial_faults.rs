@@ -61,8 +61,8 @@ pub(super) const FAULTS: [PlantedFault; 12] = [
         port: "score_o",
         design: MAD,
         module: "serial_lane",
-        from: "whole << FRACTION",
-        to: "whole << (FRACTION - 1)",
+        from: "whole << SCALED",
+        to: "whole << (SCALED - 1)",
     },
     PlantedFault {
         check: "a threshold at a port: the score that equals it",

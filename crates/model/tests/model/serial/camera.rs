@@ -124,7 +124,7 @@ fn check(recipe: &SerialParameters, clip: &[Frame]) {
     }
 }
 
-/// Returns some of the five features. `which` has one bit for each.
+/// Returns some of the seven features. `which` has one bit for each.
 fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
     let max = (1i64 << bits) - 1;
     let feature =
@@ -135,6 +135,8 @@ fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
         feature("mad", 0, 250 * max),
         feature("edge", 2 * max, 1000 * side),
         feature("range", 0, 600 * max),
+        feature("surface", 0, 150 * max),
+        feature("segment", max / 4, 1000 * (side / 2)),
     ];
     all.into_iter().enumerate().filter(|(at, _)| which >> at & 1 == 1).map(|(_, f)| f).collect()
 }
@@ -156,7 +158,7 @@ fn clips_over_the_matrix() {
                     side,
                     shared: on(0),
                     filter: if on(1) { "median3x3" } else { "none" },
-                    features: features(1 + number % 31, side, bits),
+                    features: features(1 + number % 127, side, bits),
                     all_must_vote: number.is_multiple_of(7),
                     temporal_level: ((1 << bits) - 1) / 2,
                     temporal_min: side,
@@ -189,7 +191,7 @@ fn every_fold_of_a_grid_of_seven() {
                 side: 4,
                 shared: true,
                 filter: "median3x3",
-                features: features(31, 4, 8),
+                features: features(127, 4, 8),
                 all_must_vote: false,
                 temporal_level: 3,
                 temporal_min: 2,
@@ -216,7 +218,7 @@ fn the_largest_region() {
             side: 64,
             shared,
             filter: if shared { "median3x3" } else { "none" },
-            features: features(31, 64, 16),
+            features: features(127, 64, 16),
             all_must_vote: false,
             temporal_level: 100,
             temporal_min: 9,

@@ -81,7 +81,7 @@ impl SerialParameters {
         }
         let luts = i64::from(self.base.bits) * ((self.fold * slot + 63) / 64);
         let sums =
-            self.base.features.iter().any(|f| matches!(f.name, "mad" | "variance" | "range"));
+            ["mad", "variance", "range", "surface"].iter().any(|name| self.base.has_feature(name));
         i64::from(luts > 128) + i64::from(self.base.deep) * if sums { 2 } else { 1 }
     }
 
@@ -133,6 +133,8 @@ impl SerialParameters {
             "corner" => 36 * n,
             "mad" => 2 * n + p + 2 * i64::from(feature.fraction_bits) + 3,
             "range" => 4 * n + p + 2,
+            "surface" => 8 * n + 11 * bits(n * self.base.pixel_max()) + 5,
+            "segment" => (n + p + 2) + 3 * (p + n + 2) + 1,
             "variance" => {
                 let ones = (0..13).filter(|bit| n >> bit & 1 == 1).count() as i64;
                 n + p * n * ones + 2 * bits(n * self.base.pixel_max()) + p + bits(n) + 2
