@@ -7,13 +7,13 @@ module properties #(
     input wire clk_i, rst_i, valid, busy
 );
     `include "reset.vh"
-    localparam SIDE = 2, SEGMENT = SIDE, ROW_WORDS = 4, ROWS = 4, SETTLE = 3;
+    localparam SIDE = 2, SEGMENT_WORDS = SIDE, ROW_WORDS = 4, ROWS = 4, SETTLE = 3;
     localparam WORDS = ROW_WORDS * ROWS, LAG = ROW_WORDS + 1, LAST = WORDS + WINDOWS * LAG - 1;
     wire ready, step, pad, taken_end, repeated, tail, segment_end, row_end, region_top, region_bottom, over;
     wire [1:0] left, right, top, bottom;
     raster_control #(
         .ROW_WORDS(ROW_WORDS), .TAKEN_WORDS(TAKEN_WORDS), .ROWS(ROWS), .TAKEN_ROWS(TAKEN_ROWS), .WORD_BITS(2), .ROW_BITS(2),
-        .SIDE(SIDE), .SIDE_BITS(1), .SEGMENT(SEGMENT), .SEGMENT_BITS(1), .ISOLATED(ISOLATED), .WINDOWS(WINDOWS),
+        .SIDE(SIDE), .SIDE_BITS(1), .SEGMENT_WORDS(SEGMENT_WORDS), .SEGMENT_BITS(1), .ISOLATED(ISOLATED), .WINDOWS(WINDOWS),
         .SETTLE(SETTLE), .SETTLE_BITS(2)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid), .busy_i(busy), .ready_o(ready), .step_o(step), .pad_o(pad),
@@ -59,7 +59,7 @@ module properties #(
         end
         assert(tail == (step && is_tail));
         if (tail) begin
-            assert(segment_end == (tail_column % SEGMENT == SEGMENT - 1));
+            assert(segment_end == (tail_column % SEGMENT_WORDS == SEGMENT_WORDS - 1));
             assert(row_end == (tail_column == ROW_WORDS - 1));
             assert(region_top == (tail_row % SIDE == 0));
             assert(region_bottom == (tail_row % SIDE == SIDE - 1));
@@ -81,8 +81,8 @@ module properties #(
             );
             always @* if (started && !rst_i && step) begin
                 if (has_center) begin
-                    assert(left[window] == (ISOLATED ? center_column % SEGMENT == 0 : center_column == 0));
-                    assert(right[window] == (ISOLATED ? center_column % SEGMENT == SEGMENT - 1 : center_column == ROW_WORDS - 1));
+                    assert(left[window] == (ISOLATED ? center_column % SEGMENT_WORDS == 0 : center_column == 0));
+                    assert(right[window] == (ISOLATED ? center_column % SEGMENT_WORDS == SEGMENT_WORDS - 1 : center_column == ROW_WORDS - 1));
                 end
                 if (has_next) begin
                     assert(top[window] == (ISOLATED ? next_row % SIDE == 0 : next_row == 0));

@@ -5,33 +5,36 @@
 module properties #(
     parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 0, parameter DEEP = 0, parameter SUMMARIES = 0
 ) (
-    input wire clk_i, rst_i, judged, lost, shown, differs, input wire [12:0] scores, input wire [2:0] edge_min, variance_min, temporal_min,
-    input wire [1:0] range_min, mad_min
+    input wire clk_i, rst_i, judged, lost, shown, differs, input wire [16:0] scores, input wire [2:0] edge_min, variance_min, temporal_min,
+    input wire [1:0] range_min, surface_min, mad_min, segment_min
 );
     `include "reset.vh"
     localparam REGIONS = 8, PIXELS = 4;
-    localparam WIDTH = 16 + 4;  // bits of the ports of a decision
+    localparam WIDTH = 20 + 4;  // bits of the ports of a decision
     wire decided, will_be_active, mark, decision_valid, last_region, srs, trs, active, summary, will_be_sent, will_be_shown;
     wire [2:0] region, decided_region, edges, variance, changes;
-    wire [1:0] range, mad;
+    wire [1:0] range, surface, mad, segment;
     raster_decision #(
-        .HITS(1), .VARIANCE(1), .RANGE(1), .MAD(1), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(SUMMARIES), .DEEP(DEEP), .PIXELS(PIXELS), .COUNT_BITS(3),
-        .REGIONS(REGIONS), .REGION_BITS(3), .SCORE_BITS(13), .VARIANCE_BITS(3), .RANGE_BITS(2), .MAD_BITS(2)
+        .HITS(1), .VARIANCE(1), .RANGE(1), .SURFACE(1), .MAD(1), .SEGMENT(1), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(SUMMARIES), .DEEP(DEEP), .PIXELS(PIXELS), .COUNT_BITS(3),
+        .REGIONS(REGIONS), .REGION_BITS(3), .SCORE_BITS(17), .VARIANCE_BITS(3), .RANGE_BITS(2), .SURFACE_BITS(2), .MAD_BITS(2), .SEGMENT_BITS(2)
     ) dut (
-        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i({mad_min, range_min, variance_min, edge_min, temporal_min}),
+        .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i({segment_min, mad_min, surface_min, range_min, variance_min, edge_min, temporal_min}),
         .shown_i(shown), .differs_i(differs), .summary_o(summary), .will_be_sent_o(will_be_sent),
         .will_be_shown_o(will_be_shown), .decided_region_o(decided_region), .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
         .will_be_active_o(will_be_active), .mark_o(mark), .decision_valid_o(decision_valid), .region_o(region),
-        .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .scores_o({mad, range, variance, edges, changes})
+        .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .scores_o({segment, mad, surface, range, variance, edges, changes})
     );
 
-    // The values by the contract. Above the temporal count are a count, a variance of three bits, a range and a mad of two.
+    // The values by the contract. Above the temporal count are a count, a variance of three bits, and four scores of two bits.
     reg [2:0] turn = 3'd0;
     wire edge_vote = scores[5:3] >= edge_min;
     wire variance_vote = scores[8:6] >= variance_min;
     wire range_vote = scores[10:9] >= range_min;
-    wire mad_vote = scores[12:11] >= mad_min;
-    wire relevant = ALL ? edge_vote && variance_vote && range_vote && mad_vote : edge_vote || variance_vote || range_vote || mad_vote;
+    wire surface_vote = scores[12:11] >= surface_min;
+    wire mad_vote = scores[14:13] >= mad_min;
+    wire segment_vote = scores[16:15] >= segment_min;
+    wire [5:0] votes = {segment_vote, mad_vote, surface_vote, range_vote, variance_vote, edge_vote};
+    wire relevant = ALL ? votes == 6'd63 : votes != 6'd0;
     reg [REGIONS-1:0] referenced = 0;
     wire [2:0] changed = !LAST_SENT || referenced[turn] ? scores[2:0] : PIXELS;
     wire changes_enough = changed >= temporal_min;
@@ -47,7 +50,7 @@ module properties #(
             else if (BLANKS && !relevant) referenced[turn] <= 1'b0;
         end
         shows_due <= {shows_due, shows};
-        expected <= {expected, {sends, relevant, changes_enough, relevant && changes_enough, turn, scores[12:3], changed}};
+        expected <= {expected, {sends, relevant, changes_enough, relevant && changes_enough, turn, scores[16:3], changed}};
         due <= {due, judged};
         if (rst_i) begin
             turn <= 3'd0;
@@ -64,7 +67,7 @@ module properties #(
     always @* if (started) begin
         assert(decision_valid == due[DEEP]);
         if (decision_valid)
-            assert({summary, srs, trs, active, region, mad, range, variance, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
+            assert({summary, srs, trs, active, region, segment, mad, surface, range, variance, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
         if (decision_valid) assert(last_region == (region == REGIONS - 1));
         else assert(!srs && !trs && !active && !summary);
         // One clock before: whether the screen shows a summary from then on.

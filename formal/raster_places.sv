@@ -3,7 +3,7 @@
 // region, row by row, or with BLOCKS the means of its blocks. A walk begins at any clock, and ends with the last word or earlier.
 module properties #(
     parameter LANES = 1, parameter SIDE = 2, parameter COLUMNS = 4, parameter ROWS = 3, parameter BANKS = 2,
-    parameter SEGMENT = SIDE / LANES, parameter ROW_WORDS = COLUMNS * SEGMENT,
+    parameter SEGMENT_WORDS = SIDE / LANES, parameter ROW_WORDS = COLUMNS * SEGMENT_WORDS,
     parameter START_BITS = $clog2(BANKS * SIDE * ROW_WORDS), parameter PLACE_BITS = $clog2(ROWS * SIDE * ROW_WORDS),
     parameter POSITION_BITS = $clog2(SIDE * SIDE), parameter BLOCKS = 0
 ) (
@@ -14,7 +14,7 @@ module properties #(
     wire [START_BITS-1:0] start;
     wire [PLACE_BITS-1:0] place;
     raster_start #(
-        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
+        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT_WORDS(SEGMENT_WORDS), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
         .FRAME(1), .PLACE_BITS(PLACE_BITS)
     ) u_start (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(next_region), .row_o(row_of_regions), .start_o(start), .place_o(place)
@@ -25,7 +25,7 @@ module properties #(
     wire [3:0] mean;
     reg walks_means = 1'b0;
     raster_walk #(
-        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
         .PLACE_BITS(START_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(4)
     ) u_walk (
         .clk_i(clk_i), .begin_i(begins), .start_i(from), .step_i(next_word), .means_i(walks_means), .mean_o(mean), .place_o(word), .position_o(position),
@@ -56,12 +56,12 @@ module properties #(
         end else if (next_word) number <= number + 5'd1;
     end
     localparam BLOCK = BLOCKS > 0 ? SIDE / BLOCKS : 1;
-    wire [START_BITS-1:0] walked = origin + (number / SEGMENT) * ROW_WORDS + number % SEGMENT;
+    wire [START_BITS-1:0] walked = origin + (number / SEGMENT_WORDS) * ROW_WORDS + number % SEGMENT_WORDS;
     always @* begin
         if (walks && last) assume(!next_word || begins);
         if (started) begin
-            assert(start == bank * SIDE * ROW_WORDS + column * SEGMENT);
-            assert(place == row * SIDE * ROW_WORDS + column * SEGMENT);
+            assert(start == bank * SIDE * ROW_WORDS + column * SEGMENT_WORDS);
+            assert(place == row * SIDE * ROW_WORDS + column * SEGMENT_WORDS);
             assert(row_of_regions == count);
         end
         if (walks && walks_means) begin
@@ -74,8 +74,8 @@ module properties #(
             assert(word == walked);
             assert(position == number * LANES);
             assert(first == (number == 0));
-            assert(segment_end == (number % SEGMENT == SEGMENT - 1));
-            assert(last == (number == SIDE * SEGMENT - 1));
+            assert(segment_end == (number % SEGMENT_WORDS == SEGMENT_WORDS - 1));
+            assert(last == (number == SIDE * SEGMENT_WORDS - 1));
         end
     end
 endmodule

@@ -11,7 +11,7 @@ module properties #(
     input wire frame
 );
     `include "reset.vh"
-    localparam SEGMENT = SIDE / LANES, ROW_WORDS = 5, QUEUE_WORDS = 4, POSITION_BITS = $clog2(SIDE * SIDE);
+    localparam SEGMENT_WORDS = SIDE / LANES, ROW_WORDS = 5, QUEUE_WORDS = 4, POSITION_BITS = $clog2(SIDE * SIDE);
     localparam [4:0] LAST = SIDE * SIDE / LANES - 1;  // number of the last word of a region
     localparam WAIT = DEEP ? 3 : 2;                   // edges from the queue to the hold
 
@@ -34,7 +34,7 @@ module properties #(
     wire [1:0] region_o, lost_region, held_region;
     wire [POSITION_BITS-1:0] position_o;
     raster_readout #(
-        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(2),
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .POSITION_BITS(POSITION_BITS), .REGION_BITS(2),
         .ROW_WORDS(ROW_WORDS), .START_BITS(4), .BANKS(BANKS), .FRAME_BITS(1), .EXTRA_BITS(1), .QUEUE_BITS(2),
         .DEEP(DEEP)
     ) dut (
@@ -128,7 +128,7 @@ module properties #(
         assert(idle == (waiting == 3'd0 && !held && !fetched && step));
         if (fetch) begin
             assert(first == (word == 5'd0));
-            assert(segment_end == (word % SEGMENT == SEGMENT - 1));
+            assert(segment_end == (word % SEGMENT_WORDS == SEGMENT_WORDS - 1));
         end
         if (state == WAITS && begins && ahead == 3'd0) assert(lost == stale);
         if (state == HELD) begin
@@ -139,7 +139,7 @@ module properties #(
             assert(lost_region == region);
             assert(lost_extra == extra);
         end
-        if (fetch && state == HELD) assert(place == 4'(start + word / SEGMENT * ROW_WORDS + word % SEGMENT));
+        if (fetch && state == HELD) assert(place == 4'(start + word / SEGMENT_WORDS * ROW_WORDS + word % SEGMENT_WORDS));
         if (valid && port_ours) begin
             assert(region_o == region);
             assert(position_o == port_word * LANES);

@@ -5,7 +5,7 @@
 // at every clock after one reset, and a decision as many clocks after the last word of its region as the core needs (frames of one row
 // of regions have a gap between them); the sink stalls at random.
 `include "reset.vh"
-localparam F_N = SIDE * SEGMENT;                 // words of a region
+localparam F_N = SIDE * SEGMENT_WORDS;                 // words of a region
 localparam F_ROW = SIDE * ROW_WORDS;             // words of a row of regions
 localparam F_DECIDED = (DEEP ? 6 : 4) + 1;       // clocks from a region's last word to its decision
 
@@ -19,7 +19,7 @@ reg [F_DECIDED:0] f_done = 0;
 reg [REGION_BITS-1:0] f_region = 0;              // number of the region that is decided next
 reg [REGION_BITS-1:0] f_first = 0;               // number of the first region of the row of regions that is stored
 wire [5:0] f_column = f_stored % ROW_WORDS;
-wire f_last_word = store_i && f_stored >= (SIDE - 1) * ROW_WORDS && f_column % SEGMENT == SEGMENT - 1;
+wire f_last_word = store_i && f_stored >= (SIDE - 1) * ROW_WORDS && f_column % SEGMENT_WORDS == SEGMENT_WORDS - 1;
 always @* begin
     if (started) assume(!rst_i);
     assume(arriving_i == (started && f_pause == 4'd0));
@@ -62,7 +62,7 @@ end
 always @* assume(f_ours < COLUMNS * ROWS && f_word < F_N);
 reg f_latest;   // the word as it was stored last
 reg f_kept;     // the word as it was stored in the watched frame
-wire [5:0] f_at = f_word / SEGMENT * ROW_WORDS + (f_ours % COLUMNS) * SEGMENT + f_word % SEGMENT;
+wire [5:0] f_at = f_word / SEGMENT_WORDS * ROW_WORDS + (f_ours % COLUMNS) * SEGMENT_WORDS + f_word % SEGMENT_WORDS;
 reg [1:0] f_state = 2'd0;
 localparam F_NONE = 2'd0, F_WAITS = 2'd1, F_HELD = 2'd2, F_OVER = 2'd3;
 wire f_enters = active_i || BLOCKS > 0 && summary_i;  // the region sends pixels or means, which are equally many words
@@ -170,8 +170,8 @@ end
 // ---- References of `last-sent`: every word of an active region becomes one, at its place in the frame, and no mean does
 reg f_wrote = 1'b0, f_wrote_ours;                // a word was fetched at the edge before
 reg [3:0] f_wrote_word;
-wire [PLACE_BITS-1:0] f_frame_place = f_ours / COLUMNS * F_ROW + (f_ours % COLUMNS) * SEGMENT
-                                      + f_wrote_word / SEGMENT * ROW_WORDS + f_wrote_word % SEGMENT;
+wire [PLACE_BITS-1:0] f_frame_place = f_ours / COLUMNS * F_ROW + (f_ours % COLUMNS) * SEGMENT_WORDS
+                                      + f_wrote_word / SEGMENT_WORDS * ROW_WORDS + f_wrote_word % SEGMENT_WORDS;
 always @(posedge clk_i) begin
     f_wrote <= fetch && !rst_i;
     f_wrote_ours <= f_state == F_HELD;

@@ -43,10 +43,10 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
 fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
     use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
     match (organization, kind) {
-        (Pipelined | Serial | Raster, Edge | Corner | Mad | Variance | Range) => true,
-        (Pipelined | Serial, Surface | Segment) => true,
-        (Raster, Surface) => false,
-        (Raster, Segment) => false,
+        (
+            Pipelined | Serial | Raster,
+            Edge | Corner | Mad | Variance | Range | Surface | Segment,
+        ) => true,
     }
 }
 

@@ -132,8 +132,11 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_sums" => ["raster_memory", "word_delay", "bit_delay"],
     "raster_variance" => [],
     "raster_range" => ["raster_memory", "word_delay", "bit_delay"],
+    "raster_displacement" => ["word_delay"],
+    "raster_surface" => ["raster_sums"],
     "raster_queue" => ["raster_memory"],
-    "raster_pass" => ["raster_queue", "raster_walk", "word_delay", "bit_delay"],
+    "raster_segment" => ["word_delay"],
+    "raster_pass" => ["raster_queue", "raster_walk", "word_delay", "bit_delay", "raster_segment"],
     "raster_readout" => ["raster_queue", "raster_walk"],
     "raster_moments" => ["raster_sums", "raster_variance"],
     "raster_deviation" => ["region_mean", "word_delay", "bit_delay", "raster_start", "raster_pass", "raster_memory"],
@@ -146,9 +149,9 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_forward" => ["raster_start", "raster_readout", "raster_memory", "word_delay", "bit_delay"],
     "raster_core" => [
         "raster_control", "raster_pad", "bit_delay", "word_delay", "raster_window", "median_columns",
-        "raster_edge", "raster_corner", "raster_store", "raster_external", "raster_change", "raster_counts",
-        "raster_moments", "raster_range", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
-        "raster_repeat", "raster_summary"
+        "raster_edge", "raster_corner", "raster_displacement", "raster_store", "raster_external", "raster_change", "raster_counts",
+        "raster_moments", "raster_range", "raster_surface", "raster_ring", "raster_deviation", "raster_decision",
+        "raster_forward", "raster_line", "raster_repeat", "raster_summary"
     ],
     "packet_crc" => [],
     "packet_place" => [],

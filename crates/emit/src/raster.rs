@@ -2,7 +2,7 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::feature_parameters::{deviation_mean, parameter_prefix};
+use crate::feature_parameters::parameter_prefix;
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
@@ -185,8 +185,8 @@ fn features_in_core_order(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
     list
 }
 
-/// Returns the rank of a feature's score in the core: counts come first, then the score of sums,
-/// then that of the second pass.
+/// Returns the rank of a feature's score in the core: counts come first, then the scores of sums and
+/// extremes, then those of the second pass.
 fn score_rank(kind: FeatureKind) -> u32 {
     match kind {
         FeatureKind::Edge => 0,
@@ -227,10 +227,11 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
     for feature in features_in_core_order(design) {
         let new = sum_widths(design, feature).into_iter().filter(|new| !list.contains(new));
         list.extend(new.collect::<Vec<_>>());
-        if let Some(mean) = deviation_mean(feature) {
-            let factor = mean.reciprocal.multiplier();
-            wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
-        }
+    }
+    // All features that use the mean of a region use the same one.
+    if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
+        let factor = mean.reciprocal.multiplier();
+        wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
     }
     if let Some(periphery) = design.periphery() {
         let factor = periphery.reciprocal.multiplier();
@@ -259,19 +260,13 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
     let sum = ("SUM_BITS", design.pixel_sum_bits());
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range => vec![],
-        // No raster design has these features yet.
-        FeatureKind::Surface | FeatureKind::Segment => vec![],
+        // The score is a sum of differences of pixels, which has as many bits as a sum of pixels.
+        FeatureKind::Surface => vec![sum],
         FeatureKind::Mad => {
-            let mean = feature.mean().expect("mad has a mean");
-            vec![
-                sum,
-                ("MAD_BITS", feature.score_bits()),
-                ("FRACTION", mean.fraction_bits),
-                ("DIVIDEND_BITS", mean.dividend_bits),
-                ("MEAN_BITS", mean.mean_bits),
-                ("FACTOR_BITS", bits_for(mean.reciprocal.multiplier())),
-                ("SHIFT", mean.reciprocal.shift()),
-            ]
+            [vec![sum, ("MAD_BITS", feature.score_bits())], mean_widths(feature)].concat()
+        }
+        FeatureKind::Segment => {
+            [vec![sum, ("SEGMENT_BITS", feature.score_bits())], mean_widths(feature)].concat()
         }
         FeatureKind::Variance => {
             let variance = feature.variance().expect("variance has accumulators");
@@ -283,6 +278,18 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
             ]
         }
     }
+}
+
+/// Returns the widths of the mean that a feature uses.
+fn mean_widths(feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
+    let mean = feature.mean().expect("the features of the second pass have a mean");
+    vec![
+        ("FRACTION", mean.fraction_bits),
+        ("DIVIDEND_BITS", mean.dividend_bits),
+        ("MEAN_BITS", mean.mean_bits),
+        ("FACTOR_BITS", bits_for(mean.reciprocal.multiplier())),
+        ("SHIFT", mean.reciprocal.shift()),
+    ]
 }
 
 /// Returns the number of bits of the core's level input of a feature, also of one that the design

@@ -10,7 +10,8 @@ use foveate_camera::{FeatureKind, MeanDivision, SpatialFeature, VarianceWidths};
 pub(super) enum FeatureAccumulation<'a> {
     /// The number of pixels whose window is a hit.
     Hits,
-    /// The sum of the pixels, and in a second pass the sum of their distances from the mean.
+    /// The sum of the pixels, and in a second pass the sum of their distances from the mean, or the
+    /// number of pixels that are far from it.
     Deviations(&'a MeanDivision),
     /// The sums of the pixels and of their squares.
     Squares(&'a VarianceWidths),

@@ -175,9 +175,19 @@ impl MemorySizes {
                 FeatureAccumulation::Extremes => Some(extremes),
                 FeatureAccumulation::Displacements => None,
             };
+        let differences = column("four sums of differences", 4 * design.pixel_sum_bits());
+        let of_differences =
+            |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+                FeatureAccumulation::Hits
+                | FeatureAccumulation::Deviations(_)
+                | FeatureAccumulation::Squares(_)
+                | FeatureAccumulation::Extremes => None,
+                FeatureAccumulation::Displacements => Some(differences),
+            };
         list.extend(design.features().iter().find_map(of_pixels));
         list.extend(design.features().iter().find_map(of_squares));
         list.extend(design.features().iter().find_map(of_extremes));
+        list.extend(design.features().iter().find_map(of_differences));
         list
     }
 
@@ -250,17 +260,16 @@ impl MemorySizes {
         };
         let decision_bits = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let decision_bits = decision_bits + 2 * u32::from(design.periphery().is_some());
-        list.extend(design.features().iter().filter_map(|feature| {
-            match FeatureAccumulation::from_feature(feature) {
-                FeatureAccumulation::Hits
-                | FeatureAccumulation::Squares(_)
-                | FeatureAccumulation::Extremes
-                | FeatureAccumulation::Displacements => None,
-                FeatureAccumulation::Deviations(mean) => Some(queue(
-                    "regions that wait for the second pass",
-                    mean.mean_bits + start + decision_bits,
-                )),
-            }
+        let mean_of_pass = |feature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits
+            | FeatureAccumulation::Squares(_)
+            | FeatureAccumulation::Extremes
+            | FeatureAccumulation::Displacements => None,
+            FeatureAccumulation::Deviations(mean) => Some(mean),
+        };
+        // All features of the second pass use one mean, and wait in one queue.
+        list.extend(design.features().iter().find_map(mean_of_pass).map(|mean| {
+            queue("regions that wait for the second pass", mean.mean_bits + start + decision_bits)
         }));
         let bits = self.reference.bits_per_region();
         if bits > 0 {

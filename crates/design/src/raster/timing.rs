@@ -47,7 +47,7 @@ pub struct RasterTiming {
     pub hold_interval: u32,
     /// True if the pixels of active regions leave.
     pub has_forwarding: bool,
-    /// The timing of the second pass, for designs with `mad` only.
+    /// The timing of the second pass, for designs with `mad` or `segment` only.
     pub second_pass: Option<SecondPassTiming>,
     /// Words of a region that sends its summary, q*q, for designs with a periphery only.
     pub summary_words: Option<u32>,

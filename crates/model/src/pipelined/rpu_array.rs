@@ -120,8 +120,7 @@ fn tail_steps(
     centers: &WindowCenters<'_>,
     thresholds: &ThresholdInputs,
 ) -> Vec<TailStep> {
-    let mut steps =
-        centers.map(|pixel, &window| TailStep { pixel, window, ..TailStep::default() });
+    let mut steps = centers.map(|pixel, &window| TailStep { pixel, window, ..TailStep::default() });
     for (feature, (kind, level)) in plan.features.iter().zip(thresholds.level).enumerate() {
         if let &Some(kind) = kind {
             let hits = centers.map(|_, window| is_hit(kind, window, level));
