@@ -22,7 +22,7 @@ module raster_core #(
     parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
     // Filter, features and decision
-    parameter MEDIAN = 1,            // 1: pixels are denoised
+    parameter FILTER = 1,            // pixels are denoised by 0: nothing; 1: the median; 2: the switching median; 3: the binomial mean
     parameter EDGE = 1,              // 1: regions have the score of `edge`
     parameter CORNER = 0,            // 1: regions have the score of `corner`
     parameter VARIANCE = 0,          // 1: regions have the score of `variance`
@@ -137,6 +137,7 @@ module raster_core #(
         if (LAST_SENT && !FORWARD) begin : g_forward_limit FORWARD_must_be_1_with_LAST_SENT u_refused (); end
         if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
         if (BLOCKS > 0 && !FORWARD) begin : g_forward_means FORWARD_must_be_1_with_BLOCKS u_refused (); end
+        if (FILTER < 0 || FILTER > 3) begin : g_filter_kind FILTER_must_be_0_to_3 u_refused (); end
         if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
         if ((EDGE | CORNER | VARIANCE | RANGE | SURFACE | MAD | SEGMENT) != 1) begin : g_features
             flags_of_features_must_be_0_or_1_and_one_of_them_1 u_refused ();
@@ -160,20 +161,23 @@ module raster_core #(
     localparam SECOND_PASS = MAD | SEGMENT;
     localparam VALUE_BITS = WIDTH + $clog2(LANES);  // bits of a sum over a word
     localparam FEATURE_WINDOW = EDGE | CORNER | SURFACE;
-    localparam WINDOWS = MEDIAN + FEATURE_WINDOW;
+    localparam DENOISES = FILTER > 0 ? 1 : 0;
+    localparam WINDOWS = DENOISES + FEATURE_WINDOW;
     localparam BANKS = SECOND_PASS ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
     localparam START_BITS = $clog2(BUFFER_WORDS);
     localparam FRAME_WORDS = ROW_WORDS * ROWS * SIDE;
     localparam PLACE_BITS = $clog2(FRAME_WORDS);
     localparam EXTERNAL = 3;
+    localparam SWITCHING = 2;
+    localparam BINOMIAL = 3;
     localparam REGION_COLUMN_BITS = $clog2(COLUMNS);
     localparam NUMBER_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;  // bits of the number of a block
 
     // Clocks from one place in the pipeline to another; see docs/raster.md.
     localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to its column of the window
-    localparam MEDIAN_CLOCKS = MEDIAN ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
-    localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (FEATURE_WINDOW ? COLUMN_CLOCKS : 0);  // from a word to the center of the last window
+    localparam FILTER_CLOCKS = DENOISES ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
+    localparam CENTER_CLOCKS = FILTER_CLOCKS + (FEATURE_WINDOW ? COLUMN_CLOCKS : 0);  // from a word to the center of the last window
     localparam STORE_CLOCKS = 2 + DEEP;                                // from center_word to `center`, which is stored
     localparam HIT_CLOCKS = 4 + DEEP;                                  // from center_word to its hits
 
@@ -234,7 +238,7 @@ module raster_core #(
     wire [WORD-1:0] scored_raw;    // that word before the filter (RAW)
     wire scored_repeated;
     generate
-        if (MEDIAN) begin : g_median
+        if (DENOISES) begin : g_filter
             wire column_step;
             wire [WORD-1:0] upper, middle, lower;
             wire column_top, column_bottom, column_left, column_right;
@@ -250,11 +254,20 @@ module raster_core #(
             word_delay #(.WIDTH(2), .DEPTH(COLUMN_CLOCKS)) u_sides (
                 .clk_i(clk_i), .data_i({left[0], right[0]}), .data_o({column_left, column_right})
             );
-            median_columns #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_median (
-                .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
-            );
-            bit_delay #(.DEPTH(MEDIAN_CLOCKS)) u_scored_step (
+            if (FILTER == BINOMIAL) begin : g_binomial
+                binomial_columns #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_binomial (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right), .top_i(column_top),
+                    .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .mean_o(scored_word)
+                );
+            end else begin : g_median
+                median_columns #(
+                    .WIDTH(WIDTH), .LANES(LANES), .SWITCHING(FILTER == SWITCHING ? 1 : 0), .DEEP(DEEP)
+                ) u_median (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right), .top_i(column_top),
+                    .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
+                );
+            end
+            bit_delay #(.DEPTH(FILTER_CLOCKS)) u_scored_step (
                 .clk_i(clk_i), .rst_i(rst_i), .bit_i(step), .bit_o(scored_step)
             );
             assign scored_repeated = 1'b0;
@@ -262,7 +275,7 @@ module raster_core #(
                 reg [WORD-1:0] raw_q;
                 always @(posedge clk_i) if (column_step) raw_q <= middle;
                 // In the step that makes a word the center, its column is in raw_q one clock later.
-                word_delay #(.WIDTH(WORD), .DEPTH(MEDIAN_CLOCKS - COLUMN_CLOCKS)) u_raw (
+                word_delay #(.WIDTH(WORD), .DEPTH(FILTER_CLOCKS - COLUMN_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(raw_q), .data_o(scored_raw)
                 );
             end else begin : g_denoised
@@ -298,15 +311,15 @@ module raster_core #(
             always @(posedge clk_i) if (column_step) center_q <= middle;
             assign center_word = center_q;
 
-            word_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
-                .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({scored_top, scored_bottom})
+            word_delay #(.WIDTH(2), .DEPTH(FILTER_CLOCKS)) u_ends (
+                .clk_i(clk_i), .data_i({top[DENOISES], bottom[DENOISES]}), .data_o({scored_top, scored_bottom})
             );
             word_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
-                .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
+                .clk_i(clk_i), .data_i({left[DENOISES], right[DENOISES]}), .data_o({column_left, column_right})
             );
             raster_window #(
                 .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
-                .REPEATS(!MEDIAN && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
+                .REPEATS(!DENOISES && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
             ) u_window (
                 .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(scored_top),
                 .bottom_i(scored_bottom), .repeat_i(scored_repeated), .step_o(column_step), .top_o(column_top),

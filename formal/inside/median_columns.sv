@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The result is the fifth of the nine sorted pixels: for every threshold, it reaches the threshold if and only if at least five of
-// the nine pixels do.
+// the nine pixels do. With SWITCHING a center that is no extreme of its window is the result.
 localparam F_LATE = DEEP;
 `include "words.vh"
 (* anyconst *) wire [WIDTH-1:0] f_threshold;
@@ -46,11 +46,49 @@ always @* begin
         });
     end
 end
+// Tests that the center is the largest or the smallest pixel of its window.
+function f_extreme(input [3*F_COLUMN-1:0] window);
+    reg [WIDTH-1:0] center, pixel;
+    reg largest, smallest;
+    integer k;
+    begin
+        center = window[4*WIDTH+:WIDTH];
+        largest = 1'b1;
+        smallest = 1'b1;
+        for (k = 0; k < 9; k = k + 1) begin
+            pixel = window[k*WIDTH+:WIDTH];
+            if (pixel > center) largest = 1'b0;
+            if (pixel < center) smallest = 1'b0;
+        end
+        f_extreme = largest || smallest;
+    end
+endfunction
+function f_result(input [3*F_COLUMN-1:0] window);
+    f_result = SWITCHING && !f_extreme(window) ? window[4*WIDTH+:WIDTH] >= f_threshold : f_count(window) >= 4'd5;
+endfunction
 generate
+    if (SWITCHING) begin : g_f_switching
+        // Of a column: whether its middle pixel is the largest, whether it is the smallest, and the pixel.
+        function [WIDTH+1:0] f_own(input [F_COLUMN-1:0] column);
+            f_own = {
+                column[WIDTH+:WIDTH] >= column[0+:WIDTH] && column[WIDTH+:WIDTH] >= column[2*WIDTH+:WIDTH],
+                column[WIDTH+:WIDTH] <= column[0+:WIDTH] && column[WIDTH+:WIDTH] <= column[2*WIDTH+:WIDTH],
+                column[WIDTH+:WIDTH]
+            };
+        endfunction
+        for (f_lane = 0; f_lane < LANES; f_lane = f_lane + 1) begin : g_f_own
+            always @* begin
+                if (f_words >= 2'd1)
+                    assert(g_switching.newest_own_q[f_lane*(WIDTH+2)+:WIDTH+2] == f_own(f_newest[f_lane*F_COLUMN+:F_COLUMN]));
+                if (f_words >= 2'd2)
+                    assert(g_switching.center_own_q[f_lane*(WIDTH+2)+:WIDTH+2] == f_own(f_center[f_lane*F_COLUMN+:F_COLUMN]));
+            end
+        end
+    end
     for (f_lane = 0; f_lane < LANES; f_lane = f_lane + 1) begin : g_f_median
         wire expected;
         word_delay #(.WIDTH(1), .DEPTH(2 + 2 * DEEP)) f_expected (
-            .clk_i(clk_i), .data_i(f_count(f_window(f_lane)) >= 4'd5), .data_o(expected)
+            .clk_i(clk_i), .data_i(f_result(f_window(f_lane))), .data_o(expected)
         );
         always @* if (f_age >= 2 + 2 * DEEP) assert((median_o[f_lane*WIDTH+:WIDTH] >= f_threshold) == expected);
     end

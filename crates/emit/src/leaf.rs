@@ -117,6 +117,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_window" => ["raster_memory"],
     "raster_line" => ["raster_memory", "raster_ring"],
     "median_columns" => ["word_delay"],
+    "binomial_columns" => ["word_delay", "carry_adder"],
     "raster_edge" => ["adder", "magnitude_above"],
     "raster_corner" => [],
     "raster_change" => ["magnitude_above"],
@@ -149,6 +150,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_forward" => ["raster_start", "raster_readout", "raster_memory", "word_delay", "bit_delay"],
     "raster_core" => [
         "raster_control", "raster_pad", "bit_delay", "word_delay", "raster_window", "median_columns",
+        "binomial_columns",
         "raster_edge", "raster_corner", "raster_displacement", "raster_store", "raster_external", "raster_change", "raster_counts",
         "raster_moments", "raster_range", "raster_surface", "raster_ring", "raster_deviation", "raster_decision",
         "raster_forward", "raster_line", "raster_repeat", "raster_summary"

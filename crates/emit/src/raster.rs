@@ -208,7 +208,7 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
         ("LANES", design.pixels_per_clock()),
         ("SIDE", design.region_size()),
         ("ISOLATED", flag(design.neighborhood() == Neighborhood::Isolated)),
-        ("MEDIAN", flag(design.filter() == DenoiseFilter::Median3x3)),
+        ("FILTER", filter_number(design)),
         ("ALL", flag(design.combine() == VoteCombination::All)),
         ("LAST_SENT", flag(last_sent_flag(&design))),
         ("BLANKS", flag(blanks_flag(&design))),
@@ -303,6 +303,16 @@ fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
         }
     };
     Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
+}
+
+/// Returns the number of the design's filter in the core.
+fn filter_number(design: RasterDesign<'_>) -> u32 {
+    match design.filter() {
+        DenoiseFilter::None => 0,
+        DenoiseFilter::Median3x3 => 1,
+        DenoiseFilter::Switching3x3 => 2,
+        DenoiseFilter::Binomial3x3 => 3,
+    }
 }
 
 /// Returns the number of the design's frame store in the core.

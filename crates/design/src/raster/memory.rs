@@ -5,8 +5,8 @@
 use super::RasterTiming;
 use super::feature::FeatureAccumulation;
 use crate::{
-    DenoiseFilter, Design, FrameStoreKind, Periphery, RasterDesign, ReferencePolicy,
-    ReferenceWriteTime, SpatialFeature, bits_for, index_bits,
+    Design, FrameStoreKind, Periphery, RasterDesign, ReferencePolicy, ReferenceWriteTime,
+    SpatialFeature, bits_for, index_bits,
 };
 
 /// Bits of the number of a row of regions in a queue, modulo 8.
@@ -125,8 +125,8 @@ impl MemorySizes {
             bits,
         };
         let mut list = Vec::new();
-        if design.filter() != DenoiseFilter::None {
-            list.push(row("two rows of pixels, for the median", 2 * self.word));
+        if design.filter().has_window() {
+            list.push(row("two rows of pixels, for the filter", 2 * self.word));
         }
         if design.has_feature_window() {
             list.push(row("two rows of pixels, for the features", 2 * self.word));

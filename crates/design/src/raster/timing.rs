@@ -71,12 +71,12 @@ impl RasterTiming {
     #[must_use]
     pub fn from_design(design: RasterDesign<'_>) -> Self {
         let word_pixels = design.pixels_per_clock();
-        let median = u32::from(design.filter().has_window());
+        let filter = u32::from(design.filter().has_window());
         let feature = u32::from(design.has_feature_window());
         let (store_latency, after_store, lookup_to_store, queue_latency) = match design.pipelining()
         {
-            Pipelining::Plain => (2 + 4 * median + feature, 4, 1, 2),
-            Pipelining::Deep => (4 + 9 * median + 3 * feature, 6, 2, 3),
+            Pipelining::Plain => (2 + 4 * filter + feature, 4, 1, 2),
+            Pipelining::Deep => (4 + 9 * filter + 3 * feature, 6, 2, 3),
         };
         let latencies =
             design.features().iter().map(|f| FeatureAccumulation::from_feature(f).score_latency());
@@ -107,7 +107,7 @@ impl RasterTiming {
             rows: design.rows() * design.region_size(),
             region_row_words: design.region_size() / word_pixels,
             region_words: design.region_pixels() / word_pixels,
-            windows: median + feature,
+            windows: filter + feature,
             store_latency,
             lookup_latency: store_latency - lookup_to_store,
             decision_latency: store_latency + after_store + score_latency,

@@ -230,7 +230,7 @@ fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall
         "with its number and that of its frame on `lost_region_o` and `lost_frame_o`",
         "Pixels beyond the frame leave, too",
         "| references: the frame store | 672 | 16 | 10752 |",
-        "| two rows of pixels, for the median | 28 | 32 | 896 |",
+        "| two rows of pixels, for the filter | 28 | 32 | 896 |",
         "| `edge_level_i` | 100 |",
         "    .edge_level_i(11'd100),",
         "until `ready_o` is 1 again after its last word.",
