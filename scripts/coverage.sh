@@ -46,19 +46,22 @@ END
 
 edge="{feature='edge',level=100,min_score=5}"
 corner="{feature='corner',level=20,min_score=3}"
-all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30},{feature='range',min_score=40}]"
+all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30},{feature='range',min_score=40},{feature='surface',min_score=6},{feature='segment',level=8,min_score=4}]"
 fraction="{feature='mad',min_score=4,mean_fraction_bits=2}"
 serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
 raster="--level rcm --set hardware.organization='raster'"
 deep="--set hardware.pipelining='deep'"
 sync="--set hardware.sync=true"
+switching="--set denoise.filter='switching3x3'"
+binomial="--set denoise.filter='binomial3x3'"
 axi="--level axi --set hardware.organization='raster' --set hardware.interface='axi'"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
         serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute raster_means
-        array_sync serial_sync raster_sync axi axi_means axi_outside axi_odd)
+        array_sync serial_sync raster_sync switching binomial serial_switching serial_binomial raster_switching raster_binomial
+        axi axi_means axi_outside axi_odd)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
@@ -85,6 +88,12 @@ if [ "${1:-}" != --quick ]; then
         "bare --level rcm --grid 3x2 --set region.size=4 $sync"
         "bare $serial --set region.size=4 --set hardware.feed='raster' $sync"
         "bare $raster --grid 5x2 --set region.size=4 --set frame={width=222,height=221} $sync"
+        "bare $switching"
+        "bare $binomial"
+        "bare $serial --set region.size=4 $switching"
+        "bare $serial --set region.size=4 $binomial"
+        "bare $raster --grid 4x3 --set region.size=4 $switching"
+        "bare $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=2 $binomial"
         "paper $axi --rounds 3 --set region.size=4 --set frame={width=24,height=16}"
         "bare $axi --rounds 3 --set region.size=4 --set frame={width=30,height=20,pixel_bits=10} --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set render={irrelevant='mean',payload='raw'} --set spatial=$all"
         "bare $axi --rounds 3 --set region.size=8 --set frame={width=32,height=16} --set hardware.store='external' --set hardware.thresholds='constant'"

@@ -30,7 +30,7 @@ RASTER = ["hardware.organization='raster'"]
 DEEP = "hardware.pipelining='deep'"
 SENT = "temporal.reference='last-sent'"
 MEDIAN = "denoise.filter='median3x3'"
-ALL = "spatial=[{feature='edge'},{feature='corner'},{feature='mad'},{feature='variance'},{feature='range'}]"
+ALL = "spatial=[{feature='edge'},{feature='corner'},{feature='mad'},{feature='variance'},{feature='range'},{feature='surface'},{feature='segment'}]"
 # Small regions, so that few pixels have many of them.
 RASTER_SIZES = [["region.size=4", "frame={width=128,height=96}"], ["region.size=4", "frame={width=512,height=512}"]]
 # Lanes and RPUs must not grow; the array of them grows with the frame.

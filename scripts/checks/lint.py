@@ -25,9 +25,14 @@ FEATURES = [
     "{feature='mad',min_score=0,mean_fraction_bits=2}",
     "{feature='variance',min_score=0}",
     "{feature='range',min_score=0}",
+    "{feature='surface',min_score=0}",
+    "{feature='segment',level=0,min_score=0}",
     f"{EDGE},{CORNER}",
-    f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}},{{feature='range',min_score=0}}",
+    f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}},{{feature='range',min_score=0}},"
+    "{feature='surface',min_score=0},{feature='segment',level=0,min_score=0}",
 ]
+# The filters with a window.
+FILTERS = ["median3x3", "switching3x3", "binomial3x3"]
 SIZES = [2, 3, 5, 8, 16, 20, 64]
 DEPTHS = [1, 8, 10, 16]
 
@@ -46,7 +51,7 @@ def matrix():
                 f"spatial=[{features}]",
                 f"frame={{width={2 * size},height={size},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(0, 'isolated', 'shared')}'}}",
-                f"denoise.filter='{pick(1, 'median3x3', 'none')}'",
+                f"denoise.filter='{pick(1, FILTERS[(index + choice) % len(FILTERS)], 'none')}'",
                 f"temporal={{level=0,min_count=1,reference='{pick(2, 'previous', 'last-sent')}'}}",
                 f"render={{payload='{pick((index + 1) % 3, 'denoised', 'raw')}',"
                 f"irrelevant='{pick(index % 3, 'zero', 'hold')}'}}",
@@ -123,7 +128,7 @@ def serial_matrix():
                 f"spatial=[{features}]",
                 f"frame={{width={3 * size},height={2 * size},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
-                f"denoise.filter='{pick(2, 'median3x3', 'none')}'",
+                f"denoise.filter='{pick(2, FILTERS[(index + choice) % len(FILTERS)], 'none')}'",
                 f"temporal={{level=0,min_count=1,reference='{pick(3, 'last-sent', 'previous')}'}}",
                 f"render={{payload='{pick(5, 'denoised', 'raw')}',irrelevant='{pick(6, 'zero', 'hold')}'}}",
             ]
@@ -150,7 +155,7 @@ def raster_matrix():
                 f"spatial=[{features}]",
                 f"frame={{width={columns * size - margin},height={(1 + choice) * size - margin},pixel_bits={depth}}}",
                 f"region={{size={size},neighborhood='{pick(1, 'isolated', 'shared')}'}}",
-                f"denoise.filter='{pick(2, 'median3x3', 'none')}'",
+                f"denoise.filter='{pick(2, FILTERS[(index + choice) % len(FILTERS)], 'none')}'",
                 f"temporal={{level=0,min_count=1,reference='{pick(3, 'last-sent', 'previous')}'}}",
                 f"render={{payload='{pick(5, 'denoised', 'raw')}',irrelevant='{pick(6, 'zero', 'hold')}'}}",
             ]

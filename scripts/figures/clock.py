@@ -18,7 +18,7 @@ import sys
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 DEVICE = "ecp5-85k"
-FEATURES = ["edge", "corner", "mad", "variance", "range"]
+FEATURES = ["edge", "corner", "mad", "variance", "range", "surface", "segment"]
 MEDIAN = "denoise.filter='median3x3'"
 DEEP = "hardware.pipelining='deep'"
 RASTER = ["hardware.organization='raster'", "hardware.pixels_per_clock=1"]

@@ -34,6 +34,10 @@ class ListTests(unittest.TestCase):
         listing = ["scripts/figures/clock.py", "scripts/checks/area_growth.py", "scripts/checks/lint.py", "docs/contract.md", "docs/configuration.md"]
         self.check("FeatureKind", CAMERA, listing)
 
+    def test_filters(self):
+        listing = ["scripts/checks/lint.py", "scripts/coverage.sh", "docs/contract.md", "docs/configuration.md"]
+        self.check("DenoiseFilter", CAMERA, listing, "none")
+
     def test_references(self):
         self.check("ReferencePolicy", CAMERA, ["scripts/checks/lint.py", "docs/contract.md", "docs/configuration.md"])
 

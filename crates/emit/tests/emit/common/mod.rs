@@ -27,17 +27,22 @@ pub(crate) fn design(toml: &str) -> Design {
     DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
-const FEATURES: [&str; 8] = [
+const FEATURES: [&str; 10] = [
     "[{feature='edge',level=4,min_score=1}]",
     "[{feature='corner',level=0,min_score=1}]",
     "[{feature='mad',min_score=0}]",
     "[{feature='mad',min_score=0,mean_fraction_bits=2}]",
     "[{feature='variance',min_score=0}]",
     "[{feature='range',min_score=0}]",
+    "[{feature='surface',min_score=0}]",
+    "[{feature='segment',level=0,min_score=0,mean_fraction_bits=1}]",
     "[{feature='edge',level=4,min_score=1},{feature='corner',level=0,min_score=1}]",
     "[{feature='mad',min_score=0},{feature='edge',level=4,min_score=1},\
-      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0}]",
+      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0},\
+      {feature='surface',min_score=0},{feature='segment',level=0,min_score=0}]",
 ];
+/// The filters with a window.
+const WINDOW_FILTERS: [&str; 3] = ["median3x3", "switching3x3", "binomial3x3"];
 const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];
 const PIPELINING: [&str; 2] = ["plain", "deep"];
@@ -78,7 +83,7 @@ pub(crate) fn pipelined_matrix() -> Vec<String> {
                  [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
                 width = 2 * size,
                 neighborhood = pick(0, "isolated", "shared"),
-                filter = pick(1, "median3x3", "none"),
+                filter = pick(1, WINDOW_FILTERS[(index + choice) % WINDOW_FILTERS.len()], "none"),
                 reference = pick(2, "previous", "last-sent"),
                 payload = pick((index + 1) % 3, "denoised", "raw"),
                 thresholds = pick((index + 2) % 3, "runtime", "constant"),
@@ -132,7 +137,7 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                 width = columns * size,
                 height = rows * size,
                 neighborhood = pick(0, "isolated", "shared"),
-                filter = pick(1, "median3x3", "none"),
+                filter = pick(1, WINDOW_FILTERS[(index + choice) % WINDOW_FILTERS.len()], "none"),
                 reference = pick(2, "previous", "last-sent"),
                 pipelining = PIPELINING[(index + choice.count_ones() as usize) % 2],
                 sync = choice % 3 == 1,
@@ -181,7 +186,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
                 width = columns * size - beside,
                 height = rows * size - below,
                 neighborhood = pick(0, "isolated", "shared"),
-                filter = pick(1, "median3x3", "none"),
+                filter = pick(1, WINDOW_FILTERS[(index + choice) % WINDOW_FILTERS.len()], "none"),
                 reference = pick(2, "previous", "last-sent"),
                 pipelining = pick(3, "plain", "deep"),
                 payload = pick((index + 1) % 4, "denoised", "raw"),
