@@ -47,11 +47,9 @@ module region_surface #(
     wire [  WIDTH-1:0] right_below = right_i ? below_q : lower_i;
     wire [4*WIDTH-1:0] neighbors = {left_below_q, right_below, below_q, right};
 
-    // Steps of the sums.
+    // Steps of the sums. The sums of a whole frame are compared in the clock of its last step, and start anew in the next one.
     wire sum_step, sum_last;
-    reg fresh_q;  // the next step is the first of a frame
-    reg done_q;   // the sums are those of a whole frame
-    wire [4*SCORE_BITS-1:0] sums;
+    wire [4*SCORE_BITS-1:0] sums;  // with the distances of this step
     genvar i;
 
     generate
@@ -82,29 +80,29 @@ module region_surface #(
             // A negative difference is inverted, which gives one less than its magnitude. The carry adds the missing one.
             wire negative = added[WIDTH];
             wire [SCORE_BITS-1:0] inverted = {{(SCORE_BITS - WIDTH) {1'b0}}, added[WIDTH-1:0] ^ {WIDTH{negative}}};
-            wire [SCORE_BITS-1:0] next;
             reg  [SCORE_BITS-1:0] sum_q;
 
-            carry_adder #(.WIDTH(SCORE_BITS)) u_next (
-                .plain_i(inverted), .other_i(fresh_q ? {SCORE_BITS{1'b0}} : sum_q), .carry_i(negative), .sum_o(next)
+            carry_adder #(.WIDTH(SCORE_BITS)) u_sum (
+                .plain_i(sum_q), .other_i(inverted), .carry_i(negative), .sum_o(sums[i*SCORE_BITS+:SCORE_BITS])
             );
 
-            always @(posedge clk_i) if (sum_step) sum_q <= next;
-            assign sums[i*SCORE_BITS+:SCORE_BITS] = sum_q;
+            always @(posedge clk_i) begin
+                if (rst_i || (sum_step && sum_last)) sum_q <= {SCORE_BITS{1'b0}};
+                else if (sum_step) sum_q <= sums[i*SCORE_BITS+:SCORE_BITS];
+            end
         end
     endgenerate
 
-    wire [SCORE_BITS-1:0] smaller = lesser(sums[0+:SCORE_BITS], sums[SCORE_BITS+:SCORE_BITS]);
-    wire [SCORE_BITS-1:0] other = lesser(sums[2*SCORE_BITS+:SCORE_BITS], sums[3*SCORE_BITS+:SCORE_BITS]);
+    reg done_q;  // the two sums below are those of a whole frame
+    reg [SCORE_BITS-1:0] straight_q;  // the smaller one of the sums of the right and the lower neighbors
+    reg [SCORE_BITS-1:0] diagonal_q;  // the smaller one of the other two
 
     always @(posedge clk_i) begin
-        if (sum_step) fresh_q <= sum_last;
+        straight_q <= lesser(sums[0+:SCORE_BITS], sums[SCORE_BITS+:SCORE_BITS]);
+        diagonal_q <= lesser(sums[2*SCORE_BITS+:SCORE_BITS], sums[3*SCORE_BITS+:SCORE_BITS]);
         done_q <= sum_step && sum_last && !rst_i;
-        if (done_q) score_o <= lesser(smaller, other);
-        if (rst_i) begin
-            fresh_q <= 1'b1;
-            score_o <= {SCORE_BITS{1'b0}};
-        end
+        if (rst_i) score_o <= {SCORE_BITS{1'b0}};
+        else if (done_q) score_o <= lesser(straight_q, diagonal_q);
     end
 
 endmodule

@@ -42,30 +42,34 @@ generate
         assign {f_added, f_step, f_last} = {f_distances, step_i, last_i};
     end
 endgenerate
-reg [63:0] f_sum0, f_sum1, f_sum2, f_sum3, f_expected;
+reg [63:0] f_sum0, f_sum1, f_sum2, f_sum3, f_least, f_expected;
 reg [15:0] f_seen;  // number of steps of the frame
 reg f_done;
-wire [63:0] f_least01 = f_sum0 < f_sum1 ? f_sum0 : f_sum1;
-wire [63:0] f_least23 = f_sum2 < f_sum3 ? f_sum2 : f_sum3;
+wire [63:0] f_next0 = f_sum0 + f_added[0+:64];
+wire [63:0] f_next1 = f_sum1 + f_added[64+:64];
+wire [63:0] f_next2 = f_sum2 + f_added[128+:64];
+wire [63:0] f_next3 = f_sum3 + f_added[192+:64];
+wire [63:0] f_least01 = f_next0 < f_next1 ? f_next0 : f_next1;
+wire [63:0] f_least23 = f_next2 < f_next3 ? f_next2 : f_next3;
 always @(posedge clk_i) begin
     if (rst_i) f_reset_seen <= 1'b1;
     if (f_step) begin
-        f_sum0 <= (f_seen == 0 ? 0 : f_sum0) + f_added[0+:64];
-        f_sum1 <= (f_seen == 0 ? 0 : f_sum1) + f_added[64+:64];
-        f_sum2 <= (f_seen == 0 ? 0 : f_sum2) + f_added[128+:64];
-        f_sum3 <= (f_seen == 0 ? 0 : f_sum3) + f_added[192+:64];
+        f_sum0 <= f_last ? 0 : f_next0;
+        f_sum1 <= f_last ? 0 : f_next1;
+        f_sum2 <= f_last ? 0 : f_next2;
+        f_sum3 <= f_last ? 0 : f_next3;
         f_seen <= f_last ? 0 : f_seen + 1;
     end
-    f_done <= f_step && f_last;
-    if (f_done) f_expected <= f_least01 < f_least23 ? f_least01 : f_least23;
+    f_done  <= f_step && f_last;
+    f_least <= f_least01 < f_least23 ? f_least01 : f_least23;
+    if (f_done) f_expected <= f_least;
     if (rst_i) begin
+        {f_sum0, f_sum1, f_sum2, f_sum3} <= 0;
         f_seen <= 0;
         f_done <= 0;
         f_expected <= 0;
     end
 end
-wire [15:0] f_added_count = f_seen == 0 ? F_PIXELS : f_seen;
-wire f_has_sums = f_seen != 0 || f_done;
 always @* begin
     // A window steps when it has all its columns, and a frame has at most PIXELS steps.
     if (step_i) assume(f_known);
@@ -77,14 +81,12 @@ always @* begin
     if (f_known) assert(left_below_q == f_left[2*WIDTH+:WIDTH]);
     if (f_reset_seen) begin
         assert(f_seen < F_PIXELS);
-        assert(fresh_q == (f_seen == 0));
         assert(done_q == f_done);
-        if (f_has_sums) begin
-            assert(f_sum0 <= f_added_count * F_MAX && sums[0+:SCORE_BITS] == f_sum0);
-            assert(f_sum1 <= f_added_count * F_MAX && sums[SCORE_BITS+:SCORE_BITS] == f_sum1);
-            assert(f_sum2 <= f_added_count * F_MAX && sums[2*SCORE_BITS+:SCORE_BITS] == f_sum2);
-            assert(f_sum3 <= f_added_count * F_MAX && sums[3*SCORE_BITS+:SCORE_BITS] == f_sum3);
-        end
+        assert(f_sum0 <= f_seen * F_MAX && g_neighbor[0].sum_q == f_sum0);
+        assert(f_sum1 <= f_seen * F_MAX && g_neighbor[1].sum_q == f_sum1);
+        assert(f_sum2 <= f_seen * F_MAX && g_neighbor[2].sum_q == f_sum2);
+        assert(f_sum3 <= f_seen * F_MAX && g_neighbor[3].sum_q == f_sum3);
+        if (f_done) assert((straight_q < diagonal_q ? straight_q : diagonal_q) == f_least);
         assert(score_o == f_expected);
     end
 end
