@@ -21,7 +21,7 @@ module serial_array #(
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
     parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE plus twice the halo
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised; SIDE without a filter
-    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter FILTER = 1,           // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter SHARED = 0,           // 1: windows see neighboring regions; 0: windows repeat the region's own border
     parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
     // Features and decision
@@ -104,8 +104,8 @@ module serial_array #(
     localparam SEGMENT = SEGMENT_INDEX != 0 ? 1 : 0;
 
     // The areas of a slot: raw, denoised, reference.
-    localparam HAS_DENOISED = MEDIAN != 0;
-    localparam HAS_REFERENCE = MEDIAN == 0 || LAST_SENT != 0;
+    localparam HAS_DENOISED = FILTER != 0;
+    localparam HAS_REFERENCE = FILTER == 0 || LAST_SENT != 0;
     localparam RAW_END = RAW_SIDE * RAW_SIDE;
     localparam DENOISED_END = DENOISED_BASE + DENOISED_SIDE * DENOISED_SIDE;
     localparam REFERENCE_END = REFERENCE_BASE + SIDE * SIDE;
@@ -128,7 +128,7 @@ module serial_array #(
         if (DENOISED_SIDE != SIDE && DENOISED_SIDE != SIDE + 2) begin : g_denoised_side
             DENOISED_SIDE_must_be_SIDE_and_0_or_2 u_refused ();
         end
-        if (MEDIAN != 0 && MEDIAN != 1) begin : g_median MEDIAN_must_be_0_or_1 u_refused (); end
+        if (FILTER < 0 || FILTER > 3) begin : g_filter FILTER_must_be_0_to_3 u_refused (); end
         if (SHARED != 0 && SHARED != 1) begin : g_shared SHARED_must_be_0_or_1 u_refused (); end
         if (LAST_SENT != 0 && LAST_SENT != 1) begin : g_last_sent
             LAST_SENT_must_be_0_or_1 u_refused ();
@@ -181,11 +181,11 @@ module serial_array #(
 
     localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // a group selects one of 64
     localparam GROUPS = (LANES + GROUP_LANES - 1) / GROUP_LANES;
-    localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
+    localparam BORDERS = FILTER != 0 && DENOISED_SIDE != SIDE;
     localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
     localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
     localparam BLOCK_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;
-    localparam CONTROL_BITS = 34;  // bits of the control word
+    localparam CONTROL_BITS = 37;  // bits of the control word
     // Clocks from an address to its word, and from an address to the accumulator.
     localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
     localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE || RANGE || SURFACE) ? 1 : 0);
@@ -233,7 +233,7 @@ module serial_array #(
     wire [CONTROL_BITS-1:0] controls;
 
     serial_sequencer #(
-        .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
+        .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .FILTER(FILTER),
         .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
         .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES),
         .EDGE_INDEX(EDGE_INDEX), .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX), .VARIANCE_INDEX(VARIANCE_INDEX), .RANGE_INDEX(RANGE_INDEX),
@@ -289,7 +289,7 @@ module serial_array #(
             serial_group #(
                 .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .WORD(WORD), .LATE(LATE), .RASTER(RASTER),
                 .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
-                .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
+                .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
                 .SEGMENT(SEGMENT), .SUMMARIES(SUMMARIES)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
@@ -341,7 +341,7 @@ module serial_array #(
             serial_lane #(
                 .WIDTH(WIDTH), .WORDS(FOLD << WORD_BITS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .DEEP(DEEP),
                 .ACC_BITS(ACC_BITS), .CHAIN_BITS(CHAIN_BITS), .FLAGS(FLAGS), .RASTER(RASTER),
-                .COPIES(LAST_SENT), .BORDERS(BORDERS), .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER),
+                .COPIES(LAST_SENT), .BORDERS(BORDERS), .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER),
                 .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT), .FRACTION(FRACTION), .SUMMARIES(SUMMARIES),
                 .DROPPED(MEAN_DROPPED), .AUX_BITS(AUX_BITS), .SUM_BITS(SUM_BITS), .PIXELS(SIDE * SIDE)
             ) u_lane (

@@ -6,7 +6,7 @@
 module serial_constant #(
     parameter WIDTH = 8,       // bits of a pixel
     parameter SIDE = 8,        // pixels of a side of a region
-    parameter MEDIAN = 1,      // 1: pixels are denoised
+    parameter FILTER = 1,      // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter MAD = 0,         // 1: the design has the feature `mad`
     parameter VARIANCE = 0,    // 1: the design has the feature `variance`
     parameter RANGE = 0,       // 1: the design has the feature `range`
@@ -20,7 +20,7 @@ module serial_constant #(
     parameter ACC_BITS = 11    // bits of the accumulator
 ) (
     input  wire                clk_i,             // clock, rising edge
-    input  wire [        44:0] step_i,            // the step: one bit for each action, in the order of serial_states
+    input  wire [        47:0] step_i,            // the step: one bit for each action, in the order of serial_states
     input  wire                last_center_i,     // the center is the last of its square
     input  wire                ranges_i,          // the feature under way is `range`
     input  wire                squares_i,         // the feature under way is `variance`
@@ -40,6 +40,7 @@ module serial_constant #(
 );
 
     localparam PIXELS = SIDE * SIDE;
+    localparam BLENDS = FILTER == 3;  // 1: windows are summed
     localparam PLACES = WIDTH + COUNT_BITS;  // number of bit places of the sum of `variance`
     localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT;
     /* verilator lint_off WIDTH */
@@ -49,6 +50,7 @@ module serial_constant #(
     // of n is in units of the fraction. The fraction is not 0 if the remainder is above LARGEST_WHOLE.
     localparam [ACC_BITS-1:0] WHOLE_HALF = (PIXELS / 2) >> FRACTION;
     localparam [ACC_BITS-1:0] LARGEST_WHOLE = (PIXELS - PIXELS / 2 - 1) / (1 << FRACTION) + ((PIXELS / 2) >> FRACTION);
+    localparam [ACC_BITS-1:0] HALF_WINDOW = 8;
     localparam [SCALE_BITS-1:0] UNIT = 1;
     localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
     localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
@@ -56,7 +58,7 @@ module serial_constant #(
 
     // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
-    wire starting, searching, adjusting, reading, writing, relating, testing;
+    wire starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
     wire recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking;
@@ -64,13 +66,13 @@ module serial_constant #(
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
-        starting, searching, adjusting, reading, writing, relating, testing,
+        starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
         averaging, returning, storing, showing
     } = step_i;
-    wire unused_step = draining || denoising || bordering || temporal || copying || searching || reading
+    wire unused_step = draining || denoising || bordering || temporal || copying || searching || probing || choosing || reading
         || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
         || spreading || removing || counting || spanning || below || shrinking || returning || storing || showing;
 
@@ -126,7 +128,7 @@ module serial_constant #(
 
     always @(posedge clk_i) begin
         // It is set in the states before it is needed, so that it does not depend on the next state.
-        if (MEDIAN != 0 && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
+        if ((FILTER == 1 || FILTER == 2) && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
         else if (SUMS && summing) begin
             scale_q <= squares_i ? UNIT << (SUM_BITS - 1)
                 : SEGMENT && segments_i ? DIVISOR << (WIDTH - 1) : DIVISOR << (WIDTH + FRACTION - 1);
@@ -147,18 +149,21 @@ module serial_constant #(
     wire [ACC_BITS+WIDTH-1:0] wide_segment = {{ACC_BITS{1'b0}}, segment_level_i};
     wire [ACC_BITS+WIDTH+1:0] wide_half = {{ACC_BITS{1'b0}}, edge_half_i};
     wire [ACC_BITS+WIDTH-1:0] wide_lowest = {{ACC_BITS{1'b0}}, lowest};
-    wire unused_wide = |wide_scale || |wide_temporal || |wide_corner || |wide_segment || |wide_half || |wide_lowest;
+    // `binomial3x3` compares 16 times the difference, before it is rounded.
+    wire [ACC_BITS+WIDTH+3:0] blend_level = {{ACC_BITS{1'b0}}, temporal_level_i, 4'd8};
+    wire unused_wide = |blend_level || |wide_scale || |wide_temporal || |wide_corner || |wide_segment || |wide_half || |wide_lowest;
 
     always @* begin
         constant = {ACC_BITS{1'b0}};
-        if (testing) constant = wide_temporal[ACC_BITS-1:0];
+        if (testing) constant = BLENDS ? blend_level[ACC_BITS-1:0] : wide_temporal[ACC_BITS-1:0];
+        else if (blending) constant = HALF_WINDOW;
         else if (gradient) constant = wide_half[ACC_BITS-1:0];
         else if (ring) constant = wide_corner[ACC_BITS-1:0];
         else if (halving) constant = averaging ? HALF_BLOCK : SEGMENT && segments_i ? WHOLE_HALF : HALF_PIXELS;
         else if (leveling) constant = wide_segment[ACC_BITS-1:0];
         else if (rounding) constant = LARGEST_WHOLE;
         else if (squaring) constant = wide_lowest[ACC_BITS-1:0];
-        else if (MEDIAN != 0 || SUMS) constant = wide_scale[ACC_BITS-1:0];
+        else if (FILTER == 1 || FILTER == 2 || SUMS) constant = wide_scale[ACC_BITS-1:0];
     end
 
     assign constant_o = constant;

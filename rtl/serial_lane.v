@@ -35,7 +35,7 @@ module serial_lane #(
     parameter RASTER = 0,        // 1: pixels enter by lane select and leave through the chain of scores
     parameter COPIES = 0,        // 1: an active lane copies the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
-    parameter MEDIAN = 1,        // 1: pixels are denoised
+    parameter FILTER = 1,        // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter EDGE = 1,          // 1: the design has the feature `edge`
     parameter CORNER = 0,        // 1: the design has the feature `corner`
     parameter MAD = 0,           // 1: the design has the feature `mad`
@@ -61,7 +61,7 @@ module serial_lane #(
     input  wire [             3:0] sides_i,          // sides of the region on the frame's border: {bottom, top, right, left}
     // Controls.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
-    input  wire [            33:0] controls_i,       // the control word, see serial_controls
+    input  wire [            36:0] controls_i,       // the control word, see serial_controls
     // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane before
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane before: active or TRS; then SRS so far or sent
@@ -74,12 +74,14 @@ module serial_lane #(
 
     localparam COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0;  // 1: an operand is computed from the word
     localparam SUMS = COMPUTES || SEGMENT != 0;  // 1: the lane has `aux`, and its score can take the accumulator
+    localparam SEARCHES = FILTER == 1 || FILTER == 2;  // 1: medians are searched
     localparam KEEPS = SUMS || SUMMARIES != 0;  // 1: the score can take sums
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
         if (ACC_BITS <= WIDTH) begin : g_acc_bits ACC_BITS_must_be_more_than_WIDTH u_refused (); end
+        if (FILTER == 3 && ACC_BITS < WIDTH + 5) begin : g_acc_bits_2 ACC_BITS_must_hold_a_window u_refused (); end
         if (FLAGS < 1 || FLAGS > 2) begin : g_flags FLAGS_must_be_1_or_2 u_refused (); end
         if ((RASTER != 0 || SUMMARIES != 0) && CHAIN_BITS < WIDTH) begin : g_chain_bits
             CHAIN_BITS_must_hold_a_pixel u_refused ();
@@ -107,16 +109,16 @@ module serial_lane #(
     // The bits of the control word.
     wire write_active, write_border, from_memory, deviate, masked, from_aux, hold;
     wire larger, subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner, count_side;
-    wire recall_sum, recall_mean, ceiling, shrink;
+    wire recall_sum, recall_mean, ceiling, shrink, probe, choose;
     wire twice, divide, shift, keep, fetch, unload, unload_mean;
-    wire write_mean;
+    wire write_mean, write_high;
     wire [1:0] side;
     assign {
-        write_active, write_border, side, write_mean,
+        write_active, write_border, side, write_mean, write_high,
         from_memory, deviate, masked, from_aux, hold,
         larger, subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner, count_side,
-        recall_sum, recall_mean, ceiling, shrink,
+        recall_sum, recall_mean, ceiling, shrink, probe, choose,
         twice, divide, shift, keep, fetch, unload, unload_mean
     } = controls_i;
 
@@ -130,6 +132,7 @@ module serial_lane #(
     wire                  invert;
     wire                  hit;
     wire                  five;
+    wire                  below_center;  // `switching3x3`: a neighbor is below the center
     wire                  below;  // `segment`: the pixels below are the smaller side
     wire                  stays = sum[ACC_BITS-1] == acc_q[ACC_BITS-1];
 
@@ -152,14 +155,21 @@ module serial_lane #(
     wire selected = RASTER != 0 && select_row_i && select_column_i;
     wire copied   = COPIES != 0 && write_active && flags_q[0];
     wire repeated = BORDERS != 0 && write_border && sides_i[side];
+    wire [WIDTH-1:0] made;
     wire [WIDTH-1:0] result;
 
     generate
+        if (FILTER == 3) begin : g_binomial
+            assign made = write_high ? acc_q[4+:WIDTH] : acc_q[WIDTH-1:0];
+        end else begin : g_no_binomial
+            wire unused_write_high = write_high;
+            assign made = acc_q[WIDTH-1:0];
+        end
         if (SUMMARIES != 0 && RASTER == 0) begin : g_mean_returns
-            assign result = write_mean ? chain_q[WIDTH-1:0] : acc_q[WIDTH-1:0];
+            assign result = write_mean ? chain_q[WIDTH-1:0] : made;
         end else begin : g_no_mean_returns
             wire unused_write_mean = write_mean;
-            assign result = acc_q[WIDTH-1:0];
+            assign result = made;
         end
     endgenerate
 
@@ -170,6 +180,27 @@ module serial_lane #(
         .clk_i(clk_i), .write_i(write_i || selected || copied || repeated), .address_i(address_i),
         .data_i(loading_i ? pixel_i : result), .data_o(word)
     );
+
+    // `switching3x3`: the pixel is kept if a neighbor is above, and another one below.
+    wire enables;
+    wire clears;
+
+    generate
+        if (FILTER == 2) begin : g_switching
+            reg kept_q;
+            assign enables = enable && (!choose || kept_q);
+            assign clears = clear && (!choose || kept_q);
+
+            always @(posedge clk_i) begin
+                if (probe) kept_q <= kept_q || (below_center && !stays);
+                else if (clear && !choose) kept_q <= 1'b0;
+            end
+        end else begin : g_no_switching
+            wire unused_choice = probe || choose || below_center;
+            assign enables = enable;
+            assign clears = clear;
+        end
+    endgenerate
 
     // Accumulator.
     wire [ACC_BITS-1:0] wide_word = {{(ACC_BITS - WIDTH) {1'b0}}, word};
@@ -279,8 +310,8 @@ module serial_lane #(
             end
             assign aux = aux_q;
 
-            wire taken = enable && takes && (!divide || next);
-            wire cleared = clear || (SURFACE != 0 && shrink && !acc_q[ACC_BITS-1]);
+            wire taken = enables && takes && (!divide || next);
+            wire cleared = clears || (SURFACE != 0 && shrink && !acc_q[ACC_BITS-1]);
             if (SEGMENT != 0) begin : g_fraction
                 reg fraction_q;
                 assign fraction = fraction_q;
@@ -291,7 +322,7 @@ module serial_lane #(
 
             if (RANGE != 0) begin : g_range
                 reg larger_q;  // the operand was larger than the accumulator in the step before
-                wire replaces = larger && !enable && !stays;
+                wire replaces = larger && !enables && !stays;
                 always @(posedge clk_i) begin
                     larger_q <= replaces;
                     if (cleared || replaces) acc_q <= {ACC_BITS{1'b0}};
@@ -317,15 +348,15 @@ module serial_lane #(
             );
 
             always @(posedge clk_i) begin
-                if (clear) acc_q <= {ACC_BITS{1'b0}};
-                else if (enable) acc_q <= sum;
+                if (clears) acc_q <= {ACC_BITS{1'b0}};
+                else if (enables) acc_q <= sum;
             end
         end
     endgenerate
 
     // With ceiling, the side chooses and not the count of five.
-    wire flips = SEGMENT != 0 && (MEDIAN == 0 || ceiling) ? below : five;
-    assign invert = subtract || (by_sign && !acc_q[ACC_BITS-1]) || ((MEDIAN != 0 || SEGMENT != 0) && by_run && flips);
+    wire flips = SEGMENT != 0 && (!SEARCHES || ceiling) ? below : five;
+    assign invert = subtract || (by_sign && !acc_q[ACC_BITS-1]) || ((SEARCHES || SEGMENT != 0) && by_run && flips);
 
     // Counts.
     wire hit_of_window;
@@ -338,6 +369,7 @@ module serial_lane #(
             wire       on = !run_corner || (stays && negative_q == acc_q[ACC_BITS-1]);
             wire       reaches = run_q[3] && on;
             assign five = run_q[4];
+            assign below_center = run_q[0];
             assign hit_of_window = count_corner ? five || reaches : stays || run_q[0];
 
             always @(posedge clk_i) begin
@@ -346,9 +378,10 @@ module serial_lane #(
                     run_q <= {reaches, run_q[2:0] & {3{on}}, stays};
                 if (run) negative_q <= acc_q[ACC_BITS-1];
             end
-        end else if (MEDIAN != 0) begin : g_run
+        end else if (SEARCHES) begin : g_run
             reg [4:0] run_q;
             assign five = run_q[4];
+            assign below_center = run_q[0];
             assign hit_of_window = stays || (EDGE != 0 && run_q[0]);
 
             always @(posedge clk_i) begin
@@ -359,6 +392,7 @@ module serial_lane #(
         end else if (EDGE != 0) begin : g_run_edge
             reg run_q;
             assign five = 1'b0;
+            assign below_center = 1'b0;
             assign hit_of_window = stays || run_q;
 
             always @(posedge clk_i) begin
@@ -368,6 +402,7 @@ module serial_lane #(
             wire unused_corner = run_corner || count_corner;
         end else begin : g_no_run
             assign five = 1'b0;
+            assign below_center = 1'b0;
             assign hit_of_window = stays;
             wire unused_run = run || run_clear || run_corner || count_corner;
         end

@@ -11,7 +11,7 @@ module serial_sequencer #(
     parameter SIDE = 8,             // pixels of a side of a region
     parameter RAW_SIDE = 8,         // side of the square that is loaded
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised
-    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter FILTER = 1,           // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
@@ -57,7 +57,7 @@ module serial_sequencer #(
     output wire [    WORD_BITS-1:0] address_o,         // the address inside the slot
     output wire                     write_o,           // the accumulator is written to this address
     output wire [     ACC_BITS-1:0] constant_o,        // the constant
-    output wire [             33:0] controls_o,        // the control word, see serial_controls
+    output wire [             36:0] controls_o,        // the control word, see serial_controls
     // Outputs to the decision.
     output wire                     rotate_o,          // scores pass
     output wire                     average_o,         // sums of blocks pass
@@ -85,9 +85,9 @@ module serial_sequencer #(
     localparam RANGE = RANGE_INDEX != 0 ? 1 : 0;
     localparam SURFACE = SURFACE_INDEX != 0 ? 1 : 0;
     localparam SEGMENT = SEGMENT_INDEX != 0 ? 1 : 0;
-    localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
+    localparam BORDERS = FILTER != 0 && DENOISED_SIDE != SIDE;
 
-    wire [44:0] step;
+    wire [47:0] step;
     wire [3:0] tap;
     wire [1:0] part;
     wire walks, block_ends, slot_ends, last_column, last_center, counts, squares;
@@ -97,7 +97,7 @@ module serial_sequencer #(
 
     wire loading, draining, rotating, unloading, shifting;
     wire averaging, returning;
-    wire [35:0] unused_step;
+    wire [38:0] unused_step;
     wire [1:0] unused_last;
     assign {loading, draining, rotating, unloading, shifting, unused_step, averaging, returning, unused_last} = step;
     assign working_o = !loading && !draining;
@@ -125,7 +125,7 @@ module serial_sequencer #(
 
     // The steps.
     serial_states #(
-        .MEDIAN(MEDIAN), .BORDERS(BORDERS), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
+        .FILTER(FILTER), .BORDERS(BORDERS), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
         .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT),
         .FRACTION(FRACTION),
         .SUMMARIES(BLOCKS != 0 ? 1 : 0)
@@ -142,7 +142,7 @@ module serial_sequencer #(
 
     // The addresses.
     serial_addresses #(
-        .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN), .CLAMPS(CLAMPS),
+        .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .FILTER(FILTER), .CLAMPS(CLAMPS),
         .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .POSITION_BITS(POSITION_BITS)
     ) u_addresses (
@@ -154,7 +154,7 @@ module serial_sequencer #(
 
     // The constants and the controls.
     serial_constant #(
-        .WIDTH(WIDTH), .SIDE(SIDE), .MEDIAN(MEDIAN), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
+        .WIDTH(WIDTH), .SIDE(SIDE), .FILTER(FILTER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
         .SEGMENT(SEGMENT), .FRACTION(FRACTION),
         .BLOCK(BLOCKS != 0 ? (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) * (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) : 1),
         .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
@@ -167,7 +167,7 @@ module serial_sequencer #(
     );
 
     serial_controls #(
-        .LAST_SENT(LAST_SENT), .RASTER(RASTER), .KEEPS(MAD || VARIANCE || RANGE || SURFACE || SEGMENT || BLOCKS != 0 ? 1 : 0)
+        .FILTER(FILTER), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .KEEPS(MAD || VARIANCE || RANGE || SURFACE || SEGMENT || BLOCKS != 0 ? 1 : 0)
     ) u_controls (
         .step_i(step), .tap_i(tap), .part_i(part), .counts_i(counts), .spent_i(spent), .controls_o(controls_o)
     );

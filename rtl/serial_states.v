@@ -7,7 +7,7 @@
 `default_nettype none
 
 module serial_states #(
-    parameter MEDIAN = 1,     // 1: pixels are denoised
+    parameter FILTER = 1,     // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter BORDERS = 0,    // 1: sides on the frame's border are repeated
     parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
     parameter RASTER = 0,     // 1: pixels leave through the chain of scores
@@ -50,9 +50,9 @@ module serial_states #(
     input  wire        any_pairs_i,    // `variance`: the squares of words have pairs of bits at this place
     input  wire        more_pairs_i,   // `variance`: another pair of bits follows at this place
     // The step.
-    output wire [44:0] step_o,         // the step: one bit for each action
+    output wire [47:0] step_o,         // the step: one bit for each action
     output wire [ 3:0] tap_o,          // number of the neighbor that is read
-    output wire [ 1:0] part_o,         // half of a gradient or of a step of `range` or `surface`, part of a ring's step, or side of the border
+    output wire [ 1:0] part_o,         // half of a gradient or of a step of `range` or `surface`, part of a filter or of a ring's step, or side of the border
     output wire        walks_o,        // the next step works on the next center
     output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
     output wire        slot_ends_o     // the next step works on the next slot
@@ -89,7 +89,8 @@ module serial_states #(
     localparam [4:0] RANGE_STEP = 5'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
     localparam [4:0] RECALL = 5'd29;   // adds or subtracts `aux`, bit by bit
     localparam [4:0] WALK = 5'd30;     // `segment`: counts a word; `surface`: adds the distance of a word from a neighbor
-    localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
+    localparam [4:0] FILTER_STEP = 5'd31;  // a step of `switching3x3` or `binomial3x3`
+    localparam [4:0] FIRST = FILTER == 1 ? START : FILTER == 3 ? FILTER_STEP : READ;
     localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
     localparam [4:0] RETURNED = LATE == 0 ? STORE : BEHIND;
     localparam [4:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
@@ -98,6 +99,9 @@ module serial_states #(
     localparam [1:0] BORDER = 2'b01;
     localparam [1:0] COPY = 2'b10;
 
+    localparam SEARCHES = FILTER == 1 || FILTER == 2;  // 1: medians are searched
+    localparam SWITCHES = FILTER == 2;                 // 1: a pixel is kept unless it is the largest or smallest of its window
+    localparam BLENDS = FILTER == 3;                   // 1: windows are summed
     localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT;  // 1: a feature divides, and its score takes the accumulator
     /* verilator lint_off WIDTH */
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
@@ -121,8 +125,14 @@ module serial_states #(
 
     // Steps of a pixel.
     wire starting = state_q == START;
-    wire searching = MEDIAN != 0 && state_q == SEARCH;
+    wire searching = SEARCHES && state_q == SEARCH;
     wire adjusting = searching && tap_q[3] && tap_q[0];
+    // `switching3x3`: parts 0 and 1 compare the center with its neighbors, and parts 2 and 3 take it instead of the median.
+    // `binomial3x3`: part 0 subtracts the reference, part 1 adds the window, part 2 adds it again for the result, part 3 rounds.
+    wire probing = SWITCHES && state_q == FILTER_STEP && !part_q[1];
+    wire choosing = SWITCHES && state_q == FILTER_STEP && part_q[1];
+    wire blending = BLENDS && state_q == FILTER_STEP;
+    wire part_ends = SWITCHES ? part_q[1] || tap_q[2:0] == 3'd7 : part_q == 2'd3 || tap_q == 4'd15;
     wire reading = state_q == READ;
     wire writing = state_q == WRITE;
     wire relating = LAST_SENT != 0 && state_q == REFERENCE;
@@ -137,7 +147,7 @@ module serial_states #(
     wire bordering = BORDERS && job_q[0];
     wire copying = LAST_SENT != 0 && job_q[1];
     wire temporal = !bordering && !copying;
-    wire denoising = MEDIAN != 0 && job_q == TEMPORAL && !loading;
+    wire denoising = FILTER != 0 && job_q == TEMPORAL && !loading;
     wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
 
     // Steps of `segment`. After round 0 there is a mean; then the words above are counted, those not below, and the smaller side.
@@ -177,7 +187,7 @@ module serial_states #(
     assign step_o = {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
-        starting, searching, adjusting, reading, writing, relating, testing,
+        starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
@@ -186,10 +196,11 @@ module serial_states #(
     assign tap_o = spanning ? {2'b00, round} + 4'd3 : tap_q;  // the neighbors at the right, and those below from right to left
     assign part_o = part_q;
 
-    assign walks_o = testing || (writing && !temporal)
+    assign walks_o = (testing && !(BLENDS && denoising)) || (writing && (!temporal || BLENDS))
         || (gradient_test && part_q[0]) || (ring_test && ring_last)
         || summing || deviating || squaring || ((ranging || spanning) && part_q[0]) || counting
         || (unloading && RASTER == 0) || (shifting && last_lane_i && !is_returning);
+    wire denoised = FILTER != 0 && last_center_i && (BLENDS ? writing && temporal : testing);  // the last pixel of the square is done
     wire pass_ends = walks_o && last_center_i;
     wire unloaded = pass_ends && (unloading || shifting);
     wire returned = is_returning && (showing || (shifting && last_lane_i));
@@ -209,9 +220,19 @@ module serial_states #(
             end
             DRAIN: state = LOAD;
             START: state = SEARCH;
-            SEARCH: if (adjusting && spent_i) state = BEHIND;
+            SEARCH: if (adjusting && spent_i) state = SWITCHES ? FILTER_STEP : BEHIND;
+            FILTER_STEP: begin
+                if (!SWITCHES && !BLENDS) state = LOAD;
+                else if (part_ends) case (part_q)
+                    2'd0: state = FILTER_STEP;
+                    2'd1: state = SWITCHES ? START : TEST;
+                    2'd2: state = FILTER_STEP;
+                    default: state = BEHIND;
+                endcase
+            end
             READ: begin
-                if (LAST_SENT != 0 && MEDIAN == 0 && temporal) state = REFERENCE;
+                if (SWITCHES && temporal) state = FILTER_STEP;
+                else if (LAST_SENT != 0 && FILTER == 0 && temporal) state = REFERENCE;
                 else state = BEHIND;
             end
             LONGER: state = WAIT;
@@ -219,17 +240,14 @@ module serial_states #(
             IDLE: state = is_returning ? STORE : WRITE;
             SETTLE: state = ROTATE;
             WRITE: begin
-                if (temporal) state = LAST_SENT != 0 ? REFERENCE : TEST;
+                if (temporal) state = BLENDS ? FIRST : LAST_SENT != 0 ? REFERENCE : TEST;
                 else if (bordering) state = border_ends ? SCORED : READ;
                 else state = last_center_i ? UNLOAD : READ;
             end
             REFERENCE: state = TEST;
             TEST: begin
                 state = last_center_i ? SCORED : FIRST;
-                if (last_center_i && BORDERS) begin
-                    state = READ;
-                    job = BORDER;
-                end
+                if (BLENDS) state = FILTER_STEP;
             end
             ROTATE: if (last_lane_i) begin
                 job = COPY;
@@ -280,6 +298,11 @@ module serial_states #(
             SHOW: state = ROTATE;
             default: state = LOAD;
         endcase
+        if (BORDERS && denoised) begin
+            state = READ;
+            job = BORDER;
+        end
+        if (BLENDS && denoised && !BORDERS) state = SCORED;
         if (SUMMARIES && unloaded) returning = 1'b1;
         if (slot_ends_o) begin
             state = last_slot_i ? DRAIN : FIRST;
@@ -369,12 +392,15 @@ module serial_states #(
         end else if (ranging || spanning) begin
             part_q <= {1'b0, !part_q[0]};
             tap_q <= 4'd0;
+        end else if (probing || choosing || blending) begin
+            tap_q <= part_ends ? 4'd0 : tap_q + 4'd1;
+            if (part_ends) part_q <= part_q + 2'd1;
         end else if (bordering) begin
             tap_q <= 4'd0;
             if (writing && last_column_i) part_q <= part_q + 2'd1;
         end else begin
             tap_q <= (searching || (doubling && !squares_i)) && !adjusting ? tap_q + 4'd1 : 4'd0;
-            part_q <= 2'd0;
+            part_q <= (SWITCHES && adjusting && spent_i) || (BLENDS && testing && denoising) ? 2'd2 : 2'd0;
         end
     end
 

@@ -5,24 +5,24 @@
 localparam F_N = SIDE * SIDE;
 localparam F_RAW = RAW_SIDE * RAW_SIDE;
 localparam F_DENOISED = DENOISED_SIDE * DENOISED_SIDE;
-localparam F_HAS_REFERENCE = MEDIAN == 0 || LAST_SENT != 0;
+localparam F_HAS_REFERENCE = FILTER == 0 || LAST_SENT != 0;
 localparam F_WORDS = F_HAS_REFERENCE ? REFERENCE_BASE + F_N : DENOISED_BASE + F_DENOISED;
 
 // The areas of a slot are one behind the other, and fit into it.
 always @* begin
-    if (MEDIAN != 0) assert(DENOISED_BASE >= F_RAW);
-    if (F_HAS_REFERENCE) assert(REFERENCE_BASE >= (MEDIAN != 0 ? DENOISED_BASE + F_DENOISED : F_RAW));
+    if (FILTER != 0) assert(DENOISED_BASE >= F_RAW);
+    if (F_HAS_REFERENCE) assert(REFERENCE_BASE >= (FILTER != 0 ? DENOISED_BASE + F_DENOISED : F_RAW));
     assert(F_WORDS <= (1 << WORD_BITS));
 end
 
 // Places. Either a frame enters or the array works on it.
-wire f_write_active = controls[33];
-wire f_write_border = controls[32];
-wire f_write_mean = controls[29];
+wire f_write_active = controls[36];
+wire f_write_border = controls[35];
+wire f_write_mean = controls[32];
 wire f_shift = controls[4];
 wire f_shows_mean = controls[0];
 wire f_in_reference = F_HAS_REFERENCE && word >= REFERENCE_BASE && word < REFERENCE_BASE + F_N;
-wire f_in_denoised = MEDIAN != 0 && word >= DENOISED_BASE && word < DENOISED_BASE + F_DENOISED;
+wire f_in_denoised = FILTER != 0 && word >= DENOISED_BASE && word < DENOISED_BASE + F_DENOISED;
 always @* if (started) begin
     assert(!(working && ready_o));
     if (RASTER != 0) assert(!(working && place));
@@ -38,7 +38,7 @@ always @* if (started) begin
     end
     if (write || f_write_active || f_write_border) assert(working);
     if (f_write_mean) assert(write && returns && RASTER == 0);
-    if (write) assert(f_write_mean ? word < F_RAW : MEDIAN != 0 ? f_in_denoised : f_in_reference);
+    if (write) assert(f_write_mean ? word < F_RAW : FILTER != 0 ? f_in_denoised : f_in_reference);
     if (f_write_border) assert(f_in_denoised);
     if (f_write_active) assert(f_in_reference);
 end
@@ -132,7 +132,8 @@ localparam F_COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0;
 localparam F_Q = (BLOCK != 0 ? 1 : 0) + (DEEP == 0 ? 0 : F_COMPUTES ? 2 : 1);
 localparam F_SENT = LAST_SENT != 0;
 localparam F_STEPS = FOLD * (
-    (MEDIAN != 0 ? F_DENOISED * (10 * WIDTH + 3 + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
+    (FILTER == 3 ? F_DENOISED * (51 + F_Q)
+        : FILTER != 0 ? F_DENOISED * (10 * WIDTH + (FILTER == 2 ? 22 : 3) + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
     + (BORDERS ? 4 * (SIDE + 2) * (2 + F_Q) : 0)
     + (LANES + (DEEP != 0 ? 1 : 0)) * (FEATURES + 1)
     + F_PASSES

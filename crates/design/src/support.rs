@@ -56,8 +56,7 @@ fn supports_filter(organization: Organization, filter: DenoiseFilter) -> bool {
     match (organization, filter) {
         (Pipelined | Serial | Raster, None | Median3x3) => true,
         (Pipelined, Switching3x3 | Binomial3x3) => false,
-        (Serial, Switching3x3 | Binomial3x3) => false,
-        (Raster, Switching3x3 | Binomial3x3) => true,
+        (Serial | Raster, Switching3x3 | Binomial3x3) => true,
     }
 }
 

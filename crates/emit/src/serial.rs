@@ -170,7 +170,12 @@ fn clocks_text(design: SerialDesign<'_>) -> String {
 fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
     let memory = design.lane_memory();
     let widths = design.lane_widths();
-    let median = design.filter() == DenoiseFilter::Median3x3;
+    let filter = match design.filter() {
+        DenoiseFilter::None => 0,
+        DenoiseFilter::Median3x3 => 1,
+        DenoiseFilter::Switching3x3 => 2,
+        DenoiseFilter::Binomial3x3 => 3,
+    };
     let region = design.region_size();
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
     let fraction = design.features().iter().find_map(deviation_mean);
@@ -179,8 +184,11 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
         ("WIDTH", design.pixel_bits()),
         ("SIDE", region),
         ("RAW_SIDE", design.stream_side()),
-        ("DENOISED_SIDE", if median { design.denoised_side() } else { region }),
-        ("MEDIAN", flag(median)),
+        (
+            "DENOISED_SIDE",
+            if design.filter().has_window() { design.denoised_side() } else { region },
+        ),
+        ("FILTER", filter),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
         ("LAST_SENT", flag(last_sent_flag(&design))),
         ("BLANKS", flag(blanks_flag(&design))),

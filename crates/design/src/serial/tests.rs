@@ -139,6 +139,42 @@ fn a_deep_array_waits_for_its_registers() {
     }
 }
 
+/// The expected numbers are computed by hand from `docs/serial.md`. The largest sum of 64 pixels,
+/// 16,320, has 14 bits, and 16,352, with half of 64, has 14 bits, too.
+#[test]
+fn surface_and_segment_use_the_second_word_bit_by_bit() {
+    let of = |kind: &str, more: &[&str]| {
+        let feature = format!("spatial=[{{feature='{kind}'}}]");
+        let design = design(&[&["denoise.filter=none", &feature][..], more].concat());
+        let (timing, widths) = (timing(&design), design.as_serial().unwrap().lane_widths());
+        let registers = (widths.accumulator, widths.second, widths.scale, widths.chain);
+        (timing.phases()[2].1, timing.read_latency(), registers)
+    };
+    assert_eq!(of("surface", &[]), (512 + 154 + 5, 0, (15, 14, 14, 14)));
+    assert_eq!(of("segment", &[]), (256 + 32 + 9, 0, (15, 8, 14, 7)));
+    // 25 pixels and 24 others are counted in one word. The largest sum plus 12 is 6,387.
+    assert_eq!(of("segment", &["region.size=5"]).2, (14, 8, 12, 6));
+    let deep = |kind| of(kind, &["hardware.pipelining=deep"]).1;
+    assert_eq!((deep("surface"), deep("segment")), (2, 1));
+}
+
+/// The expected numbers are computed by hand from `docs/serial.md`, for 8 bits and 64 pixels.
+#[test]
+fn each_filter_has_its_own_steps() {
+    let of = |filter: &str, reference: &str| {
+        let (filter, reference) =
+            (format!("denoise.filter={filter}"), format!("temporal.reference={reference}"));
+        let design = design(&[&filter, &reference]);
+        (timing(&design).phases()[0], design.as_serial().unwrap().lane_widths().accumulator)
+    };
+    let phase = |steps: u64, bits: u32| ((DenoiseAndCompare, 64 * steps), bits);
+    assert_eq!(of("median3x3", "previous"), phase(83, 11));
+    assert_eq!(of("switching3x3", "previous"), phase(102, 11));
+    assert_eq!(of("switching3x3", "last-sent"), phase(103, 11));
+    assert_eq!(of("binomial3x3", "previous"), phase(51, 13));
+    assert_eq!(of("binomial3x3", "last-sent"), phase(51, 13));
+}
+
 /// The expected numbers are computed by hand from `docs/serial.md`: a region of 64 pixels has four
 /// blocks of 16 pixels, a region of 25 pixels has one block. The arrays have 784 or 5 lanes.
 #[test]

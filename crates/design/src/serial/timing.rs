@@ -13,7 +13,7 @@ use crate::{
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SerialPhase {
-    /// The medians are computed. Each is compared with its reference as it is written.
+    /// The pixels are denoised. Each of them is compared with its reference.
     DenoiseAndCompare,
     /// The denoised pixels beyond the border of the frame are replaced by repetitions of those at
     /// the border.
@@ -229,6 +229,23 @@ fn settling_steps(design: SerialDesign<'_>) -> u32 {
     }
 }
 
+/// Returns the steps that denoise a pixel and compare it with its reference, without Q.
+fn filter_steps(design: SerialDesign<'_>) -> u64 {
+    let looked_up = match design.temporal().reference {
+        // The reference is the word that the median overwrites.
+        ReferencePolicy::Previous => 0,
+        ReferencePolicy::LastSent => 1,
+    };
+    let median = 10 * u64::from(design.pixel_bits()) + 3 + looked_up;
+    match design.filter() {
+        DenoiseFilter::None => 0,
+        DenoiseFilter::Median3x3 => median,
+        DenoiseFilter::Switching3x3 => median + 19,
+        // The weights of the window are 16. The reference is subtracted 16 times, too.
+        DenoiseFilter::Binomial3x3 => 51,
+    }
+}
+
 fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     let n = u64::from(design.region_pixels());
     let lanes = u64::from(design.lanes());
@@ -239,13 +256,7 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     match design.filter() {
         DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => {
             let pixels = u64::from(design.denoised_side()).pow(2);
-            let looked_up = match reference {
-                // The reference is the word that the median overwrites.
-                ReferencePolicy::Previous => 0,
-                ReferencePolicy::LastSent => 1,
-            };
-            let median = 10 * u64::from(design.pixel_bits()) + 3 + read + looked_up;
-            list.push((SerialPhase::DenoiseAndCompare, pixels * median));
+            list.push((SerialPhase::DenoiseAndCompare, pixels * (filter_steps(design) + read)));
             if design.needs_border() {
                 let side = u64::from(design.denoised_side());
                 list.push((SerialPhase::RepeatBorder, 4 * side * (2 + read)));

@@ -33,10 +33,14 @@ impl LaneWidths {
             .fold(design.max_score_bits(), u32::max)
             .max(raster)
             .max(sums.map_or(0, |sums| sums.passing_bits));
-        // The accumulator holds the difference of two pixels. The scale holds the power of two that
+        let filter = match design.filter() {
+            DenoiseFilter::None | DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 => 1,
+            DenoiseFilter::Binomial3x3 => 5,
+        };
+        // The accumulator holds the difference of two pixels, or of their windows. The scale holds the power of two that
         // the median search starts with.
         let mut widths = Self {
-            accumulator: (pixel + 1).max(sums.map_or(0, |sums| sums.sum_bits)),
+            accumulator: (pixel + filter).max(sums.map_or(0, |sums| sums.sum_bits)),
             second: 2,
             chain,
             scale: pixel,

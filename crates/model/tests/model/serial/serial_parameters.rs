@@ -97,8 +97,13 @@ impl SerialParameters {
         let (median, last_sent) = (self.base.has_filter(), self.base.last_sent);
         let mut phases = Vec::new();
         if median {
-            let per_pixel = 10 * p + 3 + q + i64::from(last_sent);
-            phases.push(WithoutOutput(self.denoised_side().pow(2) * per_pixel));
+            let per_pixel = match self.base.filter {
+                "median3x3" => 10 * p + 3 + i64::from(last_sent),
+                "switching3x3" => 1 + 16 + (10 * p + 3) + 2 + i64::from(last_sent),
+                "binomial3x3" => 51,
+                other => panic!("docs/serial.md says no steps of {other}"),
+            };
+            phases.push(WithoutOutput(self.denoised_side().pow(2) * (per_pixel + q)));
         }
         if self.halo() == 2 {
             phases.push(WithoutOutput(4 * (self.base.side + 2) * (2 + q)));
