@@ -65,8 +65,8 @@ impl Camera {
     /// Returns the valid fraction bits of the mean of one feature, which has `bits` now. The mean of
     /// two features cannot be changed by the key of only one of them.
     fn mean_fraction_bound(&self, bits: u32) -> KeyBound {
-        let means = self.features().iter().filter(|feature| feature.mean().is_some());
-        if means.count() > 1 {
+        let entries = self.config().spatial.iter();
+        if entries.filter(|entry| entry.has_mean_fraction()).count() > 1 {
             KeyBound::OneOf(vec![bits])
         } else {
             KeyBound::whole_maximum(index_bits(self.region_pixels().into()))

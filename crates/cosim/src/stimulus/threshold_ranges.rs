@@ -95,12 +95,15 @@ impl ThresholdRanges {
         random: &mut Random,
     ) {
         for (index, &kind) in self.kinds.iter().enumerate() {
-            let value = if kind.counts_window_hits() {
-                decisive_level(kind, &window_at(denoised, at)).unwrap_or(0)
-            } else if kind == FeatureKind::Segment {
-                self.mean(denoised).abs_diff(denoised[at].into())
-            } else {
-                continue;
+            let value = match kind {
+                FeatureKind::Edge | FeatureKind::Corner => {
+                    decisive_level(kind, &window_at(denoised, at)).unwrap_or(0)
+                }
+                FeatureKind::Segment => self.mean(denoised).abs_diff(denoised[at].into()),
+                FeatureKind::Mad
+                | FeatureKind::Variance
+                | FeatureKind::Range
+                | FeatureKind::Surface => continue,
             };
             let max = self.level[index].into();
             thresholds.level[index] = to_u32(value_near(value.into(), max, random));

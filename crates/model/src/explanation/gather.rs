@@ -99,16 +99,31 @@ impl SpatialExplanation {
         let hits = region_hits(camera, feature, denoised, region);
         let mean_fraction_bits = feature.mean().map(|mean| mean.fraction_bits);
         let view = FrameRegion::new(camera, denoised, region);
-        let parts = sides_of_mean(camera, feature, denoised, region);
-        let displacements = (feature.kind() == FeatureKind::Surface)
-            .then(|| DisplacementTotals::from_sums(displacement_sums(&view).sums()));
+        let (mut parts, mut displacements) = (None, None);
+        match feature.kind() {
+            FeatureKind::Edge
+            | FeatureKind::Corner
+            | FeatureKind::Mad
+            | FeatureKind::Variance
+            | FeatureKind::Range => {}
+            FeatureKind::Surface => {
+                displacements =
+                    Some(DisplacementTotals::from_sums(displacement_sums(&view).sums()));
+            }
+            FeatureKind::Segment => {
+                let level = feature.level().expect("segment has a level");
+                let bits = mean_fraction_bits.expect("segment has a mean");
+                let sides: Vec<Ordering> = sides_of_mean(&view, level, bits).collect();
+                parts = Some(SegmentParts::of(camera, &sides));
+            }
+        }
         Self {
             feature: feature.kind(),
             level: feature.level(),
             hits: hits.map(|hits| rows(camera, &hits)),
             mean: mean_fraction_bits.map(|bits| region_mean(&view, bits)),
             mean_fraction_bits,
-            parts: parts.map(|sides| SegmentParts::of(camera, &sides)),
+            parts,
             displacements,
             score,
             min_score: feature.min_score(),

@@ -21,7 +21,7 @@ pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
 use mean::region_mean;
 use range::PixelExtremes;
-use segment::{SegmentCounts, side_of_mean};
+use segment::{SegmentCounts, sides_of_mean};
 use surface::displacement_sums;
 
 /// Returns the score of a region. `level` is ignored for a feature without one.
@@ -46,9 +46,7 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
         }
         FeatureKind::Surface => displacement_sums(region).score(),
         FeatureKind::Segment => {
-            let mean = region_mean(region, fraction_bits);
-            let sides =
-                region.pixels().map(|pixel| side_of_mean(pixel, mean, level, fraction_bits));
+            let sides = sides_of_mean(region, level, fraction_bits);
             sides.fold(SegmentCounts::default(), SegmentCounts::with).score()
         }
     }

@@ -4,11 +4,8 @@
 
 use std::cmp::Ordering;
 
-use foveate_camera::{Camera, FeatureKind, SpatialFeature};
-use foveate_frame::Frame;
-
 use super::mean::region_mean;
-use crate::region_view::{FrameRegion, RegionView};
+use crate::region_view::RegionView;
 
 /// The numbers of pixels that lie more than a level above, and below, the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,24 +48,14 @@ pub fn side_of_mean(pixel: u16, mean: u64, level: u32, fraction_bits: u32) -> Or
     }
 }
 
-/// Returns the side of the mean of every pixel of a region of a denoised padded frame, in row-major
-/// order. Returns `None` for other features than `segment`.
-///
-/// # Panics
-/// Panics if the frame does not have the size of the padded frame of the camera, or has no such
-/// region.
-#[must_use]
+/// Returns the side of the mean of every pixel of a region, in row-major order.
 pub fn sides_of_mean(
-    camera: &Camera,
-    feature: &SpatialFeature,
-    denoised: &Frame,
-    region: u32,
-) -> Option<Vec<Ordering>> {
-    let level = feature.level().filter(|_| feature.kind() == FeatureKind::Segment)?;
-    let fraction_bits = feature.mean()?.fraction_bits;
-    let region = FrameRegion::new(camera, denoised, region);
-    let mean = region_mean(&region, fraction_bits);
-    Some(region.pixels().map(|pixel| side_of_mean(pixel, mean, level, fraction_bits)).collect())
+    region: &impl RegionView,
+    level: u32,
+    fraction_bits: u32,
+) -> impl Iterator<Item = Ordering> {
+    let mean = region_mean(region, fraction_bits);
+    region.pixels().map(move |pixel| side_of_mean(pixel, mean, level, fraction_bits))
 }
 
 #[cfg(test)]

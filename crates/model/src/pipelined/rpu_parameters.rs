@@ -54,7 +54,18 @@ impl RpuParameters {
             *place = Some(feature.kind());
         }
         let timing = PipelinedTiming::from_design(design);
-        let mean = design.features().iter().find_map(SpatialFeature::mean);
+        let fraction_bits = |feature: &SpatialFeature| match feature.kind() {
+            FeatureKind::Edge
+            | FeatureKind::Corner
+            | FeatureKind::Variance
+            | FeatureKind::Range
+            | FeatureKind::Surface => None,
+            FeatureKind::Mad | FeatureKind::Segment => {
+                feature.mean().map(|mean| mean.fraction_bits)
+            }
+        };
+        // All features of a camera share one mean.
+        let fraction_bits = design.features().iter().find_map(fraction_bits);
         Self {
             side: index(design.region_size()),
             pixels: index(design.region_pixels()),
@@ -67,7 +78,7 @@ impl RpuParameters {
             median_registers: index(timing.median_registers),
             tail_delay: index(timing.tail_delay),
             features,
-            fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
+            fraction_bits: fraction_bits.unwrap_or(0),
             second_pass: design.has_second_pass(),
             combine: design.combine(),
             reference: design.temporal().reference,

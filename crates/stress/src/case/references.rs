@@ -219,6 +219,6 @@ pub(crate) fn invariant_on_scenes(depth: RunDepth) -> Vec<CaseRow> {
             worst.difference = worst.difference.max(errors.difference);
         }
     }
-    let designs = format!("last-sent, {} scenes, both filters", Scene::ALL.len());
+    let designs = format!("last-sent, {} scenes, every filter", Scene::ALL.len());
     vec![last_sent_row("screen follows the scene", designs, worst)]
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial redundancy: the share of regions that a single feature finds irrelevant.
 
-use foveate_design::{DesignConfig, FeatureKind, SpatialConfig};
+use foveate_design::{CameraConfig, Decimal, DesignConfig, FeatureKind, SpatialConfig};
 use foveate_pictures::chart::{BarSeries, Chart, ChartData};
 use foveate_pictures::palette::SERIES;
 
@@ -72,9 +72,29 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
 fn with_every_feature(config: &DesignConfig) -> DesignConfig {
     let entry = |&kind: &FeatureKind| {
         let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);
-        own.cloned().unwrap_or_else(|| SpatialConfig::new(kind))
+        own.cloned().unwrap_or_else(|| default_entry(&config.camera, kind))
     };
     let mut all = config.clone();
     all.camera.spatial = FeatureKind::ALL.iter().map(entry).collect();
     all
+}
+
+/// Returns a feature that a camera does not have, with its defaults. It has the mean that the camera
+/// has, and a minimum that is within reach of a small region.
+fn default_entry(config: &CameraConfig, kind: FeatureKind) -> SpatialConfig {
+    let mut entry = SpatialConfig::new(kind).with_defaults(config.frame.pixel_bits);
+    if entry.has_mean_fraction() {
+        let own = config.spatial.iter().find_map(|entry| entry.mean_fraction_bits);
+        entry.mean_fraction_bits = own.or(entry.mean_fraction_bits);
+    }
+    let without_minimum =
+        SpatialConfig { min_score: Some(Decimal::from_whole(0)), ..entry.clone() };
+    let alone = CameraConfig { spatial: vec![without_minimum], ..config.clone() };
+    // A camera that is not valid is refused as a whole, with its own message.
+    if let Ok(camera) = alone.validate() {
+        let largest = camera.features()[0].largest_min_score();
+        let billionths = |minimum: &Decimal| minimum.ceil_times(1_000_000_000);
+        entry.min_score = entry.min_score.into_iter().chain([largest]).min_by_key(billionths);
+    }
+    entry
 }

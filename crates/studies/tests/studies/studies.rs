@@ -4,7 +4,7 @@
 use std::fs;
 
 use crate::support::{cells, config, run};
-use foveate_design::DesignConfig;
+use foveate_design::{DesignConfig, FeatureKind};
 use foveate_studies::Study;
 
 #[test]
@@ -59,6 +59,13 @@ fn redundancy_and_histogram_of_plain_and_striped_frames() {
         assert_eq!(cells(&report, feature), ["1.000000", "0.000000"], "{feature}");
     }
     assert_eq!(cells(&report, "edge")[0], "1.000000");
+    // The other features take the mean of the own one, and small regions have few pixels.
+    let mut small = self::config("spatial=[{feature='mad',mean_fraction_bits=3,min_score=4}]");
+    small.camera.region.size = 3;
+    let report = run(Study::Redundancy, &inputs, &small, &dir.path().join("small")).unwrap();
+    for feature in FeatureKind::NAMES {
+        assert_eq!(cells(&report, feature)[0], "1.000000", "{feature}");
+    }
     let report = run(Study::MadHistogram, &inputs, &config, &out).unwrap();
     let full: Vec<&Vec<String>> = report.rows.iter().filter(|row| row[4] == "1.000000").collect();
     // Half of the pixels are 0 and half are 255, so the deviation is 127.5.
