@@ -24,7 +24,7 @@ module serial_addresses #(
     input  wire                     clk_i,          // clock, rising edge
     input  wire [             47:0] step_i,         // the step: one bit for each action, in the order of serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor that is read
-    input  wire [              1:0] part_i,         // half of a gradient or of a step of `range` or `surface`, part of a filter or of a ring's step, or side of the border
+    input  wire [              1:0] part_i,         // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     input  wire                     walks_i,        // the next step works on the next center
     input  wire                     slot_ends_i,    // the next step works on the next slot
     input  wire                     last_lane_i,    // the score of the last lane passes
@@ -142,6 +142,8 @@ module serial_addresses #(
     wire [WORD_BITS-1:0] skip = denoising ? WINDOW_SKIP
         : (unloading || shifting) ? LEAVING_SKIP : SCORED_SKIP;
 
+    wire blended = BLENDS && denoising && writing;  // `binomial3x3` writes a pixel at the end of its steps
+
     // The distances from the last center of a row of a block, and from the last center of a block.
     wire [WORD_BITS-1:0] block_skip = !last_row ? BLOCK_SKIP : row_of_blocks_ends ? LEAVING_SKIP : NEXT_BLOCK;
     wire [WORD_BITS-1:0] onward = !last_column ? ONE : averaging ? block_skip : skip;
@@ -170,7 +172,7 @@ module serial_addresses #(
             position_q <= last_center ? {POSITION_BITS{1'b0}} : position_q + 1'b1;
             center_q   <= center_q + onward;
             if (last_center && !(averaging && !last_block_i))
-                center_q <= BORDERS && (testing || (BLENDS && denoising && writing)) ? LEFT_START : writing && !(BLENDS && denoising) ? LEAVING_START
+                center_q <= BORDERS && (testing || blended) ? LEFT_START : writing && !blended ? LEAVING_START
                     : SUMMARIES && unloading ? MEAN_AT : SCORED_START;
         end else if (rotating && last_lane_i && (sums_start || (last_score_i && LAST_SENT == 0 && !returning))) begin
             center_q <= LEAVING_START;

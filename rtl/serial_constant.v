@@ -149,7 +149,8 @@ module serial_constant #(
     wire [ACC_BITS+WIDTH-1:0] wide_segment = {{ACC_BITS{1'b0}}, segment_level_i};
     wire [ACC_BITS+WIDTH+1:0] wide_half = {{ACC_BITS{1'b0}}, edge_half_i};
     wire [ACC_BITS+WIDTH-1:0] wide_lowest = {{ACC_BITS{1'b0}}, lowest};
-    // `binomial3x3` compares 16 times the difference, before it is rounded.
+    // `binomial3x3`: a pixel has changed if the sum of the window, less 16 times the reference, is 16 times the level plus 8 or
+    // more, or below the negative of that, because halves are rounded up.
     wire [ACC_BITS+WIDTH+3:0] blend_level = {{ACC_BITS{1'b0}}, temporal_level_i, 4'd8};
     wire unused_wide = |blend_level || |wide_scale || |wide_temporal || |wide_corner || |wide_segment || |wide_half || |wide_lowest;
 

@@ -14,7 +14,7 @@ module serial_controls #(
 ) (
     input  wire [47:0] step_i,     // the step: one bit for each action, in the order of serial_states
     input  wire [ 3:0] tap_i,      // number of the neighbor that is read
-    input  wire [ 1:0] part_i,     // half of a gradient or of a step of `range` or `surface`, part of a filter or of a ring's step, or side of the border
+    input  wire [ 1:0] part_i,     // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     input  wire        counts_i,   // the center is a pixel of the region
     input  wire        spent_i,    // the shifted number has no bits left
     output wire [36:0] controls_o  // the control word
@@ -70,7 +70,8 @@ module serial_controls #(
     wire larger = ranging;                                     // keep the larger: first compare, then take the operand if it is
     wire by_sign = tests;                                      // invert the operand if the accumulator is not negative
     wire by_run = adjusting || (leveling && !below);           // invert the operand if five were counted, or below is the smaller side
-    wire carry = (!(tests && !blends) && !searching && !(probing && !part_i[0]) && !rounding) || (adjusting && !spent_i);  // add one to an inverted operand
+    wire carry = (!(tests && !blends) && !searching && !(probing && !part_i[0]) && !rounding)
+        || (adjusting && !spent_i);                            // add one to an inverted operand
     wire enable = starting || adjusting || reading || takes_old || relating || gradient || ring || summing
         || doubling || halving || dividing || deviating || squaring || correcting || (ranging && part_i[0])
         || recalling || retrieving || leveling || (spanning && part_i[0])
@@ -90,14 +91,14 @@ module serial_controls #(
     wire count_side = counting;                                // this hit is one of `segment`
 
     // Controls for `aux` and for the bounds.
-    wire recall_sum = retrieving;                              // with divide: the next bit is that of a sum in `aux`, which comes back
-    wire recall_mean = recalling;                              // with divide: the next bit is that of a mean in `aux`, which comes back
+    wire recall_sum = retrieving;                              // the next bit is the highest of a sum in `aux`, and not the sign
+    wire recall_mean = recalling;                              // the next bit is the highest of a mean in `aux`, and not the sign
     wire ceiling = leveling || rounding;                       // add one only if the mean has a fraction; with clear: find out
     wire shrink = shrinking;                                   // clear the accumulator unless it is negative
 
     // Other controls.
     wire twice = doubling;                                     // the operand is the accumulator itself
-    wire divide = dividing || recalling || retrieving;         // take the sum only if the next bit of `aux` is 1: here, if the sum is not negative
+    wire divide = dividing || recalling || retrieving;         // take the sum only if the next bit of `aux` is 1
     wire shift = rotating || shifting;                         // scores move to the next lane
     wire coded = RASTER != 0 && KEEPS != 0;                    // keep and fetch together have a meaning of their own here: scores move on
     wire keep = keeping || (coded && shift);                   // the score becomes the accumulator

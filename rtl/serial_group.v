@@ -117,14 +117,17 @@ module serial_group #(
     localparam [0:0] RUNS = SEARCHES || EDGE != 0 || CORNER != 0;
     localparam [0:0] MEANS = SUMMARIES != 0;
     localparam [0:0] RETURNS = SUMMARIES != 0 && RASTER == 0;
-    localparam [5:0] WITH_ADDRESS = {COPIES != 0, {3{BORDERS != 0}}, RETURNS, FILTER == 3};  // write_active, write_border, side, write_mean, write_high
+    localparam [5:0] WITH_ADDRESS = {
+        COPIES != 0, {3{BORDERS != 0}}, RETURNS, FILTER == 3
+    };  // write_active, write_border, side, write_mean, write_high
     localparam [4:0] WITH_WORD = {
         1'b1, MAD != 0 || RANGE != 0, VARIANCE != 0, VARIANCE != 0 || (RANGE != 0 && MAD != 0), SURFACE != 0
     };  // from_memory, deviate, masked, from_aux, hold
     localparam [25:0] WITH_ACCUMULATOR = {
         RANGE != 0, 2'b11, SEARCHES || SEGMENT != 0, 3'b111,  // larger, subtract, by_sign, by_run, carry, enable, clear
         RUNS, CORNER != 0, RUNS, 1'b1, CORNER != 0, SEGMENT != 0,  // run, run_corner, run_clear, count, count_corner, count_side
-        SURFACE != 0, SEGMENT != 0, SEGMENT != 0, SURFACE != 0, {2{FILTER == 2}},  // recall_sum, recall_mean, ceiling, shrink, probe, choose
+        SURFACE != 0, SEGMENT != 0, SEGMENT != 0, SURFACE != 0,  // recall_sum, recall_mean, ceiling, shrink
+        {2{FILTER == 2}},                                 // probe, choose
         MAD != 0 || VARIANCE != 0 || RANGE != 0, SUMS, 1'b1, SUMS || MEANS,                  // twice, divide, shift, keep
         RASTER != 0, RASTER == 0, RETURNS                 // fetch, unload, unload_mean
     };

@@ -10,6 +10,10 @@
 // clear the bit. `run_q` counts to five in unary, which takes no logic but its enable. For `edge` its lowest bit says that
 // one of the two comparisons of a pixel was a hit; for `corner` it is the length of the run.
 //
+// For `switching3x3`, the center is compared with its neighbors first: `kept_q` says that one is below and another one above. Two
+// steps after the median then act only in such lanes, and take the center. For `binomial3x3`, the accumulator is the sum of the
+// window, less 16 times the reference, for the temporal test. It is made again, and written divided by 16.
+//
 // The range is found with two passes. The first keeps the larger of the accumulator and each word: a step compares them and
 // clears the accumulator if the word is larger, and the next step then takes the word. The second pass does the same with the
 // distances from the largest word, which is in `aux`.
@@ -19,7 +23,8 @@
 // smallest sum so far. It is subtracted in the same way before a sum is made, which is cleared unless it is negative, and added
 // again.
 //
-// With DEEP the word read is in a register. The operand is, too, before it is inverted, if a feature computes it from the word. A hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
+// With DEEP the word read is in a register. The operand is, too, before it is inverted, if a feature computes it from the word. A
+// hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)

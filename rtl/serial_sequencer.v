@@ -167,7 +167,8 @@ module serial_sequencer #(
     );
 
     serial_controls #(
-        .FILTER(FILTER), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .KEEPS(MAD || VARIANCE || RANGE || SURFACE || SEGMENT || BLOCKS != 0 ? 1 : 0)
+        .FILTER(FILTER), .LAST_SENT(LAST_SENT), .RASTER(RASTER),
+        .KEEPS(MAD || VARIANCE || RANGE || SURFACE || SEGMENT || BLOCKS != 0 ? 1 : 0)
     ) u_controls (
         .step_i(step), .tap_i(tap), .part_i(part), .counts_i(counts), .spent_i(spent), .controls_o(controls_o)
     );

@@ -52,7 +52,7 @@ module serial_states #(
     // The step.
     output wire [47:0] step_o,         // the step: one bit for each action
     output wire [ 3:0] tap_o,          // number of the neighbor that is read
-    output wire [ 1:0] part_o,         // half of a gradient or of a step of `range` or `surface`, part of a filter or of a ring's step, or side of the border
+    output wire [ 1:0] part_o,         // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     output wire        walks_o,        // the next step works on the next center
     output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
     output wire        slot_ends_o     // the next step works on the next slot
