@@ -217,9 +217,18 @@ fn matrix() -> Vec<Design> {
 }
 
 fn designs_with_store(store: FrameStoreKind, forward: bool) -> Vec<Design> {
-    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
-    let sets: [&[FeatureKind]; 6] =
-        [&[Edge], &[Mad], &[Edge, Variance], &[Variance], &[Range], &[Mad, Corner, Variance]];
+    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
+    let sets: [&[FeatureKind]; 9] = [
+        &[Edge],
+        &[Mad],
+        &[Edge, Variance],
+        &[Variance],
+        &[Range],
+        &[Surface],
+        &[Segment],
+        &[Mad, Corner, Variance],
+        &[Surface, Segment, Mad],
+    ];
     let mut designs = Vec::new();
     for kinds in sets {
         for pipelining in [Pipelining::Plain, Pipelining::Deep] {

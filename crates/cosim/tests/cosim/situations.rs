@@ -58,6 +58,8 @@ const DESIGNS: &[&[&str]] = &[
     ],
     &[FRAME, RASTER, "hardware.store='external'"],
     &[FRAME, RASTER, MEAN, "hardware.store='external'", "spatial=[{feature='mad'}]"],
+    &[FRAME, RASTER, MEAN, "spatial=[{feature='segment'}]", "denoise.filter='switching3x3'"],
+    &[FRAME, RASTER, "spatial=[{feature='surface'}]", "denoise.filter='binomial3x3'"],
     &[FRAME, RASTER, "hardware.forward=false"],
     &[FRAME, RASTER, MEAN, "hardware.thresholds='constant'"],
 ];

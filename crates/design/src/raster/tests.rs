@@ -160,6 +160,23 @@ fn memories_of_the_paper_on_a_small_frame() {
     assert_eq!(total, 32_768 + 8_192 + 2 * 1_024 + 96 + 320);
 }
 
+/// The frame has 64x64 pixels. With `surface` there are four sums of 14 bits for each of the eight
+/// columns of regions. With `mad` and `segment` there are one copy of the pixels and one queue,
+/// whose entries have the mean of 8 bits, the address of 11, and the count of changed pixels.
+#[test]
+fn memories_of_surface_and_of_a_second_pass() {
+    let of = |features: &str| {
+        let keys = ["frame.width=64", "frame.height=64", "denoise.filter=none", features];
+        let memories = RasterMemory::all_memories(design(&keys).as_raster().unwrap());
+        memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
+    };
+    let surface = [(4096, 8), (1024, 8), (64, 16), (8, 6), (8, 56), (16, 20)];
+    assert_eq!(of("spatial=[{feature=\"surface\"}]"), surface);
+    let both = "spatial=[{feature=\"segment\"},{feature=\"mad\"}]";
+    let second_pass = [(4096, 8), (1536, 8), (1536, 8), (8, 6), (8, 14), (32, 21), (32, 26)];
+    assert_eq!(of(both), second_pass);
+}
+
 #[test]
 fn latencies_follow_filter_features_and_pipelining() {
     let latencies = |filter: &str, feature: &str, pipelining: &str| {
@@ -180,6 +197,10 @@ fn latencies_follow_filter_features_and_pipelining() {
         ("median3x3", "mad", (6, 10), (13, 19)),
         ("median3x3", "edge", (7, 11), (16, 22)),
         ("none", "variance", (2, 9), (4, 13)),
+        ("none", "segment", (2, 6), (4, 10)),
+        ("none", "surface", (3, 9), (7, 15)),
+        ("switching3x3", "surface", (7, 13), (16, 24)),
+        ("binomial3x3", "edge", (7, 11), (16, 22)),
     ] {
         assert_eq!(latencies(filter, feature, "plain"), plain, "{filter} {feature}");
         assert_eq!(latencies(filter, feature, "deep"), deep, "{filter} {feature}");

@@ -44,6 +44,13 @@ pub(crate) const DESIGNS: &[&[&str]] = &[
         "hardware.store='external'",
     ],
     &[
+        "frame={width=60,height=33}",
+        "region.size=5",
+        "spatial=[{feature='surface'},{feature='segment',mean_fraction_bits=1}]",
+        "denoise.filter='binomial3x3'",
+        "hardware.pipelining='deep'",
+    ],
+    &[
         "frame={width=48,height=36}",
         "region.size=6",
         "hardware.thresholds='constant'",

@@ -202,7 +202,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
 
 /// Raster designs with a large frame, or with choices that the matrix lacks: each branch of a
 /// store, of rows that repeat, and of a core that forwards nothing.
-pub(crate) const EXTRA_RASTER_DESIGNS: [&str; 14] = [
+pub(crate) const EXTRA_RASTER_DESIGNS: [&str; 19] = [
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep'}",
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='plain'}",
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep',store='ultra'}",
@@ -219,6 +219,16 @@ pub(crate) const EXTRA_RASTER_DESIGNS: [&str; 14] = [
      hardware={organization='raster',forward=false}",
     "frame={width=64,height=21}\nspatial=[{feature='mad'}]\nhardware={organization='raster',store='external',forward=false}",
     "frame={width=64,height=21}\nrender.payload='raw'\nhardware={organization='raster',store='single-port'}",
+    "frame={width=64,height=21}\nspatial=[{feature='segment',mean_fraction_bits=3}]\ndenoise.filter='binomial3x3'\n\
+     hardware={organization='raster'}",
+    "frame={width=64,height=21}\nspatial=[{feature='segment'},{feature='mad'},{feature='variance'}]\n\
+     hardware={organization='raster',pipelining='deep',pixels_per_clock=4}",
+    "frame={width=64,height=21}\nspatial=[{feature='surface'}]\ndenoise.filter='switching3x3'\n\
+     hardware={organization='raster',pixels_per_clock=4}",
+    "frame={width=64,height=21,pixel_bits=1}\nspatial=[{feature='surface'},{feature='range'},{feature='corner'}]\n\
+     denoise.filter='switching3x3'\ntemporal.level=0\nhardware={organization='raster',pipelining='deep'}",
+    "frame={width=64,height=21}\nspatial=[{feature='surface'},{feature='segment'}]\ndenoise.filter='binomial3x3'\n\
+     hardware={organization='raster',pipelining='deep',pixels_per_clock=4,forward=false}",
 ];
 
 /// Returns the designs of the matrices of all organizations, and [`EXTRA_RASTER_DESIGNS`].

@@ -119,11 +119,15 @@ fn recipe(number: usize) -> RasterParameters {
         feature("corner", 12, 2000),
         feature("variance", 0, 300_000),
         feature("range", 0, 60_000),
+        feature("surface", 0, 20_000),
+        feature("segment", 16, 2000),
     ];
     let count = 1 + number % 5;
-    let features = (0..count).map(|turn| all[(number / 5 + turn) % 5].clone()).collect();
+    let features = (0..count).map(|turn| all[(number / 5 + turn) % all.len()].clone()).collect();
     let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
-    let columns = 4.max((16 * pixels + side - 1) / side);
+    // In the shortest row, a deep core with `variance` loses regions although the sink never stalls.
+    let least = if on(7) { 20 } else { 16 };
+    let columns = 4.max((least * pixels + side - 1) / side);
     let periphery = PeripheryParameters::from_number(number / 3, side, 255)
         .filter(|periphery| side / periphery.blocks % pixels == 0);
     RasterParameters {
@@ -133,7 +137,7 @@ fn recipe(number: usize) -> RasterParameters {
             bits: 8,
             side,
             shared: on(1),
-            filter: if on(2) { "median3x3" } else { "none" },
+            filter: ["none", "median3x3", "switching3x3", "binomial3x3"][number / 2 % 4],
             features,
             all_must_vote: on(8),
             temporal_level: 9,

@@ -156,12 +156,12 @@ impl RasterDriver {
         std::mem::take(&mut self.trace)
     }
 
-    /// Returns true if the thresholds may change: without `mad` when the core is ready again, with
-    /// `mad` after the last decision.
+    /// Returns true if the thresholds may change: without a second pass when the core is ready again,
+    /// with a second pass after the last decision.
     fn may_change_thresholds(&self, frames: i64) -> bool {
         let regions = self.recipe.base.columns() * self.recipe.base.rows();
         let is_decided = self.decisions == frames * regions;
-        self.rcm.output().ready && (is_decided || !self.recipe.has_mad())
+        self.rcm.output().ready && (is_decided || !self.recipe.has_second_pass())
     }
 
     fn feed(&mut self, job: &RasterStimulus) {

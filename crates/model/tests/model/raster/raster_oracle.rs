@@ -146,7 +146,7 @@ impl<'a> RasterOracle<'a> {
 
     /// Returns the edge of the decision of a region whose last word came to the tail at that edge.
     fn decision_edge(&mut self, edge: i64) -> i64 {
-        if !self.recipe.has_mad() {
+        if !self.recipe.has_second_pass() {
             return edge + self.recipe.decision_latency();
         }
         let first = (edge + self.recipe.pass_latency()).max(self.second_pass_end + 1);

@@ -61,7 +61,7 @@ impl RasterParameters {
         config.validate().unwrap_or_else(|error| panic!("{error}\n{self:?}"))
     }
 
-    fn median(&self) -> i64 {
+    fn filter(&self) -> i64 {
         i64::from(self.base.has_filter())
     }
 
@@ -69,8 +69,8 @@ impl RasterParameters {
         i64::from(self.base.has_feature_window())
     }
 
-    pub(crate) fn has_mad(&self) -> bool {
-        self.base.has_feature("mad")
+    pub(crate) fn has_second_pass(&self) -> bool {
+        self.base.has_feature("mad") || self.base.has_feature("segment")
     }
 
     /// Returns the words of a row of the padded frame, L.
@@ -90,7 +90,7 @@ impl RasterParameters {
 
     /// Returns the advances that flush the windows, w (L + 1).
     pub(crate) fn flush_advances(&self) -> i64 {
-        (self.median() + self.window()) * (self.row_words() + 1)
+        (self.filter() + self.window()) * (self.row_words() + 1)
     }
 
     /// Returns the advances of a frame, A.
@@ -108,7 +108,7 @@ impl RasterParameters {
 
     /// Returns the clocks from the tail to the store, S.
     pub(crate) fn store_latency(&self) -> i64 {
-        let (m, f) = (self.median(), self.window());
+        let (m, f) = (self.filter(), self.window());
         self.misread.stored + if self.deep { 4 + 9 * m + 3 * f } else { 2 + 4 * m + f }
     }
 
@@ -133,6 +133,8 @@ impl RasterParameters {
     fn score_latency(&self) -> i64 {
         if self.base.has_feature("variance") {
             3
+        } else if self.base.has_feature("surface") {
+            2
         } else {
             i64::from(self.base.has_feature("range"))
         }
@@ -170,7 +172,7 @@ impl RasterParameters {
 
     /// Returns the rows of regions in the buffer, B.
     pub(crate) fn buffer_rows(&self) -> i64 {
-        self.misread.rows + if self.has_mad() { 3 } else { 2 }
+        self.misread.rows + if self.has_second_pass() { 3 } else { 2 }
     }
 
     pub(crate) fn waits_for_pending(&self) -> bool {
