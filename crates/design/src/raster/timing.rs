@@ -181,25 +181,23 @@ impl RasterTiming {
     }
 
     /// Returns the largest number of clocks for which a sink may stall in all without loss, while
-    /// all regions are active and words come at every clock.
+    /// all regions are active and words come at every clock. `None` means that regions can be lost
+    /// although the sink never stalls: the row is too short for the latency of the decisions.
     #[must_use]
-    pub fn max_stall_clocks(&self) -> u32 {
+    pub fn max_stall_clocks(&self) -> Option<u32> {
         let row = self.row_words;
-        match self.second_pass {
+        let (most, late) = match self.second_pass {
             None => {
                 let late = self.decision_latency - self.store_latency;
-                row - self.region_row_words - late - self.queue_latency - STALL_MARGIN
+                (row - self.region_row_words, late + STALL_MARGIN)
             }
             Some(pass) => {
                 let rows = self.region_words / self.region_row_words;
                 let late = pass.after_store + pass.decision_latency;
-                (rows + 1) * row
-                    - self.region_words
-                    - self.region_row_words
-                    - late
-                    - self.queue_latency
+                ((rows + 1) * row - self.region_words - self.region_row_words, late)
             }
-        }
+        };
+        most.checked_sub(late + self.queue_latency)
     }
 
     /// Returns the number of words of a region that leave for an action, or `None` if none leave.
