@@ -124,6 +124,9 @@ fn check(recipe: &SerialParameters, clip: &[Frame]) {
     }
 }
 
+/// The filters that use a window.
+const WINDOW_FILTERS: [&str; 3] = ["median3x3", "switching3x3", "binomial3x3"];
+
 /// Returns some of the seven features. `which` has one bit for each.
 fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
     let max = (1i64 << bits) - 1;
@@ -157,7 +160,7 @@ fn clips_over_the_matrix() {
                     bits,
                     side,
                     shared: on(0),
-                    filter: if on(1) { "median3x3" } else { "none" },
+                    filter: if on(1) { WINDOW_FILTERS[number / 7 % 3] } else { "none" },
                     features: features(1 + number % 127, side, bits),
                     all_must_vote: number.is_multiple_of(7),
                     temporal_level: ((1 << bits) - 1) / 2,
