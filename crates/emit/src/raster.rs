@@ -2,7 +2,7 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::feature_parameters::parameter_prefix;
+use crate::feature_parameters::{deviation_mean, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
@@ -185,8 +185,8 @@ fn features_in_core_order(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
     list
 }
 
-/// Returns the rank of a feature's score in the core: counts come first, then the scores of sums and
-/// extremes, then those of the second pass.
+/// Returns the rank of a feature's score in the core: counts come first, then the scores of sums
+/// and extremes, then those of the second pass.
 fn score_rank(kind: FeatureKind) -> u32 {
     match kind {
         FeatureKind::Edge => 0,
@@ -229,7 +229,7 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
         list.extend(new.collect::<Vec<_>>());
     }
     // All features that use the mean of a region use the same one.
-    if let Some(mean) = design.features().iter().find_map(SpatialFeature::mean) {
+    if let Some(mean) = design.features().iter().find_map(deviation_mean) {
         let factor = mean.reciprocal.multiplier();
         wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
     }

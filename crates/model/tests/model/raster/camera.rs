@@ -125,7 +125,8 @@ fn recipe(number: usize) -> RasterParameters {
     let count = 1 + number % 5;
     let features = (0..count).map(|turn| all[(number / 5 + turn) % all.len()].clone()).collect();
     let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
-    // In the shortest row, a deep core with `variance` loses regions although the sink never stalls.
+    // In the shortest row, a deep core with `variance` loses regions although the sink never
+    // stalls.
     let least = if on(7) { 20 } else { 16 };
     let columns = 4.max((least * pixels + side - 1) / side);
     let periphery = PeripheryParameters::from_number(number / 3, side, 255)

@@ -156,8 +156,8 @@ impl RasterDriver {
         std::mem::take(&mut self.trace)
     }
 
-    /// Returns true if the thresholds may change: without a second pass when the core is ready again,
-    /// with a second pass after the last decision.
+    /// Returns true if the thresholds may change: without a second pass when the core is ready
+    /// again, with a second pass after the last decision.
     fn may_change_thresholds(&self, frames: i64) -> bool {
         let regions = self.recipe.base.columns() * self.recipe.base.rows();
         let is_decided = self.decisions == frames * regions;
