@@ -1,5 +1,6 @@
 rtl/frame_sync.v
 rtl/adder.v
+rtl/carry_adder.v
 rtl/magnitude_above.v
 rtl/region_mean.v
 rtl/vote.v
@@ -12,6 +13,7 @@ rtl/raster_control.v
 rtl/raster_window.v
 rtl/raster_line.v
 rtl/median_columns.v
+rtl/binomial_columns.v
 rtl/raster_edge.v
 rtl/raster_corner.v
 rtl/raster_change.v
@@ -27,7 +29,10 @@ rtl/raster_repeat.v
 rtl/raster_sums.v
 rtl/raster_variance.v
 rtl/raster_range.v
+rtl/raster_displacement.v
+rtl/raster_surface.v
 rtl/raster_queue.v
+rtl/raster_segment.v
 rtl/raster_pass.v
 rtl/raster_readout.v
 rtl/raster_moments.v

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Computes the medians of 3x3 windows for every pixel of a word at once: the fifth of the nine sorted pixels. The result
-// comes three clocks after its step, with DEEP six.
+// Computes the medians of 3x3 windows for every pixel of a word at once: the fifth of the nine sorted pixels. With SWITCHING a
+// center that is neither the largest nor the smallest pixel of its window is the result instead. The result comes three clocks
+// after its step, with DEEP six.
 //
 // Each column is sorted once, when it comes in. The median of nine is the median of three values: the largest of the three
 // low pixels, the median of the three middle pixels, and the smallest of the three high pixels. Three parallel comparisons
@@ -10,9 +11,10 @@
 `default_nettype none
 
 module median_columns #(
-    parameter WIDTH = 8,  // bits of a pixel
-    parameter LANES = 1,  // pixels of a word
-    parameter DEEP = 0    // 0: the result comes three clocks after its step; 1: six clocks
+    parameter WIDTH = 8,      // bits of a pixel
+    parameter LANES = 1,      // pixels of a word
+    parameter SWITCHING = 0,  // 1: centers that are no extremes of their windows stay as they are
+    parameter DEEP = 0        // 0: the result comes three clocks after its step; 1: six clocks
 ) (
     input  wire                   clk_i,     // clock, rising edge
     input  wire                   step_i,    // columns come in; the centers are the columns of the step before
@@ -23,7 +25,7 @@ module median_columns #(
     input  wire [LANES*WIDTH-1:0] upper_i,   // upper pixels of the incoming columns
     input  wire [LANES*WIDTH-1:0] middle_i,  // middle pixels of the incoming columns
     input  wire [LANES*WIDTH-1:0] lower_i,   // lower pixels of the incoming columns
-    output reg  [LANES*WIDTH-1:0] median_o   // medians of the centers, one per pixel of the word
+    output reg  [LANES*WIDTH-1:0] median_o   // medians of the centers (SWITCHING: or the centers), one per pixel of the word
 );
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
@@ -175,6 +177,64 @@ module median_columns #(
         .data_o({merged, row_ab, row_next, row_ac, row_left, row_right})
     );
 
+    // The centers, and whether each of them stays as it is: one clock after the columns are merged, with DEEP two.
+    wire [LANES-1:0] stays;
+    wire [LANES*WIDTH-1:0] own;
+    generate
+        if (SWITCHING) begin : g_switching
+            // Of each column: whether the middle pixel is the largest of the three, whether it is the smallest, and the pixel. Another
+            // pixel may be equal to it.
+            localparam OWN = WIDTH + 2;
+            wire [LANES*OWN-1:0] incoming, merged_own;
+            reg [LANES*OWN-1:0] newest_own_q, center_own_q;
+            wire [LANES-1:0] low_equal, high_equal;  // of the columns left and center; of center and right
+            wire [LANES-1:0] row_low_equal, row_high_equal;
+            always @(posedge clk_i) begin
+                if (sort_step) begin
+                    newest_own_q <= incoming;
+                    center_own_q <= newest_own_q;
+                end
+            end
+            word_delay #(.WIDTH(LANES * (OWN + 2)), .DEPTH(DEEP)) u_merge_own (
+                .clk_i(clk_i), .data_i({center_own_q, low_equal, high_equal}),
+                .data_o({merged_own, row_low_equal, row_high_equal})
+            );
+            for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
+                wire [WIDTH-1:0] a = upper_i[lane*WIDTH+:WIDTH];
+                wire [WIDTH-1:0] b = middle_i[lane*WIDTH+:WIDTH];
+                wire [WIDTH-1:0] c = lower_i[lane*WIDTH+:WIDTH];
+                wire ab, ab_equal, bc, bc_equal, no_top, no_bottom;
+                wire [WIDTH-1:0] middle;
+                word_delay #(.WIDTH(WIDTH + 6), .DEPTH(DEEP)) u_compared (
+                    .clk_i(clk_i), .data_i({a > b, a == b, b > c, b == c, top_i, bottom_i, b}),
+                    .data_o({ab, ab_equal, bc, bc_equal, no_top, no_bottom, middle})
+                );
+                wire column_largest = (no_top || !ab) && (no_bottom || bc || bc_equal);
+                wire column_smallest = (no_top || ab || ab_equal) && (no_bottom || !bc);
+                assign incoming[lane*OWN+:OWN] = {column_largest, column_smallest, middle};
+
+                assign low_equal[lane] = columns[lane*COLUMN+:WIDTH] == columns[(lane+1)*COLUMN+:WIDTH];
+                assign high_equal[lane] =
+                    columns[(lane+1)*COLUMN+2*WIDTH+:WIDTH] == columns[(lane+2)*COLUMN+2*WIDTH+:WIDTH];
+
+                // An extreme of its column is one of its window if no neighboring column has a pixel beyond it.
+                wire no_left = lane == 0 && row_left;
+                wire no_right = lane == LANES - 1 && row_right;
+                wire largest = merged_own[lane*OWN+WIDTH+1] && (no_left || !row_ab[3*lane+2])
+                               && (no_right || row_next[3*lane+2] || row_high_equal[lane]);
+                wire smallest = merged_own[lane*OWN+WIDTH] && (no_left || row_ab[3*lane] || row_low_equal[lane])
+                                && (no_right || !row_next[3*lane]);
+                word_delay #(.WIDTH(WIDTH + 1), .DEPTH(1 + DEEP)) u_own (
+                    .clk_i(clk_i), .data_i({!largest && !smallest, merged_own[lane*OWN+:WIDTH]}),
+                    .data_o({stays[lane], own[lane*WIDTH+:WIDTH]})
+                );
+            end
+        end else begin : g_median
+            assign stays = {LANES{1'b0}};
+            assign own = {LANES * WIDTH{1'b0}};
+        end
+    endgenerate
+
     generate
         for (lane = 0; lane < LANES; lane = lane + 1) begin : g_final
             wire [COLUMN-1:0] left = merged[lane*COLUMN+:COLUMN];
@@ -198,12 +258,13 @@ module median_columns #(
                 always @(posedge clk_i) begin
                     {x_2q, y_2q, z_2q} <= {x_q, y_q, z_q};
                     {xy_q, yz_q, xz_q} <= {x_q > y_q, y_q > z_q, x_q > z_q};
-                    median_o[lane*WIDTH+:WIDTH] <= mid_of(xy_q, yz_q, xz_q, x_2q, y_2q, z_2q);
+                    median_o[lane*WIDTH+:WIDTH] <= stays[lane] ? own[lane*WIDTH+:WIDTH]
+                                                   : mid_of(xy_q, yz_q, xz_q, x_2q, y_2q, z_2q);
                 end
             end else begin : g_plain
                 always @(posedge clk_i)
-                    median_o[lane*WIDTH+:WIDTH] <=
-                        mid_of(x_q > y_q, y_q > z_q, x_q > z_q, x_q, y_q, z_q);
+                    median_o[lane*WIDTH+:WIDTH] <= stays[lane] ? own[lane*WIDTH+:WIDTH]
+                                                   : mid_of(x_q > y_q, y_q > z_q, x_q > z_q, x_q, y_q, z_q);
             end
         end
     endgenerate

@@ -14,8 +14,8 @@ module raster_control #(
     parameter ROW_BITS = 11,      // ceil(log2(ROWS))
     parameter SIDE = 8,           // rows of a region
     parameter SIDE_BITS = 3,      // ceil(log2(SIDE))
-    parameter SEGMENT = 8,        // words of a row of a region
-    parameter SEGMENT_BITS = 3,   // ceil(log2(SEGMENT)), at least 1
+    parameter SEGMENT_WORDS = 8,  // words of a row of a region
+    parameter SEGMENT_BITS = 3,   // ceil(log2(SEGMENT_WORDS)), at least 1
     parameter ISOLATED = 0,       // 1: windows end at the borders of regions; 0: at those of the frame
     parameter WINDOWS = 2,        // number of windows, one behind the other, 0 to 2
     parameter SETTLE = 20,        // clocks from the last advance of a frame until the next may begin
@@ -48,7 +48,7 @@ module raster_control #(
     localparam BEFORE_LAST_ROW = ROWS - 2;
     localparam BEFORE_LAST_TAKEN_ROW = TAKEN_ROWS - 2;
     localparam BEFORE_LAST_SIDE = SIDE - 2;
-    localparam BEFORE_LAST_IN_SEGMENT = SEGMENT - 2;
+    localparam BEFORE_LAST_IN_SEGMENT = SEGMENT_WORDS - 2;
 
     // The word of the next advance: its place, and flags of its being a last one.
     reg [WORD_BITS-1:0] word_q;
@@ -78,7 +78,7 @@ module raster_control #(
     wire bottom = ISOLATED ? region_bottom_q : bottom_row_q;
 
     generate
-        if (SEGMENT > 1) begin : g_segment
+        if (SEGMENT_WORDS > 1) begin : g_segment
             reg [SEGMENT_BITS-1:0] segment_q;
             reg segment_end_q;
             always @(posedge clk_i) begin

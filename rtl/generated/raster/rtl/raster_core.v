@@ -22,27 +22,30 @@ module raster_core #(
     parameter REGION_BITS = 15,      // ceil(log2(COLUMNS * ROWS))
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
     // Filter, features and decision
-    parameter MEDIAN = 1,            // 1: pixels are denoised
+    parameter FILTER = 1,            // pixels are denoised by 0: nothing; 1: the median; 2: the switching median; 3: the binomial mean
     parameter EDGE = 1,              // 1: regions have the score of `edge`
     parameter CORNER = 0,            // 1: regions have the score of `corner`
     parameter VARIANCE = 0,          // 1: regions have the score of `variance`
     parameter RANGE = 0,             // 1: regions have the score of `range`
+    parameter SURFACE = 0,           // 1: regions have the score of `surface`
     parameter MAD = 0,               // 1: regions have the score of `mad`
+    parameter SEGMENT = 0,           // 1: regions have the score of `segment`
     parameter ALL = 0,               // 1: every feature must vote; 0: one vote is enough
-    parameter SCORE_BITS = 14,       // bits of all scores of a region: temporal count lowest, then edge, corner, variance, range, mad
+    parameter SCORE_BITS = 14,       // bits of all scores of a region: temporal count lowest, then edge, corner, variance, range, surface, mad, segment
     // Widths of the features
     parameter EDGE_LEVEL_BITS = 11,  // bits of the level of `edge`
-    parameter SUM_BITS = 14,         // bits of the sum of a region's pixels (VARIANCE, MAD)
+    parameter SUM_BITS = 14,         // bits of a sum over a region of pixels or their differences (VARIANCE, SURFACE, MAD, SEGMENT)
     parameter VARIANCE_BITS = 1,     // bits of the score of `variance`
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (VARIANCE)
     parameter PRODUCT_BITS = 28,     // bits of the products of the variance (VARIANCE)
     parameter MAD_BITS = 1,          // bits of the score of `mad`
-    parameter FRACTION = 0,          // fraction bits of the mean (MAD)
-    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum plus half of the pixels (MAD)
-    parameter MEAN_BITS = 8,         // bits of the mean (MAD)
-    parameter FACTOR_BITS = 1,       // bits of FACTOR (MAD)
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT is the dividend divided by the pixels of a region (MAD)
-    parameter SHIFT = 6,             // bits of the product that are dropped (MAD)
+    parameter SEGMENT_BITS = 1,      // bits of the score of `segment`
+    parameter FRACTION = 0,          // fraction bits of the mean (MAD, SEGMENT)
+    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum plus half of the pixels (MAD, SEGMENT)
+    parameter MEAN_BITS = 8,         // bits of the mean (MAD, SEGMENT)
+    parameter FACTOR_BITS = 1,       // bits of FACTOR (MAD, SEGMENT)
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT divides by the pixels of a region (MAD, SEGMENT)
+    parameter SHIFT = 6,             // bits of the product that are dropped (MAD, SEGMENT)
     // Reference and its store
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
@@ -69,6 +72,7 @@ module raster_core #(
     // Thresholds
     input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a gradient above this level is a hit of `edge`
     input  wire [          WIDTH-1:0] corner_level_i,      // a neighbor differs from its center above this level (`corner`)
+    input  wire [          WIDTH-1:0] segment_level_i,     // a pixel differs from the mean of its region above this level (`segment`)
     input  wire [          WIDTH-1:0] temporal_level_i,    // a pixel has changed above this difference
     input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more than this level is sent again (BLOCKS)
     input  wire [     SCORE_BITS-1:0] minima_i,            // smallest value at which each score votes; the lowest bits belong to TRS
@@ -133,38 +137,47 @@ module raster_core #(
         if (LAST_SENT && !FORWARD) begin : g_forward_limit FORWARD_must_be_1_with_LAST_SENT u_refused (); end
         if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
         if (BLOCKS > 0 && !FORWARD) begin : g_forward_means FORWARD_must_be_1_with_BLOCKS u_refused (); end
+        if (FILTER < 0 || FILTER > 3) begin : g_filter_kind FILTER_must_be_0_to_3 u_refused (); end
         if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
-        if ((EDGE | CORNER | VARIANCE | RANGE | MAD) != 1) begin : g_features
+        if ((EDGE | CORNER | VARIANCE | RANGE | SURFACE | MAD | SEGMENT) != 1) begin : g_features
             flags_of_features_must_be_0_or_1_and_one_of_them_1 u_refused ();
         end
     endgenerate
 
     localparam WORD = LANES * WIDTH;
-    localparam SEGMENT = SIDE / LANES;
-    localparam ROW_WORDS = COLUMNS * SEGMENT;
+    localparam SEGMENT_WORDS = SIDE / LANES;
+    localparam ROW_WORDS = COLUMNS * SEGMENT_WORDS;
     localparam TAKEN_WORDS = (FRAME_WIDTH + LANES - 1) / LANES;
     localparam REGIONS = COLUMNS * ROWS;
     localparam WORD_BITS = $clog2(ROW_WORDS);
     localparam HITS = EDGE + CORNER;  // features that count hits of a window
     localparam COUNTS_BITS = (HITS + 1) * COUNT_BITS;
     // Scores are in the order in which they are known, in raster_decision, too: counts, those made of the sums or extremes of a
-    // region, and that of mad, which needs a second pass.
+    // region, and those that need a second pass.
     localparam RANGE_START = COUNTS_BITS + VARIANCE * VARIANCE_BITS;
-    localparam SETTLED_BITS = RANGE_START + RANGE * WIDTH;  // bits of all scores except that of mad
-    localparam WINDOWS = MEDIAN + (HITS > 0 ? 1 : 0);
-    localparam BANKS = MAD ? 3 : 2;
+    localparam SURFACE_START = RANGE_START + RANGE * WIDTH;
+    localparam SETTLED_BITS = SURFACE_START + SURFACE * SUM_BITS;  // bits of all scores except those of the second pass
+    localparam SEGMENT_START = SETTLED_BITS + MAD * MAD_BITS;
+    localparam SECOND_PASS = MAD | SEGMENT;
+    localparam VALUE_BITS = WIDTH + $clog2(LANES);  // bits of a sum over a word
+    localparam FEATURE_WINDOW = EDGE | CORNER | SURFACE;
+    localparam DENOISES = FILTER > 0 ? 1 : 0;
+    localparam WINDOWS = DENOISES + FEATURE_WINDOW;
+    localparam BANKS = SECOND_PASS ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
     localparam START_BITS = $clog2(BUFFER_WORDS);
     localparam FRAME_WORDS = ROW_WORDS * ROWS * SIDE;
     localparam PLACE_BITS = $clog2(FRAME_WORDS);
     localparam EXTERNAL = 3;
+    localparam SWITCHING = 2;
+    localparam BINOMIAL = 3;
     localparam REGION_COLUMN_BITS = $clog2(COLUMNS);
     localparam NUMBER_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;  // bits of the number of a block
 
     // Clocks from one place in the pipeline to another; see docs/raster.md.
     localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to its column of the window
-    localparam MEDIAN_CLOCKS = MEDIAN ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
-    localparam CENTER_CLOCKS = MEDIAN_CLOCKS + (HITS > 0 ? COLUMN_CLOCKS : 0);  // from a word to the center of the last window
+    localparam FILTER_CLOCKS = DENOISES ? COLUMN_CLOCKS + (DEEP ? 6 : 3) : 0;
+    localparam CENTER_CLOCKS = FILTER_CLOCKS + (FEATURE_WINDOW ? COLUMN_CLOCKS : 0);  // from a word to the center of the last window
     localparam STORE_CLOCKS = 2 + DEEP;                                // from center_word to `center`, which is stored
     localparam HIT_CLOCKS = 4 + DEEP;                                  // from center_word to its hits
 
@@ -187,7 +200,7 @@ module raster_core #(
     raster_control #(
         .ROW_WORDS(ROW_WORDS), .TAKEN_WORDS(TAKEN_WORDS), .ROWS(ROWS * SIDE), .TAKEN_ROWS(FRAME_HEIGHT),
         .WORD_BITS(WORD_BITS), .ROW_BITS($clog2(ROWS * SIDE)), .SIDE(SIDE), .SIDE_BITS($clog2(SIDE)),
-        .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT > 1 ? $clog2(SEGMENT) : 1), .ISOLATED(ISOLATED), .WINDOWS(WINDOWS),
+        .SEGMENT_WORDS(SEGMENT_WORDS), .SEGMENT_BITS(SEGMENT_WORDS > 1 ? $clog2(SEGMENT_WORDS) : 1), .ISOLATED(ISOLATED), .WINDOWS(WINDOWS),
         .SETTLE(SETTLE), .SETTLE_BITS($clog2(SETTLE))
     ) u_control (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .busy_i(busy), .ready_o(ready_o),
@@ -225,7 +238,7 @@ module raster_core #(
     wire [WORD-1:0] scored_raw;    // that word before the filter (RAW)
     wire scored_repeated;
     generate
-        if (MEDIAN) begin : g_median
+        if (DENOISES) begin : g_filter
             wire column_step;
             wire [WORD-1:0] upper, middle, lower;
             wire column_top, column_bottom, column_left, column_right;
@@ -241,11 +254,20 @@ module raster_core #(
             word_delay #(.WIDTH(2), .DEPTH(COLUMN_CLOCKS)) u_sides (
                 .clk_i(clk_i), .data_i({left[0], right[0]}), .data_o({column_left, column_right})
             );
-            median_columns #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_median (
-                .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
-                .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
-            );
-            bit_delay #(.DEPTH(MEDIAN_CLOCKS)) u_scored_step (
+            if (FILTER == BINOMIAL) begin : g_binomial
+                binomial_columns #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_binomial (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right), .top_i(column_top),
+                    .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .mean_o(scored_word)
+                );
+            end else begin : g_median
+                median_columns #(
+                    .WIDTH(WIDTH), .LANES(LANES), .SWITCHING(FILTER == SWITCHING ? 1 : 0), .DEEP(DEEP)
+                ) u_median (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right), .top_i(column_top),
+                    .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower), .median_o(scored_word)
+                );
+            end
+            bit_delay #(.DEPTH(FILTER_CLOCKS)) u_scored_step (
                 .clk_i(clk_i), .rst_i(rst_i), .bit_i(step), .bit_o(scored_step)
             );
             assign scored_repeated = 1'b0;
@@ -253,7 +275,7 @@ module raster_core #(
                 reg [WORD-1:0] raw_q;
                 always @(posedge clk_i) if (column_step) raw_q <= middle;
                 // In the step that makes a word the center, its column is in raw_q one clock later.
-                word_delay #(.WIDTH(WORD), .DEPTH(MEDIAN_CLOCKS - COLUMN_CLOCKS)) u_raw (
+                word_delay #(.WIDTH(WORD), .DEPTH(FILTER_CLOCKS - COLUMN_CLOCKS)) u_raw (
                     .clk_i(clk_i), .data_i(raw_q), .data_o(scored_raw)
                 );
             end else begin : g_denoised
@@ -262,7 +284,7 @@ module raster_core #(
         end else begin : g_none
             assign scored_step = step;
             assign scored_raw = scored_word;
-            if (HITS == 0 && ROWS * SIDE != FRAME_HEIGHT) begin : g_repeat
+            if (!FEATURE_WINDOW && ROWS * SIDE != FRAME_HEIGHT) begin : g_repeat
                 raster_repeat #(.WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS)) u_repeat (
                     .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .repeat_i(row_repeated), .word_i(word),
                     .word_o(scored_word)
@@ -277,9 +299,10 @@ module raster_core #(
     // ---- The windows of the features
     wire [(HITS+1)*LANES-1:0] hits;  // the changed pixels lowest, then the hits of every feature that counts
     wire [WORD-1:0] center_word;     // the center of the last window
+    wire [4*VALUE_BITS-1:0] differences;  // sums over a word of differences of neighbors (SURFACE)
     wire unused_levels = |edge_level_i || |corner_level_i;
     generate
-        if (HITS > 0) begin : g_window
+        if (FEATURE_WINDOW) begin : g_window
             wire column_step;
             wire [WORD-1:0] upper, middle, lower;
             wire scored_top, scored_bottom, column_top, column_bottom, column_left, column_right;
@@ -288,15 +311,15 @@ module raster_core #(
             always @(posedge clk_i) if (column_step) center_q <= middle;
             assign center_word = center_q;
 
-            word_delay #(.WIDTH(2), .DEPTH(MEDIAN_CLOCKS)) u_ends (
-                .clk_i(clk_i), .data_i({top[MEDIAN], bottom[MEDIAN]}), .data_o({scored_top, scored_bottom})
+            word_delay #(.WIDTH(2), .DEPTH(FILTER_CLOCKS)) u_ends (
+                .clk_i(clk_i), .data_i({top[DENOISES], bottom[DENOISES]}), .data_o({scored_top, scored_bottom})
             );
             word_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS)) u_sides (
-                .clk_i(clk_i), .data_i({left[MEDIAN], right[MEDIAN]}), .data_o({column_left, column_right})
+                .clk_i(clk_i), .data_i({left[DENOISES], right[DENOISES]}), .data_o({column_left, column_right})
             );
             raster_window #(
                 .WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS),
-                .REPEATS(!MEDIAN && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
+                .REPEATS(!DENOISES && ROWS * SIDE != FRAME_HEIGHT), .DEEP(DEEP)
             ) u_window (
                 .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_word), .top_i(scored_top),
                 .bottom_i(scored_bottom), .repeat_i(scored_repeated), .step_o(column_step), .top_o(column_top),
@@ -317,9 +340,21 @@ module raster_core #(
                     .level_i(corner_level_i), .hit_o(hits[(EDGE+1)*LANES+:LANES])
                 );
             end
+            if (SURFACE) begin : g_surface
+                raster_displacement #(.WIDTH(WIDTH), .LANES(LANES), .VALUE_BITS(VALUE_BITS), .DEEP(DEEP)) u_displacement (
+                    .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
+                    .bottom_i(column_bottom), .middle_i(middle), .lower_i(lower), .values_o(differences)
+                );
+                if (HITS == 0) begin : g_no_hits
+                    wire unused_top = column_top || |upper;
+                end
+            end else begin : g_no_surface
+                assign differences = {4 * VALUE_BITS{1'b0}};
+            end
         end else begin : g_no_window
             wire unused_window = scored_step || scored_repeated || |top || |bottom || |left || |right;
             assign center_word = scored_word;
+            assign differences = {4 * VALUE_BITS{1'b0}};
         end
     endgenerate
 
@@ -410,16 +445,16 @@ module raster_core #(
     );
 
     // A leaf that looks at all pixels takes `center`, which comes two clocks before hit_step.
-    localparam SETTLED_CLOCKS = VARIANCE ? 3 : RANGE ? 1 : 0;  // from the counts to the last of the other scores: v in docs/raster.md
+    localparam SETTLED_CLOCKS = VARIANCE ? 3 : SURFACE ? 2 : RANGE ? 1 : 0;  // from the counts to the last of the other scores: v in docs/raster.md
     wire [SUM_BITS-1:0] sum;
-    wire settled;  // all scores except that of mad are there
+    wire settled;  // all scores except those of the second pass are there
     wire [SETTLED_BITS-1:0] settled_scores;
     bit_delay #(.DEPTH(SETTLED_CLOCKS)) u_settled (.clk_i(clk_i), .rst_i(rst_i), .bit_i(done), .bit_o(settled));
     word_delay #(.WIDTH(COUNTS_BITS), .DEPTH(SETTLED_CLOCKS)) u_settled_counts (
         .clk_i(clk_i), .data_i(counts), .data_o(settled_scores[COUNTS_BITS-1:0])
     );
     generate
-        if (MAD || VARIANCE) begin : g_moments
+        if (SECOND_PASS || VARIANCE) begin : g_moments
             wire [VARIANCE_BITS-1:0] variance;
             // A word is on `center` with its store_step, two clocks before its hit_step.
             raster_moments #(
@@ -432,7 +467,7 @@ module raster_core #(
             );
             if (VARIANCE) begin : g_variance
                 assign settled_scores[COUNTS_BITS+:VARIANCE_BITS] = variance;
-            end else begin : g_mad
+            end else begin : g_no_variance
                 wire unused_variance = |variance;
             end
         end else begin : g_no_moments
@@ -453,10 +488,26 @@ module raster_core #(
         end
     endgenerate
 
+    generate
+        if (SURFACE) begin : g_surface
+            wire [SUM_BITS-1:0] surface;
+            raster_surface #(.VALUE_BITS(VALUE_BITS), .SUM_BITS(SUM_BITS), .COLUMNS(COLUMNS), .DEEP(DEEP)) u_surface (
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(hit_step), .values_i(differences),
+                .segment_end_i(hit_segment_end), .row_end_i(hit_row_end), .region_top_i(hit_region_top),
+                .score_o(surface)
+            );
+            word_delay #(.WIDTH(SUM_BITS), .DEPTH(SETTLED_CLOCKS - 2)) u_surface_delay (
+                .clk_i(clk_i), .data_i(surface), .data_o(settled_scores[SURFACE_START+:SUM_BITS])
+            );
+        end else begin : g_no_surface
+            wire unused_differences = |differences;
+        end
+    endgenerate
+
     // The place in the ring buffer of rows of regions where a word is stored.
     wire [START_BITS-1:0] store_place;
     generate
-        if (FORWARD || MAD) begin : g_ring
+        if (FORWARD || SECOND_PASS) begin : g_ring
             raster_ring #(.WORDS(BUFFER_WORDS), .PLACE_BITS(START_BITS)) u_ring (
                 .clk_i(clk_i), .rst_i(rst_i), .step_i(store_step), .place_o(store_place)
             );
@@ -477,7 +528,7 @@ module raster_core #(
     wire judged;  // all scores of a region are there
     wire [SCORE_BITS-1:0] scores;
     generate
-        if (MAD) begin : g_deviation
+        if (SECOND_PASS) begin : g_deviation
             wire [SETTLED_BITS+1:0] entering = {settled_differs, settled_shown, settled_scores};
             wire [SETTLED_BITS+1:0] leaving;
             assign {judged_differs, judged_shown} = leaving[SETTLED_BITS+1:SETTLED_BITS];
@@ -486,19 +537,32 @@ module raster_core #(
                 assign leaving[SETTLED_BITS+1:SETTLED_BITS] = 2'd0;
             end
             assign scores[SETTLED_BITS-1:0] = leaving[SETTLED_BITS-1:0];
+            wire [MAD_BITS-1:0] mad;
+            wire [SEGMENT_BITS-1:0] segment;
+            if (MAD) begin : g_mad
+                assign scores[SETTLED_BITS+:MAD_BITS] = mad;
+            end else begin : g_no_mad
+                wire unused_mad = |mad;
+            end
+            if (SEGMENT) begin : g_segment
+                assign scores[SEGMENT_START+:SEGMENT_BITS] = segment;
+            end else begin : g_no_segment
+                wire unused_segment = |segment;
+            end
             raster_deviation #(
-                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
+                .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
-                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(MAD_BITS),
-                .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(SETTLED_CLOCKS), .DEEP(DEEP)
+                .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD(MAD), .MAD_BITS(MAD_BITS),
+                .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT_BITS), .COUNT_BITS(COUNT_BITS), .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(SETTLED_CLOCKS), .DEEP(DEEP)
             ) u_deviation (
-                .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
-                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i(entering[OTHER_BITS-1:0]),
-                .judged_o(judged), .mad_o(scores[SCORE_BITS-1:SETTLED_BITS]), .other_o(leaving[OTHER_BITS-1:0])
+                .clk_i(clk_i), .rst_i(rst_i), .segment_level_i(segment_level_i), .store_i(store_step),
+                .store_place_i(store_place), .word_i(center), .done_i(done), .sum_i(sum), .settled_i(settled),
+                .other_i(entering[OTHER_BITS-1:0]), .judged_o(judged), .mad_o(mad), .segment_o(segment),
+                .other_o(leaving[OTHER_BITS-1:0])
             );
         end else begin : g_no_deviation
-            wire unused_sum = |sum;
+            wire unused_sum = |sum || |segment_level_i;
             assign judged = settled;
             assign scores = settled_scores;
             assign {judged_differs, judged_shown} = {settled_differs, settled_shown};
@@ -518,10 +582,10 @@ module raster_core #(
     wire lost_mark;
 
     raster_decision #(
-        .HITS(HITS), .VARIANCE(VARIANCE), .RANGE(RANGE), .MAD(MAD), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS),
-        .SUMMARIES(BLOCKS > 0 ? 1 : 0), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS),
-        .VARIANCE_BITS(VARIANCE_BITS), .RANGE_BITS(WIDTH), .MAD_BITS(MAD_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS),
-        .SCORE_BITS(SCORE_BITS)
+        .HITS(HITS), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .MAD(MAD), .SEGMENT(SEGMENT), .ALL(ALL),
+        .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(BLOCKS > 0 ? 1 : 0), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS),
+        .VARIANCE_BITS(VARIANCE_BITS), .RANGE_BITS(WIDTH), .SURFACE_BITS(SUM_BITS), .MAD_BITS(MAD_BITS),
+        .SEGMENT_BITS(SEGMENT_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .SCORE_BITS(SCORE_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i(minima_i),
         .shown_i(judged_shown), .differs_i(judged_differs), .lost_i(lost_reference),
@@ -541,7 +605,7 @@ module raster_core #(
             word_delay #(.WIDTH(2), .DEPTH(CENTER_CLOCKS + STORE_CLOCKS - 1)) u_store_places (
                 .clk_i(clk_i), .data_i({row_end, region_bottom}), .data_o({store_row_end, store_region_bottom})
             );
-            if (RAW && HITS > 0) begin : g_line
+            if (RAW && FEATURE_WINDOW) begin : g_line
                 wire [WORD-1:0] raw_center;
                 raster_line #(.WORD_BITS(WORD), .ROW_WORDS(ROW_WORDS), .ADDRESS_BITS(WORD_BITS)) u_line (
                     .clk_i(clk_i), .rst_i(rst_i), .step_i(scored_step), .word_i(scored_raw), .word_o(raw_center)
@@ -588,7 +652,7 @@ module raster_core #(
             end
 
             raster_forward #(
-                .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
+                .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT), .DEEP(DEEP),
                 .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .FRAME_BITS(FRAME_BITS),
                 .START_BITS(START_BITS), .PLACE_BITS(PLACE_BITS), .BLOCKS(BLOCKS), .COLUMN_BITS(REGION_COLUMN_BITS),
@@ -629,7 +693,7 @@ module raster_core #(
     generate
         if ((LAST_SENT || BLOCKS > 0) && ROWS <= BANKS) begin : g_waits
             wire undecided;
-            if (MAD) begin : g_undecided
+            if (SECOND_PASS) begin : g_undecided
                 localparam REGIONS_BITS = $clog2(BANKS * COLUMNS) + 1;
                 reg [REGIONS_BITS-1:0] regions_q;  // number of regions that wait for their second pass or are in it
                 wire [REGIONS_BITS-1:0] waiting = regions_q - {{(REGIONS_BITS - 1) {1'b0}}, decided};

@@ -7,7 +7,9 @@ module raster_decision #(
     parameter HITS = 1,          // features whose score is a count
     parameter VARIANCE = 0,      // 1: regions have the score of `variance`
     parameter RANGE = 0,         // 1: regions have the score of `range`
+    parameter SURFACE = 0,       // 1: regions have the score of `surface`
     parameter MAD = 0,           // 1: regions have the score of `mad`
+    parameter SEGMENT = 0,       // 1: regions have the score of `segment`
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,     // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,        // 1: a region without SRS loses its reference (LAST_SENT)
@@ -17,10 +19,12 @@ module raster_decision #(
     parameter COUNT_BITS = 7,    // bits of a count, 0..PIXELS
     parameter VARIANCE_BITS = 1, // bits of the score of `variance`
     parameter RANGE_BITS = 1,    // bits of the score of `range`
+    parameter SURFACE_BITS = 1,  // bits of the score of `surface`
     parameter MAD_BITS = 1,      // bits of the score of `mad`
+    parameter SEGMENT_BITS = 1,  // bits of the score of `segment`
     parameter REGIONS = 32400,   // regions of the frame
     parameter REGION_BITS = 15,  // ceil(log2(REGIONS))
-    parameter SCORE_BITS = 14    // bits of all scores of a region: temporal count lowest, then counts, variance, range, mad
+    parameter SCORE_BITS = 14    // bits of all scores of a region: temporal count lowest, then counts, variance, range, surface, mad, segment
 ) (
     input  wire                   clk_i,             // clock, rising edge
     input  wire                   rst_i,             // synchronous reset, active high
@@ -50,12 +54,14 @@ module raster_decision #(
 
     localparam VARIANCE_START = (HITS + 1) * COUNT_BITS;
     localparam RANGE_START = VARIANCE_START + VARIANCE * VARIANCE_BITS;
-    localparam MAD_START = RANGE_START + RANGE * RANGE_BITS;
-    localparam FEATURES = HITS + VARIANCE + RANGE + MAD;
+    localparam SURFACE_START = RANGE_START + RANGE * RANGE_BITS;
+    localparam MAD_START = SURFACE_START + SURFACE * SURFACE_BITS;
+    localparam SEGMENT_START = MAD_START + MAD * MAD_BITS;
+    localparam FEATURES = HITS + VARIANCE + RANGE + SURFACE + MAD + SEGMENT;
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
-        if (SCORE_BITS != MAD_START + MAD * MAD_BITS) begin : g_score_bits
+        if (SCORE_BITS != SEGMENT_START + SEGMENT * SEGMENT_BITS) begin : g_score_bits
             SCORE_BITS_must_hold_all_scores u_refused ();
         end
     endgenerate
@@ -93,9 +99,21 @@ module raster_decision #(
                 .vote_o(votes[HITS+VARIANCE+1])
             );
         end
+        if (SURFACE) begin : g_surface
+            vote #(.WIDTH(SURFACE_BITS)) u_vote (
+                .score_i(scores[SURFACE_START+:SURFACE_BITS]), .minimum_i(minima_i[SURFACE_START+:SURFACE_BITS]),
+                .vote_o(votes[HITS+VARIANCE+RANGE+1])
+            );
+        end
         if (MAD) begin : g_mad
             vote #(.WIDTH(MAD_BITS)) u_vote (
                 .score_i(scores[MAD_START+:MAD_BITS]), .minimum_i(minima_i[MAD_START+:MAD_BITS]),
+                .vote_o(votes[HITS+VARIANCE+RANGE+SURFACE+1])
+            );
+        end
+        if (SEGMENT) begin : g_segment
+            vote #(.WIDTH(SEGMENT_BITS)) u_vote (
+                .score_i(scores[SEGMENT_START+:SEGMENT_BITS]), .minimum_i(minima_i[SEGMENT_START+:SEGMENT_BITS]),
                 .vote_o(votes[FEATURES])
             );
         end

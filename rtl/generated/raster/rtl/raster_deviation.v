@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Computes the mean absolute deviation of every region: its mean, then a second pass over its pixels, which a memory keeps
-// for that. The other scores of the region wait in the same queue, and all scores come with judged_o.
+// Computes the scores of `mad` and `segment` of every region: its mean, then in a second pass the deviations of its pixels from the
+// mean. A memory keeps the pixels for that. The other scores of the region wait in the same queue, and all scores come with
+// judged_o.
 `default_nettype none
 
 module raster_deviation #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
-    parameter SEGMENT = 8,           // words of a row of a region: SIDE / LANES
+    parameter SEGMENT_WORDS = 8,     // words of a row of a region: SIDE / LANES
     parameter COLUMNS = 240,         // regions in a row of regions
     parameter ROWS = 135,            // rows of regions
     parameter ROW_WORDS = 1920,      // words of a row of the frame
@@ -21,23 +22,29 @@ module raster_deviation #(
     parameter FACTOR_BITS = 1,       // bits of FACTOR
     parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT is the dividend divided by the pixels of a region
     parameter SHIFT = 6,             // bits of the product that are dropped
-    parameter MAD_BITS = 14,         // bits of the score
+    parameter MAD = 1,               // 1: the score of `mad` is computed
+    parameter MAD_BITS = 14,         // bits of the score of `mad`
+    parameter SEGMENT = 0,           // 1: the score of `segment` is computed
+    parameter SEGMENT_BITS = 1,      // bits of the score of `segment`
+    parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
     parameter OTHER_BITS = 40,       // bits of the other scores
     parameter OTHER_CLOCKS = 0,      // clocks by which the other scores come after the sum
     parameter DEEP = 0               // 1: more registers, for a faster clock
 ) (
-    input  wire                   clk_i,          // clock, rising edge
-    input  wire                   rst_i,          // synchronous reset, active high
-    input  wire                   store_i,        // a word is stored at this edge
-    input  wire [ START_BITS-1:0] store_place_i,  // place in the buffer of that word
-    input  wire [LANES*WIDTH-1:0] word_i,         // the word that is stored
-    input  wire                   done_i,         // sum_i is that of a whole region
-    input  wire [   SUM_BITS-1:0] sum_i,          // sum of the pixels of that region
-    input  wire                   settled_i,      // the other scores of a region are there, OTHER_CLOCKS after its sum
-    input  wire [ OTHER_BITS-1:0] other_i,        // the other scores
-    output wire                   judged_o,       // all scores of a region are there
-    output wire [   MAD_BITS-1:0] mad_o,          // score of `mad` of that region
-    output wire [ OTHER_BITS-1:0] other_o         // the other scores of that region
+    input  wire                    clk_i,            // clock, rising edge
+    input  wire                    rst_i,            // synchronous reset, active high
+    input  wire [       WIDTH-1:0] segment_level_i,  // a pixel counts if it differs from the mean by more than this level (SEGMENT)
+    input  wire                    store_i,          // a word is stored at this edge
+    input  wire [  START_BITS-1:0] store_place_i,    // place in the buffer of that word
+    input  wire [ LANES*WIDTH-1:0] word_i,           // the word that is stored
+    input  wire                    done_i,           // sum_i is that of a whole region
+    input  wire [    SUM_BITS-1:0] sum_i,            // sum of the pixels of that region
+    input  wire                    settled_i,        // the other scores of a region are there, OTHER_CLOCKS after its sum
+    input  wire [  OTHER_BITS-1:0] other_i,          // the other scores
+    output wire                    judged_o,         // all scores of a region are there
+    output wire [    MAD_BITS-1:0] mad_o,            // score of `mad` of that region (MAD)
+    output wire [SEGMENT_BITS-1:0] segment_o,        // score of `segment` of that region (SEGMENT)
+    output wire [  OTHER_BITS-1:0] other_o           // the other scores of that region
 );
 
     localparam HALF = SIDE * SIDE / 2;
@@ -64,7 +71,7 @@ module raster_deviation #(
     wire [2:0] unused_row;
     wire unused_place;
     raster_start #(
-        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
+        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT_WORDS(SEGMENT_WORDS), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
         .PLACE_BITS(1)
     ) u_start (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(enter), .row_o(unused_row), .start_o(start), .place_o(unused_place)
@@ -74,12 +81,14 @@ module raster_deviation #(
     wire [START_BITS-1:0] place;
     wire [LANES*WIDTH-1:0] word;
     raster_pass #(
-        .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS),
+        .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .POSITION_BITS(POSITION_BITS),
         .ROW_WORDS(ROW_WORDS), .PLACE_BITS(START_BITS), .FRACTION(FRACTION), .MEAN_BITS(MEAN_BITS),
-        .SUM_BITS(MAD_BITS), .EXTRA_BITS(OTHER_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
+        .MAD(MAD), .MAD_BITS(MAD_BITS), .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT_BITS), .COUNT_BITS(COUNT_BITS),
+        .EXTRA_BITS(OTHER_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
     ) u_pass (
-        .clk_i(clk_i), .rst_i(rst_i), .enter_i(enter), .mean_i(settled_mean), .start_i(start), .extra_i(entering),
-        .read_o(read), .place_o(place), .word_i(word), .done_o(judged_o), .sum_o(mad_o), .extra_o(other_o)
+        .clk_i(clk_i), .rst_i(rst_i), .segment_level_i(segment_level_i), .enter_i(enter), .mean_i(settled_mean),
+        .start_i(start), .extra_i(entering), .read_o(read), .place_o(place), .word_i(word), .done_o(judged_o),
+        .mad_o(mad_o), .segment_o(segment_o), .extra_o(other_o)
     );
     raster_memory #(
         .WIDTH(LANES * WIDTH), .WORDS(BANKS * SIDE * ROW_WORDS), .ADDRESS_BITS(START_BITS), .OUTPUT_STAGE(DEEP)

@@ -8,7 +8,7 @@ module raster_forward #(
     parameter WORD_BITS = 8,       // bits of a word
     parameter LANES = 1,           // pixels of a word
     parameter SIDE = 8,            // rows of a region
-    parameter SEGMENT = 8,         // words of a row of a region: SIDE / LANES
+    parameter SEGMENT_WORDS = 8,   // words of a row of a region: SIDE / LANES
     parameter COLUMNS = 240,       // regions in a row of regions
     parameter ROWS = 135,          // rows of regions
     parameter ROW_WORDS = 1920,    // words of a row of the frame
@@ -111,7 +111,7 @@ module raster_forward #(
     wire [EXTRA_BITS-1:0] entered_extra, lost_extra, held_extra;
 
     raster_start #(
-        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
+        .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT_WORDS(SEGMENT_WORDS), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
         .FRAME(LAST_SENT), .PLACE_BITS(FRAME_PLACE_BITS)
     ) u_start (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(decision_i), .row_o(decided_row), .start_o(decided_start),
@@ -134,7 +134,7 @@ module raster_forward #(
     wire [WORD_BITS-1:0] fetched;
 
     raster_readout #(
-        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
         .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .FRAME_BITS(FRAME_BITS),
         .EXTRA_BITS(EXTRA_BITS), .QUEUE_BITS(QUEUE_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(MEAN_BITS), .DEEP(DEEP)
     ) u_readout (
@@ -189,7 +189,7 @@ module raster_forward #(
             reg fetched_q;
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
             wire [PLACE_BITS-1:0] place = fetch_first ? held_extra[LOW_BITS+:PLACE_BITS] : next_place_q;
-            localparam JUMP = ROW_WORDS - SEGMENT + 1;
+            localparam JUMP = ROW_WORDS - SEGMENT_WORDS + 1;
             always @(posedge clk_i) begin
                 fetched_q <= fetch && !means && !rst_i;
                 if (fetch) begin

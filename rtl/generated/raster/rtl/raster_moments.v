@@ -44,8 +44,8 @@ module raster_moments #(
     raster_sums #(
         .VALUE_BITS(WORD_SUM_BITS), .SUM_BITS(SUM_BITS), .COLUMNS(COLUMNS), .COLUMN_BITS($clog2(COLUMNS)), .DEEP(DEEP)
     ) u_sum (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .value_i(word_sum_2q), .segment_end_i(segment_end_i),
-        .row_end_i(row_end_i), .region_top_i(region_top_i), .sum_o(sum_o)
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .values_i(word_sum_2q), .segment_end_i(segment_end_i),
+        .row_end_i(row_end_i), .region_top_i(region_top_i), .sums_o(sum_o)
     );
 
     generate
@@ -67,8 +67,8 @@ module raster_moments #(
                 .VALUE_BITS(WORD_SQUARE_BITS), .SUM_BITS(SQUARE_SUM_BITS), .COLUMNS(COLUMNS),
                 .COLUMN_BITS($clog2(COLUMNS)), .DEEP(DEEP)
             ) u_square_sum (
-                .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .value_i(word_square_2q),
-                .segment_end_i(segment_end_i), .row_end_i(row_end_i), .region_top_i(region_top_i), .sum_o(square_sum)
+                .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .values_i(word_square_2q),
+                .segment_end_i(segment_end_i), .row_end_i(row_end_i), .region_top_i(region_top_i), .sums_o(square_sum)
             );
             raster_variance #(
                 .PIXELS(SIDE * SIDE), .SUM_BITS(SUM_BITS), .SQUARE_SUM_BITS(SQUARE_SUM_BITS),

@@ -9,7 +9,7 @@
 module raster_readout #(
     parameter LANES = 1,          // pixels of a word
     parameter SIDE = 8,           // rows of a region
-    parameter SEGMENT = 8,        // words of a row of a region: SIDE / LANES
+    parameter SEGMENT_WORDS = 8,  // words of a row of a region: SIDE / LANES
     parameter POSITION_BITS = 6,  // ceil(log2(SIDE * SIDE))
     parameter REGION_BITS = 15,   // bits of the number of a region
     parameter ROW_WORDS = 1920,   // words of a row of the frame
@@ -99,7 +99,7 @@ module raster_readout #(
     assign take = oldest_valid && (!held_q || fetch_last);
 
     raster_walk #(
-        .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
+        .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
         .PLACE_BITS(START_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(MEAN_BITS)
     ) u_walk (
         .clk_i(clk_i), .begin_i(take), .start_i(oldest_start), .step_i(fetch), .means_i(means),

@@ -4,14 +4,14 @@
 `default_nettype none
 
 module raster_start #(
-    parameter COLUMNS = 240,    // regions in a row of regions
-    parameter ROWS = 135,       // rows of regions
-    parameter SEGMENT = 8,      // words of a row of a region
-    parameter SIDE = 8,         // rows of a region
-    parameter BANKS = 2,        // rows of regions in the buffer
-    parameter START_BITS = 15,  // ceil(log2(BANKS * SIDE * COLUMNS * SEGMENT))
-    parameter FRAME = 0,        // 1: place_o is used
-    parameter PLACE_BITS = 21   // ceil(log2(ROWS * SIDE * COLUMNS * SEGMENT)) (FRAME)
+    parameter COLUMNS = 240,      // regions in a row of regions
+    parameter ROWS = 135,         // rows of regions
+    parameter SEGMENT_WORDS = 8,      // words of a row of a region
+    parameter SIDE = 8,           // rows of a region
+    parameter BANKS = 2,          // rows of regions in the buffer
+    parameter START_BITS = 15,    // ceil(log2(BANKS * SIDE * COLUMNS * SEGMENT_WORDS))
+    parameter FRAME = 0,          // 1: place_o is used
+    parameter PLACE_BITS = 21     // ceil(log2(ROWS * SIDE * COLUMNS * SEGMENT_WORDS)) (FRAME)
 ) (
     input  wire                  clk_i,    // clock, rising edge
     input  wire                  rst_i,    // synchronous reset, active high
@@ -23,10 +23,10 @@ module raster_start #(
 
     localparam COLUMN_BITS = $clog2(COLUMNS);
     localparam BEFORE_LAST = COLUMNS - 2;
-    localparam ROW_WORDS = COLUMNS * SEGMENT;
-    localparam LAST_START = (BANKS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
-    localparam NEXT = SEGMENT;
-    localparam NEXT_ROW = SEGMENT + (SIDE - 1) * ROW_WORDS;
+    localparam ROW_WORDS = COLUMNS * SEGMENT_WORDS;
+    localparam LAST_START = (BANKS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT_WORDS;
+    localparam NEXT = SEGMENT_WORDS;
+    localparam NEXT_ROW = SEGMENT_WORDS + (SIDE - 1) * ROW_WORDS;
 
     reg [COLUMN_BITS-1:0] column_q;
     reg last_column_q;
@@ -48,9 +48,9 @@ module raster_start #(
 
     generate
         if (FRAME) begin : g_frame
-            localparam LAST_PLACE = (ROWS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT;
-            localparam STEP = SEGMENT;
-            localparam ROW_STEP = SEGMENT + (SIDE - 1) * ROW_WORDS;
+            localparam LAST_PLACE = (ROWS - 1) * SIDE * ROW_WORDS + (COLUMNS - 1) * SEGMENT_WORDS;
+            localparam STEP = SEGMENT_WORDS;
+            localparam ROW_STEP = SEGMENT_WORDS + (SIDE - 1) * ROW_WORDS;
             reg [PLACE_BITS-1:0] place_q;
             always @(posedge clk_i) begin
                 if (rst_i) place_q <= {PLACE_BITS{1'b0}};

@@ -6,7 +6,7 @@
 module raster_walk #(
     parameter LANES = 1,          // pixels of a word
     parameter SIDE = 8,           // rows of a region
-    parameter SEGMENT = 8,        // words of a row of a region: SIDE / LANES
+    parameter SEGMENT_WORDS = 8,  // words of a row of a region: SIDE / LANES
     parameter POSITION_BITS = 6,  // ceil(log2(SIDE * SIDE))
     parameter ROW_WORDS = 1920,   // words of a row of the frame
     parameter PLACE_BITS = 15,    // bits of a place in the buffer
@@ -26,10 +26,10 @@ module raster_walk #(
     output wire                     last_o          // the word is the last of the region
 );
 
-    localparam SEGMENT_BITS = SEGMENT > 1 ? $clog2(SEGMENT) : 1;
+    localparam SEGMENT_BITS = SEGMENT_WORDS > 1 ? $clog2(SEGMENT_WORDS) : 1;
     localparam LAST_POSITION = SIDE * SIDE - LANES;
-    localparam LAST_IN_SEGMENT = SEGMENT - 1;
-    localparam JUMP = ROW_WORDS - SEGMENT + 1;
+    localparam LAST_IN_SEGMENT = SEGMENT_WORDS - 1;
+    localparam JUMP = ROW_WORDS - SEGMENT_WORDS + 1;
     localparam NEXT = 1;
 
     reg [PLACE_BITS-1:0] place_q;
@@ -83,7 +83,7 @@ module raster_walk #(
     assign place_o = place_q;
     assign position_o = position_q;
     assign first_o = position_q == {POSITION_BITS{1'b0}};
-    assign segment_end_o = means ? mean_line_end : SEGMENT == 1 || in_segment_q == LAST_IN_SEGMENT[SEGMENT_BITS-1:0];
+    assign segment_end_o = means ? mean_line_end : SEGMENT_WORDS == 1 || in_segment_q == LAST_IN_SEGMENT[SEGMENT_BITS-1:0];
     assign last_o = means ? last_mean : position_q == LAST_POSITION[POSITION_BITS-1:0];
 
 endmodule

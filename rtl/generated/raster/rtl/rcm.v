@@ -72,7 +72,7 @@ module rcm #(
         .LANES(1),
         .SIDE(8),
         .ISOLATED(1),
-        .MEDIAN(1),
+        .FILTER(1),
         .ALL(0),
         .LAST_SENT(0),
         .BLANKS(1),
@@ -90,13 +90,16 @@ module rcm #(
         .CORNER(0),
         .MAD(0),
         .VARIANCE(0),
-        .RANGE(0)
+        .RANGE(0),
+        .SURFACE(0),
+        .SEGMENT(0)
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(beat), .pixel_i(pixel_i), .ready_o(open),
         .temporal_level_i(temporal_level_i),
         .summary_level_i(8'd0),
         .edge_level_i(edge_level_i),
         .corner_level_i(8'd0),
+        .segment_level_i(8'd0),
         .minima_i({edge_min_i, temporal_min_i}),
         .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
         .scores_o({edge_score_o, temporal_count_o}),
