@@ -26,6 +26,12 @@ wire [63:0] f_thresholds_now = {
 `ifdef HAS_RANGE_MIN_I
     range_min_i,
 `endif
+`ifdef HAS_SURFACE_MIN_I
+    surface_min_i,
+`endif
+`ifdef HAS_SEGMENT_LEVEL_I
+    segment_level_i, segment_min_i,
+`endif
     temporal_level_i, temporal_min_i
 };
 always @(posedge clk_i) f_thresholds <= f_thresholds_now;
@@ -77,13 +83,20 @@ endfunction
 reg [F_FRAME-1:0] f_frame;
 reg [9*F_P-1:0] f_around;
 reg [3:0] f_smaller, f_not_larger;
-integer f_y, f_x, f_k, f_l;
+reg f_stays;  // the center is no extreme of its window
+integer f_y, f_x, f_k, f_l, f_weighted;
 always @* begin
     f_frame = f_queue0;
-`ifdef FILTER_MEDIAN3X3
+`ifndef FILTER_NONE
     for (f_y = 0; f_y < F_N; f_y = f_y + 1) for (f_x = 0; f_x < F_N; f_x = f_x + 1) begin
         for (f_k = 0; f_k < 9; f_k = f_k + 1)
             f_around[f_k*F_P+:F_P] = f_at(f_queue0, f_y + f_k / 3 - 1, f_x + f_k % 3 - 1);
+`ifdef FILTER_BINOMIAL3X3
+        f_weighted = 8;
+        for (f_k = 0; f_k < 9; f_k = f_k + 1)
+            f_weighted = f_weighted + f_around[f_k*F_P+:F_P] * (f_k % 2 ? 2 : f_k == 4 ? 4 : 1);
+        f_frame[(f_y*F_N+f_x)*F_P+:F_P] = f_weighted / 16;
+`else
         for (f_k = 0; f_k < 9; f_k = f_k + 1) begin
             f_smaller = 0;
             f_not_larger = 0;
@@ -92,13 +105,25 @@ always @* begin
                 f_not_larger = f_not_larger + (f_around[f_l*F_P+:F_P] <= f_around[f_k*F_P+:F_P]);
             end
             if (f_smaller <= 4 && f_not_larger >= 5) f_frame[(f_y*F_N+f_x)*F_P+:F_P] = f_around[f_k*F_P+:F_P];
+            if (f_k == 4) f_stays = f_smaller != 0 && f_not_larger != 9;
         end
+`ifdef FILTER_SWITCHING3X3
+        if (f_stays) f_frame[(f_y*F_N+f_x)*F_P+:F_P] = f_around[4*F_P+:F_P];
+`endif
+`endif
     end
 `endif
 end
 
 integer f_row, f_column, f_gx, f_gy, f_start, f_run, f_c, f_pixel, f_mean;
 integer f_edges, f_corners, f_sum, f_squares, f_deviation, f_low, f_high, f_changes;
+integer f_right, f_down, f_down_right, f_down_left, f_surface, f_above, f_below, f_segment;
+function integer f_distance(input integer a, input integer b);
+    f_distance = a > b ? a - b : b - a;
+endfunction
+function integer f_lesser(input integer a, input integer b);
+    f_lesser = a < b ? a : b;
+endfunction
 reg f_brighter, f_darker, f_hit;
 reg [8*F_P-1:0] f_ring;
 reg [F_FRAME-1:0] f_reference;
@@ -111,6 +136,10 @@ always @* begin
     f_low = F_MAX;
     f_high = 0;
     f_changes = 0;
+    f_right = 0;
+    f_down = 0;
+    f_down_right = 0;
+    f_down_left = 0;
     for (f_row = 0; f_row < F_N; f_row = f_row + 1) for (f_column = 0; f_column < F_N; f_column = f_column + 1) begin
         f_c = f_at(f_frame, f_row, f_column);
         f_sum = f_sum + f_c;
@@ -143,19 +172,33 @@ always @* begin
         end
         if (f_hit) f_corners = f_corners + 1;
 `endif
+`ifdef HAS_SURFACE_MIN_I
+        f_right      = f_right + f_distance(f_c, f_at(f_frame, f_row, f_column + 1));
+        f_down       = f_down + f_distance(f_c, f_at(f_frame, f_row + 1, f_column));
+        f_down_right = f_down_right + f_distance(f_c, f_at(f_frame, f_row + 1, f_column + 1));
+        f_down_left  = f_down_left + f_distance(f_c, f_at(f_frame, f_row + 1, f_column - 1));
+`endif
         f_pixel = f_at(f_reference, f_row, f_column);
         if (!f_referenced || (f_c > f_pixel ? f_c - f_pixel : f_pixel - f_c) > temporal_level_i) f_changes = f_changes + 1;
     end
-`ifdef HAS_MAD_MIN_I
+    f_surface = f_lesser(f_lesser(f_right, f_down), f_lesser(f_down_right, f_down_left));
+`ifdef U_MEAN_FRACTION
     f_mean = ((f_sum << `U_MEAN_FRACTION) + F_PIXELS / 2) / F_PIXELS;
     f_deviation = 0;
+    f_above = 0;
+    f_below = 0;
     for (f_row = 0; f_row < F_PIXELS; f_row = f_row + 1) begin
         f_pixel = f_frame[f_row*F_P+:F_P] << `U_MEAN_FRACTION;
-        f_deviation = f_deviation + (f_pixel > f_mean ? f_pixel - f_mean : f_mean - f_pixel);
+        f_deviation = f_deviation + f_distance(f_pixel, f_mean);
+`ifdef HAS_SEGMENT_LEVEL_I
+        if (f_pixel > f_mean + (segment_level_i << `U_MEAN_FRACTION)) f_above = f_above + 1;
+        if (f_pixel + (segment_level_i << `U_MEAN_FRACTION) < f_mean) f_below = f_below + 1;
+`endif
     end
+    f_segment = f_lesser(f_above, f_below);
 `endif
 end
-wire [4:0] f_votes_any = {
+wire [6:0] f_votes_any = {
 `ifdef HAS_EDGE_LEVEL_I
     f_edges >= edge_min_i,
 `else
@@ -177,12 +220,22 @@ wire [4:0] f_votes_any = {
     1'b0,
 `endif
 `ifdef HAS_RANGE_MIN_I
-    f_high - f_low >= range_min_i
+    f_high - f_low >= range_min_i,
+`else
+    1'b0,
+`endif
+`ifdef HAS_SURFACE_MIN_I
+    f_surface >= surface_min_i,
+`else
+    1'b0,
+`endif
+`ifdef HAS_SEGMENT_LEVEL_I
+    f_segment >= segment_min_i
 `else
     1'b0
 `endif
 };
-wire [4:0] f_voters = {
+wire [6:0] f_voters = {
 `ifdef HAS_EDGE_LEVEL_I
     1'b1,
 `else
@@ -204,6 +257,16 @@ wire [4:0] f_voters = {
     1'b0,
 `endif
 `ifdef HAS_RANGE_MIN_I
+    1'b1,
+`else
+    1'b0,
+`endif
+`ifdef HAS_SURFACE_MIN_I
+    1'b1,
+`else
+    1'b0,
+`endif
+`ifdef HAS_SEGMENT_LEVEL_I
     1'b1
 `else
     1'b0
@@ -319,6 +382,12 @@ always @* if (started) begin
 `endif
 `ifdef HAS_RANGE_MIN_I
         assert(range_score_o == f_high - f_low);
+`endif
+`ifdef HAS_SURFACE_MIN_I
+        assert(surface_score_o == f_surface);
+`endif
+`ifdef HAS_SEGMENT_LEVEL_I
+        assert(segment_score_o == f_segment);
 `endif
     end
     assert(forward_valid_o == f_leaves);

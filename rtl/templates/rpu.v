@@ -17,18 +17,18 @@ module rpu (
 {%- for constant in constants %}
     localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
 {%- endfor %}
-{%- if median %}
+{%- if let Some(filter) = filter %}
 
     // Denoising.
     wire raw_advance, raw_step, raw_top, raw_bottom, raw_left, raw_right;
     wire [{= p - 1 =}:0] raw_upper, raw_middle, raw_lower, raw_center;
-    wire [{= median_address_bits - 1 =}:0] unused_raw_address;
+    wire [{= raw_address_bits - 1 =}:0] unused_raw_address;
     wire unused_raw_last;
     wire denoised_valid;
     wire [{= p - 1 =}:0] denoised_pixel;
     {%- if shared %}
 
-    window_shared #(.SIDE({= stream_side =}), .SIDE_BITS({= stream_side_bits =}), .ADDRESS_BITS({= median_address_bits =})) u_raw_window (
+    window_shared #(.SIDE({= stream_side =}), .SIDE_BITS({= stream_side_bits =}), .ADDRESS_BITS({= raw_address_bits =})) u_raw_window (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .border_i(4'b0000),
         .advance_o(raw_advance), .step_o(raw_step), .address_o(unused_raw_address), .last_o(unused_raw_last),
         .top_o(raw_top), .bottom_o(raw_bottom), .left_o(raw_left), .right_o(raw_right)
@@ -53,28 +53,28 @@ module rpu (
     reg raw_center_left_q;
     always @(posedge clk_i) if (raw_advance) raw_center_left_q <= raw_left;
 
-    median_columns #(.WIDTH({= p =}), .LANES(1), .DEEP(0)) u_median (
+    {= filter.module =} #(.WIDTH({= p =}), .LANES(1){% if filter.is_switching %}, .SWITCHING(1){% endif %}, .DEEP(0)) {= filter.instance =} (
         .clk_i(clk_i), .step_i(raw_advance), .left_i(raw_center_left_q), .right_i(raw_right),
-        .top_i(1'b0), .bottom_i(1'b0), .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower), .median_o(denoised_pixel)
+        .top_i(1'b0), .bottom_i(1'b0), .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower), .{= filter.output =}(denoised_pixel)
     );
 
-    bit_delay #(.DEPTH({= median_registers =})) u_denoised_valid (
+    bit_delay #(.DEPTH({= filter_registers =})) u_denoised_valid (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(raw_step), .bit_o(denoised_valid)
     );
     {%- else %}
 
-    median3x3 #(.WIDTH({= p =})) u_median (
+    {= filter.module =} #(.WIDTH({= p =}){% if filter.is_switching %}, .SWITCHING(1){% endif %}) {= filter.instance =} (
         .clk_i(clk_i), .rst_i(rst_i), .advance_i(raw_advance), .step_i(raw_step),
         .left_i(raw_left), .right_i(raw_right),
         .upper_i(raw_upper), .middle_i(raw_middle), .lower_i(raw_lower),
-        .valid_o(denoised_valid), .median_o(denoised_pixel)
+        .valid_o(denoised_valid), .{= filter.output =}(denoised_pixel)
     );
     {%- endif %}
     {%- if keeps_raw %}
 
-    // The raw center is delayed as much as the median.
+    // The raw center is delayed as much as the result of the filter.
     wire [{= p - 1 =}:0] denoised_raw;
-    line_delay #(.WIDTH({= p =}), .DEPTH({= median_registers =})) u_denoised_raw (
+    line_delay #(.WIDTH({= p =}), .DEPTH({= filter_registers =})) u_denoised_raw (
         .clk_i(clk_i), .advance_i(1'b1), .data_i(raw_center), .data_o(denoised_raw)
     );
     {%- else %}

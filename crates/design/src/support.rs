@@ -54,9 +54,7 @@ fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
 fn supports_filter(organization: Organization, filter: DenoiseFilter) -> bool {
     use DenoiseFilter::{Binomial3x3, Median3x3, None, Switching3x3};
     match (organization, filter) {
-        (Pipelined | Serial | Raster, None | Median3x3) => true,
-        (Pipelined, Switching3x3 | Binomial3x3) => false,
-        (Serial | Raster, Switching3x3 | Binomial3x3) => true,
+        (Pipelined | Serial | Raster, None | Median3x3 | Switching3x3 | Binomial3x3) => true,
     }
 }
 

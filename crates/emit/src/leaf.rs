@@ -62,6 +62,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "median3x3" => [],
     "adder" => [],
     "carry_adder" => [],
+    "binomial3x3" => ["adder", "carry_adder"],
     "magnitude_above" => [],
     "edge_detector" => ["adder", "magnitude_above"],
     "corner_detector" => [],
@@ -168,6 +169,17 @@ pub const LEAVES: &[Leaf] = leaves! {
     ],
 };
 
+/// Returns the leaf of a pipelined `rpu.v` that denoises, if there is one.
+pub(crate) fn filter_leaf(filter: DenoiseFilter, deep: bool) -> Option<&'static str> {
+    match (filter, deep) {
+        (DenoiseFilter::None, _) => None,
+        (DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3, false) => Some("median3x3"),
+        (DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3, true) => Some("median_columns"),
+        (DenoiseFilter::Binomial3x3, false) => Some("binomial3x3"),
+        (DenoiseFilter::Binomial3x3, true) => Some("binomial_columns"),
+    }
+}
+
 /// Returns the leaves that a pipelined `rpu.v` instantiates directly.
 pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
     let mut names =
@@ -177,14 +189,14 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
             names.extend(leaves);
         }
     };
-    let denoise = design.filter() != DenoiseFilter::None;
     let window = design.has_feature_window();
     let deep = design.pipelining() == Pipelining::Deep;
     need(true, &[if deep { "magnitude_above" } else { "change_detector" }]);
-    need(denoise && !deep, &["median3x3"]);
-    need(denoise && deep, &["median_columns", "bit_delay"]);
+    let filter = filter_leaf(design.filter(), deep);
+    need(filter.is_some(), filter.as_slice());
+    need(filter.is_some() && deep, &["bit_delay"]);
     need(design.has_separate_raw_pixels(), &["line_delay"]);
-    if denoise || window {
+    if filter.is_some() || window {
         need(true, &["window_column"]);
         match design.neighborhood() {
             Neighborhood::Isolated => need(true, &["window_isolated"]),

@@ -7,6 +7,7 @@ use self::temporal_score::{
     ReferenceCandidate, compared_values, keeps_second_frame, reference_candidates, unused_flags,
 };
 use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::leaf::filter_leaf;
 use crate::thresholds::{ThresholdConstant, scores_text, threshold_constants, threshold_signal};
 use crate::verilog_text::{PortLine, rendered_text};
 use crate::{banner, latency_text};
@@ -33,19 +34,19 @@ struct RpuModule {
     stream_side: u32,
     stream_side_bits: u32,
     stream_pixels: u32,
-    median_address_bits: u32,
+    raw_address_bits: u32,
     window_side: u32,
     window_side_bits: u32,
     // Parts that the design has.
     shared: bool,
     border: bool,
-    median: bool,
+    filter: Option<FilterInstance>,
     window: bool,
     keeps_raw: bool,
     keeps_second: bool,
     tail_delay: bool,
     deep: bool,
-    median_registers: u32,
+    filter_registers: u32,
     /// The prefix of the signals that are counted: `tail`, or `count` where they come a clock after
     /// the store.
     count: &'static str,
@@ -72,6 +73,15 @@ struct RpuModule {
     decided_pixel: &'static str,
     forward_pixel: &'static str,
     unused: Vec<&'static str>,
+}
+
+/// The module that denoises.
+struct FilterInstance {
+    module: &'static str,
+    instance: &'static str,
+    /// The port with the denoised pixel.
+    output: &'static str,
+    is_switching: bool,
 }
 
 /// The parts that the features of a design need.
@@ -170,18 +180,18 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         stream_side: design.stream_side(),
         stream_side_bits: index_bits(design.stream_side().into()),
         stream_pixels: design.stream_pixels(),
-        median_address_bits: index_bits(u64::from(window_side).pow(2)),
+        raw_address_bits: index_bits(u64::from(window_side).pow(2)),
         window_side,
         window_side_bits: index_bits(window_side.into()),
         shared,
         border: design.needs_border(),
-        median: design.filter() != DenoiseFilter::None,
+        filter: filter_instance(design.filter(), deep),
         window: design.has_feature_window(),
         keeps_raw,
         keeps_second: keeps_second_frame(design),
         tail_delay: has_tail_registers(&timing, deep),
         deep,
-        median_registers: timing.median_registers,
+        filter_registers: timing.filter_registers,
         count: if deep { "count" } else { "tail" },
         second_pass,
         last_sent: last_sent_flag(&design),
@@ -256,6 +266,16 @@ impl SpatialParts {
         self.sums = true;
         self.mean = feature.mean().map(mean_parameters);
     }
+}
+
+fn filter_instance(filter: DenoiseFilter, deep: bool) -> Option<FilterInstance> {
+    let (instance, output, is_switching) = match filter {
+        DenoiseFilter::None => return None,
+        DenoiseFilter::Median3x3 => ("u_median", "median_o", false),
+        DenoiseFilter::Switching3x3 => ("u_median", "median_o", true),
+        DenoiseFilter::Binomial3x3 => ("u_binomial", "mean_o", false),
+    };
+    Some(FilterInstance { module: filter_leaf(filter, deep)?, instance, output, is_switching })
 }
 
 fn window_feature(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> WindowFeature {

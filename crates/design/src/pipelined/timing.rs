@@ -5,11 +5,11 @@ use super::feature::score_latency;
 use crate::timing::DepartureTiming;
 use crate::{DesignTiming, Neighborhood, PipelinedDesign, Pipelining};
 
-/// Registers between a median window and the stream behind it in a plain design: window, result.
-const MEDIAN_REGISTERS: u32 = 2;
-/// Registers between a median window and the stream behind it in a deep design: window, rows,
+/// Registers between a filter window and the stream behind it in a plain design: window, result.
+const FILTER_REGISTERS: u32 = 2;
+/// Registers between a filter window and the stream behind it in a deep design: window, rows,
 /// result.
-const DEEP_MEDIAN_REGISTERS: u32 = 3;
+const DEEP_FILTER_REGISTERS: u32 = 3;
 /// Clocks from the step of the last pixel until the temporal count is final in a plain design: the
 /// count.
 const COUNT_LATENCY: u32 = 1;
@@ -33,9 +33,9 @@ pub struct PipelinedTiming {
     /// Number of frames that must follow before the pixels of an active region leave. They leave
     /// while the last of these frames enters the frame store.
     pub forward_frames: u32,
-    /// Clocks from the step of a median window to the edge at which the next stage takes its
+    /// Clocks from the step of a filter window to the edge at which the next stage takes its
     /// result.
-    pub median_registers: u32,
+    pub filter_registers: u32,
     /// Clocks from a step of the last window to its tail step.
     pub tail_delay: u32,
 }
@@ -49,14 +49,14 @@ impl PipelinedTiming {
             Neighborhood::Shared => 0,
         };
         let pipelining = design.pipelining();
-        let (median_registers, count_latency) = match pipelining {
-            Pipelining::Plain => (MEDIAN_REGISTERS, COUNT_LATENCY),
-            Pipelining::Deep => (DEEP_MEDIAN_REGISTERS, DEEP_COUNT_LATENCY),
+        let (filter_registers, count_latency) = match pipelining {
+            Pipelining::Plain => (FILTER_REGISTERS, COUNT_LATENCY),
+            Pipelining::Deep => (DEEP_FILTER_REGISTERS, DEEP_COUNT_LATENCY),
         };
         let latencies = design.features().iter().map(|f| score_latency(f.kind(), pipelining));
         // The tail is delayed so far that every score is final when the frame is done.
         let tail_delay = latencies.fold(count_latency, u32::max) - 1;
-        let filter = if design.filter().has_window() { flush + median_registers } else { 0 };
+        let filter = if design.filter().has_window() { flush + filter_registers } else { 0 };
         let window = if design.has_feature_window() { flush } else { 0 };
         let decision_frames = u32::from(design.has_second_pass());
         Self {
@@ -64,7 +64,7 @@ impl PipelinedTiming {
             decision_latency: filter + window + tail_delay,
             decision_frames,
             forward_frames: decision_frames + 1,
-            median_registers,
+            filter_registers,
             tail_delay,
         }
     }

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! valid_i    +--------+   m   +---------+    d    +------------------------------------+
-//! pixel_i -->| median |--||-->| feature |---||--->| tail: counts, second pass, store,  |--> outputs
+//! pixel_i -->| filter |--||-->| feature |---||--->| tail: counts, second pass, store,  |--> outputs
 //!            | window |       | window  |         | temporal score, decision, forward  |
 //!            +--------+       +---------+         +------------------------------------+
 //! ```
@@ -16,9 +16,9 @@
 //! lanes at once. A lane is one RPU.
 
 mod delay_line;
+mod filter;
 mod frame_store;
 mod isolated_window;
-mod median;
 mod pixel;
 mod ports;
 mod rcm;

@@ -4,7 +4,7 @@
 use foveate_design::PipelinedDesign;
 
 use super::delay_line::DelayLine;
-use super::median::MedianStage;
+use super::filter::FilterStage;
 use super::pixel::{StagePixel, TailStep};
 use super::ports::RpuOutput;
 use super::rpu_parameters::RpuParameters;
@@ -18,7 +18,7 @@ use crate::feature::is_hit;
 #[derive(Clone, Debug)]
 pub(super) struct RpuArray {
     plan: RpuParameters,
-    median: Option<MedianStage>,
+    filter: Option<FilterStage>,
     feature: Option<WindowStage>,
     /// The registers in front of the tails.
     delay: DelayLine<Vec<TailStep>>,
@@ -30,10 +30,10 @@ impl RpuArray {
     /// Makes `lanes` RPUs of the design.
     pub(super) fn new(design: PipelinedDesign<'_>, lanes: usize) -> Self {
         let plan = RpuParameters::from_design(design);
-        // A shared median window gives a square that is smaller by the halo of the window.
+        // A shared filter window gives a square that is smaller by the halo of the window.
         let feature_side = plan.side + (plan.stream_side - plan.side).min(2);
         Self {
-            median: plan.filter.has_window().then(|| MedianStage::new(&plan)),
+            filter: plan.filter.has_window().then(|| FilterStage::new(&plan)),
             feature: plan.has_feature_window.then(|| WindowStage::new(&plan, feature_side)),
             delay: DelayLine::new(plan.tail_delay),
             tails: vec![RpuTail::new(&plan); lanes],
@@ -74,8 +74,8 @@ impl RpuArray {
     /// Applies one rising edge with a reset.
     pub(super) fn reset(&mut self, applied: &ThresholdInputs) {
         let plan = self.plan;
-        if let Some(median) = &mut self.median {
-            median.reset();
+        if let Some(filter) = &mut self.filter {
+            filter.reset();
         }
         if let Some(feature) = &mut self.feature {
             feature.reset();
@@ -91,8 +91,8 @@ impl RpuArray {
         borders: &[u8],
         thresholds: &ThresholdInputs,
     ) -> Option<Vec<TailStep>> {
-        let denoised = match &mut self.median {
-            Some(median) => median.step(pixels),
+        let denoised = match &mut self.filter {
+            Some(filter) => filter.step(pixels),
             None => pixels,
         };
         match &mut self.feature {

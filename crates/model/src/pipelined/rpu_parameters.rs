@@ -27,8 +27,8 @@ pub(super) struct RpuParameters {
     /// True if a score needs sums or extremes over the pixels of a region.
     pub(super) needs_sums: bool,
     pub(super) needs_border: bool,
-    /// Number of registers between the median window and the next stage, m.
-    pub(super) median_registers: usize,
+    /// Number of registers between the filter window and the next stage, m.
+    pub(super) filter_registers: usize,
     /// Number of registers between the last window and the tail, d.
     pub(super) tail_delay: usize,
     /// The features in the order of the design.
@@ -75,7 +75,7 @@ impl RpuParameters {
             has_feature_window: design.has_feature_window(),
             needs_sums: design.features().iter().any(|f| !f.kind().counts_window_hits()),
             needs_border: design.needs_border(),
-            median_registers: index(timing.median_registers),
+            filter_registers: index(timing.filter_registers),
             tail_delay: index(timing.tail_delay),
             features,
             fraction_bits: fraction_bits.unwrap_or(0),

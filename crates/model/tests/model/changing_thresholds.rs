@@ -13,7 +13,7 @@ use foveate_model::{
 use proptest::prelude::*;
 
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};
-use crate::oracle::{OracleOutcome, oracle_history, region_values};
+use crate::oracle::{OracleOutcome, deviations, oracle_history, region_values, smaller_part};
 use crate::parameters::{DesignParameters, arbitrary_parameters};
 use crate::schedule::{tail_delay, tail_steps};
 
@@ -69,9 +69,22 @@ impl ThresholdHistory<'_> {
                 let strengths = corner_strengths(&self.design, &self.denoised[frame], 0);
                 hits(index, &|place, level| strengths[place].is_some_and(|s| level <= s))
             }
+            "segment" => self.segment_score(frame, index),
             _ => self.history[frame].regions[0].scores[index] as u64,
         };
         self.recipe.features.iter().map(|feature| feature.name).enumerate().map(score).collect()
+    }
+
+    /// Returns the score of `segment`: a pixel is compared at its step of the second pass.
+    fn segment_score(&self, frame: usize, index: usize) -> u64 {
+        let feature = &self.recipe.features[index];
+        let deviations = deviations(self.recipe, feature, &self.history[frame].denoised, 0);
+        let side = |(deviation, &step): (i64, &usize)| {
+            let level = i64::from(self.applied[step].level[index]) << feature.fraction_bits;
+            deviation.signum() * i64::from(deviation.abs() > level)
+        };
+        let sides: Vec<_> = deviations.into_iter().zip(&self.steps[frame + 1]).map(side).collect();
+        smaller_part(&sides) as u64
     }
 
     fn temporal_count(&self, frame: usize, registered: &[RegisteredDecision]) -> u32 {
@@ -143,7 +156,7 @@ fn check(recipe: &DesignParameters, clip: &[Frame], seed: u64) -> Result<(), Tes
         sent_values.extend(output.forward_valid.then(|| i64::from(output.forward_pixel)));
     }
 
-    let wait = usize::from(recipe.has_feature("mad"));
+    let wait = usize::from(recipe.has_second_pass());
     let mut registered = Vec::new();
     let mut leaving = Vec::new();
     let mut shown: Option<Vec<i64>> = None;

@@ -294,7 +294,7 @@ fn terms(
 }
 
 /// Returns the deviations from the rounded mean, in units of `2^-f` grey levels.
-fn deviations(
+pub(crate) fn deviations(
     recipe: &DesignParameters,
     feature: &FeatureParameters,
     denoised: &OracleFrame,

@@ -80,6 +80,11 @@ impl DesignParameters {
         ["edge", "corner", "surface"].iter().any(|name| self.has_feature(name))
     }
 
+    /// Returns true if a feature needs the pixels of a region a second time.
+    pub(crate) fn has_second_pass(&self) -> bool {
+        ["mad", "segment"].iter().any(|name| self.has_feature(name))
+    }
+
     pub(crate) fn has_feature(&self, name: &str) -> bool {
         self.features.iter().any(|feature| feature.name == name)
     }

@@ -3,7 +3,7 @@
 //! state. Every step is an edge number that follows from other edge numbers by the rules of
 //! `docs/timing.md`.
 
-use crate::oracle::OracleOutcome;
+use crate::oracle::{OracleOutcome, smaller_part};
 use crate::parameters::DesignParameters;
 
 /// The expected outputs of the RPU of one region after an edge.
@@ -74,7 +74,7 @@ pub(crate) fn tail_delay(recipe: &DesignParameters) -> usize {
     match recipe.deep {
         true => 2,
         false => {
-            let delaying = ["mad", "variance", "range"];
+            let delaying = ["mad", "variance", "range", "surface", "segment"];
             usize::from(delaying.iter().any(|name| recipe.has_feature(name)))
         }
     }
@@ -98,7 +98,7 @@ fn expected_output(
     region: usize,
     edge: usize,
 ) -> ExpectedOutput {
-    let mad = recipe.has_feature("mad");
+    let second_pass = recipe.has_second_pass();
     let frame = |index: usize| &history[index].regions[region];
     let done_at = |index: usize| *steps[index].last().unwrap();
     // `done` counts the frames that are done by this edge, and `over` those whose done clock is
@@ -115,18 +115,21 @@ fn expected_output(
     let mut scores = Vec::new();
     for (index, feature) in recipe.features.iter().enumerate() {
         let last = |count: usize| count.checked_sub(1).map_or(0, |at| frame(at).scores[index]);
-        scores.push(match (feature.name, mad) {
-            ("mad", _) if counted == 0 => 0,
+        scores.push(match (feature.name, second_pass) {
+            ("mad" | "segment", _) if counted == 0 => 0,
+            ("segment", _) => running
+                .checked_sub(1)
+                .map_or(0, |before| smaller_part(&frame(before).terms[index][..counted])),
             ("mad", _) => {
                 running.checked_sub(1).map_or(0, |before| partial(&frame(before).terms[index]))
             }
-            ("variance" | "range", false) => last(done),
+            ("variance" | "range" | "surface", false) => last(done),
             (_, true) => last(over),
             (_, false) if counted == 0 => 0,
             (_, false) => partial(&frame(running).terms[index]),
         });
     }
-    let temporal_count = if mad {
+    let temporal_count = if second_pass {
         over.checked_sub(1).map_or(0, |at| frame(at).temporal_count)
     } else if counted == 0 {
         0
@@ -134,9 +137,10 @@ fn expected_output(
         frame(running).temporal_hits.iter().take(counted).filter(|&&hit| hit).count() as i64
     };
 
-    let decided = (done > over).then(|| over.checked_sub(usize::from(mad))).flatten().map(frame);
+    let decided =
+        (done > over).then(|| over.checked_sub(usize::from(second_pass))).flatten().map(frame);
     let stepping = steps.get(running).and_then(|s| s.iter().position(|&at| at == edge));
-    let leaving = running.checked_sub(1 + usize::from(mad)).map(frame);
+    let leaving = running.checked_sub(1 + usize::from(second_pass)).map(frame);
     let forward = match (stepping, leaving) {
         (Some(position), Some(frame)) if frame.active => Some(frame.payload[position]),
         (Some(position), Some(frame)) if frame.action == "summarize" => {

@@ -30,7 +30,7 @@ impl PipelinedCore {
         let mut windows = Vec::new();
         if design.filter().has_window() {
             let filter_window = Window::new(neighborhood, design.stream_side());
-            windows.push((filter_window, u64::from(timing.median_registers)));
+            windows.push((filter_window, u64::from(timing.filter_registers)));
         }
         if design.has_feature_window() {
             windows.push((Window::new(neighborhood, design.denoised_side()), 0));

@@ -43,8 +43,8 @@ fn the_comparison_finds_every_wrong_number_of_a_pipelined_array() {
     let faults: [PlantedFault<PipelinedTiming>; 5] = [
         ("a late tail", |timing| timing.tail_delay += 1),
         ("an early tail", |timing| timing.tail_delay = timing.tail_delay.saturating_sub(1)),
-        ("a late median", |timing| timing.median_registers += 1),
-        ("an early median", |timing| timing.median_registers -= 1),
+        ("a late median", |timing| timing.filter_registers += 1),
+        ("an early median", |timing| timing.filter_registers -= 1),
         ("no second pass", |timing| timing.decision_frames = 0),
     ];
     for (name, plant) in faults {
