@@ -146,14 +146,16 @@ fn summaries_agree() {
 /// Designs with several features, other depths, other sizes or constant thresholds agree.
 #[test]
 fn designs_outside_the_matrix_agree() {
-    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
-    let sets: [&[FeatureKind]; 6] = [
+    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
+    let sets: [&[FeatureKind]; 8] = [
         &[Edge, Corner],
         &[Mad, Edge],
         &[Variance, Corner, Edge],
         FeatureKind::ALL,
         &[Mad, Variance],
         &[Range, Edge],
+        &[Segment, Mad],
+        &[Surface, Segment],
     ];
     let mut configs = Vec::new();
     for (turn, kinds) in sets.iter().enumerate() {
@@ -173,10 +175,10 @@ fn designs_outside_the_matrix_agree() {
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
         let mut config = DesignConfig::default();
         config.camera.frame.pixel_bits = bits;
-        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad]][turn % 3];
+        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad], [Surface, Segment]][turn % 4];
         config.camera.spatial = kinds.map(|kind| feature(kind, 4)).to_vec();
         for spatial in &mut config.camera.spatial {
-            spatial.level = matches!(spatial.feature, Edge | Corner).then_some(1);
+            spatial.level = matches!(spatial.feature, Edge | Corner | Segment).then_some(1);
             spatial.min_score = Some(Decimal::from_whole(0));
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));
