@@ -44,7 +44,7 @@ pub(crate) const DESIGNS: &[&[&str]] = &[
         "hardware.store='external'",
     ],
     &[
-        "frame={width=60,height=33}",
+        "frame={width=40,height=33}",
         "region.size=5",
         "spatial=[{feature='surface'},{feature='segment',mean_fraction_bits=1}]",
         "denoise.filter='binomial3x3'",
