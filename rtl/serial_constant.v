@@ -74,7 +74,7 @@ module serial_constant #(
     } = step_i;
     wire unused_step = draining || denoising || bordering || temporal || copying || searching || probing || choosing || reading
         || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
-        || spreading || removing || counting || spanning || below || shrinking || returning || storing || showing;
+        || spreading || removing || counting || spanning || below || shrinking || storing || showing;
 
     // The squares of `variance`: the bits of the result from the highest on, and for each of them all pairs of bits of n and of
     // a word that contribute to it. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
@@ -127,14 +127,15 @@ module serial_constant #(
     assign last_place_o = scale_q[0];
 
     always @(posedge clk_i) begin
-        // It is set in the states before it is needed, so that it does not depend on the next state.
+        // It is set in the states before it is needed, so that it does not depend on the next state. While means leave, it is
+        // already set for the medians of the next slot.
         if ((FILTER == 1 || FILTER == 2) && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
         else if (SUMS && summing) begin
             scale_q <= squares_i ? UNIT << (SUM_BITS - 1)
                 : SEGMENT && segments_i ? DIVISOR << (WIDTH - 1) : DIVISOR << (WIDTH + FRACTION - 1);
         end
         else if (RANGE && ranging) scale_q <= UNIT << (WIDTH - 1);
-        else if (SURFACE && (rotating || (surfaces_i && (retrieving || dividing) && last_place_o))) begin
+        else if (SURFACE && ((rotating && !returning) || (surfaces_i && (retrieving || dividing) && last_place_o))) begin
             scale_q <= UNIT << (SUM_BITS - 1);
         end else if (SEGMENT && clearing && segments_i) scale_q <= UNIT << (WIDTH - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
