@@ -1,6 +1,6 @@
+rtl/carry_adder.v
 rtl/magnitude_above.v
 rtl/frame_store.v
-rtl/carry_adder.v
 rtl/serial_memory.v
 rtl/serial_lane.v
 rtl/serial_control.v

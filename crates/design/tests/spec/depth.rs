@@ -19,13 +19,12 @@ fn refusal(text: &str, overrides: &[&str]) -> String {
 }
 
 /// Returns the name and the text of every preset, and of a configuration for every feature alone
-/// with its default thresholds, if pipelined designs have it.
+/// with its default thresholds.
 fn base_configs() -> Vec<(String, String)> {
     let presets = PRESETS.iter().map(|preset| (preset.name.to_owned(), preset.toml.to_owned()));
     let features = FeatureKind::ALL
         .iter()
-        .map(|kind| (format!("feature {kind}"), format!("[[spatial]]\nfeature = \"{kind}\"\n")))
-        .filter(|(_, text)| config_with(text, &[]).validate().is_ok());
+        .map(|kind| (format!("feature {kind}"), format!("[[spatial]]\nfeature = \"{kind}\"\n")));
     presets.chain(features).collect()
 }
 
@@ -55,9 +54,8 @@ fn fingerprints_of_8_bits_do_not_change() {
         .into_iter()
         .map(|(name, text)| (name, design(&text, &[]).fingerprint()))
         .collect();
-    let mut expected: Vec<(String, String)> =
+    let expected: Vec<(String, String)> =
         expected.map(|(name, print)| (name.to_owned(), print.to_owned())).into();
-    expected.retain(|(name, _)| found.iter().any(|(found, _)| found == name));
     assert_eq!(found, expected);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Computes the median, the fifth of the nine sorted pixels of a 3x3 window. The result comes two clocks after its step.
+// Computes the median, the fifth of the nine sorted pixels of a 3x3 window. With SWITCHING a center that is neither the largest
+// nor the smallest pixel of its window is the result instead. The result comes two clocks after its step.
 //
 // Each column is sorted once, when it comes in. The median of nine is the median of three values: the largest of the
 // three low pixels, the median of the three middle pixels, and the smallest of the three high pixels.
 `default_nettype none
 
 module median3x3 #(
-    parameter WIDTH = 8  // bits of a pixel
+    parameter WIDTH = 8,     // bits of a pixel
+    parameter SWITCHING = 0  // 1: a center that is no extreme of its window stays as it is
 ) (
     input  wire             clk_i,      // clock, rising edge
     input  wire             rst_i,      // synchronous reset, active high
@@ -18,12 +20,13 @@ module median3x3 #(
     input  wire [WIDTH-1:0] middle_i,   // middle pixel of the incoming column
     input  wire [WIDTH-1:0] lower_i,    // lower pixel of the incoming column
     output reg              valid_o,    // a median is on median_o, two clocks after step_i
-    output reg  [WIDTH-1:0] median_o    // the median
+    output reg  [WIDTH-1:0] median_o    // the median (SWITCHING: or the center)
 );
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
+        if (SWITCHING != 0 && SWITCHING != 1) begin : g_switching_range SWITCHING_must_be_0_or_1 u_refused (); end
     endgenerate
 
     function [WIDTH-1:0] lesser(input [WIDTH-1:0] a, input [WIDTH-1:0] b);
@@ -72,8 +75,39 @@ module median3x3 #(
     wire [WIDTH-1:0] middle_mid = middle_of(left_mid_q, center_mid_q, right_mid);
     wire [WIDTH-1:0] lowest_high = lesser(lesser(left_high_q, center_high_q), right_high);
 
+    wire stays;  // the center is the result
+    wire [WIDTH-1:0] center;
+
+    generate
+        if (SWITCHING) begin : g_switching
+            // Of a column: whether the middle pixel is the largest, whether it is the smallest, and the pixel. Another pixel may
+            // have the same value.
+            reg right_largest_q, right_smallest_q, center_largest_q, center_smallest_q;
+            reg [WIDTH-1:0] right_pixel_q, center_pixel_q;
+            always @(posedge clk_i) begin
+                if (advance_i) begin
+                    right_largest_q   <= middle_i >= upper_i && middle_i >= lower_i;
+                    right_smallest_q  <= middle_i <= upper_i && middle_i <= lower_i;
+                    right_pixel_q     <= middle_i;
+                    center_largest_q  <= right_largest_q;
+                    center_smallest_q <= right_smallest_q;
+                    center_pixel_q    <= right_pixel_q;
+                end
+            end
+
+            // An extreme of its column is one of its window if no other column goes beyond it.
+            wire largest = center_largest_q && left_high_q <= center_high_q && right_high <= center_high_q;
+            wire smallest = center_smallest_q && left_low_q >= center_low_q && right_low >= center_low_q;
+            assign stays = !largest && !smallest;
+            assign center = center_pixel_q;
+        end else begin : g_median
+            assign stays = 1'b0;
+            assign center = {WIDTH{1'b0}};
+        end
+    endgenerate
+
     always @(posedge clk_i) begin
-        median_o <= middle_of(highest_low, middle_mid, lowest_high);
+        median_o <= stays ? center : middle_of(highest_low, middle_mid, lowest_high);
         if (rst_i) begin
             step_q  <= 1'b0;
             valid_o <= 1'b0;

@@ -64,7 +64,7 @@ module rpu #(
         .SIDE(8),
         .RAW_SIDE(8),
         .DENOISED_SIDE(8),
-        .MEDIAN(1),
+        .FILTER(1),
         .SHARED(0),
         .LAST_SENT(0),
         .BLANKS(1),
@@ -93,12 +93,15 @@ module rpu #(
         .CORNER_INDEX(0),
         .MAD_INDEX(0),
         .VARIANCE_INDEX(0),
-        .RANGE_INDEX(0)
+        .RANGE_INDEX(0),
+        .SURFACE_INDEX(0),
+        .SEGMENT_INDEX(0)
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
         .temporal_level_i(temporal_level_i),
         .edge_half_i(edge_level_i[10:1]),
         .corner_level_i(8'd0),
+        .segment_level_i(8'd0),
         .minima_i({edge_min_i, temporal_min_i}),
         .summary_level_i(8'd0),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),

@@ -10,7 +10,7 @@ module serial_addresses #(
     parameter SIDE = 8,             // pixels of a side of a region
     parameter RAW_SIDE = 8,         // side of the square that is loaded
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised
-    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter FILTER = 1,           // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
@@ -22,9 +22,9 @@ module serial_addresses #(
     parameter POSITION_BITS = 6     // bits of the number of a pixel in the larger square of centers
 ) (
     input  wire                     clk_i,          // clock, rising edge
-    input  wire [             35:0] step_i,         // the step: one bit for each action, in the order of serial_states
+    input  wire [             47:0] step_i,         // the step: one bit for each action, in the order of serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor that is read
-    input  wire [              1:0] part_i,         // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
+    input  wire [              1:0] part_i,         // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     input  wire                     walks_i,        // the next step works on the next center
     input  wire                     slot_ends_i,    // the next step works on the next slot
     input  wire                     last_lane_i,    // the score of the last lane passes
@@ -41,10 +41,11 @@ module serial_addresses #(
 );
 
     localparam INNER = (DENOISED_SIDE - SIDE) / 2;  // distance from the denoised square's border to the first center that is scored
-    localparam SCORED_SIDE = MEDIAN != 0 ? DENOISED_SIDE : RAW_SIDE;
+    localparam SCORED_SIDE = FILTER != 0 ? DENOISED_SIDE : RAW_SIDE;
     localparam LEAVING_SIDE = RAW_PAYLOAD != 0 ? RAW_SIDE : SCORED_SIDE;
     localparam SIDE_BITS = $clog2(DENOISED_SIDE);
-    localparam BORDERS = MEDIAN != 0 && INNER != 0;
+    localparam BORDERS = FILTER != 0 && INNER != 0;
+    localparam BLENDS = FILTER == 3;  // 1: a pixel is compared with its reference before it is written
     localparam SUMMARIES = BLOCKS != 0;
     localparam BLOCK = SIDE / (BLOCKS == 0 ? 1 : BLOCKS);
 
@@ -53,11 +54,11 @@ module serial_addresses #(
     // The first centers of the passes. While means leave, MEAN_AT is an address of the raw square that is not used otherwise.
     localparam [WORD_BITS-1:0] MEAN_AT = 0;
     localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - DENOISED_SIDE) / 2 * (RAW_SIDE + 1);
-    localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? DENOISED_BASE + INNER * (DENOISED_SIDE + 1)
+    localparam [WORD_BITS-1:0] SCORED_START = FILTER != 0 ? DENOISED_BASE + INNER * (DENOISED_SIDE + 1)
         : (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] RAW_START = (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] LEAVING_START = RAW_PAYLOAD != 0 ? RAW_START : SCORED_START;
-    localparam [WORD_BITS-1:0] FIRST_START = MEDIAN != 0 ? WINDOW_START : SCORED_START;
+    localparam [WORD_BITS-1:0] FIRST_START = FILTER != 0 ? WINDOW_START : SCORED_START;
     localparam [WORD_BITS-1:0] LEFT_START = DENOISED_BASE + 1;
     localparam [WORD_BITS-1:0] RIGHT_START = DENOISED_BASE + DENOISED_SIDE - 2;
     localparam [WORD_BITS-1:0] TOP_START = DENOISED_BASE + DENOISED_SIDE;
@@ -82,19 +83,21 @@ module serial_addresses #(
 
     // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
-    wire starting, searching, adjusting, reading, writing, relating, testing;
+    wire starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
-    wire [10:0] unused_sums;
+    wire [14:0] unused_sums;
+    wire spanning;
+    wire [3:0] unused_bounds;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
-        starting, searching, adjusting, reading, writing, relating, testing,
+        starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        unused_sums,
+        unused_sums, spanning, unused_bounds,
         averaging, returning, storing, showing
     } = step_i;
-    wire unused_step = starting || adjusting || reading || gradient_test || ring_test || ring_last || showing;
+    wire unused_step = starting || adjusting || choosing || reading || gradient_test || ring_test || ring_last || showing;
 
     // The center.
     reg [SIDE_BITS-1:0] column_q;
@@ -139,6 +142,8 @@ module serial_addresses #(
     wire [WORD_BITS-1:0] skip = denoising ? WINDOW_SKIP
         : (unloading || shifting) ? LEAVING_SKIP : SCORED_SKIP;
 
+    wire blended = BLENDS && denoising && writing;  // `binomial3x3` writes a pixel at the end of its steps
+
     // The distances from the last center of a row of a block, and from the last center of a block.
     wire [WORD_BITS-1:0] block_skip = !last_row ? BLOCK_SKIP : row_of_blocks_ends ? LEAVING_SKIP : NEXT_BLOCK;
     wire [WORD_BITS-1:0] onward = !last_column ? ONE : averaging ? block_skip : skip;
@@ -167,7 +172,7 @@ module serial_addresses #(
             position_q <= last_center ? {POSITION_BITS{1'b0}} : position_q + 1'b1;
             center_q   <= center_q + onward;
             if (last_center && !(averaging && !last_block_i))
-                center_q <= writing ? LEAVING_START : testing && BORDERS ? LEFT_START
+                center_q <= BORDERS && (testing || blended) ? LEFT_START : writing && !blended ? LEAVING_START
                     : SUMMARIES && unloading ? MEAN_AT : SCORED_START;
         end else if (rotating && last_lane_i && (sums_start || (last_score_i && LAST_SENT == 0 && !returning))) begin
             center_q <= LEAVING_START;
@@ -177,9 +182,10 @@ module serial_addresses #(
     // The neighbors, clockwise from the upper left one. The last number is the center itself.
     reg [3:0] neighbor;
     always @* begin
-        if (searching) neighbor = tap_i;
+        if (searching || probing || (spanning && part_i[0])) neighbor = tap_i;
         else if (gradient) neighbor = {1'b0, tap_i[2:0] + (part_i[0] ? 3'd1 : 3'd7)};
         else if (ring) neighbor = {part_i[0], tap_i[2:0]};
+        else if (blending) neighbor = !tap_i[3] ? tap_i : tap_i[2] ? 4'd8 : {1'b0, tap_i[1:0], 1'b1};  // weights 1, 2 and 4
         else neighbor = 4'd8;
     end
 
@@ -217,7 +223,7 @@ module serial_addresses #(
         endcase
     endfunction
 
-    wire [WORD_BITS-1:0] near = WINDOW_STRIDE == SCORED_STRIDE || !searching
+    wire [WORD_BITS-1:0] near = WINDOW_STRIDE == SCORED_STRIDE || !(searching || probing || blending)
         ? distance(way, SCORED_STRIDE) : distance(way, WINDOW_STRIDE);
 
     // The addresses in squares that are walked word by word.
@@ -249,8 +255,9 @@ module serial_addresses #(
         end
     endgenerate
 
-    wire to_denoised = MEDIAN != 0 && writing && temporal;
-    wire to_reference = relating || (writing && (copying || (MEDIAN == 0 && temporal)));
+    wire compares = BLENDS && blending && part_i == 2'd0;  // the reference is read
+    wire to_denoised = FILTER != 0 && ((writing && temporal) || (compares && LAST_SENT == 0));
+    wire to_reference = relating || (compares && LAST_SENT != 0) || (writing && (copying || (FILTER == 0 && temporal)));
 
     assign address_o = to_denoised ? DENOISED_AT + position : to_reference ? reference : center_q + near;
     assign write_o = (writing && temporal) || storing;

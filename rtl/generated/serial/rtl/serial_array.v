@@ -21,7 +21,7 @@ module serial_array #(
     parameter SIDE = 8,             // pixels of a side of a region, 4 to 64
     parameter RAW_SIDE = 8,         // side of the square that is loaded: SIDE plus twice the halo
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised; SIDE without a filter
-    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter FILTER = 1,           // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter SHARED = 0,           // 1: windows see neighboring regions; 0: windows repeat the region's own border
     parameter POSITION_BITS = 6,    // bits of the number of a pixel in the largest square of centers
     // Features and decision
@@ -31,8 +31,10 @@ module serial_array #(
     parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
     parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
     parameter RANGE_INDEX = 0,      // number of the score of `range`; 0: there is none
+    parameter SURFACE_INDEX = 0,    // number of the score of `surface`; 0: there is none
+    parameter SEGMENT_INDEX = 0,    // number of the score of `segment`; 0: there is none
     parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
-    parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
+    parameter FRACTION = 0,         // fraction bits of the mean of `mad` and `segment`, 0 to 12
     // Reference and what leaves
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
     parameter BLANKS = 1,           // 1: irrelevant regions are shown as 0; 0: they are held
@@ -57,7 +59,7 @@ module serial_array #(
     parameter SUM_BITS = 14,        // bits of the sum of a region
     parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
     parameter ACC_BITS = 11,        // bits of the accumulator, which is signed
-    parameter AUX_BITS = 1,         // bits of the second word of `mad`, `variance` and `range`, at least 2
+    parameter AUX_BITS = 1,         // bits of the second word: a mean, a sum or the largest pixel; at least 2
     parameter CHAIN_BITS = 7,       // bits of the word that goes around the ring of lanes
     // Timing
     parameter DEEP = 0              // 1: more registers, for a faster clock
@@ -72,6 +74,7 @@ module serial_array #(
     input  wire [                          WIDTH-1:0] temporal_level_i,   // a pixel has changed above this difference
     input  wire [                          WIDTH+1:0] edge_half_i,        // half the level of `edge`, rounded down
     input  wire [                          WIDTH-1:0] corner_level_i,     // level of `corner`
+    input  wire [                          WIDTH-1:0] segment_level_i,    // level of `segment`
     input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // smallest scores that vote, that of TRS lowest
     input  wire [                          WIDTH-1:0] summary_level_i,    // a mean that differs by more than this level is sent again
     // Scores and decisions
@@ -97,10 +100,12 @@ module serial_array #(
     localparam MAD = MAD_INDEX != 0 ? 1 : 0;
     localparam VARIANCE = VARIANCE_INDEX != 0 ? 1 : 0;
     localparam RANGE = RANGE_INDEX != 0 ? 1 : 0;
+    localparam SURFACE = SURFACE_INDEX != 0 ? 1 : 0;
+    localparam SEGMENT = SEGMENT_INDEX != 0 ? 1 : 0;
 
     // The areas of a slot: raw, denoised, reference.
-    localparam HAS_DENOISED = MEDIAN != 0;
-    localparam HAS_REFERENCE = MEDIAN == 0 || LAST_SENT != 0;
+    localparam HAS_DENOISED = FILTER != 0;
+    localparam HAS_REFERENCE = FILTER == 0 || LAST_SENT != 0;
     localparam RAW_END = RAW_SIDE * RAW_SIDE;
     localparam DENOISED_END = DENOISED_BASE + DENOISED_SIDE * DENOISED_SIDE;
     localparam REFERENCE_END = REFERENCE_BASE + SIDE * SIDE;
@@ -123,7 +128,7 @@ module serial_array #(
         if (DENOISED_SIDE != SIDE && DENOISED_SIDE != SIDE + 2) begin : g_denoised_side
             DENOISED_SIDE_must_be_SIDE_and_0_or_2 u_refused ();
         end
-        if (MEDIAN != 0 && MEDIAN != 1) begin : g_median MEDIAN_must_be_0_or_1 u_refused (); end
+        if (FILTER < 0 || FILTER > 3) begin : g_filter FILTER_must_be_0_to_3 u_refused (); end
         if (SHARED != 0 && SHARED != 1) begin : g_shared SHARED_must_be_0_or_1 u_refused (); end
         if (LAST_SENT != 0 && LAST_SENT != 1) begin : g_last_sent
             LAST_SENT_must_be_0_or_1 u_refused ();
@@ -137,7 +142,7 @@ module serial_array #(
         if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
         if (FEATURES < 1 || FEATURES > 8) begin : g_features FEATURES_must_be_1_to_8 u_refused (); end
-        if (FEATURES != EDGE + CORNER + MAD + VARIANCE + RANGE) begin : g_indices
+        if (FEATURES != EDGE + CORNER + MAD + VARIANCE + RANGE + SURFACE + SEGMENT) begin : g_indices
             FEATURES_must_count_the_features u_refused ();
         end
         if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
@@ -176,14 +181,14 @@ module serial_array #(
 
     localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // a group selects one of 64
     localparam GROUPS = (LANES + GROUP_LANES - 1) / GROUP_LANES;
-    localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
+    localparam BORDERS = FILTER != 0 && DENOISED_SIDE != SIDE;
     localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
     localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
     localparam BLOCK_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;
-    localparam CONTROL_BITS = 28;  // bits of the control word
+    localparam CONTROL_BITS = 37;  // bits of the control word
     // Clocks from an address to its word, and from an address to the accumulator.
     localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
-    localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE || RANGE) ? 1 : 0);
+    localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE || RANGE || SURFACE) ? 1 : 0);
 
     // Feed.
     wire working, reopen, start, open, take, place;
@@ -228,10 +233,11 @@ module serial_array #(
     wire [CONTROL_BITS-1:0] controls;
 
     serial_sequencer #(
-        .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
+        .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .FILTER(FILTER),
         .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
         .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES),
-        .EDGE_INDEX(EDGE_INDEX), .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX), .VARIANCE_INDEX(VARIANCE_INDEX), .RANGE_INDEX(RANGE_INDEX),
+        .EDGE_INDEX(EDGE_INDEX), .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX),
+        .VARIANCE_INDEX(VARIANCE_INDEX), .RANGE_INDEX(RANGE_INDEX), .SURFACE_INDEX(SURFACE_INDEX), .SEGMENT_INDEX(SEGMENT_INDEX),
         .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS),
         .FRACTION(FRACTION), .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
@@ -239,7 +245,7 @@ module serial_array #(
         .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
     ) u_sequencer (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start), .temporal_level_i(temporal_level_i),
-        .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .working_o(working),
+        .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .segment_level_i(segment_level_i), .working_o(working),
         .reopen_o(reopen), .slot_o(slot), .address_o(word), .write_o(write), .constant_o(constant),
         .controls_o(controls), .rotate_o(rotate), .average_o(average), .return_o(returns), .block_o(block), .unload_o(unload), .index_o(index), .region_o(region),
         .position_o(position)
@@ -283,7 +289,8 @@ module serial_array #(
             serial_group #(
                 .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .WORD(WORD), .LATE(LATE), .RASTER(RASTER),
                 .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
-                .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SUMMARIES(SUMMARIES)
+                .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
+                .SEGMENT(SEGMENT), .SUMMARIES(SUMMARIES)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
                 .pixel_i(pixel_i[WIDTH-1:0]), .place_i(place), .lane_i(place_lane),
@@ -334,9 +341,9 @@ module serial_array #(
             serial_lane #(
                 .WIDTH(WIDTH), .WORDS(FOLD << WORD_BITS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .DEEP(DEEP),
                 .ACC_BITS(ACC_BITS), .CHAIN_BITS(CHAIN_BITS), .FLAGS(FLAGS), .RASTER(RASTER),
-                .COPIES(LAST_SENT), .BORDERS(BORDERS), .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER),
-                .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .FRACTION(FRACTION), .SUMMARIES(SUMMARIES), .DROPPED(MEAN_DROPPED),
-                .AUX_BITS(AUX_BITS)
+                .COPIES(LAST_SENT), .BORDERS(BORDERS), .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER),
+                .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT), .FRACTION(FRACTION),
+                .SUMMARIES(SUMMARIES), .DROPPED(MEAN_DROPPED), .AUX_BITS(AUX_BITS), .SUM_BITS(SUM_BITS), .PIXELS(SIDE * SIDE)
             ) u_lane (
                 .clk_i(clk_i), .loading_i(loading[GROUP]), .pixel_i(pixel), .address_i(address),
                 .write_i(writes[GROUP]), .select_row_i(rows[GROUP*8+(i%64)/8]),

@@ -6,11 +6,13 @@
 module serial_constant #(
     parameter WIDTH = 8,       // bits of a pixel
     parameter SIDE = 8,        // pixels of a side of a region
-    parameter MEDIAN = 1,      // 1: pixels are denoised
+    parameter FILTER = 1,      // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter MAD = 0,         // 1: the design has the feature `mad`
     parameter VARIANCE = 0,    // 1: the design has the feature `variance`
     parameter RANGE = 0,       // 1: the design has the feature `range`
-    parameter FRACTION = 0,    // fraction bits of the mean of `mad`
+    parameter SURFACE = 0,     // 1: the design has the feature `surface`
+    parameter SEGMENT = 0,     // 1: the design has the feature `segment`
+    parameter FRACTION = 0,    // fraction bits of the mean of `mad` and `segment`
     parameter BLOCK = 1,       // pixels of a block whose mean is sent; 1 without summaries
     parameter SUM_BITS = 14,   // bits of the sum of a region
     parameter COUNT_BITS = 7,  // bits of the number of pixels of a region
@@ -18,28 +20,37 @@ module serial_constant #(
     parameter ACC_BITS = 11    // bits of the accumulator
 ) (
     input  wire                clk_i,             // clock, rising edge
-    input  wire [        35:0] step_i,            // the step: one bit for each action, in the order of serial_states
+    input  wire [        47:0] step_i,            // the step: one bit for each action, in the order of serial_states
     input  wire                last_center_i,     // the center is the last of its square
     input  wire                ranges_i,          // the feature under way is `range`
     input  wire                squares_i,         // the feature under way is `variance`
+    input  wire                surfaces_i,        // the feature under way is `surface`
+    input  wire                segments_i,        // the feature under way is `segment`
     input  wire [   WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
     input  wire [   WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
     input  wire [   WIDTH-1:0] corner_level_i,    // level of `corner`
+    input  wire [   WIDTH-1:0] segment_level_i,   // level of `segment`
     output wire [ACC_BITS-1:0] constant_o,        // the constant
     output wire                spent_o,           // the shifted number has no bits left
     output wire                divided_o,         // the division has found all bits of the quotient
-    output wire                last_place_o,      // `variance`: the place under way is the last of the sum
+    output wire                last_place_o,      // the shifted number is 1: its place is the last
     output wire                corrects_o,        // `variance`: the square of the sum has a bit at this place
     output wire                any_pairs_o,       // `variance`: the squares of words have pairs of bits at this place
     output wire                more_pairs_o       // `variance`: another pair of bits follows at this place
 );
 
     localparam PIXELS = SIDE * SIDE;
+    localparam BLENDS = FILTER == 3;  // 1: windows are summed
     localparam PLACES = WIDTH + COUNT_BITS;  // number of bit places of the sum of `variance`
-    localparam SUMS = MAD || VARIANCE || RANGE;
+    localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT;
     /* verilator lint_off WIDTH */
     localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
     localparam [ACC_BITS-1:0] HALF_BLOCK = BLOCK / 2;
+    // `segment` compares whole numbers with the mean, so the division is by n alone and gives the mean without its fraction. Half
+    // of n is in units of the fraction. The fraction is not 0 if the remainder is above LARGEST_WHOLE.
+    localparam [ACC_BITS-1:0] WHOLE_HALF = (PIXELS / 2) >> FRACTION;
+    localparam [ACC_BITS-1:0] LARGEST_WHOLE = (PIXELS - PIXELS / 2 - 1) / (1 << FRACTION) + ((PIXELS / 2) >> FRACTION);
+    localparam [ACC_BITS-1:0] HALF_WINDOW = 8;
     localparam [SCALE_BITS-1:0] UNIT = 1;
     localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
     localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
@@ -47,21 +58,23 @@ module serial_constant #(
 
     // The bits of the step.
     wire loading, draining, rotating, unloading, shifting, denoising, bordering, temporal, copying;
-    wire starting, searching, adjusting, reading, writing, relating, testing;
+    wire starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
+    wire recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
-        starting, searching, adjusting, reading, writing, relating, testing,
+        starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
+        recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
         averaging, returning, storing, showing
     } = step_i;
-    wire unused_step = draining || rotating || denoising || bordering || temporal || copying || searching || reading
+    wire unused_step = draining || denoising || bordering || temporal || copying || searching || probing || choosing || reading
         || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
-        || spreading || returning || storing || showing;
+        || spreading || removing || counting || spanning || below || shrinking || storing || showing;
 
     // The squares of `variance`: the bits of the result from the highest on, and for each of them all pairs of bits of n and of
     // a word that contribute to it. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
@@ -107,19 +120,26 @@ module serial_constant #(
     endgenerate
 
     // The shifted number.
-    // A division ends when the divisor is back at its own places. `mad` divides by the pixels of a region, `variance` and
-    // `range` divide by 1.
+    // A division ends when the divisor is back at its own places. `mad` and `segment` divide by the pixels of a region,
+    // `variance`, `range` and `surface` divide by 1.
     assign spent_o = scale_q == 0;
-    assign divided_o = scale_q == (squares_i || ranges_i ? UNIT : MAD ? DIVISOR : UNIT);
+    assign divided_o = scale_q == (squares_i || ranges_i || surfaces_i ? UNIT : MAD || SEGMENT ? DIVISOR : UNIT);
     assign last_place_o = scale_q[0];
 
     always @(posedge clk_i) begin
-        // It is set in the states before it is needed, so that it does not depend on the next state.
-        if (MEDIAN != 0 && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
-        else if (SUMS && summing) scale_q <= squares_i ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
+        // It is set in the states before it is needed, so that it does not depend on the next state. While means leave, it is
+        // already set for the medians of the next slot.
+        if ((FILTER == 1 || FILTER == 2) && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
+        else if (SUMS && summing) begin
+            scale_q <= squares_i ? UNIT << (SUM_BITS - 1)
+                : SEGMENT && segments_i ? DIVISOR << (WIDTH - 1) : DIVISOR << (WIDTH + FRACTION - 1);
+        end
         else if (RANGE && ranging) scale_q <= UNIT << (WIDTH - 1);
+        else if (SURFACE && ((rotating && !returning) || (surfaces_i && (retrieving || dividing) && last_place_o))) begin
+            scale_q <= UNIT << (SUM_BITS - 1);
+        end else if (SEGMENT && clearing && segments_i) scale_q <= UNIT << (WIDTH - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
-        else if (starting || adjusting || dividing || place_ends) scale_q <= scale_q >> 1;
+        else if (starting || adjusting || dividing || place_ends || recalling || retrieving) scale_q <= scale_q >> 1;
     end
 
     // The constant.
@@ -127,18 +147,25 @@ module serial_constant #(
     wire [ACC_BITS+SCALE_BITS-1:0] wide_scale = {{ACC_BITS{1'b0}}, scale_q};
     wire [ACC_BITS+WIDTH-1:0] wide_temporal = {{ACC_BITS{1'b0}}, temporal_level_i};
     wire [ACC_BITS+WIDTH-1:0] wide_corner = {{ACC_BITS{1'b0}}, corner_level_i};
+    wire [ACC_BITS+WIDTH-1:0] wide_segment = {{ACC_BITS{1'b0}}, segment_level_i};
     wire [ACC_BITS+WIDTH+1:0] wide_half = {{ACC_BITS{1'b0}}, edge_half_i};
     wire [ACC_BITS+WIDTH-1:0] wide_lowest = {{ACC_BITS{1'b0}}, lowest};
-    wire unused_wide = |wide_scale || |wide_temporal || |wide_corner || |wide_half || |wide_lowest;
+    // `binomial3x3`: a pixel has changed if the sum of the window, less 16 times the reference, is 16 times the level plus 8 or
+    // more, or below the negative of that, because halves are rounded up.
+    wire [ACC_BITS+WIDTH+3:0] blend_level = {{ACC_BITS{1'b0}}, temporal_level_i, 4'd8};
+    wire unused_wide = |blend_level || |wide_scale || |wide_temporal || |wide_corner || |wide_segment || |wide_half || |wide_lowest;
 
     always @* begin
         constant = {ACC_BITS{1'b0}};
-        if (testing) constant = wide_temporal[ACC_BITS-1:0];
+        if (testing) constant = BLENDS ? blend_level[ACC_BITS-1:0] : wide_temporal[ACC_BITS-1:0];
+        else if (blending) constant = HALF_WINDOW;
         else if (gradient) constant = wide_half[ACC_BITS-1:0];
         else if (ring) constant = wide_corner[ACC_BITS-1:0];
-        else if (halving) constant = averaging ? HALF_BLOCK : HALF_PIXELS;
+        else if (halving) constant = averaging ? HALF_BLOCK : SEGMENT && segments_i ? WHOLE_HALF : HALF_PIXELS;
+        else if (leveling) constant = wide_segment[ACC_BITS-1:0];
+        else if (rounding) constant = LARGEST_WHOLE;
         else if (squaring) constant = wide_lowest[ACC_BITS-1:0];
-        else if (MEDIAN != 0 || SUMS) constant = wide_scale[ACC_BITS-1:0];
+        else if (FILTER == 1 || FILTER == 2 || SUMS) constant = wide_scale[ACC_BITS-1:0];
     end
 
     assign constant_o = constant;

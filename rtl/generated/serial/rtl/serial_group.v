@@ -18,12 +18,14 @@ module serial_group #(
     parameter ACC_BITS = 11,     // bits of the accumulator
     parameter COPIES = 0,        // 1: an active lane copies the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
-    parameter MEDIAN = 1,        // 1: pixels are denoised
+    parameter FILTER = 1,        // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter EDGE = 1,          // 1: the design has the feature `edge`
     parameter CORNER = 0,        // 1: the design has the feature `corner`
     parameter MAD = 0,           // 1: the design has the feature `mad`
     parameter VARIANCE = 0,      // 1: the design has the feature `variance`
     parameter RANGE = 0,         // 1: the design has the feature `range`
+    parameter SURFACE = 0,       // 1: the design has the feature `surface`
+    parameter SEGMENT = 0,       // 1: the design has the feature `segment`
     parameter SUMMARIES = 0      // 1: irrelevant regions send the means of their blocks
 ) (
     input  wire                    clk_i,           // clock, rising edge
@@ -40,7 +42,7 @@ module serial_group #(
     input  wire                    write_i,         // the accumulator is written to this address
     // Controls of the lanes.
     input  wire [    ACC_BITS-1:0] constant_i,      // the constant
-    input  wire [            27:0] controls_i,      // the control word, see serial_controls
+    input  wire [            36:0] controls_i,      // the control word, see serial_controls
     // Outputs to the lanes: those of loading, then the inputs above, registered.
     output wire                    loading_o,       // pixels come from outside
     output wire [       WIDTH-1:0] pixel_o,         // the pixel that was taken last
@@ -49,7 +51,7 @@ module serial_group #(
     output wire [ADDRESS_BITS-1:0] address_o,       // address_i, or the address of the next pixel
     output wire                    write_o,         // write_i, or a pixel comes in
     output wire [    ACC_BITS-1:0] constant_o,      // constant_i, in the clock of its use
-    output wire [            27:0] controls_o       // controls_i, each control in the clock of its use
+    output wire [            36:0] controls_o       // controls_i, each control in the clock of its use
 );
 
     generate
@@ -110,33 +112,38 @@ module serial_group #(
     endgenerate
 
     // The designs that use each control, in the order of the control word.
-    localparam [0:0] SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0;
-    localparam [0:0] RUNS = MEDIAN != 0 || EDGE != 0 || CORNER != 0;
+    localparam [0:0] SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0 || SEGMENT != 0;
+    localparam [0:0] SEARCHES = FILTER == 1 || FILTER == 2;
+    localparam [0:0] RUNS = SEARCHES || EDGE != 0 || CORNER != 0;
     localparam [0:0] MEANS = SUMMARIES != 0;
     localparam [0:0] RETURNS = SUMMARIES != 0 && RASTER == 0;
-    localparam [4:0] WITH_ADDRESS = {COPIES != 0, {3{BORDERS != 0}}, RETURNS};  // write_active, write_border, side, write_mean
-    localparam [3:0] WITH_WORD = {
-        1'b1, MAD != 0 || RANGE != 0, VARIANCE != 0, VARIANCE != 0 || (RANGE != 0 && MAD != 0)
-    };  // from_memory, deviate, masked, from_aux
-    localparam [18:0] WITH_ACCUMULATOR = {
-        RANGE != 0, 2'b11, MEDIAN != 0, 3'b111,           // larger, subtract, by_sign, by_run, carry, enable, clear
-        RUNS, CORNER != 0, RUNS, 1'b1, CORNER != 0,       // run, run_corner, run_clear, count, count_corner
-        SUMS, SUMS, 1'b1, SUMS || MEANS,                  // twice, divide, shift, keep
+    localparam [5:0] WITH_ADDRESS = {
+        COPIES != 0, {3{BORDERS != 0}}, RETURNS, FILTER == 3
+    };  // write_active, write_border, side, write_mean, write_high
+    localparam [4:0] WITH_WORD = {
+        1'b1, MAD != 0 || RANGE != 0, VARIANCE != 0, VARIANCE != 0 || (RANGE != 0 && MAD != 0), SURFACE != 0
+    };  // from_memory, deviate, masked, from_aux, hold
+    localparam [25:0] WITH_ACCUMULATOR = {
+        RANGE != 0, 2'b11, SEARCHES || SEGMENT != 0, 3'b111,  // larger, subtract, by_sign, by_run, carry, enable, clear
+        RUNS, CORNER != 0, RUNS, 1'b1, CORNER != 0, SEGMENT != 0,  // run, run_corner, run_clear, count, count_corner, count_side
+        SURFACE != 0, SEGMENT != 0, SEGMENT != 0, SURFACE != 0,  // recall_sum, recall_mean, ceiling, shrink
+        {2{FILTER == 2}},                                 // probe, choose
+        MAD != 0 || VARIANCE != 0 || RANGE != 0, SUMS, 1'b1, SUMS || MEANS,                  // twice, divide, shift, keep
         RASTER != 0, RASTER == 0, RETURNS                 // fetch, unload, unload_mean
     };
 
     // The three parts of the control word. Its lowest bit is unload_mean.
-    serial_control #(.WIDTH(5), .USED(WITH_ADDRESS)) u_with_address (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[27:23]), .bits_o(controls_o[27:23])
+    serial_control #(.WIDTH(6), .USED(WITH_ADDRESS)) u_with_address (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[36:31]), .bits_o(controls_o[36:31])
     );
-    serial_control #(.WIDTH(4), .USED(WITH_WORD), .LATE(WORD)) u_with_word (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[22:19]), .bits_o(controls_o[22:19])
+    serial_control #(.WIDTH(5), .USED(WITH_WORD), .LATE(WORD)) u_with_word (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[30:26]), .bits_o(controls_o[30:26])
     );
     serial_control #(.WIDTH(ACC_BITS), .USED({ACC_BITS{1'b1}}), .LATE(WORD)) u_constant (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(constant_i), .bits_o(constant_o)
     );
-    serial_control #(.WIDTH(19), .USED(WITH_ACCUMULATOR), .LATE(LATE)) u_with_accumulator (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[18:0]), .bits_o(controls_o[18:0])
+    serial_control #(.WIDTH(26), .USED(WITH_ACCUMULATOR), .LATE(LATE)) u_with_accumulator (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[25:0]), .bits_o(controls_o[25:0])
     );
 
 endmodule

@@ -10,12 +10,21 @@
 // clear the bit. `run_q` counts to five in unary, which takes no logic but its enable. For `edge` its lowest bit says that
 // one of the two comparisons of a pixel was a hit; for `corner` it is the length of the run.
 //
+// For `switching3x3`, the center is compared with its neighbors first: `kept_q` says that one is below and another one above. Two
+// steps after the median then act only in such lanes, and take the center. For `binomial3x3`, the accumulator is the sum of the
+// window, less 16 times the reference, for the temporal test. It is made again, and written divided by 16.
+//
 // The range is found with two passes. The first keeps the larger of the accumulator and each word: a step compares them and
 // clears the accumulator if the word is larger, and the next step then takes the word. The second pass does the same with the
 // distances from the largest word, which is in `aux`.
 //
-// With DEEP the word read is in a register. The operand is, too, before it is inverted, if `mad`, `variance` or `range` compute it
-// from the word. A hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
+// For `segment`, `aux` is the mean without its fraction. It is added bit by bit to the accumulator, and a level makes a bound of it.
+// Each word is then subtracted from the bound, which stays, and the sign says whether the word counts. For `surface`, `aux` is the
+// smallest sum so far. It is subtracted in the same way before a sum is made, which is cleared unless it is negative, and added
+// again.
+//
+// With DEEP the word read is in a register. The operand is, too, before it is inverted, if a feature computes it from the word. A
+// hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
 `default_nettype none
 
 (* keep_hierarchy = "yes" *)
@@ -31,16 +40,20 @@ module serial_lane #(
     parameter RASTER = 0,        // 1: pixels enter by lane select and leave through the chain of scores
     parameter COPIES = 0,        // 1: an active lane copies the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
-    parameter MEDIAN = 1,        // 1: pixels are denoised
+    parameter FILTER = 1,        // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter EDGE = 1,          // 1: the design has the feature `edge`
     parameter CORNER = 0,        // 1: the design has the feature `corner`
     parameter MAD = 0,           // 1: the design has the feature `mad`
     parameter VARIANCE = 0,      // 1: the design has the feature `variance`
     parameter RANGE = 0,         // 1: the design has the feature `range`
+    parameter SURFACE = 0,       // 1: the design has the feature `surface`
+    parameter SEGMENT = 0,       // 1: the design has the feature `segment`
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
-    parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 with `mad`, `variance` or `range`
-    parameter AUX_BITS = 1       // bits of the second word of `mad`, `variance` and `range`
+    parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 if a feature takes the accumulator
+    parameter AUX_BITS = 1,      // bits of the second word: a mean, a sum or the largest pixel
+    parameter SUM_BITS = 14,     // `surface`: bits of the sum of a region
+    parameter PIXELS = 64        // `segment`: pixels of a region
 ) (
     input  wire                    clk_i,            // clock, rising edge
     // Memory.
@@ -53,7 +66,7 @@ module serial_lane #(
     input  wire [             3:0] sides_i,          // sides of the region on the frame's border: {bottom, top, right, left}
     // Controls.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
-    input  wire [            27:0] controls_i,       // the control word, see serial_controls
+    input  wire [            36:0] controls_i,       // the control word, see serial_controls
     // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane before
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane before: active or TRS; then SRS so far or sent
@@ -64,13 +77,16 @@ module serial_lane #(
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
-    localparam SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0;  // 1: the lane has `aux`, and its score can take the accumulator
+    localparam COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0;  // 1: an operand is computed from the word
+    localparam SUMS = COMPUTES || SEGMENT != 0;  // 1: the lane has `aux`, and its score can take the accumulator
+    localparam SEARCHES = FILTER == 1 || FILTER == 2;  // 1: medians are searched
     localparam KEEPS = SUMS || SUMMARIES != 0;  // 1: the score can take sums
 
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
         if (ACC_BITS <= WIDTH) begin : g_acc_bits ACC_BITS_must_be_more_than_WIDTH u_refused (); end
+        if (FILTER == 3 && ACC_BITS < WIDTH + 5) begin : g_acc_bits_2 ACC_BITS_must_hold_a_window u_refused (); end
         if (FLAGS < 1 || FLAGS > 2) begin : g_flags FLAGS_must_be_1_or_2 u_refused (); end
         if ((RASTER != 0 || SUMMARIES != 0) && CHAIN_BITS < WIDTH) begin : g_chain_bits
             CHAIN_BITS_must_hold_a_pixel u_refused ();
@@ -88,19 +104,26 @@ module serial_lane #(
         if (MAD != 0 && AUX_BITS < WIDTH + FRACTION) begin : g_aux_bits_2
             AUX_BITS_must_hold_a_mean u_refused ();
         end
+        if (SEGMENT != 0 && AUX_BITS < WIDTH) begin : g_aux_bits_3 AUX_BITS_must_hold_a_pixel u_refused (); end
+        if (SURFACE != 0 && AUX_BITS < SUM_BITS) begin : g_aux_bits_4 AUX_BITS_must_hold_a_sum u_refused (); end
+        if (SEGMENT != 0 && CHAIN_BITS < $clog2(2 * PIXELS)) begin : g_chain_bits_3
+            CHAIN_BITS_must_hold_two_counts u_refused ();
+        end
     endgenerate
 
     // The bits of the control word.
-    wire write_active, write_border, from_memory, deviate, masked, from_aux;
-    wire larger, subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner;
+    wire write_active, write_border, from_memory, deviate, masked, from_aux, hold;
+    wire larger, subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner, count_side;
+    wire recall_sum, recall_mean, ceiling, shrink, probe, choose;
     wire twice, divide, shift, keep, fetch, unload, unload_mean;
-    wire write_mean;
+    wire write_mean, write_high;
     wire [1:0] side;
     assign {
-        write_active, write_border, side, write_mean,
-        from_memory, deviate, masked, from_aux,
+        write_active, write_border, side, write_mean, write_high,
+        from_memory, deviate, masked, from_aux, hold,
         larger, subtract, by_sign, by_run, carry, enable, clear,
-        run, run_corner, run_clear, count, count_corner,
+        run, run_corner, run_clear, count, count_corner, count_side,
+        recall_sum, recall_mean, ceiling, shrink, probe, choose,
         twice, divide, shift, keep, fetch, unload, unload_mean
     } = controls_i;
 
@@ -114,6 +137,8 @@ module serial_lane #(
     wire                  invert;
     wire                  hit;
     wire                  five;
+    wire                  below_center;  // `switching3x3`: a neighbor is below the center
+    wire                  below;  // `segment`: the pixels below are the smaller side
     wire                  stays = sum[ACC_BITS-1] == acc_q[ACC_BITS-1];
 
     assign word_o  = chain_q;
@@ -135,14 +160,21 @@ module serial_lane #(
     wire selected = RASTER != 0 && select_row_i && select_column_i;
     wire copied   = COPIES != 0 && write_active && flags_q[0];
     wire repeated = BORDERS != 0 && write_border && sides_i[side];
+    wire [WIDTH-1:0] made;
     wire [WIDTH-1:0] result;
 
     generate
+        if (FILTER == 3) begin : g_binomial
+            assign made = write_high ? acc_q[4+:WIDTH] : acc_q[WIDTH-1:0];
+        end else begin : g_no_binomial
+            wire unused_write_high = write_high;
+            assign made = acc_q[WIDTH-1:0];
+        end
         if (SUMMARIES != 0 && RASTER == 0) begin : g_mean_returns
-            assign result = write_mean ? chain_q[WIDTH-1:0] : acc_q[WIDTH-1:0];
+            assign result = write_mean ? chain_q[WIDTH-1:0] : made;
         end else begin : g_no_mean_returns
             wire unused_write_mean = write_mean;
-            assign result = acc_q[WIDTH-1:0];
+            assign result = made;
         end
     endgenerate
 
@@ -154,13 +186,34 @@ module serial_lane #(
         .data_i(loading_i ? pixel_i : result), .data_o(word)
     );
 
+    // `switching3x3`: the pixel is kept if a neighbor is above, and another one below.
+    wire enables;
+    wire clears;
+
+    generate
+        if (FILTER == 2) begin : g_switching
+            reg kept_q;
+            assign enables = enable && (!choose || kept_q);
+            assign clears = clear && (!choose || kept_q);
+
+            always @(posedge clk_i) begin
+                if (probe) kept_q <= kept_q || (below_center && !stays);
+                else if (clear && !choose) kept_q <= 1'b0;
+            end
+        end else begin : g_no_switching
+            wire unused_choice = probe || choose || below_center;
+            assign enables = enable;
+            assign clears = clear;
+        end
+    endgenerate
+
     // Accumulator.
     wire [ACC_BITS-1:0] wide_word = {{(ACC_BITS - WIDTH) {1'b0}}, word};
     wire [ACC_BITS-1:0] found;   // the operand, before it is inverted
     wire [ACC_BITS-1:0] source;  // the operand, in the clock of the accumulator
 
     generate
-        if (DEEP != 0 && SUMS) begin : g_operand
+        if (DEEP != 0 && COMPUTES) begin : g_operand
             reg [ACC_BITS-1:0] source_q;
             always @(posedge clk_i) source_q <= found;
             assign source  = source_q;
@@ -171,29 +224,51 @@ module serial_lane #(
         end
 
         if (SUMS) begin : g_sums
-            localparam MEAN_BITS = WIDTH + FRACTION;
+            localparam TWICE = MAD != 0 || VARIANCE != 0 || RANGE != 0;
+            localparam HIGHEST = SURFACE != 0 ? SUM_BITS - 1 : 0;
+            localparam SCALED = MAD != 0 ? FRACTION : 0;
+            localparam MEAN_BITS = WIDTH + SCALED;
             wire [ACC_BITS-1:0] deviation;
             wire [ACC_BITS-1:0] choice;
+            wire [ACC_BITS-1:0] read;      // the word, or its distance from the word that is held
             wire                deviates = (MAD != 0 || RANGE != 0) && deviate;
             wire                negative;
+            wire                fraction;  // `segment`: the mean has a fraction
             wire                takes;     // the accumulator takes the sum, if `enable` is 1 as well
 
-            if (MAD != 0 || RANGE != 0) begin : g_deviation
+            if (MAD != 0 || RANGE != 0 || SURFACE != 0) begin : g_deviation
                 wire [MEAN_BITS:0] whole = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word};
-                wire [MEAN_BITS:0] scaled = RANGE != 0 && from_aux ? whole : whole << FRACTION;
-                wire [MEAN_BITS:0] difference = scaled - {1'b0, aux[MEAN_BITS-1:0]};
+                wire [MEAN_BITS:0] scaled =
+                    (RANGE != 0 && from_aux) || (SURFACE != 0 && !deviates) ? whole : whole << SCALED;
+                wire [MEAN_BITS:0] other;
+                wire [MEAN_BITS:0] difference = scaled - other;
                 wire unused_aux = |aux;  // a mean has one bit, and this signal two
                 assign negative = difference[MEAN_BITS];
                 assign deviation = {{(ACC_BITS - MEAN_BITS) {1'b0}}, difference[MEAN_BITS-1:0]};
+
+                if (SURFACE != 0) begin : g_held
+                    // A word is held for one clock. At other times the register is 0, so that words pass the subtraction.
+                    reg [WIDTH-1:0] held_q;
+                    wire [MEAN_BITS:0] held = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, held_q};
+                    assign other = deviates ? {1'b0, aux[MEAN_BITS-1:0]} : held;
+                    assign read = deviation;
+                    wire unused_word = |wide_word;
+                    always @(posedge clk_i) held_q <= hold ? word : {WIDTH{1'b0}};
+                end else begin : g_not_held
+                    wire unused_hold = hold;
+                    assign other = {1'b0, aux[MEAN_BITS-1:0]};
+                    assign read = wide_word;
+                end
             end else begin : g_no_deviation
-                wire unused_deviate = deviate;
+                wire unused_deviate = deviate || hold || |aux;
+                assign read = wide_word;
                 assign negative = 1'b0;
                 assign deviation = {ACC_BITS{1'b0}};
             end
 
             if (VARIANCE != 0) begin : g_masked
                 wire [ACC_BITS-1:0] wide_aux = {{(ACC_BITS - AUX_BITS) {1'b0}}, aux};
-                wire [ACC_BITS-1:0] plain = from_aux ? wide_aux : wide_word;
+                wire [ACC_BITS-1:0] plain = from_aux ? wide_aux : read;
                 wire chosen = !masked || |(plain & constant_i);
                 assign choice = (from_memory || from_aux) ? plain : constant_i;
                 if (DEEP != 0) begin : g_late
@@ -205,7 +280,7 @@ module serial_lane #(
                 end
             end else begin : g_plain
                 wire unused_masked = masked || from_aux;  // from_aux is used where `mad` scales the word and `range` does not
-                assign choice = from_memory ? wide_word : constant_i;
+                assign choice = from_memory ? read : constant_i;
                 assign takes  = 1'b1;
             end
 
@@ -214,47 +289,60 @@ module serial_lane #(
             // A negative difference is inverted as well, in the bits of a mean. The bits above are those of a deviation, which is
             // not negative, and are inverted where it is subtracted.
             wire turned;
-            if (DEEP != 0 && (MAD != 0 || RANGE != 0)) begin : g_below
-                reg below_q;
-                always @(posedge clk_i) below_q <= deviates && negative;
-                assign turned = invert ^ below_q;
+            wire turns = (SURFACE != 0 || deviates) && negative;
+            if (DEEP != 0 && (MAD != 0 || RANGE != 0 || SURFACE != 0)) begin : g_turned
+                reg turns_q;
+                always @(posedge clk_i) turns_q <= turns;
+                assign turned = invert ^ turns_q;
             end else begin : g_at_once
-                assign turned = invert ^ (deviates && negative);
+                assign turned = invert ^ turns;
             end
 
             wire [ACC_BITS-1:0] inverted =
                 source ^ {{(ACC_BITS - MEAN_BITS) {invert}}, {MEAN_BITS{turned}}};
-            assign operand = twice ? acc_q : inverted;
+            assign operand = TWICE && twice ? acc_q : inverted;
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (
-                .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry), .sum_o(sum)
+                .plain_i(acc_q), .other_i(operand), .carry_i(turned && carry && (SEGMENT == 0 || !ceiling || fraction)), .sum_o(sum)
             );
 
+            // The next bit of `aux` is that of a quotient, or one that comes back.
             reg [AUX_BITS-1:0] aux_q;
+            wire next = SURFACE != 0 && recall_sum ? aux_q[HIGHEST] : SEGMENT != 0 && recall_mean ? aux_q[WIDTH-1] : stays;
             always @(posedge clk_i) begin
                 if (shift) aux_q <= {AUX_BITS{1'b0}};
-                else if (divide) aux_q <= {aux_q[AUX_BITS-2:0], stays};
+                else if (divide) aux_q <= {aux_q[AUX_BITS-2:0], next};
             end
             assign aux = aux_q;
 
-            wire taken = enable && takes && (!divide || stays);
+            wire taken = enables && takes && (!divide || next);
+            wire cleared = clears || (SURFACE != 0 && shrink && !acc_q[ACC_BITS-1]);
+            if (SEGMENT != 0) begin : g_fraction
+                reg fraction_q;
+                assign fraction = fraction_q;
+                always @(posedge clk_i) if (ceiling && clear) fraction_q <= stays;
+            end else begin : g_no_fraction
+                assign fraction = 1'b0;
+            end
+
             if (RANGE != 0) begin : g_range
                 reg larger_q;  // the operand was larger than the accumulator in the step before
-                wire replaces = larger && !enable && !stays;
+                wire replaces = larger && !enables && !stays;
                 always @(posedge clk_i) begin
                     larger_q <= replaces;
-                    if (clear || replaces) acc_q <= {ACC_BITS{1'b0}};
+                    if (cleared || replaces) acc_q <= {ACC_BITS{1'b0}};
                     else if (taken && (!larger || larger_q)) acc_q <= sum;
                 end
             end else begin : g_no_range
                 wire unused_larger = larger;
                 always @(posedge clk_i) begin
-                    if (clear) acc_q <= {ACC_BITS{1'b0}};
+                    if (cleared) acc_q <= {ACC_BITS{1'b0}};
                     else if (taken) acc_q <= sum;
                 end
             end
         end else begin : g_no_sums
-            wire unused_sums = larger || twice || divide || deviate || masked || from_aux;
+            wire unused_sums =
+                larger || twice || divide || deviate || masked || from_aux || hold || recall_sum || shrink;
             wire unused_aux = |aux;
             assign aux = {AUX_BITS{1'b0}};
             assign found = from_memory ? wide_word : constant_i;
@@ -265,15 +353,18 @@ module serial_lane #(
             );
 
             always @(posedge clk_i) begin
-                if (clear) acc_q <= {ACC_BITS{1'b0}};
-                else if (enable) acc_q <= sum;
+                if (clears) acc_q <= {ACC_BITS{1'b0}};
+                else if (enables) acc_q <= sum;
             end
         end
     endgenerate
 
-    assign invert = subtract || (by_sign && !acc_q[ACC_BITS-1]) || (MEDIAN != 0 && by_run && five);
+    // With ceiling, the side chooses and not the count of five.
+    wire flips = SEGMENT != 0 && (!SEARCHES || ceiling) ? below : five;
+    assign invert = subtract || (by_sign && !acc_q[ACC_BITS-1]) || ((SEARCHES || SEGMENT != 0) && by_run && flips);
 
     // Counts.
+    wire hit_of_window;
     generate
         if (CORNER != 0) begin : g_run_corner
             // A run continues with a hit of the same sign, starts again with a hit of the other sign, and ends without a
@@ -283,7 +374,8 @@ module serial_lane #(
             wire       on = !run_corner || (stays && negative_q == acc_q[ACC_BITS-1]);
             wire       reaches = run_q[3] && on;
             assign five = run_q[4];
-            assign hit = count_corner ? five || reaches : stays || run_q[0];
+            assign below_center = run_q[0];
+            assign hit_of_window = count_corner ? five || reaches : stays || run_q[0];
 
             always @(posedge clk_i) begin
                 if (run_clear) run_q <= 5'b00000;
@@ -291,10 +383,11 @@ module serial_lane #(
                     run_q <= {reaches, run_q[2:0] & {3{on}}, stays};
                 if (run) negative_q <= acc_q[ACC_BITS-1];
             end
-        end else if (MEDIAN != 0) begin : g_run
+        end else if (SEARCHES) begin : g_run
             reg [4:0] run_q;
             assign five = run_q[4];
-            assign hit = stays || (EDGE != 0 && run_q[0]);
+            assign below_center = run_q[0];
+            assign hit_of_window = stays || (EDGE != 0 && run_q[0]);
 
             always @(posedge clk_i) begin
                 if (run_clear) run_q <= 5'b00000;
@@ -304,7 +397,8 @@ module serial_lane #(
         end else if (EDGE != 0) begin : g_run_edge
             reg run_q;
             assign five = 1'b0;
-            assign hit = stays || run_q;
+            assign below_center = 1'b0;
+            assign hit_of_window = stays || run_q;
 
             always @(posedge clk_i) begin
                 if (run_clear) run_q <= 1'b0;
@@ -313,8 +407,29 @@ module serial_lane #(
             wire unused_corner = run_corner || count_corner;
         end else begin : g_no_run
             assign five = 1'b0;
-            assign hit = stays;
+            assign below_center = 1'b0;
+            assign hit_of_window = stays;
             wire unused_run = run || run_clear || run_corner || count_corner;
+        end
+    endgenerate
+
+    generate
+        if (SEGMENT != 0) begin : g_side
+            // After the words above, those not below are counted. So the count is PIXELS or more unless fewer are above.
+            localparam COUNT_BITS = $clog2(2 * PIXELS);
+            localparam [COUNT_BITS-1:0] EVERY = PIXELS[COUNT_BITS-1:0];
+            reg below_q;
+            assign below = below_q;
+            assign hit = count_side ? sum[ACC_BITS-1] ^ below : hit_of_window;
+
+            always @(posedge clk_i) begin
+                if (shift) below_q <= 1'b0;
+                else if (keep) below_q <= chain_q[COUNT_BITS-1:0] >= EVERY;
+            end
+        end else begin : g_no_side
+            wire unused_side = count_side || recall_mean || ceiling;
+            assign below = 1'b0;
+            assign hit = hit_of_window;
         end
     endgenerate
 

@@ -12,6 +12,8 @@ module serial_regions #(
     parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
     parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
     parameter RANGE_INDEX = 0,      // number of the score of `range`; 0: there is none
+    parameter SURFACE_INDEX = 0,    // number of the score of `surface`; 0: there is none
+    parameter SEGMENT_INDEX = 0,    // number of the score of `segment`; 0: there is none
     parameter MEANS = 0,            // blocks of a region whose means are sent: 1, 4 or 16; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
@@ -35,8 +37,11 @@ module serial_regions #(
     output wire                   next_edge_o,   // the feature that comes next is `edge`
     output wire                   next_corner_o, // the feature that comes next is `corner`
     output wire                   next_range_o,  // the feature that comes next is `range`
+    output wire                   next_surface_o, // the feature that comes next is `surface`
     output wire                   ranges_o,      // the feature under way is `range`
     output wire                   squares_o,     // the feature under way is `variance`
+    output wire                   surfaces_o,    // the feature under way is `surface`
+    output wire                   segments_o,    // the feature under way is `segment`
     output wire [REGION_BITS-1:0] region_o,      // number of the region whose score passes
     output wire                   last_lane_o    // the region is that of the last lane
 );
@@ -49,12 +54,15 @@ module serial_regions #(
     localparam [INDEX_BITS-1:0] BEFORE_CORNER = CORNER_INDEX - 1;
     localparam [INDEX_BITS-1:0] BEFORE_VARIANCE = VARIANCE_INDEX - 1;
     localparam [INDEX_BITS-1:0] BEFORE_RANGE = RANGE_INDEX - 1;
+    localparam [INDEX_BITS-1:0] BEFORE_SURFACE = SURFACE_INDEX - 1;
+    localparam [INDEX_BITS-1:0] BEFORE_SEGMENT = SEGMENT_INDEX - 1;
     /* verilator lint_on WIDTH */
 
     // Scores.
     reg [INDEX_BITS-1:0] index_q;
-    reg squares_q, ranges_q;
+    reg squares_q, ranges_q, surfaces_q, segments_q;
     wire next_variance = VARIANCE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_VARIANCE);
+    wire next_segment = SEGMENT_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_SEGMENT);
 
     // With means, the temporal count is done only when the sums of all blocks have passed.
     wire waits = MEANS != 0 && (averaging_i ? !last_block_o : first_score_o);
@@ -65,10 +73,14 @@ module serial_regions #(
     assign next_edge_o = EDGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_EDGE);
     assign next_corner_o = CORNER_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_CORNER);
     assign next_range_o = RANGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_RANGE);
-    // `mad` and `variance` begin with the same step, so nothing asks which of them comes next. Only their steps and those of
-    // `range` ask which of the three is under way, so a design that has one of them needs no register.
-    assign ranges_o = RANGE_INDEX != 0 && ((MAD_INDEX == 0 && VARIANCE_INDEX == 0) || ranges_q);
-    assign squares_o = VARIANCE_INDEX != 0 && ((MAD_INDEX == 0 && RANGE_INDEX == 0) || squares_q);
+    assign next_surface_o = SURFACE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_SURFACE);
+    // `mad`, `variance` and `segment` begin with the same step, so nothing asks which of them comes next. Only their steps and
+    // those of `range` and `surface` ask which of the five is under way, so a design that has one of them needs no register.
+    localparam ALONE = (MAD_INDEX != 0) + (VARIANCE_INDEX != 0) + (RANGE_INDEX != 0) + (SURFACE_INDEX != 0) + (SEGMENT_INDEX != 0) == 1;
+    assign ranges_o = RANGE_INDEX != 0 && (ALONE || ranges_q);
+    assign squares_o = VARIANCE_INDEX != 0 && (ALONE || squares_q);
+    assign surfaces_o = SURFACE_INDEX != 0 && (ALONE || surfaces_q);
+    assign segments_o = SEGMENT_INDEX != 0 && (ALONE || segments_q);
 
     always @(posedge clk_i) begin
         if (loading_i || slot_ends_i) index_q <= {INDEX_BITS{1'b0}};
@@ -76,6 +88,8 @@ module serial_regions #(
             index_q   <= index_q + 1'b1;
             squares_q <= next_variance;
             ranges_q  <= next_range_o;
+            surfaces_q <= next_surface_o;
+            segments_q <= next_segment;
         end
     end
 

@@ -11,7 +11,7 @@ module serial_sequencer #(
     parameter SIDE = 8,             // pixels of a side of a region
     parameter RAW_SIDE = 8,         // side of the square that is loaded
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised
-    parameter MEDIAN = 1,           // 1: pixels are denoised
+    parameter FILTER = 1,           // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
@@ -26,9 +26,11 @@ module serial_sequencer #(
     parameter MAD_INDEX = 0,        // number of the score of `mad`; 0: there is none
     parameter VARIANCE_INDEX = 0,   // number of the score of `variance`; 0: there is none
     parameter RANGE_INDEX = 0,      // number of the score of `range`; 0: there is none
+    parameter SURFACE_INDEX = 0,    // number of the score of `surface`; 0: there is none
+    parameter SEGMENT_INDEX = 0,    // number of the score of `segment`; 0: there is none
     parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
-    parameter FRACTION = 0,         // fraction bits of the mean of `mad`
+    parameter FRACTION = 0,         // fraction bits of the mean of `mad` and `segment`
     parameter SUM_BITS = 14,        // bits of the sum of a region
     parameter COUNT_BITS = 7,       // bits of the number of pixels of a region
     parameter DENOISED_BASE = 64,   // address in a slot where the denoised square starts
@@ -47,6 +49,7 @@ module serial_sequencer #(
     input  wire [        WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
     input  wire [        WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
     input  wire [        WIDTH-1:0] corner_level_i,    // level of `corner`
+    input  wire [        WIDTH-1:0] segment_level_i,   // level of `segment`
     output wire                     working_o,         // the address is that of a step
     output wire                     reopen_o,          // the frame is done
     // Outputs to the lanes.
@@ -54,7 +57,7 @@ module serial_sequencer #(
     output wire [    WORD_BITS-1:0] address_o,         // the address inside the slot
     output wire                     write_o,           // the accumulator is written to this address
     output wire [     ACC_BITS-1:0] constant_o,        // the constant
-    output wire [             27:0] controls_o,        // the control word, see serial_controls
+    output wire [             36:0] controls_o,        // the control word, see serial_controls
     // Outputs to the decision.
     output wire                     rotate_o,          // scores pass
     output wire                     average_o,         // sums of blocks pass
@@ -80,19 +83,21 @@ module serial_sequencer #(
     localparam MAD = MAD_INDEX != 0 ? 1 : 0;
     localparam VARIANCE = VARIANCE_INDEX != 0 ? 1 : 0;
     localparam RANGE = RANGE_INDEX != 0 ? 1 : 0;
-    localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
+    localparam SURFACE = SURFACE_INDEX != 0 ? 1 : 0;
+    localparam SEGMENT = SEGMENT_INDEX != 0 ? 1 : 0;
+    localparam BORDERS = FILTER != 0 && DENOISED_SIDE != SIDE;
 
-    wire [35:0] step;
+    wire [47:0] step;
     wire [3:0] tap;
     wire [1:0] part;
     wire walks, block_ends, slot_ends, last_column, last_center, counts, squares;
     wire last_lane, first_score, last_score, last_block, last_slot;
     wire spent, divided, last_place, corrects, any_pairs, more_pairs;
-    wire next_edge, next_corner, next_range, ranges;
+    wire next_edge, next_corner, next_range, next_surface, ranges, surfaces, segments;
 
     wire loading, draining, rotating, unloading, shifting;
     wire averaging, returning;
-    wire [26:0] unused_step;
+    wire [38:0] unused_step;
     wire [1:0] unused_last;
     assign {loading, draining, rotating, unloading, shifting, unused_step, averaging, returning, unused_last} = step;
     assign working_o = !loading && !draining;
@@ -106,6 +111,7 @@ module serial_sequencer #(
     serial_regions #(
         .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .EDGE_INDEX(EDGE_INDEX),
         .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX), .VARIANCE_INDEX(VARIANCE_INDEX), .RANGE_INDEX(RANGE_INDEX),
+        .SURFACE_INDEX(SURFACE_INDEX), .SEGMENT_INDEX(SEGMENT_INDEX),
         .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS),
         .INDEX_BITS(INDEX_BITS)
     ) u_regions (
@@ -113,20 +119,22 @@ module serial_sequencer #(
         .averaging_i(averaging), .block_ends_i(block_ends), .slot_ends_i(slot_ends), .slot_o(slot_o),
         .last_slot_o(last_slot), .index_o(index_o), .first_score_o(first_score), .last_score_o(last_score),
         .block_o(block_o), .last_block_o(last_block), .next_edge_o(next_edge),
-        .next_corner_o(next_corner), .next_range_o(next_range), .ranges_o(ranges), .squares_o(squares), .region_o(region_o),
-        .last_lane_o(last_lane)
+        .next_corner_o(next_corner), .next_range_o(next_range), .next_surface_o(next_surface), .ranges_o(ranges), .squares_o(squares),
+        .surfaces_o(surfaces), .segments_o(segments), .region_o(region_o), .last_lane_o(last_lane)
     );
 
     // The steps.
     serial_states #(
-        .MEDIAN(MEDIAN), .BORDERS(BORDERS), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
-        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .FRACTION(FRACTION),
+        .FILTER(FILTER), .BORDERS(BORDERS), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
+        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT),
+        .FRACTION(FRACTION),
         .SUMMARIES(BLOCKS != 0 ? 1 : 0)
     ) u_states (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start_i), .last_column_i(last_column),
         .last_center_i(last_center), .last_lane_i(last_lane), .first_score_i(first_score), .last_score_i(last_score),
         .last_block_i(last_block), .last_slot_i(last_slot), .next_edge_i(next_edge),
-        .next_corner_i(next_corner), .next_range_i(next_range), .ranges_i(ranges), .squares_i(squares), .spent_i(spent),
+        .next_corner_i(next_corner), .next_range_i(next_range), .next_surface_i(next_surface), .ranges_i(ranges),
+        .squares_i(squares), .surfaces_i(surfaces), .segments_i(segments), .spent_i(spent),
         .divided_i(divided), .last_place_i(last_place), .corrects_i(corrects), .any_pairs_i(any_pairs),
         .more_pairs_i(more_pairs), .step_o(step), .tap_o(tap), .part_o(part), .walks_o(walks),
         .block_ends_o(block_ends), .slot_ends_o(slot_ends)
@@ -134,7 +142,7 @@ module serial_sequencer #(
 
     // The addresses.
     serial_addresses #(
-        .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN), .CLAMPS(CLAMPS),
+        .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .FILTER(FILTER), .CLAMPS(CLAMPS),
         .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .POSITION_BITS(POSITION_BITS)
     ) u_addresses (
@@ -146,18 +154,21 @@ module serial_sequencer #(
 
     // The constants and the controls.
     serial_constant #(
-        .WIDTH(WIDTH), .SIDE(SIDE), .MEDIAN(MEDIAN), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .FRACTION(FRACTION),
+        .WIDTH(WIDTH), .SIDE(SIDE), .FILTER(FILTER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
+        .SEGMENT(SEGMENT), .FRACTION(FRACTION),
         .BLOCK(BLOCKS != 0 ? (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) * (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) : 1),
         .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
     ) u_constant (
         .clk_i(clk_i), .step_i(step), .last_center_i(last_center), .ranges_i(ranges), .squares_i(squares),
-        .temporal_level_i(temporal_level_i), .edge_half_i(edge_half_i), .corner_level_i(corner_level_i),
+        .surfaces_i(surfaces), .segments_i(segments), .temporal_level_i(temporal_level_i), .edge_half_i(edge_half_i),
+        .corner_level_i(corner_level_i), .segment_level_i(segment_level_i),
         .constant_o(constant_o), .spent_o(spent), .divided_o(divided), .last_place_o(last_place),
         .corrects_o(corrects), .any_pairs_o(any_pairs), .more_pairs_o(more_pairs)
     );
 
     serial_controls #(
-        .LAST_SENT(LAST_SENT), .RASTER(RASTER), .KEEPS(MAD || VARIANCE || RANGE || BLOCKS != 0 ? 1 : 0)
+        .FILTER(FILTER), .LAST_SENT(LAST_SENT), .RASTER(RASTER),
+        .KEEPS(MAD || VARIANCE || RANGE || SURFACE || SEGMENT || BLOCKS != 0 ? 1 : 0)
     ) u_controls (
         .step_i(step), .tap_i(tap), .part_i(part), .counts_i(counts), .spent_i(spent), .controls_o(controls_o)
     );

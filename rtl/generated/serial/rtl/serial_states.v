@@ -7,7 +7,7 @@
 `default_nettype none
 
 module serial_states #(
-    parameter MEDIAN = 1,     // 1: pixels are denoised
+    parameter FILTER = 1,     // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter BORDERS = 0,    // 1: sides on the frame's border are repeated
     parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
     parameter RASTER = 0,     // 1: pixels leave through the chain of scores
@@ -18,6 +18,8 @@ module serial_states #(
     parameter MAD = 0,        // 1: the design has the feature `mad`
     parameter VARIANCE = 0,   // 1: the design has the feature `variance`
     parameter RANGE = 0,      // 1: the design has the feature `range`
+    parameter SURFACE = 0,    // 1: the design has the feature `surface`
+    parameter SEGMENT = 0,    // 1: the design has the feature `segment`
     parameter FRACTION = 0,   // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0   // 1: irrelevant regions send the means of their blocks
 ) (
@@ -35,19 +37,22 @@ module serial_states #(
     input  wire        next_edge_i,    // the feature that comes next is `edge`
     input  wire        next_corner_i,  // the feature that comes next is `corner`
     input  wire        next_range_i,   // the feature that comes next is `range`
+    input  wire        next_surface_i, // the feature that comes next is `surface`
     input  wire        ranges_i,       // the feature under way is `range`
     input  wire        squares_i,      // the feature under way is `variance`
+    input  wire        surfaces_i,     // the feature under way is `surface`
+    input  wire        segments_i,     // the feature under way is `segment`
     // State of the constant.
     input  wire        spent_i,        // the shifted number has no bits left
     input  wire        divided_i,      // the division has found all bits of the quotient
-    input  wire        last_place_i,   // `variance`: the place under way is the last of the sum
+    input  wire        last_place_i,   // the shifted number is 1: its place is the last
     input  wire        corrects_i,     // `variance`: the square of the sum has a bit at this place
     input  wire        any_pairs_i,    // `variance`: the squares of words have pairs of bits at this place
     input  wire        more_pairs_i,   // `variance`: another pair of bits follows at this place
     // The step.
-    output wire [35:0] step_o,         // the step: one bit for each action
+    output wire [47:0] step_o,         // the step: one bit for each action
     output wire [ 3:0] tap_o,          // number of the neighbor that is read
-    output wire [ 1:0] part_o,         // half of a gradient or of a step of `range`, part of a ring's step, or side of the border
+    output wire [ 1:0] part_o,         // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     output wire        walks_o,        // the next step works on the next center
     output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
     output wire        slot_ends_o     // the next step works on the next slot
@@ -82,7 +87,10 @@ module serial_states #(
     localparam [4:0] STORE = 5'd26;    // writes a mean that has come back
     localparam [4:0] SHOW = 5'd27;     // a mean leaves
     localparam [4:0] RANGE_STEP = 5'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
-    localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
+    localparam [4:0] RECALL = 5'd29;   // adds or subtracts `aux`, bit by bit
+    localparam [4:0] WALK = 5'd30;     // `segment`: counts a word; `surface`: adds the distance of a word from a neighbor
+    localparam [4:0] FILTER_STEP = 5'd31;  // a step of `switching3x3` or `binomial3x3`
+    localparam [4:0] FIRST = FILTER == 1 ? START : FILTER == 3 ? FILTER_STEP : READ;
     localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
     localparam [4:0] RETURNED = LATE == 0 ? STORE : BEHIND;
     localparam [4:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
@@ -91,7 +99,10 @@ module serial_states #(
     localparam [1:0] BORDER = 2'b01;
     localparam [1:0] COPY = 2'b10;
 
-    localparam SUMS = MAD || VARIANCE || RANGE;  // 1: a feature divides, and its score is the accumulator
+    localparam SEARCHES = FILTER == 1 || FILTER == 2;  // 1: medians are searched
+    localparam SWITCHES = FILTER == 2;                 // 1: a pixel is kept unless it is the largest or smallest of its window
+    localparam BLENDS = FILTER == 3;                   // 1: windows are summed
+    localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT;  // 1: a feature divides, and its score takes the accumulator
     /* verilator lint_off WIDTH */
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
     /* verilator lint_on WIDTH */
@@ -114,8 +125,14 @@ module serial_states #(
 
     // Steps of a pixel.
     wire starting = state_q == START;
-    wire searching = MEDIAN != 0 && state_q == SEARCH;
+    wire searching = SEARCHES && state_q == SEARCH;
     wire adjusting = searching && tap_q[3] && tap_q[0];
+    // `switching3x3`: parts 0 and 1 compare the center with its neighbors, and parts 2 and 3 take it instead of the median.
+    // `binomial3x3`: part 0 subtracts the reference, part 1 adds the window, part 2 adds it again for the result, part 3 rounds.
+    wire probing = SWITCHES && state_q == FILTER_STEP && !part_q[1];
+    wire choosing = SWITCHES && state_q == FILTER_STEP && part_q[1];
+    wire blending = BLENDS && state_q == FILTER_STEP;
+    wire part_ends = SWITCHES ? part_q[1] || tap_q[2:0] == 3'd7 : part_q == 2'd3 || tap_q == 4'd15;
     wire reading = state_q == READ;
     wire writing = state_q == WRITE;
     wire relating = LAST_SENT != 0 && state_q == REFERENCE;
@@ -130,15 +147,30 @@ module serial_states #(
     wire bordering = BORDERS && job_q[0];
     wire copying = LAST_SENT != 0 && job_q[1];
     wire temporal = !bordering && !copying;
-    wire denoising = MEDIAN != 0 && job_q == TEMPORAL && !loading;
+    wire denoising = FILTER != 0 && job_q == TEMPORAL && !loading;
     wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
+
+    // Steps of `segment`. After round 0 there is a mean; then the words above are counted, those not below, and the smaller side.
+    wire [1:0] round;
+    wire recalling = SEGMENT && state_q == RECALL && segments_i;  // adds the mean
+    wire leveling = SEGMENT && state_q == HALF && segments_i && round != 2'd0;  // makes a bound of the mean and the level
+    wire below = leveling && round == 2'd2;                       // the bound is the lower one, in every lane
+    wire counting = SEGMENT && state_q == WALK && segments_i;     // a word is compared with the bound
+    wire rounding = SEGMENT && state_q == CLEAR && segments_i && round == 2'd0;  // the remainder is compared
+
+    // Steps of `surface`. A round is for one displacement.
+    wire second;     // the smallest sum so far is added again
+    wire retrieving = SURFACE && state_q == RECALL && surfaces_i;  // adds the smallest sum so far, or subtracts it
+    wire removing = retrieving && !second;                        // subtracts it
+    wire spanning = SURFACE && state_q == WALK && surfaces_i;     // a word is held, or its distance from a neighbor added
+    wire shrinking = SURFACE && state_q == CLEAR && surfaces_i && round != 2'd0;  // keeps the smaller of two sums
 
     // Steps of a sum.
     wire summing = (SUMS || SUMMARIES) && state_q == SUM;
     wire doubling = SUMS && state_q == DOUBLE;
-    wire halving = (MAD || SUMMARIES) && state_q == HALF;
+    wire halving = (MAD || SEGMENT || SUMMARIES) && state_q == HALF && !leveling;
     wire dividing = SUMS && state_q == DIVIDE;
-    wire clearing = SUMS && state_q == CLEAR;
+    wire clearing = SUMS && state_q == CLEAR && !(SURFACE && surfaces_i);
     wire deviating = MAD && state_q == DEVIATE;
     wire squaring = VARIANCE && state_q == SQUARE;
     wire correcting = VARIANCE && state_q == CORRECT;
@@ -155,18 +187,20 @@ module serial_states #(
     assign step_o = {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
-        starting, searching, adjusting, reading, writing, relating, testing,
+        starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
+        recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
         is_averaging, is_returning, storing, showing
     };
-    assign tap_o = tap_q;
+    assign tap_o = spanning ? {2'b00, round} + 4'd3 : tap_q;  // the neighbors at the right, and those below from right to left
     assign part_o = part_q;
 
-    assign walks_o = testing || (writing && !temporal)
+    assign walks_o = (testing && !(BLENDS && denoising)) || (writing && (!temporal || BLENDS))
         || (gradient_test && part_q[0]) || (ring_test && ring_last)
-        || summing || deviating || squaring || (ranging && part_q[0])
+        || summing || deviating || squaring || ((ranging || spanning) && part_q[0]) || counting
         || (unloading && RASTER == 0) || (shifting && last_lane_i && !is_returning);
+    wire denoised = FILTER != 0 && last_center_i && (BLENDS ? writing && temporal : testing);  // the last pixel of the square is done
     wire pass_ends = walks_o && last_center_i;
     wire unloaded = pass_ends && (unloading || shifting);
     wire returned = is_returning && (showing || (shifting && last_lane_i));
@@ -186,9 +220,19 @@ module serial_states #(
             end
             DRAIN: state = LOAD;
             START: state = SEARCH;
-            SEARCH: if (adjusting && spent_i) state = BEHIND;
+            SEARCH: if (adjusting && spent_i) state = SWITCHES ? FILTER_STEP : BEHIND;
+            FILTER_STEP: begin
+                if (!SWITCHES && !BLENDS) state = LOAD;
+                else if (part_ends) case (part_q)
+                    2'd0: state = FILTER_STEP;
+                    2'd1: state = SWITCHES ? START : TEST;
+                    2'd2: state = FILTER_STEP;
+                    default: state = BEHIND;
+                endcase
+            end
             READ: begin
-                if (LAST_SENT != 0 && MEDIAN == 0 && temporal) state = REFERENCE;
+                if (SWITCHES && temporal) state = FILTER_STEP;
+                else if (LAST_SENT != 0 && FILTER == 0 && temporal) state = REFERENCE;
                 else state = BEHIND;
             end
             LONGER: state = WAIT;
@@ -196,17 +240,14 @@ module serial_states #(
             IDLE: state = is_returning ? STORE : WRITE;
             SETTLE: state = ROTATE;
             WRITE: begin
-                if (temporal) state = LAST_SENT != 0 ? REFERENCE : TEST;
+                if (temporal) state = BLENDS ? FIRST : LAST_SENT != 0 ? REFERENCE : TEST;
                 else if (bordering) state = border_ends ? SCORED : READ;
                 else state = last_center_i ? UNLOAD : READ;
             end
             REFERENCE: state = TEST;
             TEST: begin
                 state = last_center_i ? SCORED : FIRST;
-                if (last_center_i && BORDERS) begin
-                    state = READ;
-                    job = BORDER;
-                end
+                if (BLENDS) state = FILTER_STEP;
             end
             ROTATE: if (last_lane_i) begin
                 job = COPY;
@@ -217,22 +258,37 @@ module serial_states #(
                 else if (EDGE && next_edge_i) state = GRADIENT;
                 else if (CORNER && next_corner_i) state = RING;
                 else if (RANGE && next_range_i) state = RANGE_STEP;
+                else if (SURFACE && next_surface_i) state = RECALL;
                 else state = SUM;
             end
             GRADIENT, RING: if (pass_ends) state = SCORED;
-            SUM: if (pass_ends) state = is_averaging ? KEEP : squares_i ? DIVIDE : FRACTION != 0 ? DOUBLE : HALF;
+            SUM: if (pass_ends) begin
+                state = is_averaging ? KEEP : squares_i ? DIVIDE : FRACTION != 0 && !(SEGMENT && segments_i) ? DOUBLE : HALF;
+            end
             DOUBLE: begin
                 if (squares_i) state = any_pairs_i ? SQUARE : corrects_i ? CORRECT : DOUBLE;
                 else if (tap_q == LAST_DOUBLE) state = HALF;
             end
-            HALF: state = is_averaging ? SUM : DIVIDE;
-            DIVIDE: if (divided_i) state = CLEAR;
-            CLEAR: state = squares_i ? DOUBLE : ranges_i ? RANGE_STEP : DEVIATE;
+            HALF: state = is_averaging ? SUM : leveling ? WALK : DIVIDE;
+            DIVIDE: if (divided_i) state = SURFACE && surfaces_i ? RECALL : CLEAR;
+            CLEAR: begin
+                state = squares_i ? DOUBLE : ranges_i ? RANGE_STEP : DEVIATE;
+                if (SURFACE && surfaces_i) state = RECALL;
+                if (SEGMENT && segments_i) state = round == 2'd2 ? KEEP : round == 2'd3 ? SCORED : RECALL;
+            end
+            RECALL: begin
+                if (!SURFACE && !SEGMENT) state = LOAD;
+                else if (last_place_i) state = recalling ? HALF : removing ? WALK : round == 2'd3 ? KEEP : DIVIDE;
+            end
+            WALK: begin
+                if (!SURFACE && !SEGMENT) state = LOAD;
+                else if (pass_ends) state = CLEAR;
+            end
             DEVIATE: if (pass_ends) state = KEEP;
             SQUARE: if (last_center_i && !more_pairs_i) state = corrects_i ? CORRECT : DOUBLE;
             CORRECT: state = last_place_i ? KEEP : DOUBLE;
             RANGE_STEP: if (pass_ends) state = spreading ? KEEP : DIVIDE;
-            KEEP: state = SCORED;
+            KEEP: state = SEGMENT && segments_i && !is_averaging ? RECALL : SCORED;
             UNLOAD: begin
                 if (RASTER != 0) state = SHIFT;
                 else if (SUMMARIES && last_center_i) state = ROTATE;
@@ -242,6 +298,11 @@ module serial_states #(
             SHOW: state = ROTATE;
             default: state = LOAD;
         endcase
+        if (BORDERS && denoised) begin
+            state = READ;
+            job = BORDER;
+        end
+        if (BLENDS && denoised && !BORDERS) state = SCORED;
         if (SUMMARIES && unloaded) returning = 1'b1;
         if (slot_ends_o) begin
             state = last_slot_i ? DRAIN : FIRST;
@@ -297,6 +358,26 @@ module serial_states #(
         end
     endgenerate
 
+    generate
+        if (SURFACE || SEGMENT) begin : g_rounds
+            reg [1:0] round_q;
+            reg second_q;
+            assign round = round_q;
+            assign second = second_q;
+
+            always @(posedge clk_i) begin
+                if (rotating) round_q <= 2'd0;
+                else if (segments_i ? clearing : dividing && divided_i) round_q <= round_q + 2'd1;
+                if (rotating || dividing) second_q <= 1'b0;
+                else if (state_q == CLEAR) second_q <= 1'b1;
+            end
+        end else begin : g_no_rounds
+            wire unused_kinds = next_surface_i || surfaces_i || segments_i;
+            assign round = 2'd0;
+            assign second = 1'b0;
+        end
+    endgenerate
+
     // Steps inside the work of a pixel.
     always @(posedge clk_i) begin
         if (gradient) begin
@@ -308,15 +389,18 @@ module serial_states #(
         end else if (ring) begin
             part_q <= ring_test ? 2'd0 : part_q + 2'd1;
             if (ring_test) tap_q <= ring_last ? 4'd0 : tap_q + 4'd1;
-        end else if (ranging) begin
+        end else if (ranging || spanning) begin
             part_q <= {1'b0, !part_q[0]};
             tap_q <= 4'd0;
+        end else if (probing || choosing || blending) begin
+            tap_q <= part_ends ? 4'd0 : tap_q + 4'd1;
+            if (part_ends) part_q <= part_q + 2'd1;
         end else if (bordering) begin
             tap_q <= 4'd0;
             if (writing && last_column_i) part_q <= part_q + 2'd1;
         end else begin
             tap_q <= (searching || (doubling && !squares_i)) && !adjusting ? tap_q + 4'd1 : 4'd0;
-            part_q <= 2'd0;
+            part_q <= (SWITCHES && adjusting && spent_i) || (BLENDS && testing && denoising) ? 2'd2 : 2'd0;
         end
     end
 
