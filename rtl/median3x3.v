@@ -75,8 +75,8 @@ module median3x3 #(
     wire [WIDTH-1:0] middle_mid = middle_of(left_mid_q, center_mid_q, right_mid);
     wire [WIDTH-1:0] lowest_high = lesser(lesser(left_high_q, center_high_q), right_high);
 
-    wire stays;  // the center is the result
-    wire [WIDTH-1:0] center;
+    wire [WIDTH-1:0] median = middle_of(highest_low, middle_mid, lowest_high);
+    wire [WIDTH-1:0] result;
 
     generate
         if (SWITCHING) begin : g_switching
@@ -98,16 +98,14 @@ module median3x3 #(
             // An extreme of its column is one of its window if no other column goes beyond it.
             wire largest = center_largest_q && left_high_q <= center_high_q && right_high <= center_high_q;
             wire smallest = center_smallest_q && left_low_q >= center_low_q && right_low >= center_low_q;
-            assign stays = !largest && !smallest;
-            assign center = center_pixel_q;
+            assign result = largest || smallest ? median : center_pixel_q;
         end else begin : g_median
-            assign stays = 1'b0;
-            assign center = {WIDTH{1'b0}};
+            assign result = median;
         end
     endgenerate
 
     always @(posedge clk_i) begin
-        median_o <= stays ? center : middle_of(highest_low, middle_mid, lowest_high);
+        median_o <= result;
         if (rst_i) begin
             step_q  <= 1'b0;
             valid_o <= 1'b0;

@@ -35,7 +35,8 @@ INDEXES = {
 FRAMING = ["--framing", "letterbox", "--scale", "1/255", "--detect", "yolox"]
 # The standard deviations of the noise, in grey levels.
 NOISE = [1, 2, 4]
-COLUMNS = ["clip", "index", "level", "min_score", "frames", "sent_percent", "active_percent", "found", "kept_percent", "right_percent", "relevant_percent", "missed_percent",
+COLUMNS = ["clip", "index", "level", "min_score", "frames", "sent_percent", "active_percent", "found",
+           "kept_percent", "right_percent", "relevant_percent", "missed_percent",
            *(f"noise{level}_agreement" for level in NOISE), "lut", "ff", "clock_mhz"]
 
 
