@@ -35,8 +35,9 @@ fn is_largest_for_halves(kind: FeatureKind) -> bool {
 fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     let mut config = config((side, side), side, bits, &[kind]);
     config.camera.denoise.filter = foveate_design::DenoiseFilter::None;
-    if kind == FeatureKind::Segment {
-        // A mean that is rounded to whole grey levels would equal one half of pixels of one bit.
+    if kind.has_second_pass() && kind.score_unit().is_count() {
+        // Pixels of one bit have a mean of one half, which a whole number of grey levels would
+        // round to one of both values.
         config.camera.spatial[0].mean_fraction_bits = Some(1);
     }
     let design = design(&config);
