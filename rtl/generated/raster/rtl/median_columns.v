@@ -199,7 +199,7 @@ module median_columns #(
                 .clk_i(clk_i), .data_i({center_own_q, low_equal, high_equal}),
                 .data_o({merged_own, row_low_equal, row_high_equal})
             );
-            for (lane = 0; lane < LANES; lane = lane + 1) begin : g_lane
+            for (lane = 0; lane < LANES; lane = lane + 1) begin : g_compared_lane
                 wire [WIDTH-1:0] a = upper_i[lane*WIDTH+:WIDTH];
                 wire [WIDTH-1:0] b = middle_i[lane*WIDTH+:WIDTH];
                 wire [WIDTH-1:0] c = lower_i[lane*WIDTH+:WIDTH];

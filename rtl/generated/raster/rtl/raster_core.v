@@ -340,7 +340,7 @@ module raster_core #(
                     .level_i(corner_level_i), .hit_o(hits[(EDGE+1)*LANES+:LANES])
                 );
             end
-            if (SURFACE) begin : g_surface
+            if (SURFACE) begin : g_displacement
                 raster_displacement #(.WIDTH(WIDTH), .LANES(LANES), .VALUE_BITS(VALUE_BITS), .DEEP(DEEP)) u_displacement (
                     .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
                     .bottom_i(column_bottom), .middle_i(middle), .lower_i(lower), .values_o(differences)
@@ -348,7 +348,7 @@ module raster_core #(
                 if (HITS == 0) begin : g_no_hits
                     wire unused_top = column_top || |upper;
                 end
-            end else begin : g_no_surface
+            end else begin : g_no_displacement
                 assign differences = {4 * VALUE_BITS{1'b0}};
             end
         end else begin : g_no_window
