@@ -275,8 +275,16 @@ fn scores_reach_their_largest_values() {
     let verdicts = region_outputs(&design, &recording);
     for (feature, index) in design.features().iter().zip(1..) {
         let reached = verdicts.iter().map(|verdict| verdict.scores[index]).max().unwrap();
-        if feature.kind() != FeatureKind::Corner {
-            assert_eq!(reached, feature.score_max(), "{}", feature.kind());
+        match feature.kind() {
+            // The largest scores of these features are bounds that no region is known to reach.
+            FeatureKind::Corner | FeatureKind::Surface => {}
+            FeatureKind::Edge
+            | FeatureKind::Mad
+            | FeatureKind::Variance
+            | FeatureKind::Range
+            | FeatureKind::Segment => {
+                assert_eq!(reached, feature.score_max(), "{}", feature.kind());
+            }
         }
     }
 }
