@@ -3,7 +3,10 @@
 
 use crate::ranges::MAX_SIDE;
 use crate::width::index_bits;
-use crate::{Camera, DenoiseFilter, FeatureKind, Neighborhood, Payload, SpatialFeature, bits_for};
+use crate::{
+    Camera, DenoiseFilter, FeatureKind, MeanDivision, Neighborhood, Payload, SpatialFeature,
+    bits_for,
+};
 
 impl Camera {
     /// Returns the largest pixel value, 2^P - 1.
@@ -40,6 +43,13 @@ impl Camera {
     #[must_use]
     pub fn feature(&self, kind: FeatureKind) -> Option<&SpatialFeature> {
         self.features().iter().find(|feature| feature.kind() == kind)
+    }
+
+    /// Returns the mean with which the second pass begins, which all features of the pass share.
+    /// Returns `None` for a camera without a second pass.
+    #[must_use]
+    pub fn second_pass_mean(&self) -> Option<&MeanDivision> {
+        self.features().iter().find(|feature| feature.kind().has_second_pass())?.mean()
     }
 
     /// Returns true if a feature uses a 3x3 window.

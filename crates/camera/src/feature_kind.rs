@@ -202,6 +202,15 @@ mod tests {
     }
 
     #[test]
+    fn the_features_of_the_second_pass_have_a_mean() {
+        for kind in FeatureKind::ALL {
+            let (mean, _) = kind.mean_and_variance(64, 255, 0);
+            assert_eq!(mean.is_some(), kind.has_second_pass(), "{kind}");
+            assert_eq!(kind.defaults().mean_fraction_bits.is_some(), mean.is_some(), "{kind}");
+        }
+    }
+
+    #[test]
     fn hits_of_windows_are_counts_of_pixels() {
         for kind in FeatureKind::ALL.iter().filter(|kind| kind.counts_window_hits()) {
             assert!(kind.has_window() && kind.score_unit().is_count(), "{kind}");

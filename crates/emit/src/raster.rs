@@ -2,7 +2,7 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::feature_parameters::{deviation_mean, parameter_prefix};
+use crate::feature_parameters::{filter_number, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
@@ -11,8 +11,8 @@ use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    DenoiseFilter, Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Pipelining,
-    Port, PortRole, RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
+    Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Pipelining, Port, PortRole,
+    RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
 };
 
 #[derive(Template)]
@@ -208,7 +208,7 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
         ("LANES", design.pixels_per_clock()),
         ("SIDE", design.region_size()),
         ("ISOLATED", flag(design.neighborhood() == Neighborhood::Isolated)),
-        ("FILTER", filter_number(design)),
+        ("FILTER", filter_number(design.filter())),
         ("ALL", flag(design.combine() == VoteCombination::All)),
         ("LAST_SENT", flag(last_sent_flag(&design))),
         ("BLANKS", flag(blanks_flag(&design))),
@@ -228,8 +228,7 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
         let new = sum_widths(design, feature).into_iter().filter(|new| !list.contains(new));
         list.extend(new.collect::<Vec<_>>());
     }
-    // All features that use the mean of a region use the same one.
-    if let Some(mean) = design.features().iter().find_map(deviation_mean) {
+    if let Some(mean) = design.second_pass_mean() {
         let factor = mean.reciprocal.multiplier();
         wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
     }
@@ -303,16 +302,6 @@ fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
         }
     };
     Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
-}
-
-/// Returns the number of the design's filter in the core.
-fn filter_number(design: RasterDesign<'_>) -> u32 {
-    match design.filter() {
-        DenoiseFilter::None => 0,
-        DenoiseFilter::Median3x3 => 1,
-        DenoiseFilter::Switching3x3 => 2,
-        DenoiseFilter::Binomial3x3 => 3,
-    }
 }
 
 /// Returns the number of the design's frame store in the core.

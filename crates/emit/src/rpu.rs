@@ -90,8 +90,6 @@ struct SpatialParts {
     windowed: Vec<WindowFeature>,
     /// True if the pixels of a region are summed.
     sums: bool,
-    /// The mean of the pixels of a region, which `mad` and `segment` share.
-    mean: Option<MeanParameters>,
     /// Bits of the score of `mad`.
     mad_bits: Option<u32>,
     segment: Option<SegmentParameters>,
@@ -164,7 +162,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
     let window_side = design.denoised_side();
     let timing = PipelinedTiming::from_design(design);
     let deep = design.pipelining() == Pipelining::Deep;
-    let SpatialParts { windowed, sums, mean, mad_bits, segment, variance, range, surface_bits } =
+    let SpatialParts { windowed, sums, mad_bits, segment, variance, range, surface_bits } =
         SpatialParts::of(design);
     RpuModule {
         banner: banner(&design),
@@ -199,7 +197,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         windowed,
         sums,
         sum_bits: design.pixel_sum_bits(),
-        mean,
+        mean: design.second_pass_mean().map(mean_parameters),
         mad_bits,
         segment,
         variance,
@@ -242,11 +240,11 @@ impl SpatialParts {
                     own.windowed.push(window_feature(design, feature));
                 }
                 FeatureKind::Mad => {
-                    own.take_mean(feature);
+                    own.sums = true;
                     own.mad_bits = Some(feature.score_bits());
                 }
                 FeatureKind::Segment => {
-                    own.take_mean(feature);
+                    own.sums = true;
                     own.segment = Some(segment_parameters(design, feature));
                 }
                 FeatureKind::Variance => {
@@ -259,12 +257,6 @@ impl SpatialParts {
             }
         }
         own
-    }
-
-    /// Enters the mean that the second pass of a feature needs. It is the same for all features.
-    fn take_mean(&mut self, feature: &SpatialFeature) {
-        self.sums = true;
-        self.mean = feature.mean().map(mean_parameters);
     }
 }
 

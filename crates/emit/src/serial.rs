@@ -2,7 +2,7 @@
 //! Fills `serial.v`, the top of a serial design: the array, or an array that has one lane.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::feature_parameters::{deviation_mean, parameter_prefix};
+use crate::feature_parameters::{filter_number, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
     ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
@@ -11,9 +11,8 @@ use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    DenoiseFilter, FeatureKind, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port,
-    PortRole, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource,
-    VoteCombination, bits_for,
+    FeatureKind, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole, SerialDesign,
+    SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource, VoteCombination, bits_for,
 };
 
 #[derive(Template)]
@@ -170,15 +169,9 @@ fn clocks_text(design: SerialDesign<'_>) -> String {
 fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
     let memory = design.lane_memory();
     let widths = design.lane_widths();
-    let filter = match design.filter() {
-        DenoiseFilter::None => 0,
-        DenoiseFilter::Median3x3 => 1,
-        DenoiseFilter::Switching3x3 => 2,
-        DenoiseFilter::Binomial3x3 => 3,
-    };
     let region = design.region_size();
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
-    let fraction = design.features().iter().find_map(deviation_mean);
+    let fraction = design.second_pass_mean();
     let flag = |condition: bool| u32::from(condition);
     let numbers = [
         ("WIDTH", design.pixel_bits()),
@@ -188,7 +181,7 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
             "DENOISED_SIDE",
             if design.filter().has_window() { design.denoised_side() } else { region },
         ),
-        ("FILTER", filter),
+        ("FILTER", filter_number(design.filter())),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
         ("LAST_SENT", flag(last_sent_flag(&design))),
         ("BLANKS", flag(blanks_flag(&design))),

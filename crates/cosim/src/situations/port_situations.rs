@@ -3,8 +3,7 @@
 
 use super::occurrence::Occurrences;
 use foveate_design::{
-    DenoiseFilter, Design, FeatureKind, Hardware, Neighborhood, RasterTiming, ReferencePolicy,
-    ThresholdSource, VoteCombination,
+    Design, Hardware, Neighborhood, RasterTiming, ReferencePolicy, ThresholdSource, VoteCombination,
 };
 use foveate_emit::Top;
 
@@ -283,19 +282,9 @@ fn can_refuse_pixels(design: &Design) -> bool {
 
 /// Returns the number of windows that flush behind a frame.
 pub(super) fn flushed_windows(design: &Design) -> u64 {
-    let is_windowed = |kind| match kind {
-        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Surface => true,
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Segment => {
-            false
-        }
-    };
-    let filter = match design.filter() {
-        DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => 1,
-        DenoiseFilter::None => 0,
-    };
-    let feature = design.features().iter().any(|feature| is_windowed(feature.kind()));
+    let windows = [design.filter().has_window(), design.has_feature_window()];
     match design.neighborhood() {
-        Neighborhood::Isolated if is_pipelined(design) => filter + u64::from(feature),
+        Neighborhood::Isolated if is_pipelined(design) => windows.map(u64::from).iter().sum(),
         Neighborhood::Isolated | Neighborhood::Shared => 0,
     }
 }

@@ -5,6 +5,7 @@ use super::random::Random;
 use foveate_design::{DenoiseFilter, Design, FeatureKind, SpatialFeature};
 use foveate_model::ThresholdInputs;
 use foveate_model::feature::decisive_level;
+use foveate_model::feature::mean::rounded_mean;
 use foveate_model::filtered_pixel;
 use foveate_model::window::PixelWindow;
 
@@ -116,9 +117,8 @@ impl ThresholdRanges {
         let margin = (stride - self.side) / 2;
         let rows = square.chunks_exact(stride).skip(margin).take(self.side);
         let pixels = rows.flat_map(|row| &row[margin..][..self.side]);
-        let sum: u32 = pixels.map(|&pixel| u32::from(pixel)).sum();
-        let count = to_u32((self.side * self.side) as u64);
-        (sum + count / 2) / count
+        let sum = pixels.map(|&pixel| u64::from(pixel)).sum();
+        to_u32(rounded_mean(sum, (self.side * self.side) as u64, 0))
     }
 
     /// Sets the temporal level near the change `difference` of a pixel.

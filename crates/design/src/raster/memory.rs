@@ -149,45 +149,21 @@ impl MemorySizes {
         let column = |holds, bits| RasterMemory { contents: holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
         let sums = column("sums of pixels", design.pixel_sum_bits());
-        let of_pixels = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
-        {
-            FeatureAccumulation::Hits
-            | FeatureAccumulation::Extremes
-            | FeatureAccumulation::Displacements => None,
-            FeatureAccumulation::Deviations(_) | FeatureAccumulation::Squares(_) => Some(sums),
-        };
-        let of_squares = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature)
-        {
-            FeatureAccumulation::Hits
-            | FeatureAccumulation::Deviations(_)
-            | FeatureAccumulation::Extremes
-            | FeatureAccumulation::Displacements => None,
-            FeatureAccumulation::Squares(widths) => {
-                Some(column("sums of squares", widths.square_sum_bits))
-            }
-        };
         let extremes = column("smallest and largest pixels", 2 * design.pixel_bits());
-        let of_extremes =
-            |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
-                FeatureAccumulation::Hits
-                | FeatureAccumulation::Deviations(_)
-                | FeatureAccumulation::Squares(_) => None,
-                FeatureAccumulation::Extremes => Some(extremes),
-                FeatureAccumulation::Displacements => None,
-            };
         let differences = column("four sums of differences", 4 * design.pixel_sum_bits());
-        let of_differences =
-            |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
-                FeatureAccumulation::Hits
-                | FeatureAccumulation::Deviations(_)
-                | FeatureAccumulation::Squares(_)
-                | FeatureAccumulation::Extremes => None,
-                FeatureAccumulation::Displacements => Some(differences),
-            };
-        list.extend(design.features().iter().find_map(of_pixels));
-        list.extend(design.features().iter().find_map(of_squares));
-        list.extend(design.features().iter().find_map(of_extremes));
-        list.extend(design.features().iter().find_map(of_differences));
+        // Features share a memory, so each place of this array is one memory at most.
+        let memories = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
+            FeatureAccumulation::Hits => [None; 4],
+            FeatureAccumulation::Deviations(_) => [Some(sums), None, None, None],
+            FeatureAccumulation::Squares(widths) => {
+                let squares = column("sums of squares", widths.square_sum_bits);
+                [Some(sums), Some(squares), None, None]
+            }
+            FeatureAccumulation::Extremes => [None, None, Some(extremes), None],
+            FeatureAccumulation::Displacements => [None, None, None, Some(differences)],
+        };
+        let of_features: Vec<_> = design.features().iter().map(memories).collect();
+        list.extend((0..4).filter_map(|place| of_features.iter().find_map(|own| own[place])));
         list
     }
 
@@ -260,15 +236,7 @@ impl MemorySizes {
         };
         let decision_bits = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let decision_bits = decision_bits + 2 * u32::from(design.periphery().is_some());
-        let mean_of_pass = |feature| match FeatureAccumulation::from_feature(feature) {
-            FeatureAccumulation::Hits
-            | FeatureAccumulation::Squares(_)
-            | FeatureAccumulation::Extremes
-            | FeatureAccumulation::Displacements => None,
-            FeatureAccumulation::Deviations(mean) => Some(mean),
-        };
-        // All features of the second pass use one mean, and wait in one queue.
-        list.extend(design.features().iter().find_map(mean_of_pass).map(|mean| {
+        list.extend(design.second_pass_mean().map(|mean| {
             queue("regions that wait for the second pass", mean.mean_bits + start + decision_bits)
         }));
         let bits = self.reference.bits_per_region();

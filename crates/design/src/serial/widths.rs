@@ -37,18 +37,17 @@ impl LaneWidths {
             DenoiseFilter::None | DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 => 1,
             DenoiseFilter::Binomial3x3 => 5,
         };
-        // The accumulator holds the difference of two pixels, or of their windows. The scale holds the power of two that
-        // the median search starts with.
+        // The accumulator holds the difference of two pixels, or of their windows. The scale holds
+        // the power of two that the median search starts with.
         let mut widths = Self {
             accumulator: (pixel + filter).max(sums.map_or(0, |sums| sums.sum_bits)),
             second: 2,
             chain,
             scale: pixel,
-            center: index_bits(match design.filter() {
-                DenoiseFilter::None => design.region_pixels().into(),
-                DenoiseFilter::Median3x3
-                | DenoiseFilter::Switching3x3
-                | DenoiseFilter::Binomial3x3 => u64::from(design.denoised_side()).pow(2),
+            center: index_bits(if design.filter().has_window() {
+                u64::from(design.denoised_side()).pow(2)
+            } else {
+                design.region_pixels().into()
             }),
         };
         for feature in design.features() {

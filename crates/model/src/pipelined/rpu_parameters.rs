@@ -3,7 +3,7 @@
 
 use foveate_design::{
     DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, Periphery,
-    PipelinedDesign, PipelinedTiming, ReferencePolicy, SpatialFeature, VoteCombination,
+    PipelinedDesign, PipelinedTiming, ReferencePolicy, VoteCombination,
 };
 
 use crate::ThresholdInputs;
@@ -54,18 +54,6 @@ impl RpuParameters {
             *place = Some(feature.kind());
         }
         let timing = PipelinedTiming::from_design(design);
-        let fraction_bits = |feature: &SpatialFeature| match feature.kind() {
-            FeatureKind::Edge
-            | FeatureKind::Corner
-            | FeatureKind::Variance
-            | FeatureKind::Range
-            | FeatureKind::Surface => None,
-            FeatureKind::Mad | FeatureKind::Segment => {
-                feature.mean().map(|mean| mean.fraction_bits)
-            }
-        };
-        // All features of a camera share one mean.
-        let fraction_bits = design.features().iter().find_map(fraction_bits);
         Self {
             side: index(design.region_size()),
             pixels: index(design.region_pixels()),
@@ -78,7 +66,7 @@ impl RpuParameters {
             filter_registers: index(timing.filter_registers),
             tail_delay: index(timing.tail_delay),
             features,
-            fraction_bits: fraction_bits.unwrap_or(0),
+            fraction_bits: design.second_pass_mean().map_or(0, |mean| mean.fraction_bits),
             second_pass: design.has_second_pass(),
             combine: design.combine(),
             reference: design.temporal().reference,
