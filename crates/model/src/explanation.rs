@@ -11,6 +11,8 @@ mod text;
 use foveate_camera::{DenoiseFilter, FeatureKind};
 use serde::Serialize;
 
+use crate::feature::surface::DisplacementSums;
+
 /// A square of values, row by row.
 pub type SquareRows<T> = Vec<Vec<T>>;
 
@@ -112,7 +114,7 @@ pub struct SpatialExplanation {
     pub parts: Option<SegmentParts>,
     /// The sums of differences from the region moved by one pixel, for `surface`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub displacements: Option<DisplacementTotals>,
+    pub displacements: Option<DisplacementSums>,
     /// The score.
     pub score: u64,
     /// The smallest score that votes.
@@ -135,19 +137,6 @@ pub struct SegmentParts {
     pub count_above: u64,
     /// Number of pixels below.
     pub count_below: u64,
-}
-
-/// The sums of `surface` over the differences between each pixel and one of its neighbors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct DisplacementTotals {
-    /// The sum for the neighbors to the right.
-    pub right: u64,
-    /// The sum for the neighbors below.
-    pub below: u64,
-    /// The sum for the neighbors below to the right.
-    pub below_right: u64,
-    /// The sum for the neighbors below to the left.
-    pub below_left: u64,
 }
 
 /// The temporal score with its reference and its thresholds.

@@ -11,8 +11,8 @@ use foveate_design::Design;
 use foveate_frame::Frame;
 
 use super::{
-    DisplacementTotals, FrameIdentification, RegionExplanation, RegionPosition, SegmentParts,
-    SpatialExplanation, SquareRows, SummaryExplanation, TemporalExplanation,
+    FrameIdentification, RegionExplanation, RegionPosition, SegmentParts, SpatialExplanation,
+    SquareRows, SummaryExplanation, TemporalExplanation,
 };
 use crate::feature::mean::region_mean;
 use crate::feature::region_hits;
@@ -107,8 +107,7 @@ impl SpatialExplanation {
             | FeatureKind::Variance
             | FeatureKind::Range => {}
             FeatureKind::Surface => {
-                displacements =
-                    Some(DisplacementTotals::from_sums(displacement_sums(&view).sums()));
+                displacements = Some(displacement_sums(&view));
             }
             FeatureKind::Segment => {
                 let level = feature.level().expect("segment has a level");
@@ -146,12 +145,6 @@ impl SegmentParts {
             count_above: counts.above,
             count_below: counts.below,
         }
-    }
-}
-
-impl DisplacementTotals {
-    fn from_sums([right, below, below_right, below_left]: [u64; 4]) -> Self {
-        Self { right, below, below_right, below_left }
     }
 }
 

@@ -7,9 +7,11 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
+use crate::feature::surface::DisplacementSums;
+
 use super::{
-    DisplacementTotals, RegionExplanation, SegmentParts, SpatialExplanation, SquareRows,
-    SummaryExplanation, TemporalExplanation,
+    RegionExplanation, SegmentParts, SpatialExplanation, SquareRows, SummaryExplanation,
+    TemporalExplanation,
 };
 
 /// Width of a terminal in columns.
@@ -127,7 +129,7 @@ impl SpatialExplanation {
             let _ = write!(line, "; {} above, {} below", parts.count_above, parts.count_below);
         }
         if let Some(sums) = &self.displacements {
-            let DisplacementTotals { right, below, below_right, below_left } = sums;
+            let DisplacementSums { right, below, below_right, below_left } = sums;
             let _ = write!(
                 line,
                 "\n{:<9} the smallest of: right {right}, below {below},\n{:<9} below right \

@@ -2,46 +2,59 @@
 //! The feature `surface`: the smallest sum of differences between the region and itself, moved by
 //! one pixel in four directions.
 
+use serde::Serialize;
+
 use crate::region_view::RegionView;
 use crate::window::{CENTER, PixelWindow};
 
-/// The places in a window of the pixels at the displacements (1, 0), (0, 1), (1, 1) and (-1, 1):
-/// right, below, below to the right, below to the left.
-const DISPLACED: [usize; 4] = [5, 7, 8, 6];
+/// The differences between the center of a window and its neighbors at the displacements (1, 0),
+/// (0, 1), (1, 1) and (-1, 1): right, below, below to the right, below to the left.
+pub type WindowDifferences = [u16; 4];
 
-/// The sum of differences for each of the four displacements.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DisplacementSums([u64; DISPLACED.len()]);
+/// The sums over the differences between each pixel and one of its neighbors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct DisplacementSums {
+    /// The sum for the neighbors to the right.
+    pub right: u64,
+    /// The sum for the neighbors below.
+    pub below: u64,
+    /// The sum for the neighbors below to the right.
+    pub below_right: u64,
+    /// The sum for the neighbors below to the left.
+    pub below_left: u64,
+}
 
 impl DisplacementSums {
-    /// Returns the sums of these windows and one more.
+    /// Returns the sums of these differences and those of one more window.
     #[must_use]
-    pub fn with(self, window: &PixelWindow) -> Self {
-        let Self(mut sums) = self;
-        for (sum, place) in sums.iter_mut().zip(DISPLACED) {
-            *sum += u64::from(window[CENTER].abs_diff(window[place]));
+    pub fn with(self, differences: WindowDifferences) -> Self {
+        let [right, below, below_right, below_left] = differences.map(u64::from);
+        Self {
+            right: self.right + right,
+            below: self.below + below,
+            below_right: self.below_right + below_right,
+            below_left: self.below_left + below_left,
         }
-        Self(sums)
-    }
-
-    /// Returns the sums in the order of the contract.
-    #[must_use]
-    pub fn sums(self) -> [u64; DISPLACED.len()] {
-        self.0
     }
 
     /// Returns the score, which is the smallest sum.
     #[must_use]
     pub fn score(self) -> u64 {
-        let [right, below, below_right, below_left] = self.0;
-        right.min(below).min(below_right).min(below_left)
+        self.right.min(self.below).min(self.below_right).min(self.below_left)
     }
+}
+
+/// Returns the differences of a window.
+#[must_use]
+pub fn window_differences(window: &PixelWindow) -> WindowDifferences {
+    [5, 7, 8, 6].map(|place: usize| window[CENTER].abs_diff(window[place]))
 }
 
 /// Returns the sums of all windows of a region.
 #[must_use]
 pub fn displacement_sums(region: &impl RegionView) -> DisplacementSums {
-    region.windows().fold(DisplacementSums::default(), |seen, window| seen.with(&window))
+    let differences = region.windows().map(|window| window_differences(&window));
+    differences.fold(DisplacementSums::default(), DisplacementSums::with)
 }
 
 #[cfg(test)]
@@ -50,11 +63,16 @@ mod tests {
 
     #[test]
     fn each_displacement_has_its_own_sum_and_the_smallest_counts() {
+        let sums = |windows: &[PixelWindow]| {
+            let differences = windows.iter().map(window_differences);
+            let sums = differences.fold(DisplacementSums::default(), DisplacementSums::with);
+            let DisplacementSums { right, below, below_right, below_left } = sums;
+            ([right, below, below_right, below_left], sums.score())
+        };
         let window = [99, 99, 99, 99, 10, 13, 5, 30, 11];
-        let one = DisplacementSums::default().with(&window);
-        assert_eq!((one.sums(), one.score()), ([3, 20, 1, 5], 1));
-        let two = one.with(&[0, 0, 0, 0, 0, 0, 0, 0, u16::MAX]);
-        assert_eq!((two.sums(), two.score()), ([3, 20, 65536, 5], 3));
-        assert_eq!(DisplacementSums::default().with(&[7; 9]).score(), 0);
+        assert_eq!(sums(&[window]), ([3, 20, 1, 5], 1));
+        let corner = [0, 0, 0, 0, 0, 0, 0, 0, u16::MAX];
+        assert_eq!(sums(&[window, corner]), ([3, 20, 65536, 5], 3));
+        assert_eq!(sums(&[[7; 9]]).1, 0);
     }
 }

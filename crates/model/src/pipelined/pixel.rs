@@ -2,7 +2,7 @@
 //! The values that travel between the stages.
 
 use super::rpu_parameters::MAX_FEATURES;
-use crate::window::PixelWindow;
+use crate::feature::surface::WindowDifferences;
 
 /// A pixel with its scored and its raw value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,12 +20,12 @@ impl StagePixel {
     }
 }
 
-/// A step of the last window: a pixel, its window and, by number of the feature, true if it is a
-/// hit.
+/// A step of the last window: a pixel, its differences from neighbors and, by number of the
+/// feature, true if it is a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct TailStep {
     pub(super) pixel: StagePixel,
     pub(super) hits: [bool; MAX_FEATURES],
-    /// The scored values around the pixel; zeros in a design without a feature window.
-    pub(super) window: PixelWindow,
+    /// The differences for `surface`; zeros in a design without it.
+    pub(super) differences: WindowDifferences,
 }

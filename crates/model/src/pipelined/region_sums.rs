@@ -39,7 +39,7 @@ impl RegionSums {
         self.sum += u64::from(pixel);
         self.square_sum += variance::square(pixel);
         self.extremes = self.extremes.with(pixel);
-        self.displacements = self.displacements.with(&step.window);
+        self.displacements = self.displacements.with(step.differences);
         if last {
             let n = u64::from(plan.pixel_count());
             self.mean = rounded_mean(self.sum, n, plan.fraction_bits);

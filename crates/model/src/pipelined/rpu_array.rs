@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! RPUs that are clocked together: their stages in sequence.
 
-use foveate_design::PipelinedDesign;
+use foveate_design::{FeatureKind, PipelinedDesign};
 
 use super::delay_line::DelayLine;
 use super::filter::FilterStage;
@@ -13,6 +13,7 @@ use super::window_center::WindowCenters;
 use super::window_stage::WindowStage;
 use crate::ThresholdInputs;
 use crate::feature::is_hit;
+use crate::feature::surface::window_differences;
 
 /// The RPUs of an array, one per lane. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
@@ -114,19 +115,35 @@ impl RpuArray {
     }
 }
 
-/// Returns the centers with their hits, with the levels of the edge at which they step.
+/// Returns the centers with what the features need of their windows, with the levels of the edge at
+/// which they step.
 fn tail_steps(
     plan: &RpuParameters,
     centers: &WindowCenters<'_>,
     thresholds: &ThresholdInputs,
 ) -> Vec<TailStep> {
-    let mut steps = centers.map(|pixel, &window| TailStep { pixel, window, ..TailStep::default() });
-    for (feature, (kind, level)) in plan.features.iter().zip(thresholds.level).enumerate() {
-        if let &Some(kind) = kind {
-            let hits = centers.map(|_, window| is_hit(kind, window, level));
-            for (step, hit) in steps.iter_mut().zip(hits) {
-                step.hits[feature] = hit;
+    let mut steps = centers.map(|pixel, _| TailStep { pixel, ..TailStep::default() });
+    for (feature, (&kind, level)) in plan.features.iter().zip(thresholds.level).enumerate() {
+        match kind {
+            Some(kind @ (FeatureKind::Edge | FeatureKind::Corner)) => {
+                let hits = centers.map(|_, window| is_hit(kind, window, level));
+                for (step, hit) in steps.iter_mut().zip(hits) {
+                    step.hits[feature] = hit;
+                }
             }
+            Some(FeatureKind::Surface) => {
+                let differences = centers.map(|_, window| window_differences(window));
+                for (step, differences) in steps.iter_mut().zip(differences) {
+                    step.differences = differences;
+                }
+            }
+            Some(
+                FeatureKind::Mad
+                | FeatureKind::Variance
+                | FeatureKind::Range
+                | FeatureKind::Segment,
+            )
+            | None => {}
         }
     }
     steps

@@ -11,8 +11,8 @@
 //! forward (after)   -   -   -   -   -  a0  a1  a2  a3     if frame a was active
 //! ```
 //!
-//! With a second pass the decision after edge 8 is that of frame a, and its pixels leave while frame c
-//! comes in.
+//! With a second pass the decision after edge 8 is that of frame a, and its pixels leave while
+//! frame c comes in.
 
 use foveate_design::{Payload, RegionAction};
 

@@ -5,7 +5,8 @@ use crate::support::{design, frames};
 use foveate_design::{DesignConfig, FeatureKind};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_model::explanation::{DisplacementTotals, SpatialExplanation};
+use foveate_model::explanation::SpatialExplanation;
+use foveate_model::feature::surface::DisplacementSums;
 use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_simulator::{RegionExplanation, SimulatorError, explain_region};
 
@@ -40,8 +41,7 @@ fn check_parts_of_score(spatial: &SpatialExplanation) {
         assert_eq!(parts.count_above.min(parts.count_below), *score);
     }
     assert_eq!(spatial.displacements.is_some(), *feature == FeatureKind::Surface);
-    if let Some(DisplacementTotals { right, below, below_right, below_left }) =
-        spatial.displacements
+    if let Some(DisplacementSums { right, below, below_right, below_left }) = spatial.displacements
     {
         assert_eq!([right, below, below_right, below_left].into_iter().min(), Some(*score));
     }
