@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tests that the functional model equals the oracle, for every kind of definition.
+//! Tests that the functional model equals the oracle, for every kind of design.
 
-use foveate_camera::Camera;
+use foveate_design::Design;
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
 use crate::frames::{arbitrary_scripts, make_clip};
 use crate::oracle::{OracleFrame, OracleOutcome, oracle_history};
-use crate::parameters::{DesignParameters, PeripheryParameters, arbitrary_camera_parameters};
+use crate::parameters::{DesignParameters, PeripheryParameters, arbitrary_parameters};
 
 fn frame_values(frame: &Frame) -> OracleFrame {
     let row = |y| frame.row(y).iter().map(|&pixel| i64::from(pixel)).collect();
@@ -40,7 +40,7 @@ pub(crate) fn assert_outcome_is(
 
 pub(crate) fn check(recipe: &DesignParameters, frames: &[Frame]) {
     let history = oracle_history(recipe, frames);
-    let mut camera = FunctionalCamera::new(&recipe.camera());
+    let mut camera = FunctionalCamera::new(&recipe.design());
     for (frame, expected) in frames.iter().zip(&history) {
         assert_outcome_is(recipe, camera.step(frame).unwrap(), expected);
     }
@@ -55,7 +55,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
-    fn functional_equals_the_oracle(recipe in arbitrary_camera_parameters(), script in arbitrary_scripts(7)) {
+    fn functional_equals_the_oracle(recipe in arbitrary_parameters(), script in arbitrary_scripts(7)) {
         check(&recipe, &make_clip(&recipe, &script));
     }
 
@@ -63,19 +63,19 @@ proptest! {
     /// block is within `level` of the mean of the block.
     #[test]
     fn every_block_that_is_shown_is_near_its_mean(
-        recipe in arbitrary_camera_parameters().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
+        recipe in arbitrary_parameters().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
         script in arbitrary_scripts(7),
     ) {
         // Without padding the whole of every block is on the screen.
         let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
         let recipe = DesignParameters { width, height, ..recipe };
-        let definition = recipe.camera();
-        let mut camera = FunctionalCamera::new(&definition);
+        let design = recipe.design();
+        let mut camera = FunctionalCamera::new(&design);
         for frame in make_clip(&recipe, &script) {
             let outcome = camera.step(&frame).unwrap();
-            for region in 0..definition.regions() {
+            for region in 0..design.regions() {
                 if !outcome.srs[region as usize] {
-                    check_shown(&recipe, outcome, &definition, region);
+                    check_shown(&recipe, outcome, &design, region);
                 }
             }
         }
@@ -85,16 +85,16 @@ proptest! {
 fn check_shown(
     recipe: &DesignParameters,
     outcome: &FunctionalOutcome,
-    definition: &Camera,
+    design: &Design,
     region: u32,
 ) {
     let PeripheryParameters { blocks, level } = recipe.periphery.unwrap();
     let side = (recipe.side / blocks) as u32;
     let (left, top) = (
-        region % definition.columns() * definition.region_size(),
-        region / definition.columns() * definition.region_size(),
+        region % design.columns() * design.region_size(),
+        region / design.columns() * design.region_size(),
     );
-    let payload = outcome.payload(definition);
+    let payload = outcome.payload(design);
     for block in 0..(blocks * blocks) as u32 {
         let (x, y) = (left + block % blocks as u32 * side, top + block / blocks as u32 * side);
         let places = || (y..y + side).flat_map(move |y| (x..x + side).map(move |x| (x, y)));

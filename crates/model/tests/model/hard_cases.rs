@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of cases at the ends of ranges, with explicit expected numbers.
 
-use foveate_design::{Design, DesignConfig, Organization};
+use foveate_design::{Design, DesignConfig};
 use foveate_frame::Frame;
 use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
@@ -9,7 +9,7 @@ use foveate_model::{
     region_stream, temporal_differences,
 };
 
-use crate::parameters::{Capabilities, DesignParameters, FeatureParameters, PeripheryParameters};
+use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 use crate::{functional_properties, pipelined_properties};
 
 fn design(toml: &str) -> Design {
@@ -193,16 +193,6 @@ fn recipe_with_all_features(
     }
 }
 
-/// Returns the recipe with the filter and the features that pipelined designs have.
-fn supported_by_pipelined(mut recipe: DesignParameters) -> DesignParameters {
-    let capabilities = Capabilities::of(Organization::Pipelined);
-    recipe.features.retain(|feature| capabilities.has_feature(feature.name));
-    if !capabilities.has_filter(recipe.filter) {
-        recipe.filter = "median3x3";
-    }
-    recipe
-}
-
 #[test]
 pub(crate) fn hard_frames_at_the_ends_of_every_range() {
     for side in [2, 3, 5, 7] {
@@ -212,7 +202,6 @@ pub(crate) fn hard_frames_at_the_ends_of_every_range() {
                     let recipe = recipe_with_all_features(side, bits, size, shared, last_sent);
                     let frames = hard_frames(&recipe);
                     functional_properties::check(&recipe, &frames);
-                    let recipe = supported_by_pipelined(recipe);
                     let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
                     pipelined_properties::check_dense(&recipe, &mut rcm, &frames);
                 }
@@ -227,8 +216,7 @@ fn the_largest_region() {
         let recipe = recipe_with_all_features(64, 16, (65, 40), shared, shared);
         let frames = hard_frames(&recipe);
         functional_properties::check(&recipe, &frames[1..]);
-        let recipe =
-            supported_by_pipelined(recipe_with_all_features(64, 16, (64, 64), shared, shared));
+        let recipe = recipe_with_all_features(64, 16, (64, 64), shared, shared);
         let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
         pipelined_properties::check_dense(&recipe, &mut rcm, &hard_frames(&recipe)[2..5]);
     }

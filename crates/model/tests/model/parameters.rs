@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Camera, DenoiseFilter, Design, DesignConfig, FeatureKind, Organization};
+use foveate_design::{DenoiseFilter, Design, DesignConfig, FeatureKind};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
@@ -97,11 +97,6 @@ impl DesignParameters {
         (self.height + self.side - 1) / self.side
     }
 
-    /// Returns the camera, which needs no organization that supports it.
-    pub(crate) fn camera(&self) -> Camera {
-        self.config().camera.validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))
-    }
-
     /// Returns the pipelined design.
     pub(crate) fn design(&self) -> Design {
         self.config().validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))
@@ -162,71 +157,19 @@ impl DesignParameters {
     }
 }
 
-/// The features and filters that designs are made of, by name.
-#[derive(Clone, Debug)]
-pub(crate) struct Capabilities {
-    features: Vec<&'static str>,
-    filters: Vec<&'static str>,
-}
-
-impl Capabilities {
-    /// Returns all features and filters.
-    pub(crate) fn all() -> Self {
-        Self { features: FeatureKind::NAMES.to_vec(), filters: DenoiseFilter::NAMES.to_vec() }
-    }
-
-    /// Returns those that an organization supports.
-    pub(crate) fn of(organization: Organization) -> Self {
-        let is_supported = |feature: &str, filter: &str| {
-            let toml = format!(
-                "[frame]\nwidth = 64\nheight = 64\n[denoise]\nfilter = \"{filter}\"\n\
-                 [[spatial]]\nfeature = \"{feature}\"\n\
-                 [hardware]\norganization = \"{organization}\""
-            );
-            DesignConfig::from_toml(&toml).unwrap().validate().is_ok()
-        };
-        let mut own = Self::all();
-        own.features.retain(|feature| is_supported(feature, "none"));
-        own.filters.retain(|filter| is_supported("edge", filter));
-        assert!(own.features.len() > 1 && own.filters.len() > 1, "{organization}: {own:?}");
-        own
-    }
-
-    pub(crate) fn has_feature(&self, name: &str) -> bool {
-        self.features.contains(&name)
-    }
-
-    pub(crate) fn has_filter(&self, name: &str) -> bool {
-        self.filters.contains(&name)
-    }
-}
-
 /// Generates every kind of pipelined design, with frames of about three regions.
 pub(crate) fn arbitrary_parameters() -> impl Strategy<Value = DesignParameters> {
-    arbitrary_small_parameters(Capabilities::of(Organization::Pipelined))
-}
-
-/// Generates every kind of camera, with frames of about three regions. Some of them have no
-/// pipelined design.
-pub(crate) fn arbitrary_camera_parameters() -> impl Strategy<Value = DesignParameters> {
-    arbitrary_small_parameters(Capabilities::all())
-}
-
-fn arbitrary_small_parameters(
-    capabilities: Capabilities,
-) -> impl Strategy<Value = DesignParameters> {
     let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
-    (arbitrary_parameters_with_sides(sides, capabilities), any::<bool>())
+    (arbitrary_parameters_with_sides(sides), any::<bool>())
         .prop_map(|(recipe, deep)| DesignParameters { deep, ..recipe })
 }
 
 /// Generates every kind of design with plain pipelining, for regions of these sides.
 pub(crate) fn arbitrary_parameters_with_sides(
     sides: impl Strategy<Value = i64>,
-    capabilities: Capabilities,
 ) -> impl Strategy<Value = DesignParameters> {
     let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
-    (without_periphery(sides, capabilities), blocks).prop_flat_map(|(recipe, blocks)| {
+    (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
         let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
         small_numbers(recipe.pixel_max() - 1).prop_map(move |level| DesignParameters {
             periphery: blocks.map(|blocks| PeripheryParameters { blocks, level }),
@@ -235,21 +178,18 @@ pub(crate) fn arbitrary_parameters_with_sides(
     })
 }
 
-fn without_periphery(
-    sides: impl Strategy<Value = i64>,
-    Capabilities { features, filters }: Capabilities,
-) -> impl Strategy<Value = DesignParameters> {
+fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = DesignParameters> {
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
     (sides, bits).prop_flat_map(move |(side, bits)| {
         let size = 1..=2 * side + 1;
-        let names = subsequence(features.clone(), 1..=features.len()).prop_shuffle();
+        let names = subsequence(FeatureKind::NAMES, 1..=FeatureKind::COUNT).prop_shuffle();
         let fraction_max = (0..).find(|bits| 1i64 << bits >= side * side).unwrap();
         // All features of a camera share one mean.
         let features = (names, 0u32..=fraction_max).prop_flat_map(move |(names, fraction_bits)| {
             let feature = |name| arbitrary_feature(name, side, bits, fraction_bits);
             names.into_iter().map(feature).collect::<Vec<_>>()
         });
-        let filter = select(filters.clone());
+        let filter = select(DenoiseFilter::NAMES);
         let switches = proptest::array::uniform7(any::<bool>());
         let max = (1i64 << bits) - 1;
         let temporal = (small_numbers(max - 1), small_numbers(side * side));

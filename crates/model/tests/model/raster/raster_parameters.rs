@@ -2,11 +2,11 @@
 //! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow from
 //! it.
 
-use foveate_design::{Design, FrameStoreKind, Organization, Pipelining};
+use foveate_design::{Design, FrameStoreKind, Pipelining};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::parameters::{Capabilities, DesignParameters, arbitrary_parameters_with_sides};
+use crate::parameters::{DesignParameters, arbitrary_parameters_with_sides};
 
 #[derive(Clone, Debug)]
 pub(crate) struct RasterParameters {
@@ -198,7 +198,6 @@ impl RasterParameters {
 
 /// Generates every kind of raster design, with about four regions or sixteen words in a row.
 pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParameters> {
-    let capabilities = Capabilities::of(Organization::Raster);
     let sides = prop_oneof![6 => select(vec![2i64, 3, 4, 4, 5, 6, 8, 8]), 1 => 2i64..=9];
     let size = (0i64..=100, 0i64..=100, 0i64..=1);
     let stores = select(vec![
@@ -208,8 +207,8 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
         FrameStoreKind::External,
     ]);
     let built = (any::<bool>(), stores, select(vec![true, true, false]));
-    (arbitrary_parameters_with_sides(sides, capabilities), select(vec![1i64, 2, 4]), built, size)
-        .prop_map(|(mut base, pixels, (deep, store, forward), (wide, high, more))| {
+    (arbitrary_parameters_with_sides(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
+        |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
             let side = base.side;
             let block = base.periphery.map_or(side, |periphery| side / periphery.blocks);
             let pixels = if block % pixels == 0 { pixels } else { 2 - block % 2 };
@@ -229,5 +228,6 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
                 forward,
                 misread: PlantedMisreading::default(),
             }
-        })
+        },
+    )
 }

@@ -2,13 +2,12 @@
 //! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow from
 //! it.
 
-use foveate_design::{Design, Organization, PixelFeed};
+use foveate_design::{Design, PixelFeed};
 use proptest::prelude::*;
 use proptest::sample::select;
 
 use crate::parameters::{
-    Capabilities, DesignParameters, FeatureParameters, PeripheryParameters,
-    arbitrary_parameters_with_sides,
+    DesignParameters, FeatureParameters, PeripheryParameters, arbitrary_parameters_with_sides,
 };
 
 #[derive(Clone, Debug)]
@@ -205,9 +204,8 @@ impl SerialParameters {
 
 /// Generates every kind of serial design, with a few regions.
 pub(crate) fn arbitrary_serial_parameters() -> impl Strategy<Value = SerialParameters> {
-    let capabilities = Capabilities::of(Organization::Serial);
     let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
-    (arbitrary_parameters_with_sides(sides, capabilities), any::<[bool; 2]>(), 0i64..=9).prop_map(
+    (arbitrary_parameters_with_sides(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(
         |(base, [raster, deep], fold)| {
             let regions = base.columns() * base.rows();
             SerialParameters {
