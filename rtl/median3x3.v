@@ -80,8 +80,8 @@ module median3x3 #(
 
     generate
         if (SWITCHING) begin : g_switching
-            // Of a column: whether the middle pixel is the largest, whether it is the smallest, and the pixel. Another pixel may
-            // have the same value.
+            // The middle pixel of a column, and two bits that say if it is the largest and if it is the smallest of the three. Another
+            // pixel may have the same value.
             reg right_largest_q, right_smallest_q, center_largest_q, center_smallest_q;
             reg [WIDTH-1:0] right_pixel_q, center_pixel_q;
             always @(posedge clk_i) begin

@@ -182,12 +182,13 @@ module median_columns #(
     wire [LANES*WIDTH-1:0] own;
     generate
         if (SWITCHING) begin : g_switching
-            // Of each column: whether the middle pixel is the largest of the three, whether it is the smallest, and the pixel. Another
-            // pixel may be equal to it.
+            // The middle pixel of each column, and two bits that say if it is the largest and if it is the smallest of the three.
+            // Another pixel may have the same value.
             localparam OWN = WIDTH + 2;
             wire [LANES*OWN-1:0] incoming, merged_own;
             reg [LANES*OWN-1:0] newest_own_q, center_own_q;
-            wire [LANES-1:0] low_equal, high_equal;  // of the columns left and center; of center and right
+            wire [LANES-1:0] low_equal;   // the lows of the left and the center column are equal
+            wire [LANES-1:0] high_equal;  // the highs of the center and the right column are equal
             wire [LANES-1:0] row_low_equal, row_high_equal;
             always @(posedge clk_i) begin
                 if (sort_step) begin

@@ -68,7 +68,7 @@ function f_result(input [3*F_COLUMN-1:0] window);
 endfunction
 generate
     if (SWITCHING) begin : g_f_switching
-        // Of a column: whether its middle pixel is the largest, whether it is the smallest, and the pixel.
+        // The middle pixel of a column, and two bits that say if it is the largest and if it is the smallest of the three.
         function [WIDTH+1:0] f_own(input [F_COLUMN-1:0] column);
             f_own = {
                 column[WIDTH+:WIDTH] >= column[0+:WIDTH] && column[WIDTH+:WIDTH] >= column[2*WIDTH+:WIDTH],

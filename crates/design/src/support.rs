@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The features, filters, references, renderings and sources of thresholds that each organization supports.
-//! A new organization, or a new value of one of these keys, does not compile until it is entered
-//! here. A value that the organization does not support is refused by name.
+//! The features, filters, references, renderings and sources of thresholds that each organization
+//! supports. A new organization, or a new value of one of these keys, does not compile until it
+//! is entered here. A value that the organization does not support is refused by name.
 
 use crate::{HardwareConfig, Organization, ThresholdSource};
 use foveate_camera::{

@@ -23,8 +23,8 @@ pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
     /// Converts a value that is known to fit.
     fn from_word(value: u16) -> Self;
 
-    /// Converts a grey level that is known to fit. Of a fraction, which must be a multiple of 1/16,
-    /// the nearest whole level is returned, and a half is rounded up, as the filter `binomial3x3`
+    /// Converts a grey level that is known to fit. A fraction, which must be a multiple of 1/16, is
+    /// rounded to the nearest whole level, and a half is rounded up, as the filter `binomial3x3`
     /// does.
     fn from_grey_level(value: f64) -> Self;
 

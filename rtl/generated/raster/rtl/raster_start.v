@@ -6,7 +6,7 @@
 module raster_start #(
     parameter COLUMNS = 240,      // regions in a row of regions
     parameter ROWS = 135,         // rows of regions
-    parameter SEGMENT_WORDS = 8,      // words of a row of a region
+    parameter SEGMENT_WORDS = 8,  // words of a row of a region
     parameter SIDE = 8,           // rows of a region
     parameter BANKS = 2,          // rows of regions in the buffer
     parameter START_BITS = 15,    // ceil(log2(BANKS * SIDE * COLUMNS * SEGMENT_WORDS))

@@ -45,7 +45,7 @@ module serial_controls #(
     wire tests = testing || gradient_test || ring_test;       // the accumulator is compared with a level
     wire half_done = gradient_test && !part_i[0];             // the first of two gradients of a pixel is done
     wire scores = (gradient_test && part_i[0]) || (ring_test && ring_last);  // all comparisons of a pixel are done
-    wire takes_old = LAST_SENT == 0 && writing && !blends;               // the reference is the word that the median replaces
+    wire takes_old = LAST_SENT == 0 && writing && !blends;    // the reference is the word that the median replaces
 
     // Controls for the address: what is written.
     wire write_active = LAST_SENT != 0 && writing && copying;  // write if the first flag is set

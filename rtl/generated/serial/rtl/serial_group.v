@@ -128,7 +128,7 @@ module serial_group #(
         RUNS, CORNER != 0, RUNS, 1'b1, CORNER != 0, SEGMENT != 0,  // run, run_corner, run_clear, count, count_corner, count_side
         SURFACE != 0, SEGMENT != 0, SEGMENT != 0, SURFACE != 0,  // recall_sum, recall_mean, ceiling, shrink
         {2{FILTER == 2}},                                 // probe, choose
-        MAD != 0 || VARIANCE != 0 || RANGE != 0, SUMS, 1'b1, SUMS || MEANS,                  // twice, divide, shift, keep
+        MAD != 0 || VARIANCE != 0 || RANGE != 0, SUMS, 1'b1, SUMS || MEANS,  // twice, divide, shift, keep
         RASTER != 0, RASTER == 0, RETURNS                 // fetch, unload, unload_mean
     };
 

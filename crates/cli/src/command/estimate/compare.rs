@@ -63,8 +63,9 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
 }
 
 /// Returns the rows of the design in each organization, with each feature without a filter and with
-/// the median, and with the default feature and each other filter. The keys that only one organization has are those of the design in its own
-/// organization, and have their defaults in the others.
+/// the median, and with the default feature and each other filter. The keys that only one
+/// organization has are those of the design in its own organization, and have their defaults in the
+/// others.
 fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
     let mut list = Vec::new();
     for &organization in Organization::ALL {
