@@ -19,7 +19,8 @@ import os
 import sys
 import tempfile
 
-from indexes import FRAMING, foveate, frame_count
+from indexes import FRAMING, foveate
+from sight import frame_count
 
 FILTERS = ["none", "median3x3", "switching3x3", "binomial3x3"]
 # The kinds of noise with their amounts: percent of the pixels, or grey levels.

@@ -22,6 +22,8 @@ import subprocess
 import sys
 import tempfile
 
+from sight import NETWORKS, NOISE, frame_count
+
 # The levels of an index, if it has one, and the minimum scores that are tried.
 INDEXES = {
     "edge": ([100], [1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20]),
@@ -32,9 +34,7 @@ INDEXES = {
     "surface": ([], [1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
     "segment": ([8], [1, 2, 3, 4, 6, 8, 10, 13, 16, 20, 24]),
 }
-FRAMING = ["--framing", "letterbox", "--scale", "1/255", "--detect", "yolox"]
-# The standard deviations of the noise, in grey levels.
-NOISE = [1, 2, 4]
+FRAMING = [*NETWORKS["yolox_nano.onnx"][0], "--detect", NETWORKS["yolox_nano.onnx"][1]]
 COLUMNS = ["clip", "index", "level", "min_score", "frames", "sent_percent", "active_percent", "found",
            "kept_percent", "right_percent", "relevant_percent", "missed_percent",
            *(f"noise{level}_agreement" for level in NOISE), "lut", "ff", "clock_mhz"]
@@ -53,16 +53,6 @@ def settings(index, level, minimum):
     """Returns the options of a camera."""
     level_text = "" if level is None else f",level={level}"
     return ["--preset", "fovea", "--set", f'spatial=[{{feature="{index}",min_score={minimum}{level_text}}}]']
-
-
-def frame_count(clip):
-    """Returns the number of frames of a clip."""
-    command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-count_packets"]
-    command += ["-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", clip]
-    result = subprocess.run(command, capture_output=True, text=True)
-    if result.returncode != 0:
-        raise SystemExit(f"indexes: {' '.join(command)}: {result.stderr.strip()}")
-    return int(result.stdout.strip().strip(","))
 
 
 def sent_percent(clips, camera):
