@@ -3,7 +3,7 @@
 //! time.
 
 use crate::periphery::valid_block_counts;
-use crate::ranges::largest_level;
+use crate::ranges::{FLOW_RADII, largest_flow_radius, largest_level};
 use crate::width::index_bits;
 use crate::{Camera, Decimal};
 
@@ -58,6 +58,10 @@ impl Camera {
             if let Some(bits) = entry.mean_fraction_bits {
                 bounds.push((key("mean_fraction_bits"), self.mean_fraction_bound(bits)));
             }
+            if feature.radius().is_some() {
+                let radii = *FLOW_RADII.start()..=largest_flow_radius(self.region_size());
+                bounds.push((key("radius"), KeyBound::OneOf(radii.collect())));
+            }
         }
         bounds
     }
@@ -82,7 +86,7 @@ mod tests {
     /// Validation accepts both ends of every bound and refuses the next value beyond the upper end.
     #[test]
     fn bounds_are_what_is_taken() {
-        const ALL: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\",mean_fraction_bits=1}]";
+        const ALL: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\",mean_fraction_bits=1},{feature=\"flow\"}]";
         const SEGMENT: &str = "spatial=[{feature=\"segment\",min_score=3}]";
         let mut keys = 0;
         for overrides in [

@@ -87,6 +87,8 @@ choice! {
         Surface = "surface",
         /// The smaller number of pixels that lie more than a level above, or below, the mean.
         Segment = "segment",
+        /// The gain of the best displacement of the region from its reference.
+        Flow = "flow",
     }
 }
 choice! {

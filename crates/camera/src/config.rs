@@ -126,8 +126,8 @@ pub struct SpatialConfig {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8), grey
-    /// levels for `mad`, `surface` (default 5) and `range` (default 20), squared grey levels for
-    /// `variance` (default 50). In grey levels and their squares it may be decimal; its default is
+    /// levels for `mad`, `surface` (default 5), `range` (default 20) and `flow` (default 2), squared
+    /// grey levels for `variance` (default 50). In grey levels and their squares it may be decimal; its default is
     /// that of 8 bits, and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
@@ -135,13 +135,17 @@ pub struct SpatialConfig {
     /// camera with both has one mean, so their values must be equal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_fraction_bits: Option<u32>,
+    /// Largest displacement of `flow` in both directions, in pixels, 1..=3 and below N. The default
+    /// is 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<u32>,
 }
 
 impl SpatialConfig {
     /// Makes an entry for the feature with every threshold at its default.
     #[must_use]
     pub fn new(feature: FeatureKind) -> Self {
-        Self { feature, level: None, min_score: None, mean_fraction_bits: None }
+        Self { feature, level: None, min_score: None, mean_fraction_bits: None, radius: None }
     }
 
     /// Returns true if `mean_fraction_bits` applies to the feature.
@@ -163,6 +167,7 @@ impl SpatialConfig {
             level: self.level.or(level),
             min_score: self.min_score.or(Some(min_score)),
             mean_fraction_bits: self.mean_fraction_bits.or(defaults.mean_fraction_bits),
+            radius: self.radius.or(defaults.radius),
         }
     }
 

@@ -52,6 +52,13 @@ impl Camera {
         self.features().iter().find(|feature| feature.kind().has_second_pass())?.mean()
     }
 
+    /// Returns the feature that finds the displacement of a region, or `None` if the camera has no
+    /// such feature.
+    #[must_use]
+    pub fn displacement_feature(&self) -> Option<&SpatialFeature> {
+        self.features().iter().find(|feature| feature.kind().is_displacement())
+    }
+
     /// Returns true if a feature uses a 3x3 window.
     #[must_use]
     pub fn has_feature_window(&self) -> bool {

@@ -5,7 +5,7 @@
 use std::fmt::Display;
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::ranges::largest_level;
+use crate::ranges::{FLOW_RADII, largest_flow_radius, largest_level};
 use crate::{ConfigError, Decimal, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
 /// One spatial feature of a camera.
@@ -19,6 +19,7 @@ pub struct SpatialFeature {
     score_max: u64,
     mean: Option<MeanDivision>,
     variance: Option<VarianceWidths>,
+    radius: Option<u32>,
 }
 
 /// The arithmetic of the mean of `mad` and `segment`: `floor((2^f * sum + floor(n/2)) / n)`.
@@ -71,6 +72,7 @@ impl SpatialFeature {
             score_max,
             mean,
             variance,
+            radius: entry.radius(n)?,
         })
     }
 
@@ -144,6 +146,12 @@ impl SpatialFeature {
     #[must_use]
     pub fn mean(&self) -> Option<&MeanDivision> {
         self.mean.as_ref()
+    }
+
+    /// Returns the largest displacement in both directions, in pixels, for `flow` only.
+    #[must_use]
+    pub fn radius(&self) -> Option<u32> {
+        self.radius
     }
 
     /// Returns the widths of the accumulators, for `variance` only.
@@ -220,6 +228,24 @@ impl SpatialEntry<'_> {
                 "mean_fraction_bits",
                 &bits,
                 &format!("0..={max} (regions of {n} pixels)"),
+                "",
+            )),
+        }
+    }
+
+    /// Checks the radius for regions of `n` pixels.
+    fn radius(&self, n: u64) -> Result<Option<u32>, ConfigError> {
+        let applies = self.config.feature.defaults().radius.is_some();
+        let side = u32::try_from(n.isqrt()).expect("a region has at most 4096 pixels");
+        let valid = *FLOW_RADII.start()..=largest_flow_radius(side);
+        match self.config.radius {
+            None => Ok(None),
+            Some(radius) if !applies => Err(self.inapplicable_key_error("radius", radius)),
+            Some(radius) if valid.contains(&radius) => Ok(Some(radius)),
+            Some(radius) => Err(self.out_of_range_error(
+                "radius",
+                &radius,
+                &format!("{}..={} (regions of {n} pixels)", valid.start(), valid.end()),
                 "",
             )),
         }

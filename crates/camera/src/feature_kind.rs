@@ -56,6 +56,7 @@ pub(crate) struct FeatureDefaults {
     pub(crate) level: Option<u32>,
     pub(crate) min_score: u64,
     pub(crate) mean_fraction_bits: Option<u32>,
+    pub(crate) radius: Option<u32>,
 }
 
 impl DenoiseFilter {
@@ -78,7 +79,7 @@ impl FeatureKind {
     pub fn has_window(self) -> bool {
         match self {
             Self::Edge | Self::Corner | Self::Surface => true,
-            Self::Mad | Self::Variance | Self::Range | Self::Segment => false,
+            Self::Mad | Self::Variance | Self::Range | Self::Segment | Self::Flow => false,
         }
     }
 
@@ -87,7 +88,12 @@ impl FeatureKind {
     pub fn counts_window_hits(self) -> bool {
         match self {
             Self::Edge | Self::Corner => true,
-            Self::Mad | Self::Variance | Self::Range | Self::Surface | Self::Segment => false,
+            Self::Mad
+            | Self::Variance
+            | Self::Range
+            | Self::Surface
+            | Self::Segment
+            | Self::Flow => false,
         }
     }
 
@@ -97,7 +103,27 @@ impl FeatureKind {
     pub fn has_second_pass(self) -> bool {
         match self {
             Self::Mad | Self::Segment => true,
-            Self::Edge | Self::Corner | Self::Variance | Self::Range | Self::Surface => false,
+            Self::Edge
+            | Self::Corner
+            | Self::Variance
+            | Self::Range
+            | Self::Surface
+            | Self::Flow => false,
+        }
+    }
+
+    /// Returns true if the feature finds the displacement of a region from its reference.
+    #[must_use]
+    pub fn is_displacement(self) -> bool {
+        match self {
+            Self::Flow => true,
+            Self::Edge
+            | Self::Corner
+            | Self::Mad
+            | Self::Variance
+            | Self::Range
+            | Self::Surface
+            | Self::Segment => false,
         }
     }
 
@@ -106,7 +132,7 @@ impl FeatureKind {
     pub fn score_unit(self) -> ScoreUnit {
         match self {
             Self::Edge | Self::Corner | Self::Segment => ScoreUnit::Pixels,
-            Self::Mad | Self::Range | Self::Surface => ScoreUnit::Levels,
+            Self::Mad | Self::Range | Self::Surface | Self::Flow => ScoreUnit::Levels,
             Self::Variance => ScoreUnit::SquaredLevels,
         }
     }
@@ -119,7 +145,7 @@ impl FeatureKind {
             Self::Edge => &[50, 75, 100, 150],
             Self::Corner => &[8, 12, 20, 30],
             Self::Segment => &[4, 8, 12, 20],
-            Self::Mad | Self::Variance | Self::Range | Self::Surface => &[],
+            Self::Mad | Self::Variance | Self::Range | Self::Surface | Self::Flow => &[],
         }
     }
 
@@ -132,8 +158,10 @@ impl FeatureKind {
             Self::Range => (None, 20, None),
             Self::Surface => (None, 5, None),
             Self::Segment => (Some(8), 8, Some(0)),
+            Self::Flow => (None, 2, None),
         };
-        FeatureDefaults { level, min_score, mean_fraction_bits }
+        let radius = self.is_displacement().then_some(1);
+        FeatureDefaults { level, min_score, mean_fraction_bits, radius }
     }
 
     /// Returns the largest value that the per-pixel threshold is compared with, or `None` if the
@@ -142,7 +170,7 @@ impl FeatureKind {
         match self {
             Self::Edge => Some(edge_magnitude_max(pixel_max)),
             Self::Corner | Self::Segment => Some(pixel_max),
-            Self::Mad | Self::Variance | Self::Range | Self::Surface => None,
+            Self::Mad | Self::Variance | Self::Range | Self::Surface | Self::Flow => None,
         }
     }
 
@@ -150,7 +178,7 @@ impl FeatureKind {
     pub(crate) fn unit(self, n: u64, fraction_bits: u32) -> u64 {
         match self {
             Self::Edge | Self::Corner | Self::Range | Self::Segment => 1,
-            Self::Surface => n,
+            Self::Surface | Self::Flow => n,
             Self::Mad => n << fraction_bits,
             Self::Variance => n * n,
         }
@@ -163,7 +191,7 @@ impl FeatureKind {
             Self::Mad => mad_score_max(n, pixel_max, fraction_bits),
             Self::Variance => variance_score_max(n, pixel_max),
             Self::Range => pixel_max,
-            Self::Surface => n * pixel_max,
+            Self::Surface | Self::Flow => n * pixel_max,
             Self::Segment => n / 2,
         }
     }
@@ -177,7 +205,7 @@ impl FeatureKind {
         fraction_bits: u32,
     ) -> (Option<MeanDivision>, Option<VarianceWidths>) {
         match self {
-            Self::Edge | Self::Corner | Self::Range | Self::Surface => (None, None),
+            Self::Edge | Self::Corner | Self::Range | Self::Surface | Self::Flow => (None, None),
             Self::Mad | Self::Segment => {
                 (Some(MeanDivision::new(n, pixel_max, fraction_bits)), None)
             }

@@ -7,7 +7,7 @@ use crate::{
     ConfigError, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
     ReferencePolicy, VoteCombination,
 };
-use crate::{MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
+use crate::{FLOW_RADII, MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
 use AcceptedValues::{Names, Text, Whole};
 use std::{fmt, ops::RangeInclusive};
 use toml::{Table, Value};
@@ -49,6 +49,7 @@ pub const CAMERA_KEYS: &[ConfigKey] = &[
     ("spatial.level", Text("a whole number >= 0, in grey levels")),
     ("spatial.min_score", Text("a number >= 0 with at most nine digits after the point")),
     ("spatial.mean_fraction_bits", Whole(MEAN_FRACTION_BITS)),
+    ("spatial.radius", Whole(FLOW_RADII)),
     ("decision.combine", Names(VoteCombination::NAMES)),
     ("temporal.level", Text("a whole number >= 0, in grey levels")),
     ("temporal.min_count", Text("a whole number >= 0, in pixels")),

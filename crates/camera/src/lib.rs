@@ -15,6 +15,7 @@ mod config;
 mod decimal;
 mod depth;
 mod derived_numbers;
+mod displacement;
 mod error;
 mod feature;
 mod feature_kind;
@@ -40,13 +41,14 @@ pub use config::{
     RenderConfig, SpatialConfig, TemporalConfig,
 };
 pub use decimal::Decimal;
+pub use displacement::Displacement;
 pub use error::ConfigError;
 pub use feature::{MeanDivision, SpatialFeature, VarianceWidths};
 pub use feature_kind::ScoreUnit;
 pub use keys::{AcceptedValues, CAMERA_KEYS, ConfigKey};
 pub use periphery::Periphery;
 pub use ranges::{
-    MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,
+    FLOW_RADII, MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,
 };
 pub use reciprocal::Reciprocal;
 pub use reference::ReferenceWriteTime;

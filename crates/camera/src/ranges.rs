@@ -17,10 +17,19 @@ pub const SUMMARY_BLOCKS: &[u32] = &[1, 2, 4];
 /// Valid fraction bits of the mean of `mad`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
 
+/// Valid radii of the search of `flow`, for regions of 4x4 pixels or more.
+pub const FLOW_RADII: RangeInclusive<u32> = 1..=3;
+
 /// Returns the largest level that a difference of at most `max` can exceed, or `max` if the score
 /// passes its minimum without hits too (`always`).
 pub(crate) fn largest_level(max: u32, always: bool) -> u32 {
     if always { max } else { max - 1 }
+}
+
+/// Returns the largest radius of the search of `flow` in regions with `side` pixels a side. Some
+/// pixel must have a partner at every displacement.
+pub(crate) fn largest_flow_radius(side: u32) -> u32 {
+    (*FLOW_RADII.end()).min(side - 1)
 }
 
 /// Refuses the `value` of a `key` that is not in `range`. The message has `why` behind the range.
@@ -46,6 +55,11 @@ pub fn check_range(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_regions_have_small_displacements() {
+        assert_eq!([2, 3, 4, 64].map(largest_flow_radius), [1, 2, 3, 3]);
+    }
 
     #[test]
     fn a_mean_of_the_largest_region_can_be_exact() {

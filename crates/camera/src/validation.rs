@@ -4,7 +4,8 @@
 use crate::depth::{self, DEFAULT_BITS};
 use crate::ranges::largest_level;
 use crate::{
-    Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, TemporalParameters,
+    Camera, CameraConfig, ConfigError, Decimal, FeatureKind, Periphery, ReferencePolicy,
+    SpatialConfig, SpatialFeature, TemporalParameters, VoteCombination,
 };
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, check_range};
 
@@ -48,6 +49,7 @@ impl CameraConfig {
         let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
         config.check_means()?;
+        config.check_displacement()?;
         (config.frame.width, config.frame.height) = (Some(width), Some(height));
         let periphery = Periphery::resolve(self)?;
         config.periphery.blocks = periphery.map(|periphery| periphery.blocks);
@@ -164,12 +166,42 @@ impl CameraConfig {
             }),
         }
     }
+
+    /// Refuses a displacement from a reference that no region would ever have: with `last-sent` a
+    /// region has a reference once it was active, and without a reference `flow` does not vote.
+    /// Every key must have its value or its default.
+    fn check_displacement(&self) -> Result<(), ConfigError> {
+        let needs_motion = |entry: &SpatialConfig| {
+            entry.feature.is_displacement() && entry.min_score != Some(Decimal::from_whole(0))
+        };
+        let mut entries = self.spatial.iter().enumerate();
+        let Some((index, entry)) = entries.find(|(_, entry)| needs_motion(entry)) else {
+            return Ok(());
+        };
+        let dead = match self.decision.combine {
+            VoteCombination::Any => self.spatial.len() == 1,
+            VoteCombination::All => true,
+        };
+        match self.temporal.reference {
+            ReferencePolicy::LastSent if dead => Err(ConfigError::Combination {
+                key: format!("spatial[{index}].feature"),
+                value: format!("\"{}\"", entry.feature),
+                with:
+                    "`temporal.reference` = \"last-sent\" unless another feature can vote alone: a \
+                       region has no reference before it was active"
+                        .to_owned(),
+                remedy: "use reference = \"previous\", or add another feature with \
+                         combine = \"any\""
+                    .to_owned(),
+            }),
+            ReferencePolicy::LastSent | ReferencePolicy::Previous => Ok(()),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SpatialConfig;
 
     #[test]
     fn features_share_one_mean() {

@@ -39,14 +39,25 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
     refuse_unless(organization, "hardware.sync", sync.to_string(), |one| supports_sync(one, sync))
 }
 
+impl Organization {
+    /// Returns the features whose scores the organization computes.
+    #[must_use]
+    pub fn feature_kinds(self) -> Vec<FeatureKind> {
+        FeatureKind::ALL.iter().copied().filter(|&kind| supports_feature(self, kind)).collect()
+    }
+}
+
 /// Returns true if the organization computes the score of the feature.
 fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
-    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
+    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
     match (organization, kind) {
         (
             Pipelined | Serial | Raster,
             Edge | Corner | Mad | Variance | Range | Surface | Segment,
-        ) => true,
+        )
+        | (Serial, Flow) => true,
+        // A search in the reference would multiply the size of the RPU or of the core.
+        (Pipelined | Raster, Flow) => false,
     }
 }
 
@@ -127,9 +138,10 @@ mod tests {
         assert_eq!(refuse(&[Serial, Pipelined]), Err(both));
     }
 
-    /// Searches and studies try every feature, reference and rendering without asking first.
+    /// Searches and studies try every reference and rendering without asking first, and all features
+    /// of the organization.
     #[test]
-    fn every_organization_supports_every_camera() {
+    fn every_organization_supports_every_camera_with_its_features() {
         for &organization in Organization::ALL {
             for &reference in ReferencePolicy::ALL {
                 for &irrelevant in IrrelevantRendering::ALL {
@@ -137,7 +149,7 @@ mod tests {
                     config.hardware.organization = organization.into();
                     config.camera.temporal.reference = reference;
                     config.camera.render.irrelevant = irrelevant;
-                    let entries = FeatureKind::ALL.iter().copied().map(SpatialConfig::new);
+                    let entries = organization.feature_kinds().into_iter().map(SpatialConfig::new);
                     config.camera.spatial = entries.collect();
                     config.validate().unwrap();
                 }

@@ -218,6 +218,7 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
             FeatureKind::Variance => need(true, &["region_sum", "variance_score"]),
             FeatureKind::Range => need(true, &["region_range"]),
             FeatureKind::Surface => need(true, &["region_surface"]),
+            FeatureKind::Flow => unreachable!("pipelined refuses flow"),
         }
     }
     match design.temporal().reference {

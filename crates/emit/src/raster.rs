@@ -11,8 +11,8 @@ use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Pipelining, Port, PortRole,
-    RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
+    Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Organization, Pipelining,
+    Port, PortRole, RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
 };
 
 #[derive(Template)]
@@ -196,6 +196,7 @@ fn score_rank(kind: FeatureKind) -> u32 {
         FeatureKind::Surface => 4,
         FeatureKind::Mad => 5,
         FeatureKind::Segment => 6,
+        FeatureKind::Flow => unreachable!("raster refuses flow"),
     }
 }
 
@@ -244,7 +245,8 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
     }
     let list = list.into_iter().map(|(name, value)| (name, value.to_string())).chain(wide);
     let list = list.map(|(name, value)| (name.to_owned(), value));
-    let flags = FeatureKind::ALL.iter().map(|&kind| feature_flag(design, kind));
+    let kinds = Organization::Raster.feature_kinds().into_iter();
+    let flags = kinds.map(|kind| feature_flag(design, kind));
     list.chain(flags).collect()
 }
 
@@ -261,6 +263,7 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
         FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range => vec![],
         // The score is a sum of differences of pixels, which has as many bits as a sum of pixels.
         FeatureKind::Surface => vec![sum],
+        FeatureKind::Flow => unreachable!("raster refuses flow"),
         FeatureKind::Mad => {
             [vec![sum, ("MAD_BITS", feature.score_bits())], mean_widths(feature)].concat()
         }
@@ -297,9 +300,11 @@ fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
     let most = match kind {
         FeatureKind::Edge => design.pixel_bits() + 3,
         FeatureKind::Corner | FeatureKind::Segment => design.pixel_bits(),
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface => {
-            return None;
-        }
+        FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Flow => return None,
     };
     Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
 }
@@ -321,7 +326,7 @@ fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
         ("temporal_level_i".to_owned(), temporal),
         ("summary_level_i".to_owned(), summary_level_signal(&design)),
     ];
-    for &kind in FeatureKind::ALL {
+    for kind in Organization::Raster.feature_kinds() {
         if let Some(width) = level_bits(design, kind) {
             let given =
                 design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));

@@ -254,6 +254,7 @@ impl SpatialParts {
                 }
                 FeatureKind::Range => own.range = true,
                 FeatureKind::Surface => own.surface_bits = Some(feature.score_bits()),
+                FeatureKind::Flow => unreachable!("pipelined refuses flow"),
             }
         }
         own

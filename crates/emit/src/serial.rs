@@ -242,9 +242,11 @@ fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static 
         FeatureKind::Edge => Some(("edge_half_i", half_edge_level(design))),
         FeatureKind::Corner => Some(("corner_level_i", pixel_level(design, kind))),
         FeatureKind::Segment => Some(("segment_level_i", pixel_level(design, kind))),
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface => {
-            None
-        }
+        FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Flow => None,
     }
 }
 

@@ -6,9 +6,10 @@ use std::ops::Range;
 use foveate_camera::ReferencePolicy;
 
 use crate::denoised::Denoiser;
+use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::segment::SegmentPlan;
 use crate::kernel::{
-    SharedSides, WindowRows, WindowSides, corner, edge, mad, range, segment, sums, surface,
+    SharedSides, WindowRows, WindowSides, corner, edge, flow, mad, range, segment, sums, surface,
     temporal,
 };
 use crate::periphery::PeripheryPlan;
@@ -81,8 +82,11 @@ impl<T: PixelLane> BandPass<'_, T> {
     pub(crate) fn compute_sums<const PERIPHERY: bool>(&mut self, scratch: &mut WorkingMemory<T>) {
         let runs = std::mem::take(&mut scratch.runs);
         for run in &runs {
+            // The first pass replaces the reference of `previous`.
+            self.copy_references(scratch, run);
             self.first_pass(scratch, run);
         }
+        self.sum_displaced(scratch, &runs);
         self.columns_to_regions(&scratch.columns, &mut scratch.region_sums);
         if let Some(fraction_bits) = self.plan.passes.mad {
             self.sum_deviations(scratch, &runs, fraction_bits);
@@ -96,6 +100,41 @@ impl<T: PixelLane> BandPass<'_, T> {
             }
         }
         scratch.runs = runs;
+    }
+
+    /// Copies the references of a run for the search of `flow`, if there is one.
+    #[inline(always)]
+    fn copy_references(&self, scratch: &mut WorkingMemory<T>, run: &Range<usize>) {
+        let plane: &[T] = match self.plan.reference {
+            ReferencePolicy::Previous => self.denoised,
+            ReferencePolicy::LastSent => self.reference,
+        };
+        for (row, copy) in scratch.references.iter_mut().enumerate() {
+            let blocks = row_blocks(plane, self.plan.stride(), row, run);
+            copy.blocks_mut(run).copy_from_slice(blocks);
+        }
+    }
+
+    /// Sums the differences from the displaced references, for `flow`. Pixels at the ends of a run
+    /// may be compared with the reference of another region; such pairs are not added to a region.
+    #[inline(always)]
+    fn sum_displaced(&self, scratch: &mut WorkingMemory<T>, runs: &[Range<usize>]) {
+        let (side, stride) = (self.plan.side, self.plan.stride());
+        let WorkingMemory { references, flow_errors, flow_columns, .. } = scratch;
+        for DisplacedErrors { displacement, errors, .. } in flow_errors {
+            let rows = flow::paired_range(side, displacement.dy);
+            let partners = flow::paired_range(side, -displacement.dy);
+            for run in runs {
+                let sums = &mut flow_columns.blocks_mut()[run.clone()];
+                sums.fill([T::ColumnSum::default(); BLOCK_LANES]);
+                for (row, partner) in rows.clone().zip(partners.clone()) {
+                    let current = row_blocks(self.denoised, stride, row, run);
+                    let partners = references[partner].shifted_blocks(run, displacement.dx);
+                    flow::add_differences::<T>(current, partners, sums);
+                }
+            }
+            flow::sum_paired_columns(flow_columns, side, displacement.dx, errors);
+        }
     }
 
     /// Computes the means of the blocks of every region that a run covers, from the pixels of the

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The decision: from sums to scores, votes, SRS, TRS and the action of every region of a band.
 
-use foveate_camera::RegionAction;
-use foveate_camera::{FeatureKind, IrrelevantRendering, ReferencePolicy, VoteCombination};
+use foveate_camera::{
+    Displacement, FeatureKind, IrrelevantRendering, ReferencePolicy, RegionAction, VoteCombination,
+};
 
+use crate::kernel::flow::{self, DisplacedErrors};
 use crate::kernel::mad;
 use crate::outcome::RegionResults;
 use crate::plan::CameraPlan;
@@ -16,7 +18,7 @@ impl<T: PixelLane> CameraPlan<T> {
     #[inline(always)]
     pub(crate) fn decide_band(
         &self,
-        sums: &RegionSums,
+        (sums, flow_errors): (&RegionSums, &[DisplacedErrors]),
         affected: &[bool],
         valid: &[bool],
         results: &mut RegionResults<'_>,
@@ -50,6 +52,11 @@ impl<T: PixelLane> CameraPlan<T> {
                 FeatureKind::Segment => {
                     let [above, below] = &sums.segment;
                     update_affected(scores, affected, |at| above[at].min(below[at]));
+                }
+                FeatureKind::Flow => {
+                    let validity = (affected, valid);
+                    let last = (&*results.actions, &mut *results.displacements);
+                    self.update_flow(flow_errors, validity, last, scores);
                 }
             }
         }
@@ -88,6 +95,29 @@ impl<T: PixelLane> CameraPlan<T> {
                     }
                 }
                 false => self.count_of_identical((action, *count), n),
+            };
+        }
+    }
+
+    /// Computes displacements and scores of `flow`. Those of a region that is not affected follow
+    /// from its last ones and its last action, because its pixels are those of the last frame.
+    #[inline(always)]
+    fn update_flow(
+        &self,
+        errors: &[DisplacedErrors],
+        (affected, valid): (&[bool], &[bool]),
+        (actions, displacements): (&[RegionAction], &mut [Displacement]),
+        scores: &mut [u64],
+    ) {
+        let regions = affected.iter().zip(valid).zip(actions);
+        let results = displacements.iter_mut().zip(scores);
+        for (at, (((&affected, &valid), &action), (displacement, score))) in
+            regions.zip(results).enumerate()
+        {
+            (*displacement, *score) = match (affected, self.reference, action) {
+                (true, ..) if valid => flow::best_match(errors, at),
+                (false, ReferencePolicy::LastSent, RegionAction::Hold) => (*displacement, *score),
+                _ => (Displacement::default(), 0),
             };
         }
     }

@@ -94,7 +94,7 @@ impl Engine {
                 options.skips_identical_regions,
             ))
         };
-        let outcome = FrameOutcome::new(camera.features().len(), index(camera.regions()));
+        let outcome = FrameOutcome::new(camera);
         Self {
             camera: camera.clone(),
             workers,

@@ -3,7 +3,9 @@
 
 use std::ops::Range;
 
-use foveate_camera::{FeatureKind, RegionAction};
+use foveate_camera::{Camera, Displacement, FeatureKind, RegionAction};
+
+use crate::plan::index;
 
 /// The scores and decisions of every region, numbered row by row. The fields are those of the
 /// functional model's outcome. [`Engine::rendered`](crate::Engine::rendered) has the rendered
@@ -22,6 +24,9 @@ pub struct FrameOutcome {
     pub temporal_count: Vec<u32>,
     /// The scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
+    /// The displacement of every region since its reference. It is empty for a camera without
+    /// `flow`.
+    pub displacements: Vec<Displacement>,
     /// The number of regions whose results were kept because their pixels were bit-identical to
     /// those of the previous frame. With shared neighborhoods the regions around them had to be
     /// identical, too.
@@ -29,14 +34,17 @@ pub struct FrameOutcome {
 }
 
 impl FrameOutcome {
-    pub(crate) fn new(features: usize, regions: usize) -> Self {
+    pub(crate) fn new(camera: &Camera) -> Self {
+        let regions = index(camera.regions());
+        let displaced = camera.displacement_feature().map_or(0, |_| regions);
         Self {
             srs: vec![false; regions],
             trs: vec![false; regions],
             active: vec![false; regions],
             actions: vec![RegionAction::Hold; regions],
             temporal_count: vec![0; regions],
-            scores: vec![vec![0; regions]; features],
+            scores: vec![vec![0; regions]; camera.features().len()],
+            displacements: vec![Displacement::default(); displaced],
             skipped: 0,
         }
     }
@@ -51,6 +59,7 @@ impl FrameOutcome {
             actions: &mut self.actions,
             temporal_count: &mut self.temporal_count,
             scores: std::array::from_fn(|_| scores.next().map_or(&mut [][..], |values| values)),
+            displacements: &mut self.displacements,
         }
     }
 }
@@ -65,6 +74,8 @@ pub(crate) struct RegionResults<'a> {
     pub(crate) temporal_count: &'a mut [u32],
     /// One slice per feature. Slices beyond the camera's features are empty.
     pub(crate) scores: [&'a mut [u64]; FeatureKind::COUNT],
+    /// The displacements; empty for a camera without `flow`.
+    pub(crate) displacements: &'a mut [Displacement],
 }
 
 impl<'a> RegionResults<'a> {
@@ -78,6 +89,7 @@ impl<'a> RegionResults<'a> {
             actions: split_off(&mut self.actions, regions),
             temporal_count: split_off(&mut self.temporal_count, regions),
             scores: std::array::from_fn(|feature| split_off(&mut scores[feature], regions)),
+            displacements: split_off(&mut self.displacements, regions),
         }
     }
 }
@@ -94,6 +106,7 @@ impl RegionResults<'_> {
         for (values, other) in self.scores.iter_mut().zip(&other.scores) {
             values.copy_from_slice(other);
         }
+        self.displacements.copy_from_slice(other.displacements);
     }
 
     /// Borrows the results of a range of the regions.
@@ -106,6 +119,7 @@ impl RegionResults<'_> {
             actions: &mut self.actions[regions.clone()],
             temporal_count: &mut self.temporal_count[regions.clone()],
             scores: self.scores.each_mut().map(|scores| cut_to_range(scores, &regions)),
+            displacements: cut_to_range(self.displacements, &regions),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use foveate_camera::{
     Camera, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, Periphery,
-    ReferencePolicy, VoteCombination,
+    ReferencePolicy, SpatialFeature, VoteCombination,
 };
 
 use crate::kernel::segment::SegmentPlan;
@@ -35,6 +35,8 @@ pub(crate) struct CameraPlan<T: PixelLane> {
     /// The masks of the first and last columns of regions, if neighborhoods are isolated.
     pub(crate) seams: Option<SeamMasks<T>>,
     pub(crate) passes: FeaturePasses<T>,
+    /// The radius of the search of `flow`.
+    pub(crate) flow_radius: Option<u32>,
     pub(crate) features: Vec<FeaturePlan>,
     pub(crate) combine: VoteCombination,
     pub(crate) level: T,
@@ -99,6 +101,7 @@ impl<T: PixelLane> CameraPlan<T> {
             seams: (camera.neighborhood() == Neighborhood::Isolated)
                 .then(|| SeamMasks::new(side, blocks)),
             passes: FeaturePasses::from_camera(camera),
+            flow_radius: camera.displacement_feature().and_then(SpatialFeature::radius),
             features: camera
                 .features()
                 .iter()
@@ -113,6 +116,13 @@ impl<T: PixelLane> CameraPlan<T> {
             keeps_raw: camera.has_separate_raw_pixels(),
             periphery: camera.periphery().map(periphery_plan),
         }
+    }
+
+    /// Returns true if a second equal frame cannot change any result. With `last-sent` and `flow` it
+    /// can: the vote of `flow` ends with the first equal frame, and the loss of the reference
+    /// follows.
+    pub(crate) fn is_stable_on_equal_frames(&self) -> bool {
+        self.flow_radius.is_none() && self.reference.is_stable_on_equal_frames()
     }
 
     /// Returns the number of regions of a frame.
@@ -199,9 +209,14 @@ impl<T: PixelLane> CameraPlan<T> {
         start.div_ceil(side)..(end / side).max(start.div_ceil(side))
     }
 
+    /// Returns the side of a region in pixels, as a number.
+    pub(crate) fn side_pixels(&self) -> u32 {
+        u32::try_from(self.side).expect("a region is at most 64 pixels wide")
+    }
+
     /// Returns the number of pixels of a region.
     pub(crate) fn region_pixels(&self) -> u32 {
-        u32::try_from(self.side * self.side).expect("a region has at most 4096 pixels")
+        self.side_pixels().pow(2)
     }
 
     /// Returns the first and the last row that windows of a row in band `band` may reach.
@@ -255,6 +270,8 @@ impl<T: PixelLane> FeaturePasses<T> {
                     let plan = SegmentPlan { fraction_bits: fraction_bits(), level: level() };
                     passes.segment = Some(plan);
                 }
+                // The search has a plan of its own.
+                FeatureKind::Flow => {}
             }
         }
         passes

@@ -125,7 +125,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
             return;
         }
         // From the second still frame on, counts and actions repeat.
-        self.is_settled[row] = is_still && plan.reference.is_stable_on_equal_frames();
+        self.is_settled[row] = is_still && plan.is_stable_on_equal_frames();
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
         if !is_still {
             let mut band = BandPass {
@@ -139,7 +139,8 @@ impl<T: PixelLane> BandStrip<'_, T> {
         }
         let mut results = self.results.range(regions.clone());
         let valid = &mut self.reference_valid[regions.clone()];
-        plan.decide_band(&self.scratch.region_sums, &self.scratch.affected, valid, &mut results);
+        let sums = (&self.scratch.region_sums, &self.scratch.flow_errors[..]);
+        plan.decide_band(sums, &self.scratch.affected, valid, &mut results);
         let means = row * plan.band_means()..(row + 1) * plan.band_means();
         let means = &mut self.means[means];
         if PERIPHERY && let Some(periphery) = &plan.periphery {

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use crate::kernel::ExtendedRow;
+use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::surface::DISPLACEMENTS;
 use crate::plan::CameraPlan;
 use foveate_lanes::AlignedBuffer;
@@ -46,6 +47,13 @@ impl<T: Copy + Default> BlockRow<T> {
     #[inline(always)]
     pub(crate) fn blocks_with_neighbors(&self, span: &Range<usize>) -> ExtendedRow<'_, T> {
         &self.0[(1 + span.start) * BLOCK_LANES - 1..=(1 + span.end) * BLOCK_LANES]
+    }
+
+    /// Returns blocks whose columns lie `shift` columns, at most a block, before those of `span`.
+    #[inline(always)]
+    pub(crate) fn shifted_blocks(&self, span: &Range<usize>, shift: i8) -> &[Block<T>] {
+        let start = ((1 + span.start) * BLOCK_LANES).saturating_add_signed(-isize::from(shift));
+        self.0[start..][..span.len() * BLOCK_LANES].as_chunks().0
     }
 
     /// Repeats the border pixels of a row of `width` pixels outwards.
@@ -119,6 +127,12 @@ pub(crate) struct WorkingMemory<T: PixelLane> {
     pub(crate) denoised: Vec<DenoisedRow<T>>,
     pub(crate) columns: ColumnSums<T>,
     pub(crate) region_sums: RegionSums,
+    /// The rows of the band's references, for `flow`.
+    pub(crate) references: Vec<BlockRow<T>>,
+    /// The errors of each displacement of `flow`, in the order of preference.
+    pub(crate) flow_errors: Vec<DisplacedErrors>,
+    /// The sums of differences of the columns at one displacement.
+    pub(crate) flow_columns: AlignedBuffer<T::ColumnSum>,
     /// A raw row with its padding, for summaries of raw pixels.
     pub(crate) raw: BlockRow<T>,
     /// The means of the band's blocks, row by row of blocks.
@@ -169,6 +183,14 @@ impl<T: PixelLane> WorkingMemory<T> {
                 count_above: regions(),
                 segment: [regions(), regions()],
             },
+            references: match plan.flow_radius {
+                Some(_) => (0..plan.side).map(|_| row()).collect(),
+                None => Vec::new(),
+            },
+            flow_errors: plan.flow_radius.map_or(Vec::new(), |radius| {
+                DisplacedErrors::for_search(radius, plan.side_pixels(), plan.columns)
+            }),
+            flow_columns: AlignedBuffer::new(plan.flow_radius.map_or(0, |_| width)),
             raw: row(),
             means: vec![T::default(); plan.band_means()],
             exceeds_level: vec![T::default(); plan.means_in_row()],

@@ -118,7 +118,7 @@ impl IdealCamera {
         let Self { grid, rules, memory, denoised, scratch, outcome, .. } = self;
         let view = memory.frame_view(denoised, grid);
         for (feature, scores) in rules.features.iter().zip(&mut outcome.scores) {
-            score((feature.kind, feature.level), &view, scratch, scores);
+            score(feature, &view, scratch, scores);
         }
         count_changed_pixels(rules.level, &view, scratch, &mut outcome.changed);
     }

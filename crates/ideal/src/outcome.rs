@@ -18,8 +18,8 @@ pub struct IdealOutcome {
     /// The action that the receiver's screen takes for every region.
     pub actions: Vec<RegionAction>,
     /// The scores by feature, in the order of the camera, and then by region: numbers of pixels for
-    /// `edge`, `corner` and `segment`, grey levels for `mad`, `range` and `surface`, squared grey
-    /// levels for `variance`.
+    /// `edge`, `corner` and `segment`, grey levels for `mad`, `range`, `surface` and `flow`, squared
+    /// grey levels for `variance`.
     pub scores: Vec<Vec<f64>>,
     /// The number of changed pixels of every region, 0..=n; n without a valid reference.
     pub changed: Vec<f64>,

@@ -10,6 +10,8 @@ pub(crate) struct FeatureRule {
     pub(crate) kind: FeatureKind,
     /// The level of a pixel in grey levels; 0 for a feature without a level.
     pub(crate) level: f64,
+    /// The radius of the search in pixels; 0 for a feature without a search.
+    pub(crate) radius: u32,
     /// The minimum score of a region, in the unit of the score.
     min_score: f64,
 }
@@ -31,6 +33,7 @@ impl DecisionRules {
             kind: entry.feature,
             // A feature without a level ignores it.
             level: f64::from(entry.level.unwrap_or(0)),
+            radius: entry.radius.unwrap_or(0),
             min_score: decimal_to_f64(entry.min_score.expect("a camera has every key filled in")),
         };
         Self {

@@ -8,7 +8,7 @@
 mod gather;
 mod text;
 
-use foveate_camera::{DenoiseFilter, FeatureKind};
+use foveate_camera::{DenoiseFilter, Displacement, FeatureKind};
 use serde::Serialize;
 
 use crate::feature::surface::DisplacementSums;
@@ -115,6 +115,9 @@ pub struct SpatialExplanation {
     /// The sums of differences from the region moved by one pixel, for `surface`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacements: Option<DisplacementSums>,
+    /// The displacement of the region since its reference, for `flow`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<Displacement>,
     /// The score.
     pub score: u64,
     /// The smallest score that votes.

@@ -2,12 +2,13 @@
 //! The functional model: an RCM and its renderer, one whole frame at a time. It is the reference
 //! for all other models.
 
-use foveate_camera::{Camera, Payload};
+use foveate_camera::{Camera, Displacement, Payload, SpatialFeature};
 
 use crate::ModelError;
 use crate::conversions::index;
 use crate::decision::combine_votes;
 use crate::denoising::denoise_into;
+use crate::feature::flow::flow_match;
 use crate::feature::score;
 use crate::periphery::{ShownSummary, block_means, no_summaries};
 use crate::region::{RegionArea, black_frame, black_padded_frame, check_frame_kind, pad_into};
@@ -32,6 +33,9 @@ pub struct FunctionalOutcome {
     pub temporal_count: Vec<u32>,
     /// Scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
+    /// The displacement of every region since its reference. It is empty for a camera without
+    /// `flow`.
+    pub displacements: Vec<Displacement>,
     /// Means of the blocks, region by region. They are empty if irrelevant regions send no means.
     /// Only the means of regions with [`RegionAction::Summarize`] were sent.
     pub means: Vec<Vec<u16>>,
@@ -53,6 +57,10 @@ impl FunctionalOutcome {
             actions: vec![RegionAction::Hold; regions],
             temporal_count: vec![0; regions],
             scores: vec![vec![0; regions]; camera.features().len()],
+            displacements: match camera.displacement_feature() {
+                Some(_) => vec![Displacement::default(); regions],
+                None => Vec::new(),
+            },
             means: vec![Vec::new(); regions],
             padded: black_padded_frame(camera),
             denoised: black_padded_frame(camera),
@@ -200,6 +208,9 @@ impl FunctionalCamera {
         for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
             // A feature without a level ignores this argument.
             scores[at] = score(feature, feature.level().unwrap_or(0), &scored_region);
+        }
+        if let Some(radius) = camera.displacement_feature().and_then(SpatialFeature::radius) {
+            outcome.displacements[at] = flow_match(&scored_region, radius).displacement;
         }
         let votes = camera
             .features()

@@ -3,7 +3,7 @@
 
 use foveate_design::{
     Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, Neighborhood,
-    Payload, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
+    Organization, Payload, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 
 /// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
@@ -30,7 +30,8 @@ pub(crate) fn config(
             FeatureKind::Mad
             | FeatureKind::Variance
             | FeatureKind::Range
-            | FeatureKind::Surface => {
+            | FeatureKind::Surface
+            | FeatureKind::Flow => {
                 spatial.min_score = Decimal::from_f64(0.2);
             }
         }
@@ -45,7 +46,7 @@ pub(crate) fn design(config: &DesignConfig) -> Design {
 
 /// Returns a list of features that contains this one, alone or among others.
 fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
-    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
+    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
     match kind {
         Edge => &[Edge],
         Corner => &[Edge, Corner],
@@ -54,13 +55,29 @@ fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
         Range => &[Range, Mad],
         Surface => &[Surface, Edge],
         Segment => &[Segment, Corner, Mad],
+        Flow => &[Flow, Edge],
     }
+}
+
+/// Returns an organization that computes the score of the feature: `pipelined` if it can.
+fn organization_for(kind: FeatureKind) -> Organization {
+    let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
+    *Organization::ALL.iter().find(supports).expect("an organization supports each feature")
+}
+
+/// Returns the features that have a design with regions of side `side`.
+fn kinds_for(side: u32) -> Vec<FeatureKind> {
+    let fits = |&kind: &FeatureKind| match organization_for(kind) {
+        Organization::Pipelined | Organization::Raster => true,
+        Organization::Serial => side >= 4,
+    };
+    FeatureKind::ALL.iter().copied().filter(fits).collect()
 }
 
 /// Returns designs with every neighborhood, filter, payload and reference, and the features in
 /// turn.
 pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
-    let kinds = FeatureKind::ALL;
+    let kinds = kinds_for(side);
     let mut designs = Vec::new();
     for &neighborhood in Neighborhood::ALL {
         for &filter in DenoiseFilter::ALL {
@@ -68,6 +85,7 @@ pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Desig
                 for &payload in Payload::ALL {
                     let kind = kinds[designs.len() % kinds.len()];
                     let mut config = config(size, side, bits, features_with(kind));
+                    config.hardware.organization = organization_for(kind).into();
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.denoise.filter = filter;
                     config.camera.temporal.reference = reference;
@@ -98,7 +116,8 @@ pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<
                 FeatureKind::Mad
                 | FeatureKind::Variance
                 | FeatureKind::Range
-                | FeatureKind::Surface => Some(Decimal::from_whole(1 << (bits - 2))),
+                | FeatureKind::Surface
+                | FeatureKind::Flow => Some(Decimal::from_whole(1 << (bits - 2))),
             };
         }
         designs.push(design(&config));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The comparison of the functional model, the engine and the cycle-level model over the same
-//! frames.
+//! The comparison of the functional model, the engine and, for designs of `pipelined`, the
+//! cycle-level model over the same frames.
 
 use foveate_design::{Design, PipelinedDesign};
 use foveate_engine::Engine;
@@ -34,8 +34,8 @@ impl AgreementTally {
     }
 }
 
-/// Runs frames through all three models. If `unrest` is set, gaps are inserted between pixels, and
-/// before every eighth frame a part of a frame is sent, after which all three models are reset.
+/// Runs frames through the models. If `unrest` is set, gaps are inserted between pixels, and
+/// before every eighth frame a part of a frame is sent, after which all models are reset.
 pub(crate) fn compare_models(
     design: &Design,
     frames: impl IntoIterator<Item = Frame>,
@@ -44,13 +44,15 @@ pub(crate) fn compare_models(
     let mut tally = AgreementTally::default();
     let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
-    let pipelined = design.as_pipelined().expect("cases are of pipelined designs");
-    let mut cycle_level = CycleLevelRun::new(pipelined, unrest);
+    let pipelined = design.as_pipelined();
+    let mut cycle_level = pipelined.map(|design| CycleLevelRun::new(design, unrest));
     // A decision may come one frame late, and those that are pending at a reset never come.
     let mut pending = std::collections::VecDeque::new();
     for (number, frame) in (0u64..).zip(frames) {
         if unrest && number % 8 == 7 {
-            cycle_level.cut_frame_by_reset(&frame);
+            if let Some(run) = &mut cycle_level {
+                run.cut_frame_by_reset(&frame);
+            }
             camera.reset();
             engine.reset();
             pending.clear();
@@ -61,12 +63,14 @@ pub(crate) fn compare_models(
         };
         tally.check(expected.srs == actual.srs && expected.trs == actual.trs);
         tally.check(expected.scores == actual.scores);
+        tally.check(expected.displacements == actual.displacements);
         tally.check(expected.temporal_count == actual.temporal_count);
         tally.check(expected.actions == actual.actions);
         let rendered = expected.rendered.pixels() == engine.rendered().to_words();
         tally.check(rendered);
+        let Some(run) = &mut cycle_level else { continue };
         pending.push_back(expected.clone());
-        for decision in cycle_level.send_frame(&frame) {
+        for decision in run.send_frame(&frame) {
             let Some(expected) = pending.pop_front() else {
                 tally.check(false);
                 continue;

@@ -104,7 +104,8 @@ impl ThresholdRanges {
                 FeatureKind::Mad
                 | FeatureKind::Variance
                 | FeatureKind::Range
-                | FeatureKind::Surface => continue,
+                | FeatureKind::Surface
+                | FeatureKind::Flow => continue,
             };
             let max = self.level[index].into();
             thresholds.level[index] = to_u32(value_near(value.into(), max, random));

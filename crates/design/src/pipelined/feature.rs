@@ -26,5 +26,6 @@ pub(super) fn score_latency(kind: FeatureKind, pipelining: Pipelining) -> u32 {
         (FeatureKind::Surface, Pipelining::Plain) => 2,
         // Three registers: the differences, the sums, the score.
         (FeatureKind::Surface, Pipelining::Deep) => 3,
+        (FeatureKind::Flow, _) => unreachable!("pipelined refuses flow"),
     }
 }

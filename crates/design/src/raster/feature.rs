@@ -33,6 +33,7 @@ impl<'a> FeatureAccumulation<'a> {
             FeatureKind::Range => Self::Extremes,
             FeatureKind::Surface => Self::Displacements,
             FeatureKind::Segment => Self::Deviations(feature.mean().expect("segment has a mean")),
+            FeatureKind::Flow => unreachable!("raster refuses flow"),
         }
     }
 

@@ -24,6 +24,7 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
         FeatureKind::Range => 4 * n + pixel_bits + 2,
         FeatureKind::Surface => 8 * n + 11 * u64::from(design.pixel_sum_bits()) + 5,
         FeatureKind::Segment => 4 * n + 4 * pixel_bits + 9,
+        FeatureKind::Flow => todo!("steps of flow"),
     }
 }
 
@@ -32,9 +33,11 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
 pub(super) fn has_computed_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => false,
-        FeatureKind::Mad | FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface => {
-            true
-        }
+        FeatureKind::Mad
+        | FeatureKind::Variance
+        | FeatureKind::Range
+        | FeatureKind::Surface
+        | FeatureKind::Flow => true,
     }
 }
 
@@ -46,7 +49,8 @@ pub(super) fn takes_accumulator(feature: &SpatialFeature) -> bool {
         | FeatureKind::Variance
         | FeatureKind::Range
         | FeatureKind::Surface
-        | FeatureKind::Segment => true,
+        | FeatureKind::Segment
+        | FeatureKind::Flow => true,
     }
 }
 
@@ -58,7 +62,8 @@ pub(super) fn chain_bits(design: &Design, feature: &SpatialFeature) -> u32 {
         | FeatureKind::Mad
         | FeatureKind::Variance
         | FeatureKind::Range
-        | FeatureKind::Surface => 0,
+        | FeatureKind::Surface
+        | FeatureKind::Flow => 0,
         // The pixels above are counted, and then those that are not below. A region has no mean
         // that all of its pixels are above.
         FeatureKind::Segment => bits_for(u64::from(2 * design.region_pixels() - 1)),
@@ -112,7 +117,7 @@ pub(super) fn feature_register_widths(
             scale: pixel,
         },
         // The accumulator holds the difference of two sums. The second word holds the smallest.
-        FeatureKind::Surface => {
+        FeatureKind::Surface | FeatureKind::Flow => {
             let sum = design.pixel_sum_bits();
             FeatureRegisterWidths { accumulator: (sum + 1).max(chain), second: sum, scale: sum }
         }

@@ -13,6 +13,7 @@
 pub(crate) mod binomial;
 pub(crate) mod corner;
 pub(crate) mod edge;
+pub(crate) mod flow;
 pub(crate) mod mad;
 pub(crate) mod median;
 pub(crate) mod range;

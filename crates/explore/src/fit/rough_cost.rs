@@ -35,6 +35,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                     | FeatureKind::Range
                     | FeatureKind::Segment => 10.0,
                     FeatureKind::Surface => 20.0,
+                    FeatureKind::Flow => unreachable!("pipelined refuses flow"),
                 })
                 .sum();
             let unit = 8.0 + features + 37.0 * filter;
@@ -50,7 +51,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                     | FeatureKind::Variance
                     | FeatureKind::Range
                     | FeatureKind::Segment => 6.0,
-                    FeatureKind::Surface => 10.0,
+                    FeatureKind::Surface | FeatureKind::Flow => 10.0,
                 })
                 .sum();
             let lanes = f64::from(array.lanes());
@@ -71,6 +72,7 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
                     | FeatureKind::Range
                     | FeatureKind::Segment => 6.0,
                     FeatureKind::Surface => 10.0,
+                    FeatureKind::Flow => unreachable!("raster refuses flow"),
                 })
                 .sum();
             let pixels = f64::from(own.pixels_per_clock);

@@ -5,6 +5,7 @@
 mod change;
 mod corner;
 mod edge;
+mod flow;
 mod mad;
 mod range;
 mod segment;
@@ -15,6 +16,7 @@ use foveate_camera::FeatureKind;
 
 use crate::grid::RegionGrid;
 use crate::plane::PaddedPlane;
+use crate::rules::FeatureRule;
 use crate::view::FrameView;
 
 pub(crate) use change::count_changed_pixels;
@@ -27,15 +29,15 @@ pub(crate) struct ScoreBuffers {
 }
 
 /// Scores every region: a number of pixels for `edge`, `corner` and `segment`, grey levels for
-/// `mad`, `range` and `surface`, squared grey levels for `variance`. Only features that count pixels
-/// use `level`.
+/// `mad`, `range`, `surface` and `flow`, squared grey levels for `variance`.
 pub(crate) fn score(
-    (kind, level): (FeatureKind, f64),
+    rule: &FeatureRule,
     view: &FrameView,
     scratch: &mut ScoreBuffers,
     scores: &mut [f64],
 ) {
-    match kind {
+    let level = rule.level;
+    match rule.kind {
         FeatureKind::Edge => edge::score(level, view, scratch, scores),
         FeatureKind::Corner => corner::score(level, view, scratch, scores),
         FeatureKind::Mad => mad::score(view, scratch, scores),
@@ -43,6 +45,7 @@ pub(crate) fn score(
         FeatureKind::Range => range::score(view, scratch, scores),
         FeatureKind::Surface => surface::score(view, scratch, scores),
         FeatureKind::Segment => segment::score(level, view, scratch, scores),
+        FeatureKind::Flow => flow::score(rule.radius, view, scores),
     }
 }
 

@@ -14,6 +14,7 @@ use super::{
     FrameIdentification, RegionExplanation, RegionPosition, SegmentParts, SpatialExplanation,
     SquareRows, SummaryExplanation, TemporalExplanation,
 };
+use crate::conversions::index;
 use crate::feature::mean::region_mean;
 use crate::feature::region_hits;
 use crate::feature::segment::{SegmentCounts, sides_of_mean};
@@ -100,12 +101,15 @@ impl SpatialExplanation {
         let mean_fraction_bits = feature.mean().map(|mean| mean.fraction_bits);
         let view = FrameRegion::new(camera, denoised, region);
         let (mut parts, mut displacements) = (None, None);
+        let displacement = outcome.displacements.get(index(region)).copied();
+        let displacement = displacement.filter(|_| feature.kind().is_displacement());
         match feature.kind() {
             FeatureKind::Edge
             | FeatureKind::Corner
             | FeatureKind::Mad
             | FeatureKind::Variance
-            | FeatureKind::Range => {}
+            | FeatureKind::Range
+            | FeatureKind::Flow => {}
             FeatureKind::Surface => {
                 displacements = Some(displacement_sums(&view));
             }
@@ -124,6 +128,7 @@ impl SpatialExplanation {
             mean_fraction_bits,
             parts,
             displacements,
+            displacement,
             score,
             min_score: feature.min_score(),
             unit: feature.unit(),

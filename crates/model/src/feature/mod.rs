@@ -3,6 +3,7 @@
 
 pub mod corner;
 pub mod edge;
+pub mod flow;
 pub mod mad;
 pub mod mean;
 pub mod range;
@@ -19,6 +20,7 @@ use foveate_frame::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
+use flow::flow_match;
 use mean::region_mean;
 use range::PixelExtremes;
 use segment::{SegmentCounts, sides_of_mean};
@@ -48,6 +50,10 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
         FeatureKind::Segment => {
             let sides = sides_of_mean(region, level, fraction_bits);
             sides.fold(SegmentCounts::default(), SegmentCounts::with).score()
+        }
+        FeatureKind::Flow => {
+            let radius = feature.radius().expect("flow has a radius");
+            flow_match(region, radius).score
         }
     }
 }
@@ -83,7 +89,8 @@ pub fn is_hit(kind: FeatureKind, window: &PixelWindow, level: u32) -> bool {
         | FeatureKind::Variance
         | FeatureKind::Range
         | FeatureKind::Surface
-        | FeatureKind::Segment => false,
+        | FeatureKind::Segment
+        | FeatureKind::Flow => false,
     }
 }
 
@@ -98,6 +105,7 @@ pub fn decisive_level(kind: FeatureKind, window: &PixelWindow) -> Option<u32> {
         | FeatureKind::Variance
         | FeatureKind::Range
         | FeatureKind::Surface
-        | FeatureKind::Segment => None,
+        | FeatureKind::Segment
+        | FeatureKind::Flow => None,
     }
 }

@@ -141,7 +141,8 @@ fn tail_steps(
                 FeatureKind::Mad
                 | FeatureKind::Variance
                 | FeatureKind::Range
-                | FeatureKind::Segment,
+                | FeatureKind::Segment
+                | FeatureKind::Flow,
             )
             | None => {}
         }

@@ -62,6 +62,7 @@ impl RpuScores {
                 Some(FeatureKind::Variance) => *score = self.sums.variance,
                 Some(FeatureKind::Range) => *score = self.sums.range,
                 Some(FeatureKind::Surface) => *score = self.sums.surface,
+                Some(FeatureKind::Flow) => unreachable!("pipelined refuses flow"),
             }
         }
     }
@@ -78,7 +79,13 @@ impl RpuScores {
                     | FeatureKind::Mad
                     | FeatureKind::Segment,
                 ) => *score = 0,
-                Some(FeatureKind::Variance | FeatureKind::Range | FeatureKind::Surface) | None => {}
+                Some(
+                    FeatureKind::Variance
+                    | FeatureKind::Range
+                    | FeatureKind::Surface
+                    | FeatureKind::Flow,
+                )
+                | None => {}
             }
         }
     }

@@ -27,8 +27,9 @@ fn is_largest_for_halves(kind: FeatureKind) -> bool {
             true
         }
         // Hits of windows have a case of their own. The largest score of `surface` is only a bound,
-        // because of three neighbors two are nearer to each other than half of the maximum.
-        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Surface => false,
+        // because of three neighbors two are nearer to each other than half of the maximum. That of
+        // `flow` needs two frames.
+        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Surface | FeatureKind::Flow => false,
     }
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `flow`: the mean difference from the reference as it stands, minus that at the displacement where
+//! it is smallest, in grey levels. Only pixels of the region and of its own reference are compared.
+
+use std::ops::Range;
+
+use foveate_camera::Displacement;
+
+use crate::plane::PaddedPlane;
+use crate::view::FrameView;
+
+pub(super) fn score(radius: u32, view: &FrameView, scores: &mut [f64]) {
+    let displacements = Displacement::search_order(radius);
+    for (region, score) in scores.iter_mut().enumerate() {
+        *score = 0.0;
+        if view.references.valid[region] {
+            let errors = displacements.iter().map(|one| mean_error(view, region, *one));
+            let errors: Vec<_> = errors.collect();
+            let smallest = errors.iter().copied().fold(f64::INFINITY, f64::min);
+            *score = errors[0] - smallest;
+        }
+    }
+}
+
+/// Returns the mean absolute difference of the pixels whose partner lies in the region too.
+fn mean_error(view: &FrameView, region: usize, displacement: Displacement) -> f64 {
+    let (columns, rows) = view.grid.area(region);
+    let Displacement { dx, dy } = displacement;
+    let (columns, partner_columns) = paired(&columns, dx);
+    let (rows, partner_rows) = paired(&rows, dy);
+    let line = |plane: &PaddedPlane, y: usize, columns: &Range<usize>| {
+        plane.row(y)[columns.clone()].to_vec()
+    };
+    let mut differences = Vec::new();
+    for (y, partner) in rows.zip(partner_rows) {
+        let here = line(view.denoised, y, &columns);
+        let there = line(&view.references.plane, partner, &partner_columns);
+        differences.extend(here.iter().zip(&there).map(|(x, other)| (x - other).abs()));
+    }
+    let pairs = u32::try_from(differences.len()).expect("a region has at most 4096 pixels");
+    differences.iter().sum::<f64>() / f64::from(pairs)
+}
+
+/// Returns the places whose partner, `shift` places before them, lies in the range too, and the
+/// places of the partners.
+fn paired(places: &Range<usize>, shift: i8) -> (Range<usize>, Range<usize>) {
+    let by = usize::from(shift.unsigned_abs());
+    let (later, earlier) = (places.start + by..places.end, places.start..places.end - by);
+    if shift < 0 { (earlier, later) } else { (later, earlier) }
+}
