@@ -95,7 +95,8 @@ pub struct RegionPosition {
 /// A spatial score with its threshold and its vote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpatialExplanation {
-    /// Kind of the feature: `edge`, `corner`, `mad`, `variance`, `range`, `surface` or `segment`.
+    /// Kind of the feature: `edge`, `corner`, `mad`, `variance`, `range`, `surface`, `segment` or
+    /// `flow`.
     pub feature: FeatureKind,
     /// Per-pixel threshold, for `edge`, `corner` and `segment`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,7 +118,7 @@ pub struct SpatialExplanation {
     pub displacements: Option<DisplacementSums>,
     /// The displacement of the region since its reference, for `flow`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub displacement: Option<Displacement>,
+    pub displacement: Option<DisplacementExplanation>,
     /// The score.
     pub score: u64,
     /// The smallest score that votes.
@@ -127,6 +128,35 @@ pub struct SpatialExplanation {
     pub unit: u64,
     /// True if the feature votes.
     pub vote: bool,
+}
+
+/// The displacement that `flow` found, with the differences that its score follows from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct DisplacementExplanation {
+    /// The displacement; 0 without a valid reference.
+    #[serde(flatten)]
+    pub displacement: Displacement,
+    /// The differences from the reference, or `None` if there is no valid one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub differences: Option<ReferenceDifferences>,
+}
+
+/// The differences between a region and its reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ReferenceDifferences {
+    /// The differences from the reference as it stands: E(0) and n.
+    pub still: DifferenceSum,
+    /// The differences from the displaced reference: E(d) and n(d).
+    pub displaced: DifferenceSum,
+}
+
+/// A sum of absolute differences. The mean error is `sum / pixels`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct DifferenceSum {
+    /// The sum in grey levels.
+    pub sum: u64,
+    /// The number of pixels that were compared.
+    pub pixels: u64,
 }
 
 /// The two parts of a region that `segment` counts.

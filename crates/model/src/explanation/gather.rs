@@ -5,20 +5,23 @@
 use std::cmp::Ordering;
 
 use foveate_camera::{
-    Camera, FeatureKind, IrrelevantRendering, Periphery, RegionAction, SpatialFeature,
+    Camera, Displacement, FeatureKind, IrrelevantRendering, Periphery, RegionAction, SpatialFeature,
 };
 use foveate_design::Design;
 use foveate_frame::Frame;
 
 use super::{
-    FrameIdentification, RegionExplanation, RegionPosition, SegmentParts, SpatialExplanation,
-    SquareRows, SummaryExplanation, TemporalExplanation,
+    DifferenceSum, DisplacementExplanation, FrameIdentification, ReferenceDifferences,
+    RegionExplanation, RegionPosition, SegmentParts, SpatialExplanation, SquareRows,
+    SummaryExplanation, TemporalExplanation,
 };
 use crate::conversions::index;
+use crate::feature::flow::{DisplacedError, displaced_errors};
 use crate::feature::mean::region_mean;
 use crate::feature::region_hits;
 use crate::feature::segment::{SegmentCounts, sides_of_mean};
 use crate::feature::surface::displacement_sums;
+use crate::temporal::RegionReferences;
 use crate::region_view::FrameRegion;
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 
@@ -41,6 +44,12 @@ impl RegionExplanation {
     ) -> Self {
         let (camera, at) = (design.camera(), region as usize);
         let scores = camera.features().iter().zip(&outcome.scores);
+        let mut references = RegionReferences::without_references(camera);
+        if let Some(pixels) = &before.reference {
+            references.set(camera, region, pixels);
+        }
+        let view = FrameRegion::new(camera, &outcome.denoised, region)
+            .with_reference(references.frame(region));
         Self {
             format_version: FORMAT_VERSION,
             design_fingerprint: design.fingerprint(),
@@ -54,7 +63,7 @@ impl RegionExplanation {
             filter: camera.filter(),
             spatial: scores
                 .map(|(feature, scores)| {
-                    SpatialExplanation::of(camera, feature, outcome, region, scores[at])
+                    SpatialExplanation::of(camera, feature, outcome, (region, view), scores[at])
                 })
                 .collect(),
             combine: camera.combine().name(),
@@ -93,23 +102,18 @@ impl SpatialExplanation {
         camera: &Camera,
         feature: &SpatialFeature,
         outcome: &FunctionalOutcome,
-        region: u32,
+        (region, view): (u32, FrameRegion<'_>),
         score: u64,
     ) -> Self {
-        let denoised = &outcome.denoised;
-        let hits = region_hits(camera, feature, denoised, region);
+        let hits = region_hits(camera, feature, &outcome.denoised, region);
         let mean_fraction_bits = feature.mean().map(|mean| mean.fraction_bits);
-        let view = FrameRegion::new(camera, denoised, region);
-        let (mut parts, mut displacements) = (None, None);
-        let displacement = outcome.displacements.get(index(region)).copied();
-        let displacement = displacement.filter(|_| feature.kind().is_displacement());
+        let (mut parts, mut displacements, mut displacement) = (None, None, None);
         match feature.kind() {
             FeatureKind::Edge
             | FeatureKind::Corner
             | FeatureKind::Mad
             | FeatureKind::Variance
-            | FeatureKind::Range
-            | FeatureKind::Flow => {}
+            | FeatureKind::Range => {}
             FeatureKind::Surface => {
                 displacements = Some(displacement_sums(&view));
             }
@@ -118,6 +122,11 @@ impl SpatialExplanation {
                 let bits = mean_fraction_bits.expect("segment has a mean");
                 let sides: Vec<Ordering> = sides_of_mean(&view, level, bits).collect();
                 parts = Some(SegmentParts::of(camera, &sides));
+            }
+            FeatureKind::Flow => {
+                let radius = feature.radius().expect("flow has a radius");
+                let found = outcome.displacements[index(region)];
+                displacement = Some(DisplacementExplanation::of(found, &view, radius));
             }
         }
         Self {
@@ -134,6 +143,22 @@ impl SpatialExplanation {
             unit: feature.unit(),
             vote: score >= feature.min_score(),
         }
+    }
+}
+
+impl DisplacementExplanation {
+    /// Adds the differences between the region and its reference to the displacement that was found.
+    fn of(displacement: Displacement, view: &FrameRegion<'_>, radius: u32) -> Self {
+        let errors = displaced_errors(view, radius);
+        let sum_at = |wanted: Displacement| {
+            let error = errors.iter().find(|error| error.displacement == wanted)?;
+            let &DisplacedError { error: sum, pairs: pixels, .. } = error;
+            Some(DifferenceSum { sum, pixels })
+        };
+        let differences = sum_at(Displacement::default()).zip(sum_at(displacement));
+        let differences =
+            differences.map(|(still, displaced)| ReferenceDifferences { still, displaced });
+        Self { displacement, differences }
     }
 }
 

@@ -10,8 +10,8 @@ use std::fmt::{self, Display, Formatter, Write as _};
 use crate::feature::surface::DisplacementSums;
 
 use super::{
-    RegionExplanation, SegmentParts, SpatialExplanation, SquareRows, SummaryExplanation,
-    TemporalExplanation,
+    DifferenceSum, DisplacementExplanation, RegionExplanation, SegmentParts, SpatialExplanation,
+    SquareRows, SummaryExplanation, TemporalExplanation,
 };
 
 /// Width of a terminal in columns.
@@ -137,7 +137,54 @@ impl SpatialExplanation {
                 "", ""
             );
         }
+        if let Some(displacement) = &self.displacement {
+            for words in displacement.lines() {
+                let _ = write!(line, "\n{:<9} {words}", "");
+            }
+        }
         line
+    }
+}
+
+impl DisplacementExplanation {
+    /// Returns the movement in words, and the mean errors without and with it.
+    fn lines(&self) -> Vec<String> {
+        let Some(differences) = self.differences else {
+            return vec!["no reference is valid, so no movement is searched".to_owned()];
+        };
+        let still = differences.still.mean_text();
+        match self.movement_text() {
+            None => vec![
+                "the content has not moved: the reference matches best as it stands,".to_owned(),
+                format!("mean error {still}"),
+            ],
+            Some(movement) => vec![
+                format!("the content has moved by {movement}:"),
+                format!("mean error {still} as it stands,"),
+                format!("{} moved", differences.displaced.mean_text()),
+            ],
+        }
+    }
+
+    /// Returns the columns and rows in words, or `None` for a displacement of 0.
+    fn movement_text(&self) -> Option<String> {
+        let part = |shift: i8, unit: &str, [back, forth]: [&str; 2]| {
+            let (count, way) = (shift.unsigned_abs(), if shift < 0 { back } else { forth });
+            let plural = if count == 1 { "" } else { "s" };
+            (count > 0).then(|| format!("{count} {unit}{plural} {way}"))
+        };
+        let columns = part(self.displacement.dx, "column", ["to the left", "to the right"]);
+        let rows = part(self.displacement.dy, "row", ["up", "down"]);
+        let parts: Vec<_> = columns.into_iter().chain(rows).collect();
+        (!parts.is_empty()).then(|| parts.join(" and "))
+    }
+}
+
+impl DifferenceSum {
+    /// Returns the mean in grey levels, with the sum and the number of pixels.
+    fn mean_text(self) -> String {
+        let Self { sum, pixels } = self;
+        format!("{} ({sum} / {pixels})", quotient_text(sum, pixels))
     }
 }
 

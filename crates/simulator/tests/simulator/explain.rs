@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Explanations agree with the model, are consistent, and fit a terminal.
 
-use crate::support::{design, frames};
+use crate::support::{design, frames, grey};
 use foveate_design::{DesignConfig, FeatureKind};
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_model::explanation::SpatialExplanation;
+use foveate_model::explanation::{DifferenceSum, SpatialExplanation};
 use foveate_model::feature::surface::DisplacementSums;
 use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_simulator::{RegionExplanation, SimulatorError, explain_region};
 
-const MANY: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90},{feature="surface"},{feature="segment",mean_fraction_bits=1}]"#;
+const MANY: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90},{feature="surface"},{feature="segment",mean_fraction_bits=1},{feature="flow",radius=2}]"#;
+const SERIAL: &str = "hardware.organization=\"serial\"";
 
 fn explained(
     overrides: &[&str],
@@ -45,19 +46,61 @@ fn check_parts_of_score(spatial: &SpatialExplanation) {
     {
         assert_eq!([right, below, below_right, below_left].into_iter().min(), Some(*score));
     }
+    assert_eq!(spatial.displacement.is_some(), *feature == FeatureKind::Flow);
+}
+
+/// Returns the sum of differences between a region and its reference moved by a displacement, and
+/// the number of pixels that have a partner.
+fn difference(told: &RegionExplanation, (dx, dy): (i32, i32)) -> DifferenceSum {
+    let reference = told.temporal.reference.as_ref().unwrap();
+    let partner = |at: usize, shift: i32| usize::try_from(at as i32 - shift).ok();
+    let mut found = DifferenceSum { sum: 0, pixels: 0 };
+    for (y, row) in told.denoised.iter().enumerate() {
+        for (x, pixel) in row.iter().enumerate() {
+            let row = partner(y, dy).and_then(|y| reference.get(y));
+            if let Some(other) = row.and_then(|row| row.get(partner(x, dx)?)) {
+                found.sum += u64::from(pixel.abs_diff(*other));
+                found.pixels += 1;
+            }
+        }
+    }
+    found
+}
+
+/// Checks that the differences of `flow` are those from the reference that is shown, that no other
+/// displacement of at most two pixels has a smaller mean error, and that they give the score. Returns
+/// true if the content has moved.
+fn check_displacement(told: &RegionExplanation, spatial: &SpatialExplanation) -> bool {
+    let displacement = spatial.displacement.unwrap();
+    let (dx, dy) = (displacement.displacement.dx.into(), displacement.displacement.dy.into());
+    let Some(differences) = displacement.differences else {
+        assert!(told.temporal.reference.is_none());
+        assert_eq!((dx, dy, spatial.score), (0, 0, 0));
+        return false;
+    };
+    let (still, displaced) = (differences.still, differences.displaced);
+    assert_eq!((still, displaced), (difference(told, (0, 0)), difference(told, (dx, dy))));
+    for other in (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (dx, dy))) {
+        let other = difference(told, other);
+        assert!(displaced.sum * other.pixels <= other.sum * displaced.pixels);
+    }
+    let gain = still.sum * displaced.pixels - displaced.sum * still.pixels;
+    assert_eq!(gain / displaced.pixels, spatial.score);
+    (dx, dy) != (0, 0)
 }
 
 /// Tests every region of every frame: bits and scores are the model's, the hits add up to the
 /// scores, and the reference follows the rule of the contract.
 #[test]
 fn every_explanation_is_the_models_and_adds_up() {
+    let mut moved = 0;
     for more in [
         &["temporal.reference=\"last-sent\"", "region.neighborhood=\"shared\""][..],
         &["render.irrelevant=\"hold\"", "denoise.filter=\"none\"", "decision.combine=\"all\""],
         &["denoise.filter=\"switching3x3\""],
         &["denoise.filter=\"binomial3x3\""],
     ] {
-        let overrides = [&["frame.width=30", "frame.height=20", MANY], more].concat();
+        let overrides = [&["frame.width=30", "frame.height=20", MANY, SERIAL], more].concat();
         let design = design(&overrides);
         let frames: Vec<Frame> = frames(&design).collect();
         let mut camera = FunctionalCamera::new(&design);
@@ -74,6 +117,9 @@ fn every_explanation_is_the_models_and_adds_up() {
                     assert_eq!(spatial.vote, spatial.score >= spatial.min_score);
                     check_parts_of_score(spatial);
                 }
+                let flow = told.spatial.last().unwrap();
+                assert_eq!(flow.displacement.unwrap().displacement, outcome.displacements[at]);
+                moved += usize::from(check_displacement(&told, flow));
                 assert_eq!(told.temporal.count, outcome.temporal_count[at]);
                 assert_eq!(hits(&told.temporal.hits), u64::from(told.temporal.count));
                 let mut denoised = Vec::new();
@@ -89,6 +135,48 @@ fn every_explanation_is_the_models_and_adds_up() {
             }
         }
     }
+    assert!(moved > 10, "only {moved} regions have moved");
+}
+
+/// A picture of four squares moves by two columns and a row, and then stays.
+#[test]
+fn a_movement_is_explained_in_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = |name: &str, shift: (u32, u32)| {
+        let inside = |at: u32, shift: u32| matches!((at + 16 - shift) % 8, 2 | 3);
+        grey(&folder.path().join(name), 16, 16, |x, y| {
+            if inside(x, shift.0) && inside(y, shift.1) { 200 } else { 20 }
+        })
+    };
+    let images = [image("a.png", (0, 0)), image("b.png", (2, 1)), image("c.png", (2, 1))];
+    let config = DesignConfig::from_toml_with(
+        "",
+        &[SERIAL, "denoise.filter=\"none\"", "spatial=[{feature=\"flow\",radius=2}]"],
+    );
+    let config = config.unwrap();
+    let lines = |frame| {
+        let input = open(&images, &config.camera, &InputOptions::default()).unwrap();
+        let told = explain_region(&config, input, frame, (1, 0)).unwrap().to_string();
+        let start = told.find("\nflow").unwrap() + 1;
+        told[start..told.find("          SRS").unwrap()].to_owned()
+    };
+    assert_eq!(
+        lines(0),
+        "flow      0 < 128: does not vote; 0.000 per pixel\n          \
+         no reference is valid, so no movement is searched\n"
+    );
+    assert_eq!(
+        lines(1),
+        "flow      1440 >= 128: votes; 22.500 per pixel\n          \
+         the content has moved by 2 columns to the right and 1 row down:\n          \
+         mean error 22.500 (1440 / 64) as it stands,\n          0.000 (0 / 42) moved\n"
+    );
+    assert_eq!(
+        lines(2),
+        "flow      0 < 128: does not vote; 0.000 per pixel\n          \
+         the content has not moved: the reference matches best as it stands,\n          \
+         mean error 0.000 (0 / 64)\n"
+    );
 }
 
 #[test]
@@ -109,11 +197,18 @@ fn raw_pixels_are_the_frames_and_padding_is_named() {
 #[test]
 fn texts_fit_80_columns_at_every_size_and_depth() {
     for size in [2, 8, 16, 17, 32, 64] {
+        // Only `serial` has `flow`, and it has regions of 4x4 pixels or more.
+        let (flow, organization) = if size < 4 {
+            ("", "pipelined")
+        } else {
+            (",{feature=\"flow\",min_score=0.1,radius=3}", "serial")
+        };
         for bits in [1, 8, 9, 12, 16] {
             let overrides = [
                 format!("region.size={size}"),
                 format!("frame.pixel_bits={bits}"),
-                "spatial=[{feature=\"edge\",level=1,min_score=1},{feature=\"variance\",min_score=0.1},{feature=\"surface\",min_score=0.1},{feature=\"segment\",level=0,min_score=1,mean_fraction_bits=2}]".into(),
+                format!("hardware.organization=\"{organization}\""),
+                format!("spatial=[{{feature=\"edge\",level=1,min_score=1}},{{feature=\"variance\",min_score=0.1}},{{feature=\"surface\",min_score=0.1}},{{feature=\"segment\",level=0,min_score=1,mean_fraction_bits=2}}{flow}]"),
                 "temporal={level=0,min_count=1}".into(),
             ];
             let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
@@ -130,7 +225,7 @@ fn texts_fit_80_columns_at_every_size_and_depth() {
 
 #[test]
 fn a_small_scene_is_explained_as_in_the_golden_file() {
-    let overrides = ["frame.width=64", "frame.height=64", MANY];
+    let overrides = ["frame.width=64", "frame.height=64", MANY, SERIAL];
     let text = explained(&overrides, 3, (2, 5)).unwrap().to_string();
     let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/simulator/golden/explain.txt");
     if std::env::var_os("FOVEATE_BLESS").is_some() {
