@@ -6,6 +6,7 @@
 
 mod activity_chart;
 mod arrays;
+mod arrow;
 mod bandwidth;
 mod canvas;
 mod clock_files;

@@ -2,6 +2,7 @@
 //! A colour picture to draw on, and the common layout of pictures of regions: the frame, enlarged
 //! if it is small, above a footer for a legend.
 
+use foveate_camera::Camera;
 use foveate_pictures::palette::Colour;
 
 use super::font;
@@ -13,6 +14,8 @@ pub(super) const TEXT: Colour = [230, 230, 230];
 const MIN_ENLARGED_WIDTH: u32 = 448;
 /// The largest height of an enlarged frame.
 const MAX_ENLARGED_HEIGHT: u32 = 1024;
+/// The side up to which regions with arrows are enlarged, by a whole factor.
+const MIN_ARROW_CELL: u32 = 16;
 /// The number of dots across, from which the size of a dot follows.
 const DOTS_ACROSS: u32 = 220;
 /// The width that a legend needs, in dots.
@@ -32,8 +35,19 @@ pub(super) struct PictureLayout {
 }
 
 impl PictureLayout {
-    pub(super) fn new(width: u32, height: u32) -> Self {
-        let scale = MIN_ENLARGED_WIDTH.div_ceil(width).min(MAX_ENLARGED_HEIGHT / height).max(1);
+    /// Returns the layout of the pictures of a camera. Its regions have space for arrows if it
+    /// finds displacements.
+    pub(super) fn of_camera(camera: &Camera) -> Self {
+        let space = camera.displacement_feature().map(|_| MIN_ARROW_CELL);
+        let least = space.map_or(1, |side| side.div_ceil(camera.region_size()));
+        Self::enlarged(camera.width(), camera.height(), least)
+    }
+
+    /// Returns the layout of pictures of a frame whose pixels are enlarged by `least` or more, unless
+    /// the picture becomes too high.
+    fn enlarged(width: u32, height: u32, least: u32) -> Self {
+        let wanted = MIN_ENLARGED_WIDTH.div_ceil(width).max(least);
+        let scale = wanted.min(MAX_ENLARGED_HEIGHT / height).max(1);
         let (frame_width, frame_height) = (width * scale, height * scale);
         let dot = (frame_width / DOTS_ACROSS).clamp(1, 4);
         Self { scale, dot, width: frame_width.max(LEGEND_DOTS), frame_height, frame_width }
@@ -73,6 +87,17 @@ impl PictureCanvas {
         }
     }
 
+    /// Mixes a pixel with a colour: 0 leaves it, and 1 replaces it. Nothing happens beyond the picture.
+    pub(super) fn blend(&mut self, x: u32, y: u32, colour: Colour, share: f64) {
+        if x >= self.width || y >= self.height {
+            return;
+        }
+        let at = 3 * (y as usize * self.width as usize + x as usize);
+        let pixel = &mut self.rgb[at..at + 3];
+        let own = [pixel[0], pixel[1], pixel[2]];
+        pixel.copy_from_slice(&mix(own, colour, share));
+    }
+
     /// Draws the border of a rectangle on its inside.
     pub(super) fn draw_border(&mut self, at: [u32; 4], line: u32, colour: Colour) {
         let [left, top, width, height] = at;
@@ -98,6 +123,19 @@ impl PictureCanvas {
     }
 }
 
+/// Returns the mixture of two colours: the first for a share of 0, and the second for 1.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a mixture of two bytes is a byte"
+)]
+pub(super) fn mix(one: Colour, other: Colour, share: f64) -> Colour {
+    std::array::from_fn(|at| {
+        let mixed = f64::from(one[at]) * (1.0 - share) + f64::from(other[at]) * share;
+        mixed.round() as u8
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,12 +143,17 @@ mod tests {
     #[test]
     fn small_frames_are_enlarged_to_448_pixels_or_more() {
         let sizes = [(224, 224), (300, 200), (320, 240), (447, 300), (448, 300), (28, 28)];
-        let scales = sizes.map(|(width, height)| PictureLayout::new(width, height).scale);
+        let scales = sizes.map(|(width, height)| PictureLayout::enlarged(width, height, 1).scale);
         assert_eq!(scales, [2, 2, 2, 2, 1, 16]);
-        assert_eq!(
-            PictureLayout::new(100, 600).scale,
-            1,
-            "no picture is higher than 1024 for that"
-        );
+        let scale = PictureLayout::enlarged(100, 600, 1).scale;
+        assert_eq!(scale, 1, "no picture is higher than 1024 for that");
+    }
+
+    #[test]
+    fn arrows_have_space_in_regions_of_16_pixels() {
+        let sizes = [(640, 480, 2), (640, 480, 4), (1280, 720, 2), (64, 48, 2)];
+        let scales = sizes
+            .map(|(width, height, least)| PictureLayout::enlarged(width, height, least).scale);
+        assert_eq!(scales, [2, 2, 1, 7]);
     }
 }

@@ -104,8 +104,8 @@ impl HeatmapPainter {
 
 impl PicturePainter for HeatmapPainter {
     fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
-        let (camera, frame) = (sink_frame.camera, &sink_frame.source.frame);
-        let layout = PictureLayout::new(frame.width(), frame.height());
+        let camera = sink_frame.camera;
+        let layout = PictureLayout::of_camera(camera);
         let footer = (font::SIZE.1 + 4) * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, layout.frame_height + footer);
         let cell = camera.region_size() * layout.scale;

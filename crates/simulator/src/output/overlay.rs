@@ -2,13 +2,15 @@
 //! The overlay: the original frame, dimmed, with the decision about every region in colour. Below
 //! it are a legend and the share of active regions over time.
 //!
-//! The colours are those of the palette. Active regions also have an outline.
+//! The colours are those of the palette. Active regions also have an outline. An arrow shows the
+//! displacement of a region, bright if `flow` votes for the region and faint otherwise.
 
-use foveate_camera::{Camera, RegionAction};
+use foveate_camera::{Camera, Displacement, RegionAction};
 use foveate_frame::{ByteFrame, convert_depth};
 use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 
 use super::activity_chart::ActivityChart;
+use super::arrow::Arrow;
 use super::canvas::{PictureCanvas, PictureLayout, TEXT};
 use super::font;
 use super::picture_series::PicturePainter;
@@ -17,6 +19,12 @@ use super::sink::SinkFrame;
 
 /// Regions with smaller sides are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
+/// The colour of arrows, which no decision has.
+const ARROW: Colour = [255, 255, 255];
+/// The opacity of the arrow of a region for which `flow` does not vote.
+const FAINT: f64 = 0.3;
+/// The length of the shortest arrow in pixels of the picture.
+const SHORTEST_ARROW: f64 = 3.0;
 
 /// The painter of overlays. It records the share of active regions so far.
 #[derive(Default)]
@@ -27,11 +35,12 @@ pub(super) struct OverlayPainter {
 impl PicturePainter for OverlayPainter {
     fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
         let frame = &sink_frame.source.frame;
-        let layout = PictureLayout::new(frame.width(), frame.height());
+        let layout = PictureLayout::of_camera(sink_frame.camera);
         let legend = (font::SIZE.1 + 4) * layout.dot;
         let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, sink_frame, layout);
+        draw_arrows(&mut canvas, sink_frame, layout);
         let regions = sink_frame.camera.regions();
         let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, sink_frame.camera);
@@ -80,6 +89,38 @@ fn draw_frame(
     }
 }
 
+/// Draws an arrow from the centre of each region whose content has moved. The bright ones are drawn
+/// last.
+fn draw_arrows(canvas: &mut PictureCanvas, sink_frame: &SinkFrame<'_>, layout: PictureLayout) {
+    let SinkFrame { camera, outcome, .. } = sink_frame;
+    let cell = camera.region_size() * layout.scale;
+    let mut features = camera.features().iter().zip(&outcome.scores);
+    let found = features.find_map(|(feature, scores)| Some((feature, scores, feature.radius()?)));
+    let Some((feature, scores, radius)) = found.filter(|_| cell >= SMALLEST_GRID) else { return };
+    for bright in [false, true] {
+        for (region, displacement) in (0..).zip(&outcome.displacements) {
+            let votes = scores[region as usize] >= feature.min_score();
+            if *displacement == Displacement::default() || votes != bright {
+                continue;
+            }
+            let at = (region % camera.columns(), region / camera.columns());
+            let arrow = region_arrow(at, *displacement, cell, radius);
+            arrow.draw(canvas, ARROW, if bright { 1.0 } else { FAINT });
+        }
+    }
+}
+
+/// Returns the arrow of the region in a column and row. Its length is in proportion to the
+/// displacement, and the longest reaches into the next region.
+fn region_arrow(at: (u32, u32), displacement: Displacement, cell: u32, radius: u32) -> Arrow {
+    let (cell, radius) = (f64::from(cell), f64::from(radius));
+    let pixel = (1.2 * cell / (radius + 1.0)).max(SHORTEST_ARROW);
+    let tail = [at.0, at.1].map(|place| (f64::from(place) + 0.5) * cell);
+    let [dx, dy] = [displacement.dx, displacement.dy].map(f64::from);
+    let tip = [tail[0] + dx * pixel, tail[1] + dy * pixel];
+    Arrow { tail, tip, head_width: (cell * 0.36).clamp(4.0, 16.0) }
+}
+
 /// Lightens the pixels of a line.
 fn lighten_line(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4]) {
     for y in top..top + height {
@@ -107,7 +148,14 @@ fn draw_legend(canvas: &mut PictureCanvas, layout: PictureLayout, active: u32, c
     }
     if camera.periphery().is_some() {
         canvas.draw_border([left, top, height, height], dot.div_ceil(2), TEXT);
-        canvas.draw_text(left + height + dot, top, dot, "Means");
+        left = canvas.draw_text(left + height + dot, top, dot, "Means") + 3 * dot;
+    }
+    if camera.displacement_feature().is_some() {
+        let [start, top_edge, side] = [left, top, height].map(f64::from);
+        let middle = top_edge + side / 2.0;
+        let (tail, tip) = ([start, middle], [start + 2.0 * side, middle]);
+        Arrow { tail, tip, head_width: side }.draw(canvas, ARROW, 1.0);
+        canvas.draw_text(left + 2 * height + dot, top, dot, "Moved");
     }
 }
 

@@ -85,7 +85,7 @@ impl FrameSink for PictureSeriesSink {
         match &self.series {
             SeriesFiles::Folder(_) if self.painter.is_some() => {
                 // A small frame is enlarged, and its legend and chart stand below it.
-                let layout = PictureLayout::new(width, height);
+                let layout = PictureLayout::of_camera(camera);
                 let height = layout.frame_height + MAX_FOOTER_HEIGHT;
                 PngWriters::max_bytes_in_work(layout.width, height, 3)
             }

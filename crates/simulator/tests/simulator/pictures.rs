@@ -52,6 +52,53 @@ fn the_overlay_shows_each_state_in_its_colour() {
     }
 }
 
+/// A picture of squares moves by two columns and a row. Each region whose content has moved has an
+/// arrow, in white, from its centre towards the right and downwards. The arrows end in the next region.
+#[test]
+fn arrows_show_where_content_has_moved() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = |name: &str, shift: (u32, u32)| {
+        let inside = |at: u32, shift: u32| matches!((at + 16 - shift) % 8, 2 | 3);
+        support::grey(&folder.path().join(name), 32, 16, |x, y| match x {
+            0..16 if inside(x, shift.0) && inside(y, shift.1) => 255,
+            _ => 20,
+        })
+    };
+    let images = [image("a.png", (0, 0)), image("b.png", (2, 1)), image("c.png", (2, 1))];
+    let overrides = [
+        "hardware.organization=\"serial\"",
+        "denoise.filter=\"none\"",
+        "spatial=[{feature=\"flow\",radius=2}]",
+    ];
+    let output = folder.path().join("out");
+    let options = RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() };
+    support::run(&images, &overrides, &output, &options).unwrap();
+    // Each pixel is enlarged to 14 x 14, and a region to 112 x 112.
+    const CELL: u32 = 112;
+    let white_at = |frame: u32, region: u32| {
+        let picture = image::open(output.join(format!("overlay/{frame:06}.png"))).unwrap();
+        let picture = picture.into_rgb8();
+        let places = (0..CELL).flat_map(|y| (0..CELL).map(move |x| (x, y)));
+        let is_white = |&(x, y): &(u32, u32)| {
+            picture.get_pixel(region % 4 * CELL + x, region / 4 * CELL + y).0 == [255; 3]
+        };
+        places.filter(is_white).collect::<Vec<_>>()
+    };
+    for region in 0..8 {
+        assert_eq!(white_at(0, region), [], "the first frame has no reference");
+        assert_eq!(white_at(1, region).is_empty(), region % 4 == 3, "region {region}");
+        assert_eq!(white_at(2, region), [], "nothing moves in the last frame");
+        if region % 4 == 0 {
+            let arrow = white_at(1, region);
+            let from = CELL / 2 - 8;
+            assert!(arrow.iter().all(|&(x, y)| x >= from && y >= from), "{arrow:?}");
+            let right = arrow.iter().filter(|(x, _)| *x >= CELL - 20).count();
+            let below = arrow.iter().filter(|(_, y)| *y >= CELL - 20).count();
+            assert!(right > below, "it is longer to the right than downwards");
+        }
+    }
+}
+
 /// The bar of every frame has the height of the share of active regions.
 #[test]
 fn the_strip_shows_the_share_of_active_regions() {
