@@ -4,13 +4,15 @@
 use std::collections::BTreeMap;
 
 use foveate_camera::{
-    CameraConfig, ConfigError, Decimal, DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy,
-    ScoreUnit, SpatialConfig,
+    CameraConfig, ConfigError, Decimal, DenoiseFilter, FLOW_RADII, FeatureKind, Neighborhood,
+    ReferencePolicy, ScoreUnit, SpatialConfig,
 };
+use foveate_design::HardwareConfig;
 use foveate_fidelity::FidelityFigures;
 use foveate_playback::ClipHalves;
 
 use super::constraints::{ConstraintCheck, Constraints, all_met, total_excess};
+use super::possible_designs::can_be_built;
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 use crate::objects::ObjectCounts;
@@ -49,6 +51,7 @@ pub(super) struct CameraSearch<'a> {
     footage: &'a ExplorationFootage<'a>,
     halves: &'a ClipHalves,
     task: CameraConfig,
+    hardware: &'a HardwareConfig,
     examined: BTreeMap<String, ExaminedCamera>,
 }
 
@@ -69,10 +72,11 @@ impl<'a> CameraSearch<'a> {
         footage: &'a ExplorationFootage<'a>,
         halves: &'a ClipHalves,
         task: &CameraConfig,
+        hardware: &'a HardwareConfig,
     ) -> Result<Self, ExploreError> {
         let (width, height) = footage.size;
         let task = task.validate_for_frames(width, height)?.config().clone();
-        Ok(Self { constraints, footage, halves, task, examined: BTreeMap::new() })
+        Ok(Self { constraints, footage, halves, task, hardware, examined: BTreeMap::new() })
     }
 
     /// Returns all cameras that were examined.
@@ -106,7 +110,8 @@ impl<'a> CameraSearch<'a> {
         let mut bases = Vec::new();
         for side in self.sides() {
             for features in self.features() {
-                let tries = self.exact_cameras(side, &features);
+                let mut tries = self.exact_cameras(side, &features);
+                tries.retain(|config| can_be_built(config, self.hardware));
                 let best = self.examine(&tries)?.into_iter().min_by(by_flips);
                 bases.extend(best);
             }
@@ -324,9 +329,10 @@ fn trial_thresholds(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> 
 fn trial_thresholds_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
     const LEVELS: [u64; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
     const HITS: [u64; 4] = [1, 2, 5, 10];
-    let entry = |level: Option<u32>, min_score: u64| {
+    let entry = |level: Option<u32>, radius: Option<u32>, min_score: u64| {
         vec![SpatialConfig {
             level,
+            radius,
             min_score: Some(Decimal::from_whole(min_score)),
             ..SpatialConfig::new(feature)
         }]
@@ -342,8 +348,11 @@ fn trial_thresholds_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
         [] => vec![None],
         levels => levels.iter().copied().map(Some).collect(),
     };
-    let of = |level| scores.iter().map(move |&score| entry(level, score));
-    levels.into_iter().flat_map(of).collect()
+    let radii: Vec<Option<u32>> =
+        if feature.is_displacement() { FLOW_RADII.map(Some).collect() } else { vec![None] };
+    let pairs = levels.iter().flat_map(|&level| radii.iter().map(move |&radius| (level, radius)));
+    let of = |(level, radius)| scores.iter().map(move |&score| entry(level, radius, score));
+    pairs.flat_map(of).collect()
 }
 
 #[cfg(test)]
@@ -353,6 +362,19 @@ mod tests {
 
     use super::super::test_clip::{remove_frames, write_clip};
     use super::*;
+
+    /// Each radius is tried with each minimum, and the other features have no radius.
+    #[test]
+    fn every_radius_of_flow_is_tried() {
+        let tried = |feature| {
+            let entries = trial_thresholds(feature, 8).concat();
+            entries.into_iter().map(|entry| entry.radius).collect::<Vec<_>>()
+        };
+        let radii = tried(FeatureKind::Flow);
+        let count = |radius| radii.iter().filter(|&&one| one == Some(radius)).count();
+        assert_eq!([1, 2, 3].map(count), [radii.len() / 3; 3]);
+        assert!(tried(FeatureKind::Mad).iter().all(Option::is_none));
+    }
 
     /// A clip of 12 frames loses its second half while the fit runs.
     #[test]
@@ -366,7 +388,9 @@ mod tests {
             ExplorationFootage::new((&inputs, &[]), &options, &task, &SilentHooks).unwrap();
         let monitor = RunMonitor::of_frames(&SilentHooks, None);
         let halves = ClipHalves::count(&footage.clips, 4, &monitor).unwrap();
-        let mut search = CameraSearch::new(&constraints, &footage, &halves, &task).unwrap();
+        let hardware = HardwareConfig::default();
+        let mut search =
+            CameraSearch::new(&constraints, &footage, &halves, &task, &hardware).unwrap();
         let chosen = search.examine(std::slice::from_ref(&task)).unwrap().remove(0);
         let second = search.measure_second_half(&chosen).unwrap();
         assert_eq!((second.figures.frames, second.problems), (12, Vec::new()));

@@ -12,8 +12,8 @@
 //! enough must also be confirmed by later frames, which are used for nothing else.
 
 use foveate_camera::{
-    Camera, CameraConfig, DenoiseFilter, FeatureKind, IrrelevantRendering, PeripheryConfig,
-    ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FLOW_RADII, FeatureKind, IrrelevantRendering,
+    PeripheryConfig, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
 use foveate_design::HardwareConfig;
 
@@ -24,7 +24,7 @@ use super::constraints::ConstraintCheck;
 use super::known_agreements::{KnownAgreements, known_or_measured};
 use super::network_agreement::NetworkAgreement;
 use super::network_goal::CostObjective;
-use super::possible_designs::least_rough_cost;
+use super::possible_designs::{can_be_built, least_rough_cost};
 use super::threshold_scaling::scale_thresholds_by;
 use crate::ExploreError;
 
@@ -119,11 +119,11 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok((confirmed >= least).then(|| searched.min(confirmed)))
     }
 
-    /// Returns the cost of each camera. It leaves out invalid cameras.
+    /// Returns the cost of each camera. It leaves out cameras that are invalid or cannot be built.
     fn with_costs(&self, configs: &[CameraConfig]) -> Result<Vec<(f64, Camera)>, ExploreError> {
         let mut cameras: Vec<Camera> = Vec::new();
         for camera in configs.iter().filter_map(|config| config.validate().ok()) {
-            if !cameras.contains(&camera) {
+            if !cameras.contains(&camera) && can_be_built(camera.config(), self.hardware) {
                 cameras.push(camera);
             }
         }
@@ -197,6 +197,10 @@ fn nearly_all_sent(task: &CameraConfig) -> CameraConfig {
     config.denoise.filter = DenoiseFilter::None;
     config.temporal.reference = ReferencePolicy::LastSent;
     config.temporal.min_count = config.temporal.min_count.min(1);
+    // Content that changes in place has no displacement.
+    for entry in config.spatial.iter_mut().filter(|entry| entry.feature.is_displacement()) {
+        entry.min_score = Some(Decimal::from_whole(0));
+    }
     config
 }
 
@@ -238,6 +242,7 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
         let alone = with(&|config| config.spatial.clone_from(&alone));
         found.extend([0.0, 1.0, 2.0].map(|octaves| scale_thresholds_by(&alone, octaves, 0.0)));
     }
+    found.extend(radius_variants(config));
     found.extend(SIDES.map(|side| with(&|config| config.region.size = side)));
     found.extend(
         DenoiseFilter::ALL.iter().map(|&filter| with(&|config| config.denoise.filter = filter)),
@@ -255,8 +260,52 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
     found
 }
 
+/// Returns the camera with each radius of the feature that finds displacements, if it has one.
+fn radius_variants(config: &CameraConfig) -> Vec<CameraConfig> {
+    let searches = |entry: &SpatialConfig| entry.feature.is_displacement();
+    let Some(index) = config.spatial.iter().position(searches) else { return Vec::new() };
+    let variant = |radius| {
+        let mut other = config.clone();
+        other.spatial[index].radius = Some(radius);
+        other
+    };
+    FLOW_RADII.map(variant).collect()
+}
+
 /// Converts the level of a periphery from 8 bits to another depth.
 fn periphery_level_at(level: u32, bits: u32) -> Option<u32> {
     let periphery = PeripheryConfig { level: Some(level), ..PeripheryConfig::default() };
     CameraConfig { periphery, ..CameraConfig::default() }.scaled_to_depth(bits).periphery.level
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FLOW: &str = "[[spatial]]\nfeature = \"flow\"\nradius = 2\n";
+
+    /// A region has no displacement without a reference, and with `last-sent` no reference without a
+    /// vote.
+    #[test]
+    fn nearly_all_is_sent_with_flow_alone() {
+        let all = nearly_all_sent(&CameraConfig::from_toml(FLOW).unwrap());
+        assert_eq!(all.temporal.reference, ReferencePolicy::LastSent);
+        let camera = all.validate().unwrap();
+        assert_eq!(camera.features()[0].min_score(), 0);
+    }
+
+    #[test]
+    fn flow_and_its_radii_are_one_step_away() {
+        let radii = |text: &str| {
+            let neighbors = neighbor_cameras(&CameraConfig::from_toml(text).unwrap());
+            let flow = |entry: &SpatialConfig| entry.feature == FeatureKind::Flow;
+            let entries = neighbors.iter().flat_map(|config| &config.spatial);
+            let mut radii: Vec<_> = entries.filter(|one| flow(one)).map(|one| one.radius).collect();
+            radii.sort_unstable();
+            radii.dedup();
+            radii
+        };
+        assert_eq!(radii(""), [Some(1)]);
+        assert_eq!(radii(FLOW), [Some(1), Some(2), Some(3)]);
+    }
 }

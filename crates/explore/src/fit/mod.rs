@@ -112,7 +112,9 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
     let halves = ClipHalves::count(&footage.clips, least_frames, &monitor)?;
     let (task, target) = task_for_target(request, &footage, &halves)?;
     let footage = footage.with_ideal(&task);
-    let mut search = CameraSearch::new(request.constraints, &footage, &halves, &task)?;
+    let hardware = &request.task.hardware;
+    let mut search =
+        CameraSearch::new(request.constraints, &footage, &halves, &task, hardware)?;
     let network =
         request.network.map(|goal| NetworkAgreement::new(goal, &footage, &halves, search.task()));
     let network = network.transpose()?;
@@ -121,7 +123,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
             search.run()?;
             KnownAgreements::default()
         }
-        Some(network) => Descent::new(&mut search, network, &request.task.hardware).run()?,
+        Some(network) => Descent::new(&mut search, network, hardware).run()?,
     };
     let synthesized = synthesize_promising_designs(&search, request, lane_memory, hooks)?;
     let chosen = &synthesized.chosen().examined;

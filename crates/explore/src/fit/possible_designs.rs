@@ -74,6 +74,12 @@ pub(super) fn possible_designs(
     Organization::ALL.iter().flat_map(|&organization| of(organization)).collect()
 }
 
+/// Returns true if an organization can build the camera, at whatever speed.
+pub(super) fn can_be_built(camera: &CameraConfig, task_hardware: &HardwareConfig) -> bool {
+    let bounds = BuildBounds { max_clocks: None, is_planned: true, memory: None };
+    !possible_designs(camera, task_hardware, bounds).is_empty()
+}
+
 /// Returns a design of that organization with the thresholds and `sync` of the task; `None` if it
 /// is not valid.
 fn possible_design(
@@ -153,6 +159,26 @@ mod tests {
         let words =
             of(Organization::Raster).map(|d| d.as_raster().unwrap().pixels_per_clock()).collect();
         (words, of(Organization::Pipelined).next().is_some())
+    }
+
+    /// Only `serial` has `flow`, with regions of 4x4 pixels or more, and a reference that no region
+    /// would ever have is refused.
+    #[test]
+    fn flow_is_built_where_an_organization_supports_it() {
+        let designs = |more: &[&str]| {
+            let flow = "spatial=[{feature='flow',radius=2}]";
+            let task = DesignConfig::from_toml_with("", &[&[flow], more].concat()).unwrap();
+            let bounds = BuildBounds { max_clocks: None, is_planned: true, memory: None };
+            let designs = possible_designs(&task.camera, &task.hardware, bounds);
+            assert_eq!(can_be_built(&task.camera, &task.hardware), !designs.is_empty());
+            designs.iter().map(Design::organization).collect::<Vec<_>>()
+        };
+        let arrays = designs(&[]);
+        assert!(!arrays.is_empty());
+        assert!(arrays.iter().all(|one| matches!(one, Organization::Serial)), "{arrays:?}");
+        assert!(!designs(&["region.size=4"]).is_empty());
+        assert!(designs(&["region.size=3"]).is_empty());
+        assert!(designs(&["temporal.reference='last-sent'"]).is_empty());
     }
 
     /// There are 784 regions. At most 17 regions per lane are fast enough; 16 and 8 take fewer

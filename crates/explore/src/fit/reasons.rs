@@ -4,7 +4,8 @@
 use std::iter;
 
 use foveate_camera::{
-    CameraConfig, DenoiseFilter, IrrelevantRendering, Neighborhood, ReferencePolicy,
+    CameraConfig, DenoiseFilter, FLOW_RADII, IrrelevantRendering, Neighborhood, ReferencePolicy,
+    SpatialFeature,
 };
 use foveate_design::{Design, Organization};
 use foveate_estimate::{FrameRate, ramb36};
@@ -17,8 +18,7 @@ use super::synthesis::{SynthesizedDesign, SynthesizedDesigns};
 
 /// Describes a design in a few words.
 pub(super) fn design_text(design: &Design) -> String {
-    let features: Vec<&str> =
-        design.features().iter().map(|feature| feature.kind().name()).collect();
+    let features: Vec<String> = design.features().iter().map(feature_text).collect();
     format!(
         "{hardware}; {size}x{size} regions, {neighborhood} windows; {} at {} bits, {}; reference {}{}",
         features.join(" and "),
@@ -41,6 +41,12 @@ pub(super) fn design_text(design: &Design) -> String {
         size = design.region_size(),
         neighborhood = design.neighborhood(),
     )
+}
+
+/// Names a feature, and its radius if it has one.
+fn feature_text(feature: &SpatialFeature) -> String {
+    let radius = feature.radius().map(|radius| format!(" (radius {radius})")).unwrap_or_default();
+    format!("{}{radius}", feature.kind())
 }
 
 /// Returns a line for each step to something simpler, and then the cost of the next cheapest
@@ -128,6 +134,13 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
     step("compared with the previous frame".to_owned(), &|config| {
         config.temporal.reference = ReferencePolicy::Previous;
     });
+    for (index, entry) in chosen.spatial.iter().enumerate() {
+        for radius in entry.radius.map_or(0..0, |radius| *FLOW_RADII.start()..radius) {
+            step(format!("{} with a radius of {radius}", entry.feature), &|config| {
+                config.spatial[index].radius = Some(radius);
+            });
+        }
+    }
     found
 }
 

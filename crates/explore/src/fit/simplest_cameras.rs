@@ -40,7 +40,7 @@ pub(super) fn simplest_cameras<'a>(cameras: &[&'a ExaminedCamera]) -> Vec<&'a Ex
 /// The complexity of a camera: the settings that cannot be ordered, and those that cost more the
 /// larger they are.
 type CameraComplexity =
-    ((u32, Neighborhood, Vec<FeatureKind>, IrrelevantRendering, Option<u32>), [u32; 4]);
+    ((u32, Neighborhood, Vec<FeatureKind>, IrrelevantRendering, Option<u32>), [u32; 5]);
 
 fn complexity(config: &CameraConfig) -> CameraComplexity {
     let features = config.spatial.iter().map(|entry| entry.feature).collect();
@@ -50,7 +50,8 @@ fn complexity(config: &CameraConfig) -> CameraComplexity {
         ReferencePolicy::Previous => 0,
         ReferencePolicy::LastSent => 1,
     };
-    let ordered = [config.frame.pixel_bits, filter, reference, fraction];
+    let radius = config.spatial.iter().filter_map(|entry| entry.radius).sum();
+    let ordered = [config.frame.pixel_bits, filter, reference, fraction, radius];
     let (region, shown) = (&config.region, config.render.irrelevant);
     ((region.size, region.neighborhood, features, shown, config.periphery.blocks), ordered)
 }

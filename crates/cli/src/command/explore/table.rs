@@ -74,7 +74,7 @@ fn array_cell(row: &DesignRow) -> String {
 
 const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of the ideal camera. \
      IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
-     temporal as share of a region's pixels, mad, range and surface in grey levels, variance in \
+     temporal as share of a region's pixels, mad, range, surface and flow in grey levels, variance in \
      their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a \
      row that a region was stale. MHz: the clock, with its range if it is estimated. frames/s: at \
