@@ -3,7 +3,7 @@
 
 use foveate_design::{CameraConfig, Decimal, DesignConfig, FeatureKind, SpatialConfig};
 use foveate_pictures::chart::{BarSeries, Chart, ChartData};
-use foveate_pictures::palette::SERIES;
+use foveate_pictures::palette::{LIGHT, SERIES};
 
 use super::Study;
 use crate::StudyError;
@@ -49,7 +49,7 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     let points = || watched.iter().flat_map(|set| set.points.iter().map(|(_, below)| below));
     let bars = |(at, kind): (usize, &FeatureKind)| BarSeries {
         name: kind.name().to_owned(),
-        colour: SERIES[at % SERIES.len()],
+        colour: SERIES.get(at).copied().unwrap_or(LIGHT.further_series),
         values: points().map(|below| percent(below.by_feature[at], below.all)).collect(),
         ranges: Vec::new(),
     };
@@ -68,15 +68,26 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     Ok(findings)
 }
 
-/// Returns the configuration with every feature, in the order of the columns, with the thresholds of the configuration or their defaults.
+/// Returns the configuration with every feature that its organization supports, in the order of the
+/// columns, with the thresholds of the configuration or their defaults. With `last-sent` and votes
+/// of all features no region ever has a reference for a displacement, so that feature is left out.
 fn with_every_feature(config: &DesignConfig) -> DesignConfig {
-    let entry = |&kind: &FeatureKind| {
-        let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);
-        own.cloned().unwrap_or_else(|| default_entry(&config.camera, kind))
+    let with_features = |kinds: Vec<FeatureKind>| {
+        let entry = |kind: FeatureKind| {
+            let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);
+            own.cloned().unwrap_or_else(|| default_entry(&config.camera, kind))
+        };
+        let mut all = config.clone();
+        all.camera.spatial = kinds.into_iter().map(entry).collect();
+        all
     };
-    let mut all = config.clone();
-    all.camera.spatial = FeatureKind::ALL.iter().map(entry).collect();
-    all
+    let mut kinds = config.hardware.organization.kind().feature_kinds();
+    let every = with_features(kinds.clone());
+    if every.camera.validate().is_ok() {
+        return every;
+    }
+    kinds.retain(|kind| !kind.is_displacement());
+    with_features(kinds)
 }
 
 /// Returns a feature that a camera does not have, with its defaults. It has the mean that the camera

@@ -4,7 +4,7 @@
 use std::fs;
 
 use crate::support::{cells, config, run};
-use foveate_design::{DesignConfig, FeatureKind};
+use foveate_design::{DesignConfig, FeatureKind, Organization};
 use foveate_studies::Study;
 
 #[test]
@@ -63,8 +63,8 @@ fn redundancy_and_histogram_of_plain_and_striped_frames() {
     let mut small = self::config("spatial=[{feature='mad',mean_fraction_bits=3,min_score=4}]");
     small.camera.region.size = 3;
     let report = run(Study::Redundancy, &inputs, &small, &dir.path().join("small")).unwrap();
-    for feature in FeatureKind::NAMES {
-        assert_eq!(cells(&report, feature)[0], "1.000000", "{feature}");
+    for feature in Organization::Pipelined.feature_kinds() {
+        assert_eq!(cells(&report, feature.name())[0], "1.000000", "{feature}");
     }
     let report = run(Study::MadHistogram, &inputs, &config, &out).unwrap();
     let full: Vec<&Vec<String>> = report.rows.iter().filter(|row| row[4] == "1.000000").collect();
@@ -72,6 +72,34 @@ fn redundancy_and_histogram_of_plain_and_striped_frames() {
     assert_eq!(full.len(), 2);
     assert_eq!((full[0][0].as_str(), full[0][1].as_str()), ("zero", "0"));
     assert_eq!((full[1][0].as_str(), full[1][1].as_str()), ("checkerboard", "127"));
+}
+
+/// The features are those of the organization. A displacement has no reference with `last-sent` and
+/// votes of all features.
+#[test]
+fn redundancy_is_that_of_the_features_of_the_organization() {
+    let dir = tempfile::tempdir().unwrap();
+    let features = |overrides: &[&str]| {
+        let base = config("region.size=8").to_toml();
+        let config = DesignConfig::from_toml_with(&base, overrides).unwrap();
+        let name = overrides.len().to_string();
+        let report =
+            run(Study::Redundancy, &["scene:shake"], &config, &dir.path().join(name)).unwrap();
+        let columns = report.columns.len();
+        (report.columns[3..columns - 1].to_vec(), report)
+    };
+    let (pipelined, _) = features(&[]);
+    let supported = Organization::Pipelined.feature_kinds();
+    assert_eq!(pipelined, supported.iter().map(|kind| kind.name()).collect::<Vec<_>>());
+    let serial = "hardware.organization='serial'";
+    let (all, report) = features(&[serial]);
+    assert_eq!(all, FeatureKind::NAMES);
+    let still: f64 = cells(&report, "flow")[0].parse().unwrap();
+    assert!(still > 0.0 && still < 1.0, "some regions of a camera that shakes move: {still}");
+    let last_sent = "temporal.reference='last-sent'";
+    assert_eq!(features(&[serial, last_sent]).0, FeatureKind::NAMES);
+    let (without, _) = features(&[serial, last_sent, "decision.combine='all'"]);
+    assert_eq!(without, pipelined);
 }
 
 #[test]

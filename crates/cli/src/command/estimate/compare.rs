@@ -62,15 +62,15 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
     }
 }
 
-/// Returns the rows of the design in each organization, with each feature without a filter and with
-/// the median, and with the default feature and each other filter. The keys that only one
+/// Returns the rows of the design in each organization, with each of its features without a filter
+/// and with the median, and with the default feature and each other filter. The keys that only one
 /// organization has are those of the design in its own organization, and have their defaults in the
 /// others.
 fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
     let mut list = Vec::new();
     for &organization in Organization::ALL {
         for &filter in DenoiseFilter::ALL {
-            for kind in compared_features(filter) {
+            for kind in compared_features(organization, filter) {
                 let mut config = with_feature(base, kind, filter);
                 if organization != base.hardware.organization.kind() {
                     config.hardware.organization = organization.into();
@@ -84,7 +84,12 @@ fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
                 };
                 list.push(PlannedRow {
                     name: format!("{organization} {kind}{filter_name}"),
-                    family: organization.to_string(),
+                    // A camera may be refused for this feature alone.
+                    family: if kind.is_displacement() {
+                        format!("{organization} {kind}")
+                    } else {
+                        organization.to_string()
+                    },
                     design: config.validate(),
                 });
             }
@@ -93,10 +98,10 @@ fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
     list
 }
 
-/// Returns the features that are compared with a filter.
-fn compared_features(filter: DenoiseFilter) -> Vec<FeatureKind> {
+/// Returns the features that are compared in an organization with a filter.
+fn compared_features(organization: Organization, filter: DenoiseFilter) -> Vec<FeatureKind> {
     match filter {
-        DenoiseFilter::None | DenoiseFilter::Median3x3 => FeatureKind::ALL.to_vec(),
+        DenoiseFilter::None | DenoiseFilter::Median3x3 => organization.feature_kinds(),
         DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => vec![FeatureKind::default()],
     }
 }
@@ -136,4 +141,27 @@ fn folded_row(
         family: "serial with raster feed".to_owned(),
         design,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the names of the rows with `flow`, and the family of each row that is refused.
+    fn flow_rows(overrides: &[&str]) -> (Vec<String>, Vec<String>) {
+        let rows = organization_rows(&DesignConfig::from_toml_with("", overrides).unwrap());
+        let refused = rows.iter().filter(|row| row.design.is_err());
+        let refused = refused.map(|row| row.family.clone()).collect();
+        let names = rows.into_iter().map(|row| row.name);
+        (names.filter(|name| name.contains("flow")).collect(), refused)
+    }
+
+    #[test]
+    fn a_feature_has_rows_in_the_organizations_that_support_it() {
+        let (names, refused) = flow_rows(&[]);
+        assert_eq!(names, ["serial flow", "serial flow median"]);
+        assert_eq!(refused, Vec::<String>::new());
+        let (_, refused) = flow_rows(&["temporal.reference='last-sent'"]);
+        assert_eq!(refused, ["serial flow"; 2], "only the rows of flow have no reference");
+    }
 }
