@@ -70,6 +70,7 @@ pub(crate) fn blank_outcome(camera: &Camera) -> FrameOutcome {
         actions: vec![RegionAction::Blank; regions],
         temporal_count: vec![0; regions],
         scores: vec![vec![0; regions]; camera.features().len()],
+        displacements: Vec::new(),
         skipped: 0,
     }
 }
