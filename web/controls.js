@@ -13,7 +13,7 @@ const GROUPS = [
   ["What the receiver sees", [["render.irrelevant", "Irrelevant"], ["periphery.blocks", "Means a side"], ["periphery.level", "Level of means"],
     ["render.payload", "Payload"]]],
 ];
-const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"]];
+const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"], ["radius", "Radius"]];
 
 export class Controls {
   #place; #tables; #actions; #rows = new Map(); #shape = "";

@@ -188,6 +188,12 @@ class Camera {
     return this.#bytes("foveate_regions");
   }
 
+  /** Three signed bytes per region: columns to the right and rows down by which its content has moved, and 1 if `flow` votes. Empty without `flow`. */
+  get displacements() {
+    const bytes = this.#bytes("foveate_displacements");
+    return new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length);
+  }
+
   /** Returns the scores of feature `index`, a BigUint64Array by region. */
   scores(index) {
     this.#call("foveate_scores", whole(index, "feature"));

@@ -2,6 +2,12 @@
 // The hardware area of the camera, from the table that scripts/figures/web_hardware.py writes with `foveate estimate`.
 
 import { make } from "./elements.js";
+import { organizationsOf } from "./organization.js";
+
+/** The organization of the table. */
+const ORGANIZATION = "raster";
+/** The regions per lane of an array that takes video row by row. */
+const FOLD = 16;
 
 /** The columns of the table that identify the camera of a row. */
 function rowKey({ config }) {
@@ -15,9 +21,14 @@ function rowKey({ config }) {
   return [region.size, spatial[0].feature, denoise.filter, temporal.reference, rendering].join();
 }
 
-/** Shows the hardware area of a camera. */
-export function showHardware(place, table, facts) {
+/** Shows the hardware area of a camera; `features` are those of `engine.describe()`. */
+export function showHardware(place, table, facts, features) {
   const [width, height] = table.frame, size = `${width}x${height}`;
+  const possible = organizationsOf(facts.config, features);
+  if (!possible.includes(ORGANIZATION)) {
+    showOther(place, [width, height], facts, features);
+    return;
+  }
   const design = table.designs.find(row => row.slice(0, 5).join() === rowKey(facts));
   const title = make("p", { textContent: `This camera as one raster core, which takes video of ${size} row by row.` });
   if (design) {
@@ -27,9 +38,23 @@ export function showHardware(place, table, facts) {
     const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are inputs of the core and change none of this.` }));
     place.replaceChildren(title, make("dl", {}, ...list), note);
   } else {
-    const keys = ["'hardware={organization=\"raster\",sync=true}'", `frame.width=${width}`, `frame.height=${height}`];
-    const command = `foveate estimate --config camera.toml ${keys.map(key => `--set ${key}`).join(" ")}`;
-    place.replaceChildren(title, make("p", { textContent: "It is not in the table. With the copied TOML as camera.toml, this estimates it:" }),
-      make("pre", { textContent: command, tabIndex: 0 }));
+    const command = estimateCommand(`{organization="${ORGANIZATION}",sync=true}`, [width, height]);
+    place.replaceChildren(title, make("p", { textContent: "It is not in the table. With the copied TOML as camera.toml, this estimates it:" }), command);
   }
+}
+
+/** Says why a camera has no figures, and shows how to estimate an array whose lanes share regions. */
+function showOther(place, frame, { organization, config }, features) {
+  const isOther = ({ feature }) => !organizationsOf({ spatial: [{ feature }] }, features).includes(ORGANIZATION);
+  const names = config.spatial.filter(isOther).map(({ feature }) => feature).join(", ");
+  const hardware = organization === "serial" ? `{organization="serial",feed="raster",fold=${FOLD}}` : `{organization="${organization}"}`;
+  const title = `The figures of this page are those of a raster core, which does not compute ${names}. This camera is a ${organization} array.`;
+  place.replaceChildren(make("p", { textContent: title }),
+    make("p", { textContent: `With the copied TOML as camera.toml, this estimates it for video of ${frame.join("x")}, with ${FOLD} regions per lane:` }),
+    estimateCommand(hardware, frame));
+}
+
+function estimateCommand(hardware, [width, height]) {
+  const keys = [`'hardware=${hardware}'`, `frame.width=${width}`, `frame.height=${height}`];
+  return make("pre", { textContent: `foveate estimate --config camera.toml ${keys.map(key => `--set ${key}`).join(" ")}`, tabIndex: 0 });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // All settings as the fragment of a link: `#source=scene:street&size=640x480&preset=fovea&region.size=16`. Keys are those of the
-// configuration, with what differs from the preset; values are TOML. Features differ as a whole, because they are numbered.
+// configuration, with what differs from the preset; values are TOML. Features differ as a whole, because they are numbered, and so does
+// the hardware with another organization, because each organization has keys of its own.
 
 import { keysOf, valueOf, withKey } from "./toml.js";
 
@@ -10,13 +11,16 @@ const NETWORK = ["framing", "mean", "scale", "detect"];
 /** The largest number of characters of a fragment. */
 const MAX_CHARACTERS = 8192;
 const isFeature = key => key.startsWith("spatial.");
+const isHardware = key => key.startsWith("hardware.");
+const ORGANIZATION = "hardware.organization";
 
 /** Returns the fragment without `#`. `preset` is the configuration of that preset. */
 export function writeLink(pageSettings, preset, config, network) {
   const presetValues = keysOf(preset), values = keysOf(config);
   const differs = key => presetValues.get(key) !== values.get(key);
   const features = [...presetValues.keys(), ...values.keys()].some(key => isFeature(key) && differs(key));
-  const changed = [...values].filter(([key]) => isFeature(key) ? features : differs(key));
+  const hardware = differs(ORGANIZATION);
+  const changed = [...values].filter(([key]) => isFeature(key) ? features : hardware && isHardware(key) || differs(key));
   const networkPairs = Object.entries(network).filter(([, value]) => value !== null).map(([key, value]) => [`network.${key}`, value]);
   const pairs = [...PAGE_KEYS.filter(key => pageSettings[key]).map(key => [key, pageSettings[key]]), ...networkPairs, ...changed.map(([key, value]) => [key, JSON.stringify(value)])];
   return pairs.map(([key, value]) => `${key}=${encodeURIComponent(value).replace(/%3A/gi, ":")}`).join("&");
@@ -38,7 +42,9 @@ export function readLink(fragment) {
     else throw new Error(`the link's \`${key}\` is not a setting; settings are source, size, preset, those of the network and keys of the configuration`);
   }
   const apply = preset => {
-    const start = changed.some(([key]) => isFeature(key)) ? { ...preset, spatial: [] } : preset;
+    const start = { ...preset };
+    if (changed.some(([key]) => isFeature(key))) start.spatial = [];
+    if (changed.some(([key]) => key === ORGANIZATION)) start.hardware = {};
     return changed.reduce((config, [key, value]) => setKey(config, key, value), start);
   };
   return { pageSettings, network, apply };

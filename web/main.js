@@ -9,6 +9,7 @@ import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
 import { linkToShare, readLink, writeLink } from "./link.js";
 import { NetworkView } from "./network.js";
+import { withOrganization } from "./organization.js";
 import { PixelCamera } from "./pixel_camera.js";
 import { showReasons } from "./reasons.js";
 import { Recording } from "./recording.js";
@@ -29,6 +30,8 @@ let camera = null, config = null, source = null, pixels = null, files = [];
 let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** The last chosen number of means per side. */
 let means = 1;
+/** The hardware before a feature that it does not support was turned on. It returns with the features that it supports. */
+let replacedHardware = null;
 let speed = 1, isStepRequested = false, startTime = null, lastExplanation = { at: 0, cost: 0 };
 /** The last two frames, which are shown again to a changed camera while the source is stopped. */
 let last = [];
@@ -67,7 +70,7 @@ function configure(wantedConfig) {
   begin();
   screens.resize(camera.facts);
   controls.show(camera.facts, settings.preset);
-  showHardware(byId("area"), hardwareTable, camera.facts);
+  showHardware(byId("area"), hardwareTable, camera.facts, tables.features);
   setText("status", describe());
   storeLink();
   if (paused) repeatFrames();
@@ -129,7 +132,12 @@ function toggleFeature(feature, on) {
     added.mean_fraction_bits = others.find(one => (one.mean_fraction_bits ?? null) !== null)?.mean_fraction_bits;
   const spatial = on ? [...others, added].sort((a, b) => order.indexOf(a.feature) - order.indexOf(b.feature)) : others;
   if (!spatial.length) return `a camera needs a feature; turn another on first, then ${feature} off`;
-  return messageOf(() => configure({ ...config, spatial }));
+  return messageOf(() => {
+    const { hardware } = config, wish = withOrganization({ ...config, spatial }, tables.features, replacedHardware);
+    configure(wish);
+    if (wish.hardware === replacedHardware) replacedHardware = null;
+    else if (wish.hardware !== hardware) replacedHardware = hardware;
+  });
 }
 
 function presetConfig(name) {
@@ -144,6 +152,7 @@ function choosePreset(name) {
     settings.preset = name;
     try {
       configure(presetConfig(name));
+      replacedHardware = null;
     } catch (error) {
       settings.preset = previous;
       throw error;

@@ -23,7 +23,7 @@ export function showReasons(place, { json, text }) {
 
 const sentence = text => `${text.replace(/^TRS any, SRS 0: |^TRS \d, SRS \d: /, "").replace(/^./, letter => letter.toUpperCase())}.`;
 
-function feature({ feature, level, mean, mean_fraction_bits, parts, displacements, score, min_score, unit, vote }) {
+function feature({ feature, level, mean, mean_fraction_bits, parts, displacements, displacement, score, min_score, unit, vote }) {
   const perPixel = value => unit > 1 ? `${(value / unit).toFixed(2)} per pixel` : value;
   let title = `${feature}: ${perPixel(score)}`;
   if (parts) {
@@ -32,8 +32,20 @@ function feature({ feature, level, mean, mean_fraction_bits, parts, displacement
   } else if (displacements) {
     const { right, below, below_right, below_left } = displacements;
     title += `, the smallest of ${[right, below, below_right, below_left].map(perPixel).join(", ")}`;
+  } else if (displacement) {
+    title += `, ${movement(displacement)}`;
   } else if (level !== undefined) title = `${feature}: ${score} pixels above level ${level}`;
   return `${title}; ${perPixel(min_score)} needed: ${vote ? "votes" : "does not vote"}.`;
+}
+
+/** Says by how much the content of a region has moved, and the mean errors without and with the movement. */
+function movement({ dx, dy, differences }) {
+  if (!differences) return "with nothing to compare with yet";
+  const part = (shift, unit, [back, forth]) => shift ? [`${Math.abs(shift)} ${unit}${Math.abs(shift) > 1 ? "s" : ""} ${shift < 0 ? back : forth}`] : [];
+  const parts = [...part(dx, "column", ["to the left", "to the right"]), ...part(dy, "row", ["up", "down"])];
+  const error = ({ sum, pixels }) => (sum / pixels).toFixed(2), still = error(differences.still);
+  return parts.length ? `because the content has moved by ${parts.join(" and ")}: mean error ${still} as it stands, ${error(differences.displaced)} moved`
+    : `because the content has not moved: mean error ${still}`;
 }
 
 function change({ temporal: { against, reference, level, count, min_count } }) {

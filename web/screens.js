@@ -10,6 +10,10 @@ const KINDS = [
   ["TRS only", "--k6", byte => (byte & 3) === 2, 50],
 ];
 const PARTS = ["input", "decisions", "receiver"];
+/** The pixels of the picture of arrows per side of a region, at least. */
+const ARROW_CELL = 24;
+/** The opacity of arrows of regions for which `flow` does not vote. */
+const FAINT = 0.3;
 const ARROWS = new Map([["ArrowLeft", [-1, 0]], ["ArrowRight", [1, 0]], ["ArrowUp", [0, -1]], ["ArrowDown", [0, 1]]]);
 /** Returns a grey pixel as a word of ImageData. */
 const GREY = Uint32Array.from({ length: 256 }, (_, value) => (0xFF000000 | value * 0x010101) >>> 0);
@@ -21,8 +25,21 @@ function colourWord(name, alpha) {
   return (alpha << 24 | blue << 16 | green << 8 | red) >>> 0;
 }
 
+/** Returns the radius of the search for displacements, if the camera has one. */
+const radiusOf = ({ config: { spatial } }) => spatial.map(({ radius }) => radius).find(Boolean);
+
+/** Adds an arrow from a point by an offset, with a head of that width, to a path. */
+function addArrow(path, x, y, dx, dy, width) {
+  const length = Math.hypot(dx, dy), base = length - Math.min(1.1 * width, 0.75 * length);
+  const at = (along, across) => [x + (dx * along - dy * across) / length, y + (dy * along + dx * across) / length];
+  const [half, shaft] = [width / 2, width / 8];
+  const corners = [[0, -shaft], [base, -shaft], [base, -half], [length, 0], [base, half], [base, shaft], [0, shaft]];
+  for (const [place, [along, across]] of corners.entries()) path[place ? "lineTo" : "moveTo"](...at(along, across));
+  path.closePath();
+}
+
 export class Screens {
-  #facts = null; #chosen = null; #views = {}; #tints; #overlay; #choose;
+  #facts = null; #chosen = null; #views = {}; #tints; #overlay; #arrows; #choose;
 
   /** `choose` is called with a region when the user chooses one. */
   constructor(choose) {
@@ -38,6 +55,9 @@ export class Screens {
       this.#views[id] = { place, canvas, cursor, context: canvas.getContext("2d") };
     }
     this.#overlay = document.createElement("canvas").getContext("2d");
+    this.#arrows = document.createElement("canvas").getContext("2d");
+    this.#arrows.canvas.className = "arrows";
+    this.#views.decisions.canvas.after(this.#arrows.canvas);
     this.recolour();
     const legend = document.getElementById("legend");
     for (const [name, colour] of KINDS) {
@@ -47,6 +67,9 @@ export class Screens {
       key.append(mark, name);
       legend.append(key);
     }
+    const key = document.createElement("span");
+    Object.assign(key, { className: "key", id: "moved-key", hidden: true, textContent: "\u2192 moved" });
+    legend.append(key);
   }
 
   /** Reads the colours of the style again. */
@@ -66,6 +89,9 @@ export class Screens {
       view.data = new ImageData(width, height);
       view.words = new Uint32Array(view.data.data.buffer);
     }
+    const radius = radiusOf(facts), scale = Math.max(1, Math.ceil(ARROW_CELL / facts.side));
+    Object.assign(this.#arrows.canvas, { hidden: !radius, width: radius ? width * scale : 1, height: radius ? height * scale : 1 });
+    document.getElementById("moved-key").hidden = !radius;
     Object.assign(this.#overlay.canvas, { width: columns, height: rows });
     this.#overlay.data = new ImageData(columns, rows);
     this.#overlay.words = new Uint32Array(this.#overlay.data.data.buffer);
@@ -86,6 +112,29 @@ export class Screens {
     // The last column and row of regions may reach beyond the frame.
     context.imageSmoothingEnabled = false;
     context.drawImage(this.#overlay.canvas, 0, 0, columns * side, rows * side);
+    this.#paintArrows(camera.displacements);
+  }
+
+  /** Draws an arrow from the centre of each region whose content has moved, faint where `flow` does not vote. Its length is in proportion to
+   *  the displacement, and the longest reaches into the next region. */
+  #paintArrows(displacements) {
+    const radius = radiusOf(this.#facts), context = this.#arrows;
+    if (!radius) return;
+    const { columns, side, width } = this.#facts, cell = side * context.canvas.width / width;
+    context.clearRect(0, 0, context.canvas.width, context.canvas.height);
+    const paths = [new Path2D(), new Path2D()], pixel = 1.2 * cell / (radius + 1);
+    for (let region = 0; 3 * region < displacements.length; region++) {
+      const [dx, dy, vote] = displacements.subarray(3 * region, 3 * region + 3);
+      if (!dx && !dy) continue;
+      const x = (region % columns + 0.5) * cell, y = (Math.floor(region / columns) + 0.5) * cell;
+      addArrow(paths[vote], x, y, dx * pixel, dy * pixel, 0.36 * Math.min(cell, 48));
+    }
+    Object.assign(context, { strokeStyle: "#101010", fillStyle: "#fff", lineWidth: Math.min(cell, 48) / 10, lineJoin: "round" });
+    for (const [vote, path] of paths.entries()) {
+      context.globalAlpha = vote ? 1 : FAINT;
+      context.stroke(path);
+      context.fill(path);
+    }
   }
 
   #grey({ context, words, data }, pixels) {

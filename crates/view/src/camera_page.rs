@@ -20,12 +20,13 @@ macro_rules! web_files {
 }
 
 /// The modules of the page. Each comes after the modules that it imports.
-const MODULES: [&str; 20] = web_files![
+const MODULES: [&str; 21] = web_files![
     "engine.js",
     "elements.js",
     "toml.js",
     "link.js",
     "depth.js",
+    "organization.js",
     "pixel_camera.js",
     "sources.js",
     "screens.js",

@@ -8,7 +8,7 @@ use foveate_camera::{
     AcceptedValues, CameraConfig, ConfigError, ConfigKey, FeatureKind, IrrelevantRendering,
     SpatialConfig,
 };
-use foveate_design::{DesignConfig, PRESETS};
+use foveate_design::{DesignConfig, Organization, PRESETS};
 use foveate_scenes::Scene;
 use serde_json::{Value, json};
 
@@ -65,10 +65,13 @@ fn described_key((key, values): &ConfigKey, defaults: &Value) -> Value {
     told
 }
 
-/// Returns a feature with the default values of its keys for pixels of 8 bits. Keys that do not
-/// apply are left out.
+/// Returns a feature with the default values of its keys for pixels of 8 bits, its unit, and the
+/// organizations that support it. Keys that do not apply are left out.
 fn feature(kind: FeatureKind) -> Value {
     let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
     told["unit"] = json!(kind.score_unit().name());
+    let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
+    let organizations = Organization::ALL.iter().filter(supports).map(|one| one.name());
+    told["organizations"] = json!(organizations.collect::<Vec<_>>());
     told
 }

@@ -218,6 +218,13 @@ pub extern "C" fn foveate_regions(handle: u32) -> i32 {
     with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.regions())))
 }
 
+/// Answers with the displacements: three signed bytes per region, which are its columns, its rows and
+/// the vote of `flow`; nothing for a camera without `flow`.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_displacements(handle: u32) -> i32 {
+    with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.displacements())))
+}
+
 /// Answers with the scores of a feature: eight bytes per region.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_scores(handle: u32, feature: u32) -> i32 {

@@ -29,6 +29,7 @@ pub struct LiveCamera {
     input: Vec<u8>,
     screen: Vec<u8>,
     regions: Vec<u8>,
+    displacements: Vec<i8>,
 }
 
 /// The number of regions with each action.
@@ -78,6 +79,7 @@ impl LiveCamera {
             input: Vec::new(),
             screen: Vec::new(),
             regions: Vec::new(),
+            displacements: Vec::new(),
             depth,
             design,
         };
@@ -117,6 +119,7 @@ impl LiveCamera {
         }
         self.regions.clear();
         self.regions.resize(self.design.regions() as usize, 0);
+        self.displacements.clear();
     }
 
     /// Takes a frame of 8-bit grey, a byte per pixel. `time_us` is the time since the first frame
@@ -171,6 +174,7 @@ impl LiveCamera {
         self.depth.to_grey(self.engine.rendered(), &mut self.screen);
         self.regions.clear();
         self.regions.extend(self.engine.outcome().region_bytes());
+        self.list_displacements();
         let (camera, number, outcome) = (&*self.design, self.frames, self.engine.outcome());
         self.last_time_us = time_us.unwrap_or((number * 1_000_000 + 15) / 30);
         if let Some(recording) = &mut self.recording {
@@ -179,6 +183,19 @@ impl LiveCamera {
         }
         self.frames += 1;
         Ok(self.frame_summary())
+    }
+
+    /// Lists the displacements of the last frame, each with the vote of its feature.
+    fn list_displacements(&mut self) {
+        self.displacements.clear();
+        let outcome = self.engine.outcome();
+        let mut features = self.design.features().iter().zip(&outcome.scores);
+        let found = features.find(|(feature, _)| feature.kind().is_displacement());
+        let Some((feature, scores)) = found else { return };
+        for (displacement, &score) in outcome.displacements.iter().zip(scores) {
+            let vote = i8::from(score >= feature.min_score());
+            self.displacements.extend([displacement.dx, displacement.dy, vote]);
+        }
     }
 
     /// Begins to record the results of every frame, for all regions or only for those that send
@@ -276,6 +293,14 @@ impl LiveCamera {
     #[must_use]
     pub fn regions(&self) -> &[u8] {
         &self.regions
+    }
+
+    /// Returns three numbers per region: the columns to the right and the rows down by which its
+    /// content has moved, and 1 if `flow` votes. It is empty for a camera without `flow`, and before
+    /// the first frame.
+    #[must_use]
+    pub fn displacements(&self) -> &[i8] {
+        &self.displacements
     }
 
     /// Returns the scores of a feature, region by region.

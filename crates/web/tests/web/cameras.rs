@@ -7,16 +7,19 @@ use foveate_model::FunctionalCamera;
 use foveate_web::PageCameras;
 
 pub(crate) const SIZE: (u32, u32) = (61, 43);
-const ALL: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\"}]";
+const ALL: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\"},{feature=\"flow\",radius=2}]";
+/// The organization that supports all features.
+const SERIAL: &str = "hardware.organization=\"serial\"";
 
 /// Returns the presets, and configurations for what they do not reach: other depths, sizes with
 /// padding, means of raw pixels.
 pub(crate) fn configurations() -> Vec<String> {
     let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
     let more = [
-        &[ALL, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
+        &[ALL, SERIAL, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
         &[
             ALL,
+            SERIAL,
             "frame.pixel_bits=5",
             "region.size=7",
             "temporal.reference=\"last-sent\"",
@@ -51,6 +54,7 @@ pub(crate) fn frame(grey: &[u8], bits: u32) -> Frame {
 
 #[test]
 fn every_camera_equals_the_model() {
+    let mut moved = 0;
     for toml in configurations() {
         let mut desk = PageCameras::default();
         let (handle, _) = desk.configure(toml.as_bytes(), SIZE).unwrap();
@@ -71,6 +75,14 @@ fn every_camera_equals_the_model() {
                     .collect::<Vec<_>>(),
                 expected.scores
             );
+            let flow = design.features().iter().position(|one| one.kind().is_displacement());
+            let votes = flow.map(|at| (design.features()[at].min_score(), &expected.scores[at]));
+            let told = expected.displacements.iter().enumerate().flat_map(|(region, one)| {
+                let (min_score, scores) = votes.unwrap();
+                [one.dx, one.dy, i8::from(scores[region] >= min_score)]
+            });
+            assert!(told.eq(camera.displacements().iter().copied()), "{toml}");
+            moved += camera.displacements().chunks(3).filter(|told| told[..2] != [0, 0]).count();
             assert_eq!(
                 sent.bits,
                 design.bits_sent(1, design.values_sent_per_frame(&expected.actions))
@@ -100,6 +112,7 @@ fn every_camera_equals_the_model() {
             }
         }
     }
+    assert!(moved > 50, "only {moved} regions have moved");
 }
 
 /// Colours are converted to grey by the rule of images. A camera that was reset equals a new one.
@@ -164,6 +177,15 @@ fn what_is_described_can_be_asked_for() {
         let first = desk.scene_frame(name.as_bytes(), SIZE, 8, 0).unwrap().to_vec();
         assert_eq!(desk.scene_frame(name.as_bytes(), SIZE, 8, frames).unwrap(), first, "{name}");
     }
+    let organizations: Vec<(&str, usize)> = told["features"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| {
+            (one["feature"].as_str().unwrap(), one["organizations"].as_array().unwrap().len())
+        })
+        .collect();
+    assert_eq!((organizations[0], organizations[7]), (("edge", 3), ("flow", 1)));
     let keys = told["keys"].as_array().unwrap();
     let key = |name: &str| keys.iter().find(|key| key["key"] == name).unwrap();
     assert_eq!((&key("region.size")["min"], &key("region.size")["max"]), (&2.into(), &64.into()));
