@@ -11,8 +11,9 @@ use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole, SerialDesign,
-    SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource, VoteCombination, bits_for,
+    FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole,
+    SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource, VoteCombination,
+    bits_for,
 };
 
 #[derive(Template)]

@@ -5,9 +5,7 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::DepartureTiming;
-use crate::{
-    DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, SerialDesign,
-};
+use crate::{DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, SerialDesign};
 
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
