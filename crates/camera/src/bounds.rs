@@ -131,6 +131,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 16 + 16 + 14 + 4 + 5);
+        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 5);
     }
 }

@@ -26,6 +26,8 @@ pub(crate) enum FrameChange {
     Binary,
     /// Every pixel rises by one level.
     Fade,
+    /// The frame moves by this many columns and rows.
+    Move(i64, i64),
 }
 
 pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<FrameChange>)> {
@@ -39,6 +41,7 @@ pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<FrameChange>)> {
         1 => Just(FrameChange::Flat),
         1 => Just(FrameChange::Binary),
         1 => Just(FrameChange::Fade),
+        2 => (-3..=3i64, -3..=3i64).prop_map(|(dx, dy)| FrameChange::Move(dx, dy)),
     ];
     (any::<u64>(), proptest::collection::vec(change, 2..9))
 }
@@ -61,6 +64,11 @@ pub(crate) fn clip(camera: &Camera, seed: u64, script: &[FrameChange]) -> Vec<Fr
                 pixels.fill_with(|| values[usize::from(random.below(1))]);
             }
             FrameChange::Fade => pixels.iter_mut().for_each(|p| *p = p.saturating_add(1).min(max)),
+            FrameChange::Move(dx, dy) => {
+                let last = Frame::new(width, height, bits, pixels.clone()).unwrap();
+                let moved = |x: u32, y: u32| last.get_clamped(i64::from(x) - dx, i64::from(y) - dy);
+                pixels = Frame::from_fn(width, height, bits, moved).unwrap().pixels().to_vec();
+            }
             FrameChange::Spot(x, y) | FrameChange::Patch(x, y) | FrameChange::Wipe(x, y) => {
                 let wiped = matches!(change, FrameChange::Wipe(..)).then(|| random.below(max));
                 let side = if matches!(change, FrameChange::Spot(..)) { 1 } else { width / 4 + 1 };

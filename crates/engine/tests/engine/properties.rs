@@ -18,6 +18,7 @@ pub(crate) fn assert_same(
     context: &str,
 ) {
     assert_eq!(actual.scores, expected.scores, "scores, {context}");
+    assert_eq!(actual.displacements, expected.displacements, "displacements, {context}");
     assert_eq!(actual.temporal_count, expected.temporal_count, "temporal count, {context}");
     assert_eq!(actual.srs, expected.srs, "srs, {context}");
     assert_eq!(actual.trs, expected.trs, "trs, {context}");

@@ -60,7 +60,11 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
                 if on[4] {
                     config.render.payload = Payload::Raw;
                 }
-                config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
+                // Without another feature that votes, no region has a reference with `last-sent`.
+                config.validate().unwrap_or_else(|_| {
+                    config.temporal.reference = ReferencePolicy::Previous;
+                    config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
+                })
             },
         )
     })
@@ -85,14 +89,16 @@ fn feature(
         FeatureKind::Variance => (0, small(max * (max / 6)).boxed()),
         FeatureKind::Range => (0, small(max).boxed()),
         FeatureKind::Surface => (0, small(max / 2).boxed()),
+        FeatureKind::Flow => (0, small(max / 3).boxed()),
         FeatureKind::Segment => (max, small(n / 2).boxed()),
     };
-    (small(level_max.saturating_sub(1)), minimum)
-        .prop_map(move |(level, minimum)| SpatialConfig {
+    (small(level_max.saturating_sub(1)), minimum, 1..=3.min(side - 1))
+        .prop_map(move |(level, minimum, radius)| SpatialConfig {
             feature: kind,
             level: (level_max > 0).then_some(level),
             min_score: Some(Decimal::from_whole(minimum.into())),
             mean_fraction_bits: kind.has_second_pass().then_some(fraction_bits),
+            radius: kind.is_displacement().then_some(radius),
         })
         .boxed()
 }

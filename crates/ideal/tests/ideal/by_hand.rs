@@ -36,7 +36,7 @@ fn outcome_of_first_frame(config: &CameraConfig, pixel: impl Fn(u32, u32) -> u8)
 #[test]
 fn a_constant_frame_scores_nothing() {
     let outcome = outcome_of_first_frame(&config(20, 13, 8), |_, _| 77);
-    assert_eq!(outcome.scores, vec![vec![0.0; 6]; 7]);
+    assert_eq!(outcome.scores, vec![vec![0.0; 6]; 8]);
     assert_eq!(outcome.changed, vec![64.0; 6], "no reference: all pixels");
     assert_eq!((outcome.srs, outcome.trs), (vec![false; 6], vec![true; 6]));
     assert_eq!((outcome.denoised, outcome.rendered), (vec![77.0; 260], vec![0.0; 260]));
@@ -56,7 +56,7 @@ fn a_step_is_an_edge_two_pixels_wide() {
     let outcome = outcome_of_first_frame(&config(8, 8, 8), |x, _| if x < 4 { 0 } else { 30 });
     let scores: Vec<f64> = outcome.scores.iter().map(|scores| scores[0]).collect();
     // A column is equal to itself below, and all pixels are more than 8 away from the mean.
-    assert_eq!(scores, [16.0, 0.0, 15.0, 225.0, 30.0, 0.0, 32.0]);
+    assert_eq!(scores, [16.0, 0.0, 15.0, 225.0, 30.0, 0.0, 32.0, 0.0]);
 }
 
 /// The ideal camera ignores the neighborhood and the fraction bits of the configuration.
@@ -198,4 +198,18 @@ fn other_frames_are_refused_and_change_nothing() {
     let [given, expected] = ["8x7 pixels of 8 bits", "8x8 pixels of 8 bits"].map(str::to_owned);
     assert_eq!(error, IdealError::FrameFormat { given, expected });
     assert_eq!(ideal.outcome(), &before);
+}
+
+/// A line of 64 moves one column to the right: two of eight columns differ by 64, and none of the
+/// seven pairs of the displacement.
+#[test]
+fn flow_is_the_gain_of_the_best_displacement() {
+    let mut config = config(8, 8, 8);
+    config.spatial = vec![SpatialConfig::new(FeatureKind::Flow)];
+    let camera = config.validate().unwrap();
+    let mut ideal = IdealCamera::new(&camera);
+    let line = |column: u32| frame(&camera, move |x, _| if x == column { 64 } else { 0 });
+    let mut score = |column| ideal.step(&line(column)).unwrap().scores[0][0];
+    // The search reaches one column, so it does not find the step of two.
+    assert_eq!([3, 4, 4, 2].map(&mut score), [0.0, 16.0, 0.0, 0.0]);
 }

@@ -40,8 +40,8 @@ pub(crate) fn scripts() -> impl Strategy<Value = ChangeScript> {
 }
 
 /// Returns cameras with shared windows. With `rounded` they may have a mean with any fraction bits,
-/// and odd sides. Without it, cameras with a mean have a side that is a power of two and an exact
-/// mean. No camera has the filter `binomial3x3`, which always rounds.
+/// and odd sides, and `flow`, whose score is rounded down. Without it, cameras with a mean have a
+/// side that is a power of two and an exact mean. No camera has the filter `binomial3x3`, which always rounds.
 pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
     let sides =
         if rounded { vec![2, 3, 4, 5, 7, 8, 9] } else { vec![2, 3, 4, 6, 7, 8, 16, 32, 64] };
@@ -52,6 +52,7 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
             .iter()
             .copied()
             .filter(|&kind| rounded || exact || !kind.has_second_pass())
+            .filter(|&kind| rounded || !kind.is_displacement())
             .collect();
         let kinds = subsequence(possible.clone(), 1..=possible.len()).prop_shuffle();
         let log2 = (0_u32..).find(|bits| 1 << bits >= side * side).unwrap();
@@ -87,7 +88,11 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
                     (config.periphery.blocks, config.periphery.level) = (Some(blocks), Some(level));
                 }
                 config.render.payload = if on[3] { Payload::Raw } else { Payload::Denoised };
-                config.validate().unwrap()
+                // Without another feature that votes, no region has a reference with `last-sent`.
+                config.validate().unwrap_or_else(|_| {
+                    config.temporal.reference = ReferencePolicy::Previous;
+                    config.validate().unwrap()
+                })
             },
         )
     })
@@ -106,6 +111,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, fraction: u32) -> BoxedStrat
         FeatureKind::Variance => (0, 100, max * (max / 6)),
         FeatureKind::Range => (0, 100, max),
         FeatureKind::Surface => (0, 100, max / 2),
+        FeatureKind::Flow => (0, 100, max / 3),
         FeatureKind::Segment => (max, 1, n / 2),
     };
     // Minima in grey levels have two digits after the decimal point.
@@ -113,12 +119,13 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, fraction: u32) -> BoxedStrat
         let value = f64::from(whole) + f64::from(part % unit) / 100.0;
         Decimal::from_f64((value * 100.0).round() / 100.0)
     };
-    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32)
-        .prop_map(move |(level, whole, part)| SpatialConfig {
+    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32, 1..=3.min(side - 1))
+        .prop_map(move |(level, whole, part, radius)| SpatialConfig {
             feature: kind,
             level: (level_max > 0).then_some(level),
             min_score: decimal(whole, if whole < min_max { part } else { 0 }),
             mean_fraction_bits: kind.has_second_pass().then_some(fraction),
+            radius: kind.is_displacement().then_some(radius),
         })
         .boxed()
 }

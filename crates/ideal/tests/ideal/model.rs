@@ -4,7 +4,9 @@
 
 use crate::generators;
 use crate::generators::{ChangeScript, FrameChange, cameras, script_frames};
-use foveate_camera::{Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood};
+use foveate_camera::{
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood, SpatialConfig,
+};
 use foveate_frame::ByteFrame;
 use foveate_frame::Frame;
 use foveate_ideal::{IdealCamera, IdealOutcome};
@@ -19,7 +21,7 @@ fn score_in_ideal_unit(camera: &Camera, feature: usize, score: u64) -> f64 {
         FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range | FeatureKind::Segment => {
             score as f64
         }
-        FeatureKind::Surface => score as f64 / n,
+        FeatureKind::Surface | FeatureKind::Flow => score as f64 / n,
         FeatureKind::Mad => {
             let bits = feature.mean().unwrap().fraction_bits;
             score as f64 / (n * f64::from(1_u32 << bits))
@@ -110,6 +112,45 @@ proptest! {
             }
         }
     }
+}
+
+/// A pattern that moves by known steps: the score of the model is rounded down to a multiple of
+/// 1/n.
+#[test]
+fn the_score_of_flow_is_rounded_down() {
+    let mut votes = 0;
+    for (side, radius, bits) in [(8, 3, 8), (5, 2, 12), (2, 1, 8), (7, 3, 1)] {
+        let mut config = CameraConfig::default();
+        (config.frame.width, config.frame.height) = (Some(3 * side), Some(2 * side - 1));
+        (config.region.size, config.frame.pixel_bits) = (side, bits);
+        config.denoise.filter = DenoiseFilter::None;
+        config.spatial = vec![SpatialConfig::new(FeatureKind::Flow)];
+        config.spatial[0].radius = Some(radius);
+        config.spatial[0].min_score = Decimal::from_f64(0.1);
+        config.temporal.min_count = 1;
+        let camera = config.validate().unwrap();
+        let (mut ideal, mut model) = (IdealCamera::new(&camera), FunctionalCamera::new(&camera));
+        let changes = [FrameChange::Noise, FrameChange::Patch(3, 5), FrameChange::Binary];
+        let mut frames = script_frames(&camera, 3, &changes);
+        for (dx, dy) in [(1, 0), (-1, 2), (3, -3)] {
+            let last = frames.last().unwrap().clone();
+            let moved = |x: u32, y: u32| last.get_clamped(i64::from(x) - dx, i64::from(y) - dy);
+            frames.push(Frame::from_fn(camera.width(), camera.height(), bits, moved).unwrap());
+        }
+        for frame in frames {
+            let ideal = &ideal.step(&ByteFrame::from(&frame)).unwrap().scores[0];
+            let model = &model.step(&frame).unwrap().scores[0];
+            for (&ideal, &score) in ideal.iter().zip(model) {
+                let units = ideal * f64::from(camera.region_pixels());
+                assert!(
+                    (0.0..1.0 + 1e-9).contains(&(units + 1e-9 - score as f64)),
+                    "{units} {score}"
+                );
+                votes += u32::from(score > 0);
+            }
+        }
+    }
+    assert!(votes > 50, "{votes}");
 }
 
 /// The model rounds each pixel of `binomial3x3` to the nearest integer, halves up.

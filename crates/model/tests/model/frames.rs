@@ -15,15 +15,18 @@ pub(crate) enum FrameContent {
     Repeat,
     SmallSteps,
     FewChanges,
+    /// The frame before, moved by up to three pixels.
+    Moved,
 }
 
 /// The content and the seed of each frame.
 pub(crate) type ClipScript = Vec<(FrameContent, u64)>;
 
 pub(crate) fn arbitrary_scripts(most: usize) -> impl Strategy<Value = ClipScript> {
-    use FrameContent::{AlmostFlat, Binary, FewChanges, Noise, Ramp, Repeat, SmallSteps};
+    use FrameContent::{AlmostFlat, Binary, FewChanges, Moved, Noise, Ramp, Repeat, SmallSteps};
     let content = proptest::sample::select(vec![
         Noise, Binary, AlmostFlat, AlmostFlat, Ramp, Repeat, SmallSteps, FewChanges, FewChanges,
+        Moved, Moved,
     ]);
     proptest::collection::vec((content, any::<u64>()), 1..=most)
 }
@@ -48,6 +51,13 @@ pub(crate) fn make_clip(recipe: &DesignParameters, script: &ClipScript) -> Vec<F
                 FrameContent::SmallSteps => before + random.below(5) - 2,
                 FrameContent::FewChanges if random.below(6) == 0 => random.below(max + 1),
                 FrameContent::FewChanges => before,
+                FrameContent::Moved => last.as_ref().map_or_else(
+                    || random.below(max + 1),
+                    |frame| {
+                        let (dx, dy) = ((seed % 7) as i64 - 3, (seed / 7 % 7) as i64 - 3);
+                        frame.get_clamped(i64::from(x) - dx, i64::from(y) - dy).into()
+                    },
+                ),
             };
             value.clamp(0, max) as u16
         });

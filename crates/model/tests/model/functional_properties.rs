@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that the functional model equals the oracle, for every kind of design.
 
-use foveate_design::Design;
+use foveate_design::Camera;
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
 use crate::frames::{arbitrary_scripts, make_clip};
 use crate::oracle::{OracleFrame, OracleOutcome, oracle_history};
-use crate::parameters::{DesignParameters, PeripheryParameters, arbitrary_parameters};
+use crate::parameters::{DesignParameters, PeripheryParameters, arbitrary_cameras};
 
 fn frame_values(frame: &Frame) -> OracleFrame {
     let row = |y| frame.row(y).iter().map(|&pixel| i64::from(pixel)).collect();
@@ -22,10 +22,16 @@ pub(crate) fn assert_outcome_is(
 ) {
     assert_eq!(frame_values(&outcome.padded), expected.padded);
     assert_eq!(frame_values(&outcome.denoised), expected.denoised);
+    let displaced = if recipe.has_feature("flow") { expected.regions.len() } else { 0 };
+    assert_eq!(outcome.displacements.len(), displaced);
     for (index, region) in expected.regions.iter().enumerate() {
         for (feature, scores) in outcome.scores.iter().enumerate() {
             let name = recipe.features[feature].name;
             assert_eq!(scores[index], region.scores[feature] as u64, "{name} of region {index}");
+        }
+        if let Some(found) = outcome.displacements.get(index) {
+            let found = (i64::from(found.dx), i64::from(found.dy));
+            assert_eq!(found, region.displacement, "displacement of region {index}");
         }
         assert_eq!(i64::from(outcome.temporal_count[index]), region.temporal_count, "at {index}");
         assert_eq!(outcome.srs[index], region.srs, "srs of region {index}");
@@ -40,7 +46,7 @@ pub(crate) fn assert_outcome_is(
 
 pub(crate) fn check(recipe: &DesignParameters, frames: &[Frame]) {
     let history = oracle_history(recipe, frames);
-    let mut camera = FunctionalCamera::new(&recipe.design());
+    let mut camera = FunctionalCamera::new(&recipe.camera());
     for (frame, expected) in frames.iter().zip(&history) {
         assert_outcome_is(recipe, camera.step(frame).unwrap(), expected);
     }
@@ -55,7 +61,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
-    fn functional_equals_the_oracle(recipe in arbitrary_parameters(), script in arbitrary_scripts(7)) {
+    fn functional_equals_the_oracle(recipe in arbitrary_cameras(), script in arbitrary_scripts(7)) {
         check(&recipe, &make_clip(&recipe, &script));
     }
 
@@ -63,13 +69,13 @@ proptest! {
     /// block is within `level` of the mean of the block.
     #[test]
     fn every_block_that_is_shown_is_near_its_mean(
-        recipe in arbitrary_parameters().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
+        recipe in arbitrary_cameras().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
         script in arbitrary_scripts(7),
     ) {
         // Without padding the whole of every block is on the screen.
         let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
         let recipe = DesignParameters { width, height, ..recipe };
-        let design = recipe.design();
+        let design = recipe.camera();
         let mut camera = FunctionalCamera::new(&design);
         for frame in make_clip(&recipe, &script) {
             let outcome = camera.step(&frame).unwrap();
@@ -85,7 +91,7 @@ proptest! {
 fn check_shown(
     recipe: &DesignParameters,
     outcome: &FunctionalOutcome,
-    design: &Design,
+    design: &Camera,
     region: u32,
 ) {
     let PeripheryParameters { blocks, level } = recipe.periphery.unwrap();

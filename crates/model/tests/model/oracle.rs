@@ -22,6 +22,8 @@ pub(crate) struct OracleRegion {
     /// pixel. A side is 1 above, -1 below, and otherwise 0.
     pub(crate) terms: Vec<Vec<i64>>,
     pub(crate) scores: Vec<i64>,
+    /// Columns to the right and rows down; 0 without `flow`.
+    pub(crate) displacement: (i64, i64),
     pub(crate) temporal_hits: Vec<bool>,
     pub(crate) temporal_count: i64,
     pub(crate) srs: bool,
@@ -155,6 +157,9 @@ pub(crate) fn oracle_region(
     let pixels = region_values(recipe, denoised, region);
     let terms: Vec<Vec<i64>> =
         recipe.features.iter().map(|f| terms(recipe, f, denoised, region)).collect();
+    let referenced = reference(recipe, kept, region)
+        .map(|frame| region_values(recipe, &kept[frame].denoised, region));
+    let mut displacement = (0, 0);
     let mut scores = Vec::new();
     let mut votes = Vec::new();
     for (feature, terms) in recipe.features.iter().zip(&terms) {
@@ -163,11 +168,16 @@ pub(crate) fn oracle_region(
             "range" => largest_difference(&pixels),
             "surface" => smallest_change(recipe, denoised, region),
             "segment" => smaller_part(terms),
+            "flow" => {
+                let (found, score) = flow(recipe, feature.radius, &pixels, referenced.as_deref());
+                displacement = found;
+                score
+            }
             _ => terms.iter().sum(),
         };
         let unit: i128 = match feature.name {
             "mad" => i128::from(recipe.region_pixels()) << feature.fraction_bits,
-            "surface" => recipe.region_pixels().into(),
+            "surface" | "flow" => recipe.region_pixels().into(),
             "variance" => i128::from(recipe.region_pixels() * recipe.region_pixels()),
             _ => 1,
         };
@@ -177,11 +187,10 @@ pub(crate) fn oracle_region(
     let needed = if recipe.all_must_vote { votes.len() } else { 1 };
     let srs = votes.iter().filter(|&&vote| vote).count() >= needed;
 
-    let temporal_hits: Vec<bool> = match reference(recipe, kept, region) {
+    let temporal_hits: Vec<bool> = match &referenced {
         None => vec![true; pixels.len()],
-        Some(frame) => {
-            let reference = region_values(recipe, &kept[frame].denoised, region);
-            let pairs = pixels.iter().zip(&reference);
+        Some(reference) => {
+            let pairs = pixels.iter().zip(reference);
             pairs.map(|(a, b)| (a - b).abs() > recipe.temporal_level).collect()
         }
     };
@@ -203,6 +212,7 @@ pub(crate) fn oracle_region(
     OracleRegion {
         terms,
         scores,
+        displacement,
         temporal_hits,
         temporal_count,
         srs,
@@ -288,7 +298,7 @@ fn terms(
             deviations(recipe, feature, denoised, region).into_iter().map(side).collect()
         }
         // These are not sums over pixels.
-        "variance" | "range" | "surface" => vec![0; places.len()],
+        "variance" | "range" | "surface" | "flow" => vec![0; places.len()],
         other => panic!("the oracle does not know {other}"),
     }
 }
@@ -342,6 +352,37 @@ fn scaled_variance(pixels: &[i64]) -> i64 {
 fn largest_difference(pixels: &[i64]) -> i64 {
     let pairs = pixels.iter().flat_map(|a| pixels.iter().map(move |b| a - b));
     pairs.max().unwrap()
+}
+
+/// Returns the displacement of a region from its reference, and its score. Errors are brought to a
+/// common denominator, so that they are whole numbers.
+fn flow(
+    recipe: &DesignParameters,
+    radius: i64,
+    pixels: &[i64],
+    reference: Option<&[i64]>,
+) -> ((i64, i64), i64) {
+    let Some(reference) = reference else { return ((0, 0), 0) };
+    let side = recipe.side;
+    let axis: i128 = (0..=radius).map(|shift| i128::from(side - shift)).product();
+    let mean_error = |(dx, dy): (i64, i64)| {
+        let (mut error, mut pairs) = (0i128, 0i128);
+        for place in 0..side * side {
+            let (x, y) = (place % side - dx, place / side - dy);
+            if (0..side).contains(&x) && (0..side).contains(&y) {
+                let partner = reference[(y * side + x) as usize];
+                error += i128::from((pixels[place as usize] - partner).abs());
+                pairs += 1;
+            }
+        }
+        error * (axis * axis / pairs)
+    };
+    let rows = (-radius..=radius).flat_map(|dy| (-radius..=radius).map(move |dx| (dx, dy)));
+    let rank = |&(dx, dy): &(i64, i64)| (mean_error((dx, dy)), dx.abs() + dy.abs(), dy, dx);
+    let best = rows.min_by_key(rank).unwrap();
+    let gain = mean_error((0, 0)) - mean_error(best);
+    let unit = axis * axis / i128::from(recipe.region_pixels());
+    (best, (gain / unit) as i64)
 }
 
 /// Returns the number of the frame that is the reference of this region for the next frame.

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use foveate_design::{DenoiseFilter, Design, DesignConfig, FeatureKind};
+use foveate_design::{Camera, DenoiseFilter, Design, DesignConfig, FeatureKind, Organization};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
@@ -54,6 +54,8 @@ pub(crate) struct FeatureParameters {
     /// Minimum score in thousandths of hits, grey levels or squared grey levels.
     pub(crate) min_milli: i64,
     pub(crate) fraction_bits: u32,
+    /// The radius of the search of `flow`.
+    pub(crate) radius: i64,
 }
 
 impl DesignParameters {
@@ -95,6 +97,22 @@ impl DesignParameters {
 
     pub(crate) fn rows(&self) -> i64 {
         (self.height + self.side - 1) / self.side
+    }
+
+    /// Returns true if some region can be active without a reference. Otherwise `last-sent` would
+    /// never store one.
+    fn can_start_without_reference(&self) -> bool {
+        let starts = |feature: &FeatureParameters| feature.name != "flow" || feature.min_milli == 0;
+        if self.all_must_vote {
+            self.features.iter().all(starts)
+        } else {
+            self.features.iter().any(starts) || self.features.len() > 1
+        }
+    }
+
+    /// Returns the camera, for which no organization has to have its features.
+    pub(crate) fn camera(&self) -> Camera {
+        self.config().camera.validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))
     }
 
     /// Returns the pipelined design.
@@ -152,24 +170,39 @@ impl DesignParameters {
             if matches!(feature.name, "mad" | "segment") {
                 writeln!(text, "mean_fraction_bits = {}", feature.fraction_bits).unwrap();
             }
+            if feature.name == "flow" {
+                writeln!(text, "radius = {}", feature.radius).unwrap();
+            }
         }
         text
     }
 }
 
+/// Generates every kind of camera, with frames of about three regions.
+pub(crate) fn arbitrary_cameras() -> impl Strategy<Value = DesignParameters> {
+    arbitrary_parameters_with_sides(few_pixels(), FeatureKind::ALL.to_vec())
+}
+
 /// Generates every kind of pipelined design, with frames of about three regions.
 pub(crate) fn arbitrary_parameters() -> impl Strategy<Value = DesignParameters> {
-    let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
-    (arbitrary_parameters_with_sides(sides), any::<bool>())
+    let kinds = Organization::Pipelined.feature_kinds();
+    (arbitrary_parameters_with_sides(few_pixels(), kinds), any::<bool>())
         .prop_map(|(recipe, deep)| DesignParameters { deep, ..recipe })
 }
 
-/// Generates every kind of design with plain pipelining, for regions of these sides.
+/// Generates mostly small sides of regions.
+fn few_pixels() -> impl Strategy<Value = i64> {
+    prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12]
+}
+
+/// Generates every kind of design with plain pipelining, for regions of these sides, with some of
+/// these features.
 pub(crate) fn arbitrary_parameters_with_sides(
     sides: impl Strategy<Value = i64>,
+    kinds: Vec<FeatureKind>,
 ) -> impl Strategy<Value = DesignParameters> {
     let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
-    (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
+    (without_periphery(sides, kinds), blocks).prop_flat_map(|(recipe, blocks)| {
         let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
         small_numbers(recipe.pixel_max() - 1).prop_map(move |level| DesignParameters {
             periphery: blocks.map(|blocks| PeripheryParameters { blocks, level }),
@@ -178,11 +211,15 @@ pub(crate) fn arbitrary_parameters_with_sides(
     })
 }
 
-fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = DesignParameters> {
+fn without_periphery(
+    sides: impl Strategy<Value = i64>,
+    kinds: Vec<FeatureKind>,
+) -> impl Strategy<Value = DesignParameters> {
+    let names: Vec<_> = kinds.into_iter().map(FeatureKind::name).collect();
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
     (sides, bits).prop_flat_map(move |(side, bits)| {
         let size = 1..=2 * side + 1;
-        let names = subsequence(FeatureKind::NAMES, 1..=FeatureKind::COUNT).prop_shuffle();
+        let names = subsequence(names.clone(), 1..=names.len()).prop_shuffle();
         let fraction_max = (0..).find(|bits| 1i64 << bits >= side * side).unwrap();
         // All features of a camera share one mean.
         let features = (names, 0u32..=fraction_max).prop_flat_map(move |(names, fraction_bits)| {
@@ -195,7 +232,7 @@ fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value =
         let temporal = (small_numbers(max - 1), small_numbers(side * side));
         ((size.clone(), size), features, filter, switches, temporal).prop_map(
             move |((width, height), features, filter, on, (temporal_level, temporal_min))| {
-                DesignParameters {
+                let recipe = DesignParameters {
                     width,
                     height,
                     bits,
@@ -206,13 +243,15 @@ fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value =
                     all_must_vote: on[1],
                     temporal_level,
                     temporal_min,
-                    last_sent: on[2],
+                    last_sent: false,
                     blank_irrelevant: on[3],
                     raw_payload: on[4],
                     constant: on[5] && on[6],
                     periphery: None,
                     deep: false,
-                }
+                };
+                let last_sent = on[2] && recipe.can_start_without_reference();
+                DesignParameters { last_sent, ..recipe }
             },
         )
     })
@@ -242,14 +281,16 @@ fn arbitrary_feature(
         }
         "surface" => (0, small_numbers(500).prop_map(move |permille| permille * max).boxed()),
         "segment" => (max - 1, small_numbers(n / 2).prop_map(|pixels| 1000 * pixels).boxed()),
+        "flow" => (0, small_numbers(300).prop_map(move |permille| permille * max).boxed()),
         _ => panic!("`{name}` needs thresholds that some regions reach"),
     };
-    (small_numbers(level_max), minimum)
-        .prop_map(move |(level, min_milli)| FeatureParameters {
+    (small_numbers(level_max), minimum, 1..=3i64.min(side - 1))
+        .prop_map(move |(level, min_milli, radius)| FeatureParameters {
             name,
             level,
             min_milli,
             fraction_bits,
+            radius,
         })
         .boxed()
 }

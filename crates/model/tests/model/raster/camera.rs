@@ -111,8 +111,13 @@ fn check(recipe: &RasterParameters, clip: &[Frame]) {
 /// Returns the recipe of a number. Its choices change at different rates with the number.
 fn recipe(number: usize) -> RasterParameters {
     let on = |speed: usize| number / speed % 2 == 1;
-    let feature =
-        |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 2 };
+    let feature = |name, level, min_milli| FeatureParameters {
+        name,
+        level,
+        min_milli,
+        fraction_bits: 2,
+        radius: 1,
+    };
     let all = [
         feature("edge", 120, 3000),
         feature("mad", 0, 9000),

@@ -15,7 +15,7 @@ use crate::frames::{ClipScript, FrameContent};
 use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 
 fn feature(name: &'static str, level: i64, min_milli: i64) -> FeatureParameters {
-    FeatureParameters { name, level, min_milli, fraction_bits: 1 }
+    FeatureParameters { name, level, min_milli, fraction_bits: 1, radius: 1 }
 }
 
 /// Returns 4x4 regions of 4x4 pixels. The last column and the last row are ragged.

@@ -2,7 +2,7 @@
 //! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow from
 //! it.
 
-use foveate_design::{Design, FrameStoreKind, Pipelining};
+use foveate_design::{Design, FrameStoreKind, Organization, Pipelining};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -207,8 +207,13 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
         FrameStoreKind::External,
     ]);
     let built = (any::<bool>(), stores, select(vec![true, true, false]));
-    (arbitrary_parameters_with_sides(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
-        |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
+    (
+        arbitrary_parameters_with_sides(sides, Organization::Raster.feature_kinds()),
+        select(vec![1i64, 2, 4]),
+        built,
+        size,
+    )
+        .prop_map(|(mut base, pixels, (deep, store, forward), (wide, high, more))| {
             let side = base.side;
             let block = base.periphery.map_or(side, |periphery| side / periphery.blocks);
             let pixels = if block % pixels == 0 { pixels } else { 2 - block % 2 };
@@ -228,6 +233,5 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
                 forward,
                 misread: PlantedMisreading::default(),
             }
-        },
-    )
+        })
 }

@@ -130,8 +130,13 @@ const WINDOW_FILTERS: [&str; 3] = ["median3x3", "switching3x3", "binomial3x3"];
 /// Returns some of the seven features. `which` has one bit for each.
 fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
     let max = (1i64 << bits) - 1;
-    let feature =
-        |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 1 };
+    let feature = |name, level, min_milli| FeatureParameters {
+        name,
+        level,
+        min_milli,
+        fraction_bits: 1,
+        radius: 1,
+    };
     let all = [
         feature("variance", 0, 100 * max * max),
         feature("corner", max / 2, 1000),

@@ -11,8 +11,13 @@ use crate::frames::FrameContent;
 use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 
 fn recipe() -> SerialParameters {
-    let feature =
-        |name, level, min_milli| FeatureParameters { name, level, min_milli, fraction_bits: 1 };
+    let feature = |name, level, min_milli| FeatureParameters {
+        name,
+        level,
+        min_milli,
+        fraction_bits: 1,
+        radius: 1,
+    };
     SerialParameters {
         base: DesignParameters {
             width: 15,

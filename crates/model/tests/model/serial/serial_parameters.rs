@@ -2,7 +2,7 @@
 //! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow from
 //! it.
 
-use foveate_design::{Design, PixelFeed};
+use foveate_design::{Design, Organization, PixelFeed};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -205,14 +205,17 @@ impl SerialParameters {
 /// Generates every kind of serial design, with a few regions.
 pub(crate) fn arbitrary_serial_parameters() -> impl Strategy<Value = SerialParameters> {
     let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
-    (arbitrary_parameters_with_sides(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(
-        |(base, [raster, deep], fold)| {
+    (
+        arbitrary_parameters_with_sides(sides, Organization::Serial.feature_kinds()),
+        any::<[bool; 2]>(),
+        0i64..=9,
+    )
+        .prop_map(|(base, [raster, deep], fold)| {
             let regions = base.columns() * base.rows();
             SerialParameters {
                 fold: 1 + fold % regions,
                 raster,
                 base: DesignParameters { deep, ..base },
             }
-        },
-    )
+        })
 }
