@@ -48,7 +48,7 @@ fn untyped<T: Element + Copy>(
     pixels: &[T],
     size: [usize; 2],
 ) -> Py<PyUntypedArray> {
-    let array = numpy::PyArray1::from_slice(py, pixels).reshape(size);
+    let array = PyArray1::from_slice(py, pixels).reshape(size);
     array
         .expect("a pixel for every place")
         .into_any()
@@ -315,5 +315,5 @@ fn array<T: Element>(
     values: impl ExactSizeIterator<Item = T>,
     size: [usize; 2],
 ) -> Bound<'_, PyArray2<T>> {
-    numpy::PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
+    PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
 }
