@@ -54,9 +54,16 @@ impl<T: PixelLane> CameraPlan<T> {
                     update_affected(scores, affected, |at| above[at].min(below[at]));
                 }
                 FeatureKind::Flow => {
-                    let validity = (affected, valid);
-                    let last = (&*results.actions, &mut *results.displacements);
-                    self.update_flow(flow_errors, validity, last, scores);
+                    let regions = affected.iter().zip(valid).zip(&mut *results.displacements);
+                    for (at, ((&affected, &valid), displacement)) in regions.enumerate() {
+                        // The displacement and the score of other regions are 0, and stay so.
+                        if affected {
+                            (*displacement, scores[at]) = match valid {
+                                true => flow::best_match(flow_errors, at),
+                                false => (Displacement::default(), 0),
+                            };
+                        }
+                    }
                 }
             }
         }
@@ -95,29 +102,6 @@ impl<T: PixelLane> CameraPlan<T> {
                     }
                 }
                 false => self.count_of_identical((action, *count), n),
-            };
-        }
-    }
-
-    /// Computes displacements and scores of `flow`. Those of a region that is not affected follow
-    /// from its last ones and its last action, because its pixels are those of the last frame.
-    #[inline(always)]
-    fn update_flow(
-        &self,
-        errors: &[DisplacedErrors],
-        (affected, valid): (&[bool], &[bool]),
-        (actions, displacements): (&[RegionAction], &mut [Displacement]),
-        scores: &mut [u64],
-    ) {
-        let regions = affected.iter().zip(valid).zip(actions);
-        let results = displacements.iter_mut().zip(scores);
-        for (at, (((&affected, &valid), &action), (displacement, score))) in
-            regions.zip(results).enumerate()
-        {
-            (*displacement, *score) = match (affected, self.reference, action) {
-                (true, ..) if valid => flow::best_match(errors, at),
-                (false, ReferencePolicy::LastSent, RegionAction::Hold) => (*displacement, *score),
-                _ => (Displacement::default(), 0),
             };
         }
     }

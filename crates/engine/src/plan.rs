@@ -118,13 +118,6 @@ impl<T: PixelLane> CameraPlan<T> {
         }
     }
 
-    /// Returns true if a second equal frame cannot change any result. With `last-sent` and `flow` it
-    /// can: the vote of `flow` ends with the first equal frame, and the loss of the reference
-    /// follows.
-    pub(crate) fn is_stable_on_equal_frames(&self) -> bool {
-        self.flow_radius.is_none() && self.reference.is_stable_on_equal_frames()
-    }
-
     /// Returns the number of regions of a frame.
     pub(crate) fn regions(&self) -> usize {
         self.columns * self.rows

@@ -7,6 +7,8 @@
 
 use std::ops::{AddAssign, Range};
 
+use foveate_camera::Displacement;
+
 use crate::band::BandPass;
 use crate::change;
 use crate::change_search::KnownChanges;
@@ -125,7 +127,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
             return;
         }
         // From the second still frame on, counts and actions repeat.
-        self.is_settled[row] = is_still && plan.is_stable_on_equal_frames();
+        self.is_settled[row] = is_still && plan.reference.is_stable_on_equal_frames();
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
         if !is_still {
             let mut band = BandPass {
@@ -171,11 +173,15 @@ impl<T: PixelLane> BandStrip<'_, T> {
     #[inline(always)]
     fn select_runs(&mut self, frame: usize, number: usize, regions: Range<usize>) {
         let (plan, scratch) = (self.plan, &mut *self.scratch);
+        let displacements = cut_to_range(self.results.displacements, &regions);
         let forgotten = &mut self.forgotten[regions];
         match self.changes.changed_around(plan, frame, number) {
             Some(changed) => {
                 change::mark_affected(plan, changed, &mut scratch.affected);
                 scratch.affected.iter_mut().zip(&*forgotten).for_each(|(own, &lost)| *own |= lost);
+                // The vote of `flow` ends if the region stands still.
+                let moved = displacements.iter().map(|&last| last != Displacement::default());
+                scratch.affected.iter_mut().zip(moved).for_each(|(own, moved)| *own |= moved);
                 change::collect_runs(plan, &scratch.affected, &mut scratch.runs);
                 let computed: usize = scratch.runs.iter().map(Range::len).sum();
                 let skipped = scratch.affected.iter().filter(|affected| !**affected).count();
