@@ -40,17 +40,20 @@ module serial_flow #(
 
     // Returns the displacement at a place of the search, as 8 * (dy + RADIUS) + dx + RADIUS.
     function integer displacement_at(input integer place);
-        integer far, dy, dx, count;
+        integer far, row, column, dy, dx, count;
         begin
             count = 0;
             displacement_at = 0;
             for (far = 2 * RADIUS; far >= 0; far = far - 1)
-                for (dy = RADIUS; dy >= -RADIUS; dy = dy - 1)
-                    for (dx = RADIUS; dx >= -RADIUS; dx = dx - 1)
+                for (row = 2 * RADIUS; row >= 0; row = row - 1)
+                    for (column = 2 * RADIUS; column >= 0; column = column - 1) begin
+                        dy = row - RADIUS;
+                        dx = column - RADIUS;
                         if ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy) == far) begin
-                            if (count == place) displacement_at = 8 * (dy + RADIUS) + dx + RADIUS;
+                            if (count == place) displacement_at = 8 * row + column;
                             count = count + 1;
                         end
+                    end
         end
     endfunction
 

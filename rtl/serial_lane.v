@@ -23,6 +23,11 @@
 // smallest sum so far. It is subtracted in the same way before a sum is made, which is cleared unless it is negative, and added
 // again.
 //
+// For `flow`, a sum of distances from the reference moves to `aux`, and is added again bit by bit, as a product with its weight. From
+// its highest bit on, the product moves to `least_q` in place of the smallest one so far, unless that one is smaller. Then the
+// displacement is kept, too. At the end `aux` holds the sum of displacement 0. Its product, less the smallest one, is divided by its
+// weight, and the quotient comes back from `aux` as the score.
+//
 // With DEEP the word read is in a register. The operand is, too, before it is inverted, if a feature computes it from the word. A
 // hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
 `default_nettype none

@@ -80,7 +80,7 @@ module serial_states #(
     localparam [4:0] DOUBLE = 5'd13;
     localparam [4:0] HALF = 5'd14;     // adds half of the divisor
     localparam [4:0] DIVIDE = 5'd15;   // finds a bit of the quotient; a division by 1 moves the accumulator to `aux`
-    localparam [4:0] CLEAR = 5'd16;
+    localparam [4:0] CLEAR = 5'd16;    // `flow`: notes the displacement, and goes to the first pair of the next one
     localparam [4:0] DEVIATE = 5'd17;
     localparam [4:0] SQUARE = 5'd18;   // adds words whose bit is set
     localparam [4:0] CORRECT = 5'd19;  // subtracts the square of the sum
