@@ -371,7 +371,7 @@ impl<'a> SceneBuilder<'a> {
                 fate: FrameFate::CutByReset,
                 ..taken_frame(self.frame_source.noise_frame())
             };
-            traffic.send_torn_frame(cut, lines.min(height));
+            traffic.send_torn_frame(cut, lines.clamp(1, height));
             if is_within {
                 traffic.hold_sink(0);
                 traffic.wait_within_packet();
