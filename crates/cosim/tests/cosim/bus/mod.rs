@@ -211,6 +211,53 @@ fn the_designs_of_the_bus_faults_pass_without_a_fault() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// Frames that a filter smooths have few corners, few regions fill the places for packets, and
+/// frames of one or two lines have no other line. All of them reach their situations nevertheless.
+#[test]
+fn smooth_and_small_frames_reach_the_situations_of_cores_on_axi() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let corner = "spatial=[{feature='corner'}]";
+    let binomial = "denoise.filter='binomial3x3'";
+    let failures = failing_runs(&[
+        (
+            &[
+                "frame={width=66,height=10,pixel_bits=4}",
+                "region.size=4",
+                corner,
+                binomial,
+                "hardware.thresholds='constant'",
+                "hardware.pixels_per_clock=4",
+            ],
+            512_537,
+        ),
+        (
+            &[
+                "frame={width=33,height=14,pixel_bits=10}",
+                "region.size=3",
+                corner,
+                binomial,
+                "temporal.reference='last-sent'",
+            ],
+            872_788,
+        ),
+        (&["frame={width=16,height=8}", "region.size=5", "spatial=[{feature='mad'}]"], 985_551),
+        (&["frame={width=29,height=2}", "region.size=3"], 702_978),
+        (
+            &[
+                "frame={width=53,height=2,pixel_bits=4}",
+                "region.size=8",
+                "spatial=[{feature='mad'}]",
+                "temporal.reference='last-sent'",
+            ],
+            502_061,
+        ),
+        (&["frame={width=51,height=1}", "region.size=4", binomial], 436_397),
+    ]);
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
 /// The situations are reached with every seed, and not only with a lucky one.
 #[test]
 fn every_seed_reaches_the_situations_of_cores_on_axi() {
