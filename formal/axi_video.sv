@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A model of docs/axi.md over the words that have been taken: frames of 3 lines of 3 words, pixels of one bit.
-module properties #(parameter LANES = 1) (
+// A model of docs/axi.md over the words that have been taken: frames of LINES lines of 3 words, pixels of one bit.
+module properties #(parameter LANES = 1, parameter LINES = 3) (
     input wire clk_i, rst_i, valid, sof, eol, admit, late, ready, input wire [LANES-1:0] pixels
 );
     `include "reset.vh"
-    localparam WORDS = 3, LINES = 3;
+    localparam WORDS = 3;
     wire taken, begins, idle, word, first, skips, repair, sof_early, sof_late, eol_early, eol_late;
     wire [LANES-1:0] out;
     axi_video #(.WIDTH(1), .LANES(LANES), .WORDS(WORDS), .LINES(LINES), .WORD_BITS(2), .LINE_BITS(2)) dut (

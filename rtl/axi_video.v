@@ -8,9 +8,9 @@ module axi_video #(
     parameter WIDTH = 8,       // bits of a pixel
     parameter LANES = 1,       // pixels of a word
     parameter WORDS = 1920,    // words of a line, at least 2
-    parameter LINES = 1080,    // lines of a frame, at least 2
+    parameter LINES = 1080,    // lines of a frame
     parameter WORD_BITS = 11,  // ceil(log2(WORDS))
-    parameter LINE_BITS = 11   // ceil(log2(LINES))
+    parameter LINE_BITS = 11   // ceil(log2(LINES)), at least 1
 ) (
     input  wire                   clk_i,        // clock, rising edge
     input  wire                   rst_i,        // synchronous reset, active high
@@ -38,7 +38,7 @@ module axi_video #(
     // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
-        if (LINES < 2) begin : g_lines LINES_must_be_2_or_more u_refused (); end
+        if (LINES < 1) begin : g_lines LINES_must_be_1_or_more u_refused (); end
     endgenerate
 
     localparam LAST_WORD = WORDS - 1;

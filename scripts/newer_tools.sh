@@ -52,6 +52,7 @@ designs=(
     "paper --set region.neighborhood='shared' --set temporal.reference='last-sent' --set spatial=$all"
     "bare --set region.size=5 --set frame.pixel_bits=10 --set spatial=$all --set render.payload='raw'"
     "paper --set hardware.organization='serial' --set region.size=4 --set temporal.reference='last-sent' --set spatial=$all"
+    "paper --set hardware.organization='serial' --set region.size=4 --set spatial=[$edge,{feature='flow',radius=2}]"
 )
 for words in "${designs[@]}"; do
     read -ra words <<<"$words"

@@ -5,7 +5,8 @@
 localparam F_N = SIDE * SIDE;
 localparam F_RAW = RAW_SIDE * RAW_SIDE;
 localparam F_DENOISED = DENOISED_SIDE * DENOISED_SIDE;
-localparam F_HAS_REFERENCE = FILTER == 0 || LAST_SENT != 0;
+localparam F_COPIES = LAST_SENT != 0 || FLOW != 0;
+localparam F_HAS_REFERENCE = FILTER == 0 || F_COPIES;
 localparam F_WORDS = F_HAS_REFERENCE ? REFERENCE_BASE + F_N : DENOISED_BASE + F_DENOISED;
 
 // The areas of a slot are one behind the other, and fit into it.
@@ -16,9 +17,9 @@ always @* begin
 end
 
 // Places. Either a frame enters or the array works on it.
-wire f_write_active = controls[36];
-wire f_write_border = controls[35];
-wire f_write_mean = controls[32];
+wire f_write_active = controls[38];
+wire f_write_border = controls[37];
+wire f_write_mean = controls[34];
 wire f_shift = controls[4];
 wire f_shows_mean = controls[0];
 wire f_in_reference = F_HAS_REFERENCE && word >= REFERENCE_BASE && word < REFERENCE_BASE + F_N;
@@ -33,7 +34,7 @@ always @* if (started) begin
     if (place) assert(place_lane < LANES);
     if (working) begin
         // While pixels around the region are denoised, which do not count, the address of the reference is behind it.
-        assert(word < F_WORDS || (BORDERS && LAST_SENT != 0 && word == F_WORDS));
+        assert(word < F_WORDS || (BORDERS && F_COPIES && word == F_WORDS));
         assert(slot < FOLD);
     end
     if (write || f_write_active || f_write_border) assert(working);
@@ -122,22 +123,30 @@ endfunction
 function integer f_ones(input integer value);
     for (f_ones = 0; value > 0; value = value / 2) f_ones = f_ones + value % 2;
 endfunction
+function integer f_common(input integer radius);  // the least common multiple of SIDE, SIDE - 1, .. SIDE - radius
+    for (f_common = SIDE; f_common % (SIDE - 1) != 0 || (radius > 1 && f_common % (SIDE - 2) != 0)
+        || (radius > 2 && f_common % (SIDE - 3) != 0); f_common = f_common + SIDE) begin end
+endfunction
+localparam F_SUM = f_bits(F_N * ((1 << WIDTH) - 1));
+localparam F_PRODUCT = f_bits(f_common(FLOW_RADIUS) * f_common(FLOW_RADIUS) * ((1 << WIDTH) - 1));
+localparam F_PLACES = (2 * FLOW_RADIUS + 1) * (2 * FLOW_RADIUS + 1);
+localparam F_LINE = SIDE * (2 * FLOW_RADIUS + 1) - FLOW_RADIUS * (FLOW_RADIUS + 1);
 localparam F_PASSES = (EDGE != 0 ? 14 * F_N : 0) + (CORNER != 0 ? 36 * F_N : 0)
     + (RANGE != 0 ? 4 * F_N + WIDTH + 2 : 0)
     + (SURFACE != 0 ? 8 * F_N + 11 * f_bits(F_N * ((1 << WIDTH) - 1)) + 5 : 0)
     + (SEGMENT != 0 ? 4 * F_N + 4 * WIDTH + 9 : 0)
+    + (FLOW != 0 ? 2 * F_LINE * F_LINE + F_PLACES * (2 * F_SUM + F_PRODUCT + 1) + 3 * F_SUM + F_PRODUCT + 3 : 0)
     + (MAD != 0 ? 2 * F_N + WIDTH + 2 * FRACTION + 3 : 0)
     + (VARIANCE != 0 ? F_N + WIDTH * F_N * f_ones(F_N) + 2 * f_bits(F_N * ((1 << WIDTH) - 1)) + WIDTH + f_bits(F_N) + 2 : 0);
-localparam F_COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0;
+localparam F_COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0 || FLOW != 0;
 localparam F_Q = (BLOCK != 0 ? 1 : 0) + (DEEP == 0 ? 0 : F_COMPUTES ? 2 : 1);
-localparam F_SENT = LAST_SENT != 0;
 localparam F_STEPS = FOLD * (
     (FILTER == 3 ? F_DENOISED * (51 + F_Q)
-        : FILTER != 0 ? F_DENOISED * (10 * WIDTH + (FILTER == 2 ? 22 : 3) + F_SENT + F_Q) : F_SENT ? 3 * F_N : F_N * (3 + F_Q))
+        : FILTER != 0 ? F_DENOISED * (10 * WIDTH + (FILTER == 2 ? 22 : 3) + F_COPIES + F_Q) : F_COPIES ? 3 * F_N : F_N * (3 + F_Q))
     + (BORDERS ? 4 * (SIDE + 2) * (2 + F_Q) : 0)
     + (LANES + (DEEP != 0 ? 1 : 0)) * (FEATURES + 1)
     + F_PASSES
-    + (F_SENT ? F_N * (2 + F_Q) : 0)
+    + (F_COPIES ? F_N * (2 + F_Q) : 0)
     + (RASTER != 0 ? F_N * (1 + LANES) : F_N)
     + (BLOCKS != 0 ? F_N + F_MEANS * (2 + LANES + (DEEP != 0 ? 1 : 0)) + F_MEANS * (LANES + (RASTER != 0 ? 1 : 2 + F_Q)) : 0));
 reg [15:0] f_since;

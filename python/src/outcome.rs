@@ -6,7 +6,7 @@ use std::sync::Arc;
 use foveate_design::RegionAction;
 use foveate_engine::FrameOutcome;
 use foveate_frame::FramePixels;
-use numpy::{Element, PyArray2, PyArrayMethods, PyUntypedArray};
+use numpy::{Element, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -48,7 +48,7 @@ fn untyped<T: Element + Copy>(
     pixels: &[T],
     size: [usize; 2],
 ) -> Py<PyUntypedArray> {
-    let array = numpy::PyArray1::from_slice(py, pixels).reshape(size);
+    let array = PyArray1::from_slice(py, pixels).reshape(size);
     array
         .expect("a pixel for every place")
         .into_any()
@@ -69,6 +69,9 @@ fn untyped<T: Element + Copy>(
 ///     Number of changed pixels of a region; all of its pixels without a valid reference.
 /// scores : dict of str to array of int64, shape (rows, columns)
 ///     Scores by feature, in the units of the contract: pixels for `edge`, `corner` and `segment`, grey levels for `range`; `surface` is the sum over the n pixels of the region, and `mad` and `variance` have fraction bits.
+/// displacements : array of int8, shape (rows, columns, 2), or None
+///     Movement of the content of each region since its reference, [dx, dy]: pixels to the right and down. None for a design
+///     without the feature `flow`.
 /// rendered : array of uint8 or uint16, shape (height, width)
 ///     Frame on the receiver's screen. An outcome of `Camera.step` reads it from the camera at the first use, and
 ///     raises a RuntimeError if the camera has taken another frame since, unless the step was called with `keep`.
@@ -96,6 +99,7 @@ pub(crate) struct Outcome {
     action: PyOnceLock<Py<PyArray2<u8>>>,
     changed: PyOnceLock<Py<PyArray2<i64>>>,
     scores: PyOnceLock<Py<PyDict>>,
+    displacements: PyOnceLock<Py<PyArray3<i8>>>,
 }
 
 impl Outcome {
@@ -121,6 +125,7 @@ impl Outcome {
             action: PyOnceLock::new(),
             changed: PyOnceLock::new(),
             scores: PyOnceLock::new(),
+            displacements: PyOnceLock::new(),
         }
     }
 
@@ -243,6 +248,21 @@ impl Outcome {
         Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
     }
 
+    /// Movement of the content of each region since its reference, [dx, dy] in pixels to the right and down: array of int8,
+    /// shape (rows, columns, 2); None for a design without the feature `flow`.
+    #[getter]
+    fn displacements(&self, py: Python<'_>) -> Option<Py<PyArray3<i8>>> {
+        self.record.design.displacement_feature()?;
+        let make = || {
+            let pairs = self.record.result.displacements.iter();
+            let numbers = pairs.flat_map(|one| [one.dx, one.dy]).collect();
+            let [rows, columns] = self.size();
+            let array = PyArray1::from_vec(py, numbers).reshape([rows, columns, 2]);
+            array.expect("two numbers for every region").unbind()
+        };
+        Some(self.displacements.get_or_init(py, make).clone_ref(py))
+    }
+
     /// The frame as the camera saw it: array of uint8 or uint16, shape (height, width); None for a frame that was given as an
     /// array, because the caller has it.
     #[getter]
@@ -295,5 +315,5 @@ fn array<T: Element>(
     values: impl ExactSizeIterator<Item = T>,
     size: [usize; 2],
 ) -> Bound<'_, PyArray2<T>> {
-    numpy::PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
+    PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
 }

@@ -39,4 +39,5 @@ def equal(outcome, expected):
     """Returns whether two outcomes are equal, except for the frame itself."""
     names = ("srs", "trs", "active", "action", "changed", "rendered")
     same = all(np.array_equal(getattr(outcome, name), getattr(expected, name)) for name in names)
+    same = same and np.array_equal(outcome.displacements, expected.displacements)
     return same and all(np.array_equal(outcome.scores[name], expected.scores[name]) for name in outcome.scores)

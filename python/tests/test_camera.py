@@ -139,6 +139,29 @@ def test_outcomes_agree_with_themselves(frames):
     assert outcome.design == camera.design and outcome.frame is None and outcome.name is None
 
 
+FLOW = {"spatial": ["edge", {"feature": "flow", "radius": 2}], "hardware": {"organization": "serial"}}
+
+
+def test_displacements_are_those_of_a_pan():
+    chance = np.random.default_rng(5)
+    scene = chance.integers(0, 256, (80, 80), np.uint8)
+    camera = fv.Camera("paper", denoise={"filter": "none"}, **FLOW)
+    # The content moves by one pixel to the left and two down.
+    outcomes = [camera.step(scene[20 - 2 * t : 60 - 2 * t, 10 + t : 58 + t]) for t in range(4)]
+    for outcome, expected in zip(outcomes, [(0, 0)] + 3 * [(-1, 2)], strict=True):
+        displacements = outcome.displacements
+        assert displacements.dtype == np.int8 and displacements.shape == (5, 6, 2)
+        assert (displacements == expected).all()
+        assert displacements is outcome.displacements and displacements.flags.writeable
+    assert (outcomes[1].scores["flow"] > 0).all()
+
+
+def test_without_flow_there_are_no_displacements(frames):
+    assert fv.Camera().step(frames[0]).displacements is None
+    (outcome,) = fv.simulate("scene:street", max_frames=1)
+    assert outcome.displacements is None
+
+
 def test_times_of_steps(frames):
     camera = fv.Camera()
     assert [camera.step(frames[0]).time_us, camera.step(frames[1]).time_us] == [0, 33_333]

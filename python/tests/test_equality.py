@@ -17,6 +17,7 @@ DESIGNS = {
     "seamless": ({"region": {"size": 5}}, ["--set", "region.size=5"]),
     "steady": ({"spatial": ["edge", "mad"]}, ["--set", "spatial=[{feature='edge'},{feature='mad'}]"]),
     "mad": ({"frame": {"pixel_bits": 12}}, ["--set", "frame.pixel_bits=12"]),
+    "serial": ({"spatial": ["edge", {"feature": "flow", "radius": 2}]}, ["--set", "spatial=[{feature='edge'},{feature='flow',radius=2}]"]),
 }
 
 
@@ -32,6 +33,12 @@ def test_a_run_equals_simulate(preset, command, tmp_path):
         assert np.array_equal(np.load(tmp_path / f"out/{file}.npy"), [getattr(one, name) for one in outcomes]), name
     for feature in outcomes[0].scores:
         assert np.array_equal(np.load(tmp_path / f"out/score_{feature}.npy"), [one.scores[feature] for one in outcomes])
+    file = tmp_path / "out/flow.npy"
+    assert file.exists() == (preset == "serial") == (outcomes[0].displacements is not None)
+    if file.exists():
+        displacements = np.load(file)
+        assert np.array_equal(displacements, [one.displacements for one in outcomes]) and displacements.dtype == np.int8
+        assert displacements.min() == -2 and displacements.max() == 2
     bits = outcomes[0].design.pixel_bits
     for number, outcome in enumerate(outcomes):
         picture = np.asarray(Image.open(tmp_path / f"out/rendered/{number:06}.png")).astype(int)
@@ -40,12 +47,13 @@ def test_a_run_equals_simulate(preset, command, tmp_path):
     assert summary["design_fingerprint"] == outcomes[0].design.fingerprint
 
 
-@pytest.mark.parametrize("only_active", [False, True])
-def test_tables_equal_those_of_simulate(only_active, command, tmp_path):
-    only = ["--only", "active"] if only_active else []
-    command("simulate", "scene:street", "-o", tmp_path / "out", "--frames", 4, "--events", "parquet", *only, "--rendered", "none", "--quiet")
+@pytest.mark.parametrize(("only_active", "preset"), [(False, "paper"), (True, "paper"), (False, "serial")])
+def test_tables_equal_those_of_simulate(only_active, preset, command, tmp_path):
+    keys, words = DESIGNS[preset]
+    only = [*words, "--only", "active"] if only_active else words
+    command("simulate", "scene:street", "-p", preset, "-o", tmp_path / "out", "--frames", 4, "--events", "parquet", *only, "--rendered", "none", "--quiet")
     written = pyarrow.parquet.read_table(tmp_path / "out/events.parquet")
-    outcomes = list(fv.simulate("scene:street", max_frames=4))
+    outcomes = list(fv.simulate("scene:street", fv.Camera(preset, **keys), max_frames=4))
     arrow = fv.events(outcomes, only_active=only_active, kind="pyarrow")
     assert arrow.to_pydict() == written.to_pydict()
     assert [field.type for field in arrow.schema] == [field.type for field in written.schema]
@@ -53,6 +61,7 @@ def test_tables_equal_those_of_simulate(only_active, command, tmp_path):
     pandas.testing.assert_frame_equal(frame.astype({"action": str}), written.to_pandas().astype({"action": str}))
     table = fv.events(outcomes, only_active=only_active)
     assert table.dtype.names == tuple(written.column_names)
+    assert ("dx" in table.dtype.names) == ("dy" in table.dtype.names) == (preset == "serial")
     assert table.tolist() == [tuple(row.values()) for row in written.to_pylist()]
 
 

@@ -107,9 +107,9 @@ def test_every_attribute_has_its_documentation(name):
 
 
 def test_arrays_say_their_type_and_their_shape():
-    for name in ("srs", "trs", "active", "action", "changed", "scores", "rendered", "frame"):
+    for name in ("srs", "trs", "active", "action", "changed", "scores", "displacements", "rendered", "frame"):
         text = getattr(fv.Outcome, name).__doc__
-        assert re.search(r"array of (bool|uint8|int64)", text) and "shape (" in text, name
+        assert re.search(r"array of (bool|uint8|int8|int64)", text) and "shape (" in text, name
 
 
 def test_an_instance_has_no_attribute_without_documentation():

@@ -45,7 +45,11 @@ module {= module =} #(
 {%- if !summarizes %}
     wire summary;
 {%- endif %}
-    wire unused_beside = |region || |position || |slot{% if !summarizes %} || summary{% endif %}{% if half_level %} || edge_level_i[0]{% endif %};
+{%- if !displaces %}
+    wire [1:0] displacement_x;
+    wire [1:0] displacement_y;
+{%- endif %}
+    wire unused_beside = |region || |position || |slot{% if !summarizes %} || summary{% endif %}{% if !displaces %} || |displacement_x || |displacement_y{% endif %}{% if half_level %} || edge_level_i[0]{% endif %};
 
     serial_array #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .LANES(LANES), .FOLD({= fold =}),
@@ -63,6 +67,8 @@ module {= module =} #(
         .summary_level_i({= summary_level =}),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
         .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .displacement_x_o({% if displaces %}displacement_x_o{% else %}displacement_x{% endif %}),
+        .displacement_y_o({% if displaces %}displacement_y_o{% else %}displacement_y{% endif %}),
         .summary_o({% if summarizes %}summary_o{% else %}summary{% endif %}),
         .forward_valid_o(forward_valid_o), .forward_pixel_o(forward_pixel_o),
         .forward_slot_o(slot), .forward_position_o(position)

@@ -31,6 +31,7 @@ DEEP = "hardware.pipelining='deep'"
 SENT = "temporal.reference='last-sent'"
 MEDIAN = "denoise.filter='median3x3'"
 ALL = "spatial=[{feature='edge'},{feature='corner'},{feature='mad'},{feature='variance'},{feature='range'},{feature='surface'},{feature='segment'}]"
+FLOW = "spatial=[{feature='edge'},{feature='flow',radius=3}]"
 # Small regions, so that few pixels have many of them.
 RASTER_SIZES = [["region.size=4", "frame={width=128,height=96}"], ["region.size=4", "frame={width=512,height=512}"]]
 # Lanes and RPUs must not grow; the array of them grows with the frame.
@@ -50,6 +51,7 @@ DESIGNS = [
     ("serial parallel", ["hardware.organization='serial'", "hardware.fold=1"], SERIAL_SIZES),
     ("serial raster feed", ["hardware.organization='serial'", "hardware.fold=4", "hardware.feed='raster'"], SERIAL_SIZES),
     ("serial last-sent deep", ["hardware.organization='serial'", "hardware.fold=4", SENT, DEEP], SERIAL_SIZES),
+    ("serial flow", ["hardware.organization='serial'", "hardware.fold=4", FLOW, SENT], SERIAL_SIZES),
     ("pipelined", [], SERIAL_SIZES),
     ("pipelined last-sent deep", [SENT, DEEP], SERIAL_SIZES),
 ]

@@ -31,6 +31,12 @@ FEATURES = [
     f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}},{{feature='range',min_score=0}},"
     "{feature='surface',min_score=0},{feature='segment',level=0,min_score=0}",
 ]
+# Features that only serial designs have: alone, and with all others.
+SERIAL_FEATURES = [
+    "{feature='flow',min_score=0}",
+    f"{{feature='flow',radius=3,min_score=0}},{EDGE}",
+    f"{FEATURES[-1]},{{feature='flow',radius=2,min_score=0}}",
+]
 # The filters with a window.
 FILTERS = ["median3x3", "switching3x3", "binomial3x3"]
 SIZES = [2, 3, 5, 8, 16, 20, 64]
@@ -109,7 +115,7 @@ FOLDS = [1, 2, 3, 6]
 
 def serial_matrix():
     """Yields serial designs of 3x2 regions: folds with empty slots, feeds, distributed and block RAM."""
-    for index, features in enumerate(FEATURES):
+    for index, features in enumerate(FEATURES + SERIAL_FEATURES):
         for choice in range(4):
             number = 4 * index + choice
             size = SERIAL_SIZES[(index * 3 + choice) % len(SERIAL_SIZES)]

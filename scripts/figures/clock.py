@@ -19,6 +19,8 @@ import sys
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 DEVICE = "ecp5-85k"
 FEATURES = ["edge", "corner", "mad", "variance", "range", "surface", "segment"]
+# Features that only serial designs have.
+SERIAL_FEATURES = ["flow"]
 MEDIAN = "denoise.filter='median3x3'"
 DEEP = "hardware.pipelining='deep'"
 RASTER = ["hardware.organization='raster'", "hardware.pixels_per_clock=1"]
@@ -34,7 +36,7 @@ def designs():
         yield f"pipelined {feature} median", "bare", [spatial, MEDIAN], "rpu"
         yield f"pipelined {feature} deep", "bare", [spatial, DEEP], "rpu"
         yield f"pipelined {feature} median deep", "bare", [spatial, MEDIAN, DEEP], "rpu"
-    for feature in FEATURES:
+    for feature in FEATURES + SERIAL_FEATURES:
         yield f"serial {feature}", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL], "rcm"
         yield f"serial {feature} deep", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL, DEEP], "rcm"
     for feature in FEATURES:

@@ -4,8 +4,8 @@
 use crate::ranges::MAX_SIDE;
 use crate::width::index_bits;
 use crate::{
-    Camera, DenoiseFilter, FeatureKind, MeanDivision, Neighborhood, Payload, SpatialFeature,
-    bits_for,
+    Camera, DenoiseFilter, Displacement, FeatureKind, MeanDivision, Neighborhood, Payload,
+    SpatialFeature, bits_for,
 };
 
 impl Camera {
@@ -57,6 +57,13 @@ impl Camera {
     #[must_use]
     pub fn displacement_feature(&self) -> Option<&SpatialFeature> {
         self.features().iter().find(|feature| feature.kind().is_displacement())
+    }
+
+    /// Returns the bits of a displacement, dx and dy; 0 for a camera that finds none.
+    #[must_use]
+    pub fn displacement_bits(&self) -> u32 {
+        let radius = self.displacement_feature().and_then(SpatialFeature::radius);
+        radius.map_or(0, |radius| 2 * Displacement::number_bits(radius))
     }
 
     /// Returns true if a feature uses a 3x3 window.

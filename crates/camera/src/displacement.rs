@@ -3,6 +3,8 @@
 
 use serde::Serialize;
 
+use crate::bits_for;
+
 /// The movement of the content of a region since its reference, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub struct Displacement {
@@ -22,6 +24,18 @@ impl Displacement {
         let mut all: Vec<_> = rows.map(|(dx, dy)| Self { dx, dy }).collect();
         all.sort_by_key(|one| one.dx.unsigned_abs() + one.dy.unsigned_abs());
         all
+    }
+
+    /// Returns the larger one of |dx| and |dy|, which is at most the radius of the search.
+    #[must_use]
+    pub fn largest_number(self) -> u32 {
+        self.dx.unsigned_abs().max(self.dy.unsigned_abs()).into()
+    }
+
+    /// Returns the bits of dx or dy in two's complement, for a search of this radius.
+    #[must_use]
+    pub fn number_bits(radius: u32) -> u32 {
+        bits_for(2 * u64::from(radius))
     }
 
     /// Returns n(d), the number of pixels whose partner lies in the region too, for regions with
@@ -52,6 +66,17 @@ mod tests {
         assert_eq!((two.len(), order(3).len()), (25, 49));
         assert_eq!(two[..9], [&near[..], &[(0, -2), (-1, -1), (1, -1), (-2, 0)]].concat());
         assert_eq!(two[24], (2, 2));
+    }
+
+    #[test]
+    fn two_or_three_bits_hold_the_numbers_of_a_search() {
+        for radius in 1..=3 {
+            let largest =
+                Displacement::search_order(radius).into_iter().map(Displacement::largest_number);
+            assert_eq!(largest.max(), Some(radius));
+            let bits = Displacement::number_bits(radius);
+            assert!(radius < 1 << (bits - 1) && radius >= 1 << (bits - 2), "{radius}: {bits}");
+        }
     }
 
     #[test]

@@ -52,5 +52,4 @@ pub use ranges::{
 };
 pub use reciprocal::Reciprocal;
 pub use reference::ReferenceWriteTime;
-pub use sent_values::DECISION_BITS;
 pub use width::{bits_for, index_bits, mad_score_max};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The size of the output of a camera: two bits per region and frame, and values of P bits.
+//! The size of the output of a camera: two bits per region and frame, the displacement of the
+//! region if the camera has `flow`, and values of P bits.
 //!
 //! | bits | the region | values that follow |
 //! | --- | --- | --- |
@@ -8,14 +9,22 @@
 //! | 10 | SRS = 1, TRS = 0 | none |
 //! | 11 | active | its pixels, without padding |
 //!
-//! The two bits say what happens to every region, so no addresses are sent.
+//! The two bits say what happens to every region, so no addresses are sent. A displacement has the
+//! bits of dx and dy: 4 for a radius of 1, and 6 for a larger one.
 
 use crate::{Camera, Periphery, RegionAction};
 
 /// Bits per region and frame that encode the decision and whether a summary is sent.
-pub const DECISION_BITS: u64 = 2;
+const DECISION_BITS: u64 = 2;
 
 impl Camera {
+    /// Returns the number of bits that every region sends in every frame: its decision, and its
+    /// displacement.
+    #[must_use]
+    pub fn bits_per_region(&self) -> u64 {
+        DECISION_BITS + u64::from(self.displacement_bits())
+    }
+
     /// Returns the number of values of P bits that a region sends: its pixels inside of the frame,
     /// its means, or none.
     #[must_use]
@@ -48,7 +57,8 @@ impl Camera {
     /// Returns the number of bits that `frames` frames send, with `values` values in all.
     #[must_use]
     pub fn bits_sent(&self, frames: u64, values: u64) -> u64 {
-        DECISION_BITS * u64::from(self.regions()) * frames + values * u64::from(self.pixel_bits())
+        let regions = u64::from(self.regions()) * frames;
+        self.bits_per_region() * regions + values * u64::from(self.pixel_bits())
     }
 }
 
@@ -81,5 +91,16 @@ mod tests {
         ];
         assert_eq!(camera.values_sent_per_frame(&sent), 64 + 4 + 8);
         assert_eq!(camera.bits_sent(3, 76), 3 * 6 * 2 + 760);
+    }
+
+    #[test]
+    fn displacements_are_counted_with_the_bits_of_their_radius() {
+        for (radius, bits) in [(1, 4), (2, 6), (3, 6)] {
+            let text = format!(
+                "frame={{width=20,height=9}}\nspatial=[{{feature='edge'}},{{feature='flow',radius={radius}}}]"
+            );
+            let camera = CameraConfig::from_toml(&text).unwrap().validate().unwrap();
+            assert_eq!(camera.bits_sent(3, 76), 3 * 6 * (2 + bits) + 8 * 76, "radius {radius}");
+        }
     }
 }

@@ -104,7 +104,14 @@ fn port_mismatch(
     let role = layout.fields().iter().find(|field| field.port.name == port).map(|f| f.port.role);
     let is_score = matches!(
         role,
-        Some(PortRole::ScoreValid | PortRole::ScoreIndex | PortRole::Region | PortRole::AnyScore)
+        Some(
+            PortRole::ScoreValid
+                | PortRole::ScoreIndex
+                | PortRole::Region
+                | PortRole::AnyScore
+                | PortRole::DisplacementX
+                | PortRole::DisplacementY
+        )
     );
     let score = moment.score().filter(|_| is_score).map(str::to_owned);
     Ok(PortMismatch {

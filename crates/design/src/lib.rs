@@ -34,8 +34,8 @@ pub use choice::{
 pub use config::DesignConfig;
 pub use design::Design;
 pub use foveate_camera::{
-    Camera, CameraConfig, ConfigError, DECISION_BITS, Decimal, DecisionConfig, DenoiseConfig,
-    DenoiseFilter, FeatureKind, FrameConfig, IrrelevantRendering, MeanDivision, Neighborhood,
+    Camera, CameraConfig, ConfigError, Decimal, DecisionConfig, DenoiseConfig, DenoiseFilter,
+    Displacement, FeatureKind, FrameConfig, IrrelevantRendering, MeanDivision, Neighborhood,
     Payload, Periphery, PeripheryConfig, Reciprocal, ReferencePolicy, ReferenceWriteTime,
     RegionAction, RegionConfig, RenderConfig, SUMMARY_BLOCKS, ScoreUnit, SpatialConfig,
     SpatialFeature, TemporalConfig, TemporalParameters, VarianceWidths, VoteCombination, bits_for,
@@ -51,7 +51,7 @@ pub use preset::{PRESETS, Preset};
 pub use raster::{FRAME_NUMBERS, RasterHardware, RasterMemory, RasterTiming, SecondPassTiming};
 pub use rules::{ArrayStructure, ArrayUnit};
 pub use serial::{
-    BlockMeanDivision, LaneMemory, LaneWidths, MemoryChoice, SerialHardware, SerialPhase,
-    SerialTiming, SlotArea, SlotAreaKind,
+    BlockMeanDivision, FlowSearch, LaneMemory, LaneWidths, MemoryChoice, SerialHardware,
+    SerialPhase, SerialTiming, SlotArea, SlotAreaKind,
 };
 pub use timing::{DepartureTiming, DesignTiming};

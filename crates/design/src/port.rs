@@ -68,6 +68,11 @@ pub enum PortRole {
     Region,
     /// The score whose number is on the port `ScoreIndex` (`serial`).
     AnyScore,
+    /// The displacement of the region in columns to the right, in two's complement (`serial`, with
+    /// `flow`).
+    DisplacementX,
+    /// The displacement of the region in rows down, in two's complement (`serial`, with `flow`).
+    DisplacementY,
     /// A decision is valid: that of all regions (`pipelined`), or of one region (`serial`,
     /// `raster`).
     DecisionValid,
@@ -135,6 +140,8 @@ impl PortRole {
             | Self::ScoreIndex
             | Self::Region
             | Self::AnyScore
+            | Self::DisplacementX
+            | Self::DisplacementY
             | Self::Score(_)
             | Self::TemporalCount
             | Self::ForwardPixel
@@ -319,6 +326,8 @@ fn port_name(role: PortRole) -> String {
         PortRole::ScoreIndex => "score_index_o".to_owned(),
         PortRole::Region => "region_o".to_owned(),
         PortRole::AnyScore => "score_o".to_owned(),
+        PortRole::DisplacementX => "displacement_x_o".to_owned(),
+        PortRole::DisplacementY => "displacement_y_o".to_owned(),
         PortRole::DecisionValid => "decision_valid_o".to_owned(),
         PortRole::Srs => "srs_o".to_owned(),
         PortRole::Trs => "trs_o".to_owned(),

@@ -97,8 +97,10 @@ pub const LEAVES: &[Leaf] = leaves! {
     "serial_addresses" => [],
     "serial_constant" => [],
     "serial_controls" => [],
+    "serial_flow" => [],
     "serial_sequencer" => [
-        "serial_states", "serial_regions", "serial_addresses", "serial_constant", "serial_controls"
+        "serial_states", "serial_regions", "serial_flow", "serial_addresses", "serial_constant",
+        "serial_controls",
     ],
     "serial_parallel_feed" => [],
     "serial_places" => [],

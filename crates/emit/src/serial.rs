@@ -11,8 +11,9 @@ use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    FeatureKind, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole, SerialDesign,
-    SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource, VoteCombination, bits_for,
+    FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole,
+    SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource, VoteCombination,
+    bits_for,
 };
 
 #[derive(Template)]
@@ -53,6 +54,8 @@ struct SerialTop {
     minima: Vec<String>,
     summary_level: String,
     summarizes: bool,
+    /// True if the ports have displacements.
+    displaces: bool,
     sync: Option<FrameSync>,
     valid: &'static str,
     ready: &'static str,
@@ -137,6 +140,7 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> SerialTo
         minima: minima(design),
         summary_level: summary_level_signal(&design),
         summarizes: design.periphery().is_some(),
+        displaces: design.flow_search().is_some(),
         sync: FrameSync::with_ready(&design, frame_beats(design)),
         valid: frame_sync::valid_signal(&design),
         ready: frame_sync::ready_signal(&design),
@@ -211,6 +215,7 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
     let mut list: Vec<_> =
         numbers.iter().map(|(name, value)| named((name, value.to_string()))).collect();
     list.extend(FeatureKind::ALL.iter().map(|&kind| score_index(design, kind)));
+    list.extend(design.flow_search().iter().flat_map(flow_parameters).map(named));
     if let (Some(periphery), Some(sums)) = (design.periphery(), design.block_mean_division()) {
         let factor_bits = bits_for(sums.factor);
         let means = [
@@ -224,6 +229,20 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
         list.extend(means.map(named));
     }
     list
+}
+
+/// Returns the parameters of the search of `flow`.
+fn flow_parameters(search: &FlowSearch) -> [(&'static str, String); 5] {
+    let bits = search.factor_bits;
+    // The first factor is in the lowest bits.
+    let factors = search.factors.iter().rev().map(|factor| format!("{bits}'d{factor}"));
+    [
+        ("FLOW_RADIUS", search.radius.to_string()),
+        ("FLOW_FACTOR_BITS", bits.to_string()),
+        ("FLOW_FACTORS", format!("{{{}}}", factors.collect::<Vec<_>>().join(", "))),
+        ("LEAST_BITS", search.product_bits.to_string()),
+        ("COORDINATE_BITS", search.coordinate_bits().to_string()),
+    ]
 }
 
 /// Returns the parameter with the number of a feature's score, which is 0 for a feature that the

@@ -26,7 +26,8 @@ impl Engine {
     /// Returns the 64-bit FNV-1a hash of the results of the last frame. It covers, in this order
     /// and little-endian: every pixel of the screen as two bytes; SRS, TRS and action of every
     /// region as [`FrameOutcome::region_bytes`] packs them; the scores, feature by feature, as
-    /// eight bytes each; the temporal counts as four bytes each.
+    /// eight bytes each; the temporal counts as four bytes each; the displacements, if there are
+    /// any, as two bytes each, dx and dy in two's complement.
     #[must_use]
     pub fn digest(&self) -> u64 {
         let mut hash = FnvHasher::new();
@@ -40,6 +41,8 @@ impl Engine {
         hash.update(outcome.region_bytes());
         hash.update(outcome.scores.iter().flatten().flat_map(|score| score.to_le_bytes()));
         hash.update(outcome.temporal_count.iter().flat_map(|count| count.to_le_bytes()));
+        let displacements = outcome.displacements.iter().flat_map(|one| [one.dx, one.dy]);
+        hash.update(displacements.map(i8::cast_unsigned));
         hash.0
     }
 }

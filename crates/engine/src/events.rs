@@ -71,6 +71,10 @@ enum EventField {
     /// The score of the feature with this number.
     Score(usize),
     TemporalCount,
+    /// The columns to the right by which the content of the region moved.
+    DisplacementRight,
+    /// The rows down by which the content of the region moved.
+    DisplacementDown,
     Action,
 }
 
@@ -78,9 +82,13 @@ impl EventField {
     fn kind(self) -> EventColumnType {
         match self {
             Self::Frame | Self::Time | Self::Score(_) => EventColumnType::Long,
-            Self::Column | Self::Row | Self::Left | Self::Top | Self::TemporalCount => {
-                EventColumnType::Int
-            }
+            Self::Column
+            | Self::Row
+            | Self::Left
+            | Self::Top
+            | Self::TemporalCount
+            | Self::DisplacementRight
+            | Self::DisplacementDown => EventColumnType::Int,
             Self::Srs | Self::Trs => EventColumnType::Flag,
             Self::Action => EventColumnType::Text,
         }
@@ -103,6 +111,8 @@ impl EventField {
             Self::Trs => EventValue::Flag(outcome.trs[region]),
             Self::Score(feature) => long_value(outcome.scores[feature][region]),
             Self::TemporalCount => int_value(outcome.temporal_count[region] as usize),
+            Self::DisplacementRight => EventValue::Int(outcome.displacements[region].dx.into()),
+            Self::DisplacementDown => EventValue::Int(outcome.displacements[region].dy.into()),
             Self::Action => EventValue::Text(outcome.actions[region].name()),
         }
     }
@@ -132,8 +142,13 @@ fn columns(camera: &Camera) -> Vec<(EventColumn, EventField)> {
         ("srs", EventField::Srs),
         ("trs", EventField::Trs),
     ];
-    let after = [("t_count", EventField::TemporalCount), ("action", EventField::Action)];
-    let all = before.map(named_field).into_iter().chain(scores).chain(after.map(named_field));
+    let flow = camera.displacement_feature().map_or(&[][..], |_| {
+        &[("dx", EventField::DisplacementRight), ("dy", EventField::DisplacementDown)]
+    });
+    let after =
+        [&[("t_count", EventField::TemporalCount)], flow, &[("action", EventField::Action)]];
+    let after = after.concat().into_iter().map(named_field);
+    let all = before.map(named_field).into_iter().chain(scores).chain(after);
     all.map(|(name, field)| (EventColumn { name, value_type: field.kind() }, field)).collect()
 }
 

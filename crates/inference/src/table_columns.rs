@@ -110,8 +110,7 @@ const RELATIVE_LIMIT: &str =
 const AGREEMENT: &str = "frames in which every output has its largest value at the same place";
 const COSINE: &str = "cosine of the angle between all outputs and those of a whole computation";
 const LIMITS: &str = "exact: limits of 0; uniform: one relative limit; frozen: nothing after the first frame; chosen";
-const SENT: &str =
-    "bytes that the camera sends: two bits per region, pixels of active regions and means";
+const SENT: &str = "bytes that the camera sends: two bits per region, displacements, pixels of active regions and means";
 const PICTURE: &str = "PSNR of the receiver's screen against the whole frame";
 const FINDINGS_AGREE: &str =
     "share of the network's outputs for the whole frame that are the same behind the camera";

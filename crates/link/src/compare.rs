@@ -22,7 +22,6 @@ use crate::{
     FrameTaker, LinkError, LinkFigures, LinkReport, LinkUnit, Quality, SenderCameras, SenderReport,
     Timeline, files,
 };
-use foveate_design::DECISION_BITS;
 
 /// The request of a comparison.
 #[derive(Clone, Debug)]
@@ -216,8 +215,7 @@ impl EqualFigure {
 }
 
 fn region_point(seen: &ClipResults, measured: &SweptResult, timeline: &Timeline) -> CurvePoint {
-    let map = DECISION_BITS * u64::from(seen.design.regions()) * timeline.frames();
-    let bits = map + measured.pixels * u64::from(seen.design.pixel_bits());
+    let bits = seen.design.bits_sent(timeline.frames(), measured.pixels);
     CurvePoint {
         sender: "region",
         setting: measured.swept.key,

@@ -6,7 +6,7 @@
 //! core, and one at a clock so fast that the core takes no time. So the clocks of the core can be
 //! counted, or left out. The third model has the link itself as its sink.
 
-use foveate_design::{DECISION_BITS, Design, RasterTiming};
+use foveate_design::{Design, RasterTiming};
 use foveate_frame::FramePixels;
 use foveate_timed::{BeatOffer, FrameDelivery, RowSensor, SinkPattern, TimedError, TimedModel};
 
@@ -80,7 +80,7 @@ impl<'a> RasterArray<'a> {
         let Self { design, times, .. } = self;
         let (clocked, instant) = (self.clocked.finish(), self.instant.finish());
         let (mut units, mut added_clocks) = (Vec::new(), 0);
-        let map = DECISION_BITS * u64::from(design.columns());
+        let map = design.bits_per_region() * u64::from(design.columns());
         for ((place, clocked), (_, instant)) in clocked.outputs().zip(instant.outputs()) {
             let read_ns = times.timeline.row_read_ns(place.0, place.1 * design.region_size());
             let unit = |decided_ns, sent_ns, bits| LinkUnit {

@@ -13,11 +13,10 @@
 //! which may take a frame when all of it has been read, and send decisions and pixels slot by slot,
 //! at the times of [`DepartureTiming`]. Or it is a [`RasterArray`], which takes pixels as they are
 //! read, and sends one row of regions after the other: the decisions of a row when the last of them
-//! falls, and the pixels when the last word is out. A decision has two bits.
+//! falls, and the pixels when the last word is out. A decision has two bits, and is followed by the
+//! displacement of its region if the design has `flow`.
 
-use foveate_design::{
-    DECISION_BITS, DepartureTiming, Design, Hardware, RasterTiming, RegionAction,
-};
+use foveate_design::{DepartureTiming, Design, Hardware, RasterTiming, RegionAction};
 use foveate_frame::FramePixels;
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
@@ -179,7 +178,7 @@ impl<'a> SenderCameras<'a> {
             return None;
         }
         let (size, rows) = (self.design.region_size(), self.design.rows());
-        let map = DECISION_BITS * u64::from(self.design.columns());
+        let map = self.design.bits_per_region() * u64::from(self.design.columns());
         let mut units = Vec::new();
         for (frame, sent) in (0..).zip(sent) {
             for (row, &pixels) in (0..rows).zip(&sent.rows) {
@@ -248,7 +247,8 @@ impl<'a> SenderCameras<'a> {
                 let wait = u64::from(slot) * slot_clocks;
                 let decided = self.departure_ns(frame, decision_frames, decision_clocks + wait);
                 // The slot has the regions `slot`, `slot + fold`, `slot + 2 fold` and so on.
-                let map = DECISION_BITS * u64::from((regions - slot).div_ceil(fold));
+                let map =
+                    self.design.bits_per_region() * u64::from((regions - slot).div_ceil(fold));
                 units.push(LinkUnit {
                     frame,
                     read_ns: read,

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The scores of one region, computed from its stream alone.
 
-use foveate_camera::{Camera, DenoiseFilter, FeatureKind, Payload, Periphery, SpatialFeature};
+use foveate_camera::{
+    Camera, DenoiseFilter, Displacement, FeatureKind, Payload, Periphery, SpatialFeature,
+};
 
 use crate::ThresholdInputs;
 use crate::conversions::{as_u64, index};
+use crate::feature::flow::flow_match;
 use crate::feature::score;
 use crate::periphery::block_means;
 use crate::pixel_square::PixelSquare;
@@ -121,6 +124,14 @@ impl RegionScorer {
     #[must_use]
     pub fn temporal_count(&self, reference: Option<&[u16]>, thresholds: &ThresholdInputs) -> u32 {
         changed_pixels(&self.scored_region(reference), thresholds.temporal_level)
+    }
+
+    /// Returns the displacement of the region since its reference, or `None` for a camera without
+    /// `flow`. `reference` is `None` if there is no valid one.
+    #[must_use]
+    pub fn displacement(&self, reference: Option<&[u16]>) -> Option<Displacement> {
+        let radius = self.features.iter().find_map(SpatialFeature::radius)?;
+        Some(flow_match(&self.scored_region(reference), radius).displacement)
     }
 
     fn scored_region<'a>(&'a self, reference: Option<&'a [u16]>) -> ScoredRegion<'a> {

@@ -70,6 +70,18 @@ pub enum PacketError {
         /// The largest allowed number.
         most: u64,
     },
+    /// A displacement is outside the search of the design.
+    #[error(
+        "the displacement of a packet cannot be ({dx}, {dy}): its numbers are -{radius} to {radius}"
+    )]
+    DisplacementOutOfRange {
+        /// The columns to the right.
+        dx: i8,
+        /// The rows down.
+        dy: i8,
+        /// The radius of the search.
+        radius: u32,
+    },
     /// The number of values differs from that in such a packet of the design.
     #[error("a {packet} of this design carries {right} {what}, not {found}")]
     ValueCountMismatch {
@@ -91,6 +103,7 @@ impl PacketError {
         match *self {
             Self::NoFrame { .. }
             | Self::FieldOutOfRange { .. }
+            | Self::DisplacementOutOfRange { .. }
             | Self::ValueCountMismatch { .. } => None,
             Self::UnsupportedVersion { frame, .. }
             | Self::DesignMismatch { frame, .. }

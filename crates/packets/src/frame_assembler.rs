@@ -91,6 +91,7 @@ impl FrameAssembler {
                 Packet::Frame(_) | Packet::Register(_) => {}
                 Packet::Row(row) => open.take_row(row),
                 Packet::Scores(scores) => open.take_scores(scores),
+                Packet::Flow(flow) => open.take_flow(flow),
                 Packet::Region(region) => open.take_region(region, columns),
                 Packet::End(end) => {
                     open.take_end(end);

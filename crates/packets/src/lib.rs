@@ -25,8 +25,8 @@ pub use frame_assembler::FrameAssembler;
 pub use frame_clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
 pub use frame_info::FrameInfo;
 pub use packet::{
-    EndPacket, Packet, RegionDecision, RegionFlags, RegionPacket, RegisterPacket, RowPacket,
-    ScoresPacket,
+    EndPacket, FlowPacket, Packet, RegionDecision, RegionFlags, RegionPacket, RegisterPacket,
+    RowPacket, ScoresPacket,
 };
 pub use packet_layout::{MAGIC, PacketLayout, VERSION};
 pub use packet_splitter::{PacketSplitter, StreamItem};

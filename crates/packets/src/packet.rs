@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packets as values, and their checks: only bytes that exactly match the layout are a packet.
 
+use foveate_design::Displacement;
+
 use crate::FrameInfo;
 use crate::packet_layout::{
     END_WORDS, FRAME_WORDS, HEAD_AND_TAIL_WORDS, MAGIC, MARK, PacketLayout, REGISTER_WORDS,
@@ -37,6 +39,15 @@ pub struct ScoresPacket {
     pub temporal_count: Vec<u32>,
     /// The scores, by feature and then by region.
     pub scores: Vec<Vec<u64>>,
+}
+
+/// The content of a FLOW packet: the displacements of a row of regions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FlowPacket {
+    /// The number of the row.
+    pub row: u32,
+    /// The displacement of each region.
+    pub displacements: Vec<Displacement>,
 }
 
 /// The flags of a REGION packet.
@@ -98,6 +109,8 @@ pub enum Packet {
     End(EndPacket),
     /// A command to a board, or the answer to one. It belongs to no frame.
     Register(RegisterPacket),
+    /// The displacements of a row of regions.
+    Flow(FlowPacket),
 }
 
 /// The type number of a FRAME in the head of a packet. The other types follow.
@@ -107,6 +120,7 @@ pub(crate) const SCORES_TYPE: u8 = 3;
 pub(crate) const REGION_TYPE: u8 = 4;
 pub(crate) const END_TYPE: u8 = 5;
 pub(crate) const REGISTER_TYPE: u8 = 6;
+pub(crate) const FLOW_TYPE: u8 = 7;
 
 /// The first word of a packet.
 #[derive(Clone, Copy, Debug)]
@@ -154,6 +168,7 @@ impl PacketHead {
         match self.kind {
             ROW_TYPE => is_row_head(layout.row_bytes()),
             SCORES_TYPE => layout.info().has_scores && is_row_head(layout.scores_bytes()),
+            FLOW_TYPE => layout.has_flow() && is_row_head(layout.flow_bytes()),
             REGION_TYPE => {
                 let flags = RegionFlags::of(self.flags);
                 self.row < rows
@@ -203,6 +218,7 @@ impl Packet {
             (REGION_TYPE, Some(layout)) => Self::Region(region(head, payload, layout)?),
             (END_TYPE, _) => Self::End(end(head, payload)?),
             (REGISTER_TYPE, _) => Self::Register(register(head, payload)?),
+            (FLOW_TYPE, Some(layout)) => Self::Flow(flow(head, payload, layout)?),
             _ => return None,
         };
         debug_assert_eq!(bytes.len(), payload.len() + HEAD_AND_TAIL_WORDS * WORD_BYTES);
@@ -279,6 +295,17 @@ fn scores(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<Sco
         }
     }
     Some(ScoresPacket { row: head.row.into(), temporal_count, scores })
+}
+
+fn flow(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<FlowPacket> {
+    let (bytes, radius) = (payload.iter().take(index(layout.columns())), layout.flow_radius()?);
+    let displacements = bytes.map(|byte| {
+        // A shift to the left and one to the right extend the sign of four bits.
+        let bits = byte.cast_signed();
+        let displacement = Displacement { dx: bits << 4 >> 4, dy: bits >> 4 };
+        (displacement.largest_number() <= radius).then_some(displacement)
+    });
+    Some(FlowPacket { row: head.row.into(), displacements: displacements.collect::<Option<_>>()? })
 }
 
 fn region(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<RegionPacket> {

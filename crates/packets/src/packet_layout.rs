@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The lengths of the packets of a design, and the ranges of their fields.
 
-use foveate_design::{Camera, Design, IrrelevantRendering, Payload};
+use foveate_design::{Camera, Design, IrrelevantRendering, Payload, SpatialFeature};
 
 use crate::word_fields::{checked_field, checked_u8, checked_u16, index};
 use crate::{FrameInfo, PacketError};
@@ -29,6 +29,8 @@ pub struct PacketLayout {
     info: FrameInfo,
     /// The largest score of each feature.
     score_max: Vec<u64>,
+    /// The radius of the search of `flow`; `None` for a design without `flow`.
+    flow_radius: Option<u32>,
 }
 
 impl PacketLayout {
@@ -47,7 +49,8 @@ impl PacketLayout {
         let layout = Self::without_checks(design, has_scores, ticks_per_second)?;
         checked_field("ticks per second", ticks_per_second.into(), 1..=u32::MAX.into())?;
         let scores = if has_scores { layout.scores_bytes() } else { 0 };
-        for bytes in [layout.row_bytes(), layout.region_bytes(false), scores] {
+        let flow = if layout.has_flow() { layout.flow_bytes() } else { 0 };
+        for bytes in [layout.row_bytes(), layout.region_bytes(false), scores, flow] {
             checked_u16("length in words", (bytes / WORD_BYTES) as u64)?;
         }
         Ok(layout)
@@ -88,7 +91,8 @@ impl PacketLayout {
             time: 0,
         };
         let score_max = camera.features().iter().map(|feature| feature.score_max());
-        Ok(Self { info, score_max: score_max.collect() })
+        let flow_radius = camera.displacement_feature().and_then(SpatialFeature::radius);
+        Ok(Self { info, score_max: score_max.collect(), flow_radius })
     }
 
     /// Returns the content of every FRAME of the design, in which `time` is 0 and `first` is false.
@@ -118,6 +122,17 @@ impl PacketLayout {
     #[must_use]
     pub fn has_periphery(&self) -> bool {
         self.info.blocks > 0
+    }
+
+    /// Returns whether displacements are sent.
+    #[must_use]
+    pub fn has_flow(&self) -> bool {
+        self.flow_radius.is_some()
+    }
+
+    /// Returns the largest number of a displacement; `None` for a design without `flow`.
+    pub(crate) fn flow_radius(&self) -> Option<u32> {
+        self.flow_radius
     }
 
     /// Returns the number of bytes of a pixel or mean.
@@ -152,6 +167,12 @@ impl PacketLayout {
     #[must_use]
     pub fn scores_bytes(&self) -> usize {
         packet_bytes(index(self.columns()) * self.record_bytes(), WORD_BYTES)
+    }
+
+    /// Returns the number of bytes of a FLOW.
+    #[must_use]
+    pub fn flow_bytes(&self) -> usize {
+        packet_bytes(index(self.columns()), WORD_BYTES)
     }
 
     /// Returns the number of bytes of a REGION with pixels or with means.

@@ -2,7 +2,11 @@
 //! Makes packets. Each function appends one packet to a vector, or appends nothing and fails if the
 //! packet does not fit the format.
 
-use crate::packet::{END_TYPE, FRAME_TYPE, REGION_TYPE, REGISTER_TYPE, ROW_TYPE, SCORES_TYPE};
+use foveate_design::Displacement;
+
+use crate::packet::{
+    END_TYPE, FLOW_TYPE, FRAME_TYPE, REGION_TYPE, REGISTER_TYPE, ROW_TYPE, SCORES_TYPE,
+};
 use crate::packet_layout::{
     END_WORDS, FRAME_WORDS, HEAD_AND_TAIL_WORDS, MAGIC, MARK, PacketLayout, REGISTER_WORDS,
     WORD_BYTES,
@@ -102,6 +106,34 @@ fn append_record(
     }
     check_count("SCORES", "numbers of a region", count + region.count(), expected)?;
     records.resize(start + layout.record_bytes(), 0);
+    Ok(())
+}
+
+/// Appends the FLOW of a row of regions.
+///
+/// # Errors
+/// Fails if there is no such row, if the design sends no displacements, if their number is not that
+/// of the regions, or if the design cannot find one of them.
+pub fn append_flow(
+    out: &mut Vec<u8>,
+    layout: &PacketLayout,
+    number: u32,
+    row: u32,
+    displacements: &[Displacement],
+) -> Result<(), PacketError> {
+    let head = PacketFields::of_row(FLOW_TYPE, layout, row)?;
+    let Some(radius) = layout.flow_radius() else {
+        let (field, value, most) = ("type", FLOW_TYPE.into(), REGISTER_TYPE.into());
+        return Err(PacketError::FieldOutOfRange { field, value, least: FRAME_TYPE.into(), most });
+    };
+    check_count("FLOW", "displacements", displacements.len(), layout.info().columns.into())?;
+    if let Some(wrong) = displacements.iter().find(|one| one.largest_number() > radius) {
+        let Displacement { dx, dy } = *wrong;
+        return Err(PacketError::DisplacementOutOfRange { dx, dy, radius });
+    }
+    append_packet(out, head, layout.flow_bytes() / WORD_BYTES, number, |out| {
+        out.extend(displacements.iter().map(|one| (one.dx & 15 | one.dy << 4).cast_unsigned()));
+    });
     Ok(())
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A received frame: its decisions, its regions and its losses.
 
-use foveate_design::{IrrelevantRendering, RegionAction};
+use foveate_design::{Displacement, IrrelevantRendering, RegionAction};
 
 use crate::word_fields::index;
 use crate::{
-    EndPacket, FrameInfo, PacketLayout, RegionDecision, RegionPacket, RowPacket, ScoresPacket,
-    StreamLoss,
+    EndPacket, FlowPacket, FrameInfo, PacketLayout, RegionDecision, RegionPacket, RowPacket,
+    ScoresPacket, StreamLoss,
 };
 
 /// The pixels or means that were received for a region.
@@ -31,6 +31,9 @@ pub struct ReceivedFrame {
     pub temporal_count: Vec<u32>,
     /// The scores, by feature and then by region; 0 if they are not known.
     pub scores: Vec<Vec<u64>>,
+    /// The displacement of each region; 0 if it is not known. It is empty for a design without
+    /// `flow`.
+    pub displacements: Vec<Displacement>,
     /// The received pixels or means of each region; `None` if nothing was received.
     pub contents: Vec<Option<RegionContent>>,
     rows: Vec<ReceivedRowParts>,
@@ -43,18 +46,21 @@ pub struct ReceivedFrame {
 struct ReceivedRowParts {
     decisions: bool,
     scores: bool,
+    flow: bool,
 }
 
 impl ReceivedFrame {
     pub(crate) fn new(number: u32, info: Option<FrameInfo>, layout: &PacketLayout) -> Self {
         let regions = layout.regions();
         let features = layout.score_fields().count() - 1;
+        let displaced = if layout.has_flow() { regions } else { 0 };
         Self {
             number,
             info,
             decisions: vec![RegionDecision::default(); regions],
             temporal_count: vec![0; regions],
             scores: vec![vec![0; regions]; features],
+            displacements: vec![Displacement::default(); displaced],
             contents: vec![None; regions],
             rows: vec![ReceivedRowParts::default(); index(layout.rows())],
             end: None,
@@ -105,6 +111,15 @@ impl ReceivedFrame {
         }
     }
 
+    pub(crate) fn take_flow(&mut self, flow: FlowPacket) {
+        let (at, columns) = (index(flow.row), flow.displacements.len());
+        match self.rows.get_mut(at) {
+            Some(parts) if !parts.flow => parts.flow = true,
+            _ => return self.count_misplaced(),
+        }
+        replace_from(&mut self.displacements, at * columns, flow.displacements);
+    }
+
     pub(crate) fn take_region(&mut self, region: RegionPacket, columns: u32) {
         let at = index(region.row) * index(columns) + index(region.column);
         match self.contents.get_mut(at) {
@@ -144,6 +159,9 @@ impl ReceivedFrame {
             }
             if !parts.scores && layout.info().has_scores {
                 losses.push(StreamLoss::Scores { frame, row });
+            }
+            if !parts.flow && layout.has_flow() {
+                losses.push(StreamLoss::Flow { frame, row });
             }
         }
         let decided: Vec<bool> =

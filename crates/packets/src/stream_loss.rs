@@ -46,6 +46,13 @@ pub enum StreamLoss {
         /// The row of regions.
         row: u32,
     },
+    /// The displacements of a row of regions are missing.
+    Flow {
+        /// The number of the frame.
+        frame: u32,
+        /// The row of regions.
+        row: u32,
+    },
     /// The pixels or means of a region are missing.
     Region {
         /// The number of the frame.
@@ -94,6 +101,7 @@ impl StreamLoss {
             Self::Row { dropped: false, .. } => "row",
             Self::Row { dropped: true, .. } => "dropped-row",
             Self::Scores { .. } => "scores",
+            Self::Flow { .. } => "flow",
             Self::Region { dropped: false, .. } => "region",
             Self::Region { dropped: true, .. } => "dropped-region",
             Self::End { .. } => "end",
@@ -113,9 +121,9 @@ impl StreamLoss {
             Self::Frames { frame, count } | Self::Misplaced { frame, count } => {
                 [some(frame), None, None, some(count), None]
             }
-            Self::Row { frame, row, .. } | Self::Scores { frame, row } => {
-                [some(frame), some(row), None, None, None]
-            }
+            Self::Row { frame, row, .. }
+            | Self::Scores { frame, row }
+            | Self::Flow { frame, row } => [some(frame), some(row), None, None, None],
             Self::Region { frame, row, column, .. } => {
                 [some(frame), some(row), some(column), None, None]
             }
@@ -153,6 +161,9 @@ impl fmt::Display for StreamLoss {
             }
             Self::Scores { frame, row } => {
                 write!(f, "frame {frame}, row {row}: scores are missing")
+            }
+            Self::Flow { frame, row } => {
+                write!(f, "frame {frame}, row {row}: displacements are missing")
             }
             Self::Region { frame, row, column, dropped } => {
                 write!(

@@ -225,7 +225,7 @@ impl StreamDecoder {
             actions,
             temporal_count: frame.temporal_count,
             scores: frame.scores,
-            displacements: Vec::new(),
+            displacements: frame.displacements,
             skipped: 0,
         };
         let screen = copy_of_screen(&self.design, self.receiver.rendered())?;

@@ -60,13 +60,13 @@ fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
 }
 
 /// Returns an organization that computes the score of the feature: `pipelined` if it can.
-fn organization_for(kind: FeatureKind) -> Organization {
+pub(crate) fn organization_for(kind: FeatureKind) -> Organization {
     let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
     *Organization::ALL.iter().find(supports).expect("an organization supports each feature")
 }
 
 /// Returns the features that have a design with regions of side `side`.
-fn kinds_for(side: u32) -> Vec<FeatureKind> {
+pub(crate) fn kinds_for(side: u32) -> Vec<FeatureKind> {
     let fits = |&kind: &FeatureKind| match organization_for(kind) {
         Organization::Pipelined | Organization::Raster => true,
         Organization::Serial => side >= 4,
@@ -83,7 +83,10 @@ pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Desig
         for &filter in DenoiseFilter::ALL {
             for &reference in ReferencePolicy::ALL {
                 for &payload in Payload::ALL {
-                    let kind = kinds[designs.len() % kinds.len()];
+                    // Each round begins with the next feature, so that a feature meets both
+                    // references and payloads.
+                    let turn = designs.len() + designs.len() / kinds.len();
+                    let kind = kinds[turn % kinds.len()];
                     let mut config = config(size, side, bits, features_with(kind));
                     config.hardware.organization = organization_for(kind).into();
                     config.camera.region.neighborhood = neighborhood;

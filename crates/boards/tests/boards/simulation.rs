@@ -61,7 +61,7 @@ fn receive(design: &Design, bytes: &[u8]) -> Result<ReceivedFrames, String> {
                     received.rows.push(std::mem::take(&mut rows));
                 }
                 Packet::Register(answer) => received.answers.push(answer),
-                Packet::Frame(_) | Packet::Scores(_) => {}
+                Packet::Frame(_) | Packet::Scores(_) | Packet::Flow(_) => {}
             },
         }
     }

@@ -95,7 +95,7 @@ pub(crate) enum PixelEventFormat {
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum PacketContent {
-    /// Decisions, pixels and means
+    /// Decisions, displacements, pixels and means
     Plain,
     /// The scores of all regions, too
     Scores,

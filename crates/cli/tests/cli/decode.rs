@@ -45,6 +45,33 @@ fn a_stream_becomes_what_was_simulated() {
     assert!(dir.path().join("seen/losses.csv").exists());
 }
 
+#[test]
+fn displacements_come_back_as_they_were_sent() {
+    let dir = tempfile::tempdir().unwrap();
+    let flow = "spatial=[{feature=\"edge\"},{feature=\"flow\",radius=2}]";
+    let design = ["--preset", "serial", "--set", flow, "--events", "csv,parquet", "--quiet"];
+    let simulate = ["simulate", "scene:street", "-o", "sent", "--frames", "4", "--packets=scores"];
+    run_successfully(dir.path(), &[&simulate[..], &design].concat());
+    let decode = ["decode", "sent/packets.bin", "-o", "seen"];
+    run_successfully(dir.path(), &[&decode[..], &design].concat());
+    for name in ["flow.npy", "score_flow.npy", "events.csv", "events.parquet"] {
+        let of = |folder: &str| fs::read(dir.path().join(folder).join(name)).unwrap();
+        assert!(of("sent") == of("seen"), "{name}");
+    }
+    let array = fs::read(dir.path().join("sent/flow.npy")).unwrap();
+    let (header, numbers) = array.split_at(128);
+    let header = String::from_utf8_lossy(header);
+    assert!(header.contains("'descr': '|i1'") && header.contains("(4, 28, 28, 2)"), "{header}");
+    assert_eq!(numbers.len(), 4 * 28 * 28 * 2);
+    assert!(numbers[..28 * 28 * 2].iter().all(|&number| number == 0));
+    assert!(numbers.contains(&2) && numbers.contains(&254) && !numbers.contains(&3));
+    let sums = |folder: &str| {
+        let bytes = fs::read(dir.path().join(folder).join("summary.json")).unwrap();
+        serde_json::from_slice::<Value>(&bytes).unwrap()["bandwidth"].clone()
+    };
+    assert_eq!(sums("sent"), sums("seen"));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_stream_that_sends_nothing_is_left_at_once() {

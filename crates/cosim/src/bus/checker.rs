@@ -226,6 +226,7 @@ impl<'a> SessionChecker<'a> {
             Packet::End(end) => self.check_end(frame, end),
             Packet::Scores(_) => Err(BusMismatch::from_presence("a SCORES packet", false)),
             Packet::Register(_) => Err(BusMismatch::from_presence("a REGISTER packet", false)),
+            Packet::Flow(_) => Err(BusMismatch::from_presence("a FLOW packet", false)),
         }
     }
 
@@ -591,8 +592,8 @@ fn encode_packet(layout: &PacketLayout, frame: u32, packet: &Packet) -> Vec<u8> 
             )
         }
         Packet::End(end) => packet_writer::append_end(&mut bytes, frame, *end),
-        // A core sends neither; the caller reports them.
-        Packet::Scores(_) | Packet::Register(_) => Ok(()),
+        // A core sends none of them; the caller reports them.
+        Packet::Scores(_) | Packet::Register(_) | Packet::Flow(_) => Ok(()),
     };
     bytes
 }

@@ -7,11 +7,14 @@
 
 use super::scenes::{SceneBuilder, taken_frame};
 use super::traffic::{ExpectedEventCount, ExpectedFrame, FrameFate, Traffic};
+use super::video_damage::send_first_words;
 use crate::situations::{can_drop_regions, can_drop_rows};
 use foveate_frame::Frame;
 
 /// The number of attempts for each event, one for each parity of the clock.
 const ATTEMPTS_PER_EVENT: u32 = 2;
+/// The number of clocks by which a core on a bus may decide later than its array alone.
+const DECISION_MARGIN: u64 = 500;
 
 impl<'a> SceneBuilder<'a> {
     /// Returns the traffic of the scene: every event, each in a session of its own.
@@ -59,7 +62,8 @@ impl<'a> SceneBuilder<'a> {
         traffic.expect_interrupt(false);
     }
 
-    /// Sends a frame with damage in every line.
+    /// Sends frames with damage in every line. The first line of a frame takes a clock more than
+    /// the others, so two lines of the same place in their frames show both parities.
     fn damage_every_line(
         &mut self,
         traffic: &mut Traffic<'a>,
@@ -68,13 +72,17 @@ impl<'a> SceneBuilder<'a> {
     ) {
         self.begin_clearing(traffic, event, true);
         let height = self.design().height();
-        let mut frame = self.frame_source().quiet_frame();
-        for y in 0..height {
-            self.align_traffic(traffic, y);
-            line(traffic, &mut frame, y);
+        for parity in 0..ATTEMPTS_PER_EVENT {
+            // A frame that follows at once waits until this one is decided.
+            traffic.drain();
+            let mut frame = self.frame_source().quiet_frame();
+            for y in 0..height {
+                self.align_traffic(traffic, parity);
+                line(traffic, &mut frame, y);
+            }
+            traffic.expect_frame(taken_frame(frame));
         }
-        traffic.expect_frame(taken_frame(frame));
-        self.end_clearing(traffic, event, ExpectedEventCount::Exactly(height));
+        self.end_clearing(traffic, event, ExpectedEventCount::Exactly(ATTEMPTS_PER_EVENT * height));
     }
 
     /// Sends a line without its last transfer; the core repeats the last pixel that came.
@@ -101,18 +109,17 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_beat(false, true, &words[0]);
     }
 
-    /// Sends frames that end after their first line, because the next frame begins.
+    /// Sends frames that end after their first line, or within a single line, because the next frame
+    /// begins.
     fn early_frames(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "sof_early", true);
         let height = self.design().height();
         for parity in 0..ATTEMPTS_PER_EVENT {
             let mut frame = self.frame_source().quiet_frame();
-            let words = traffic.words_per_line();
-            let first = frame.row(0).to_vec();
-            for (at, pixels) in traffic.split_line(&first).enumerate() {
-                traffic.send_beat(at == 0, at == words - 1, pixels);
-            }
-            (1..height).for_each(|y| frame.write_row(0, y, &first));
+            let words = traffic.words_per_line() - usize::from(height == 1);
+            let row = frame.row(0).to_vec();
+            let first = send_first_words(traffic, words, &row, (true, height > 1));
+            (0..height).for_each(|y| frame.write_row(0, y, &first));
             traffic.expect_frame(taken_frame(frame));
             self.align_traffic(traffic, parity);
         }
@@ -135,15 +142,17 @@ impl<'a> SceneBuilder<'a> {
     /// Sends frames while packets wait for the sink. The first transfer of each frame is enough.
     fn skipped_frames(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "frame_skipped", false);
-        traffic.hold_sink(2 * self.design().timing().clocks_per_frame() + 2000);
+        traffic.hold_sink(u64::from(u32::MAX));
         traffic.send_frame(taken_frame(self.frame_source().quiet_frame()));
-        traffic.wait_clocks(self.design().timing().clocks_per_frame() / 2 + 500);
+        // A frame that comes before this one is decided waits, and is then skipped at any clock.
+        traffic.wait_clocks(self.design().timing().departure().decision_clocks + DECISION_MARGIN);
         for parity in 0..ATTEMPTS_PER_EVENT {
             self.align_traffic(traffic, parity);
             self.stray_transfer(traffic, true);
             let frame = self.frame_source().quiet_frame();
             traffic.expect_frame(ExpectedFrame { fate: FrameFate::Skipped, ..taken_frame(frame) });
         }
+        traffic.hold_sink(0);
         self.end_clearing(traffic, "frame_skipped", ExpectedEventCount::SkippedFrames);
     }
 
@@ -159,8 +168,7 @@ impl<'a> SceneBuilder<'a> {
         let hold = 2 * self.design().timing().clocks_per_frame();
         let line = self.design().region_size() - 1;
         // All attempts send the same frames, so they differ in the parity of the clock alone.
-        let [first, second] =
-            [self.frame_source().noise_frame(), self.frame_source().noise_frame()];
+        let [first, second] = self.frame_source().active_frames();
         for parity in 0..ATTEMPTS_PER_EVENT {
             self.align_traffic(traffic, parity);
             traffic.send_frame_around(taken_frame(first.clone()), line, |traffic| {

@@ -6,7 +6,7 @@ use super::frame_source::BusFrameSource;
 use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, Traffic};
 use super::video_damage::VideoDamage;
 use crate::stimulus::Random;
-use foveate_design::{Camera, Design, RasterDesign};
+use foveate_design::{Camera, Design, RasterDesign, RasterTiming};
 use foveate_emit::{FieldKind, Register};
 use foveate_frame::Frame;
 
@@ -190,23 +190,44 @@ impl<'a> SceneBuilder<'a> {
         traffic
     }
 
-    /// One row of regions leaves while the next two wait until both are decided; none is dropped.
+    /// The packets of one row of regions leave, and the next two rows wait for the sink until both
+    /// are decided. None of the three is dropped. The source waits too, so that neither the second
+    /// pass nor the number of pixels per clock decides when the third row comes.
     fn hold_two_rows(&mut self, traffic: &mut Traffic<'a>) {
-        let (side, line) = (self.design.region_size(), traffic.words_per_line() as u64);
-        // With more pixels per clock the next row comes while the packets of this one still leave.
-        if self.design.height() < 4 * side || self.design.pixels_per_clock() > 1 {
+        let stops = [1, 3].map(|rows| self.lines_to_decide(rows));
+        // Nothing holds back the rows of a frame that is whole, so a fourth one would be dropped.
+        let is_whole = stops[1] >= self.design.height();
+        if self.design.rows() < 3 || (self.design.rows() > 3 && is_whole) {
             return;
         }
         traffic.reset();
         traffic.allow_region_drops();
         traffic.set_gaps(0);
-        let hold = u64::from(side + 3) * line;
-        traffic.send_frame_around(
+        let mut is_held = false;
+        traffic.send_frame_around_each(
             taken_frame(self.frame_source.sparse_frame()),
-            2 * side - 1,
-            |traffic| traffic.hold_sink(hold),
+            stops.map(|line| line.min(self.design.height())),
+            |traffic| {
+                if is_held {
+                    traffic.wait_clocks(traffic.drain_clocks());
+                    traffic.hold_sink(0);
+                    traffic.drain();
+                } else {
+                    traffic.drain();
+                    traffic.hold_sink(u64::from(u32::MAX));
+                    is_held = true;
+                }
+            },
         );
         self.end_session(traffic, 0);
+    }
+
+    /// Returns the number of lines of a frame after which the core can decide the first `rows` rows
+    /// of regions, and nothing of the next row. Each window holds back a line and a word.
+    fn lines_to_decide(&self, rows: u32) -> u32 {
+        let windows = RasterTiming::from_design(self.design).windows;
+        let held_back = if windows > 0 { windows + 1 } else { 0 };
+        rows * self.design.region_size() + held_back
     }
 
     /// Writes thresholds, `restart` and `enable` while frames come.
@@ -350,7 +371,7 @@ impl<'a> SceneBuilder<'a> {
                 fate: FrameFate::CutByReset,
                 ..taken_frame(self.frame_source.noise_frame())
             };
-            traffic.send_torn_frame(cut, lines.min(height));
+            traffic.send_torn_frame(cut, lines.clamp(1, height));
             if is_within {
                 traffic.hold_sink(0);
                 traffic.wait_within_packet();

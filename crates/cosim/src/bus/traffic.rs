@@ -245,11 +245,11 @@ impl<'a> Traffic<'a> {
 
     /// Sends a whole frame.
     pub(super) fn send_frame(&mut self, sent: ExpectedFrame) {
-        self.send_lines(&sent.frame, 0..sent.frame.height());
+        self.send_transfers(&sent.frame, 0..self.transfers(sent.frame.height()));
         self.expect_frame(sent);
     }
 
-    /// Sends a whole frame, and calls `inside` before the line `at`.
+    /// Sends a whole frame, and calls `inside` before the line `at`, but within the frame.
     pub(super) fn send_frame_around(
         &mut self,
         sent: ExpectedFrame,
@@ -259,7 +259,8 @@ impl<'a> Traffic<'a> {
         self.send_frame_around_each(sent, [at], inside);
     }
 
-    /// Sends a whole frame, and calls `inside` before each of the given lines.
+    /// Sends a whole frame, and calls `inside` before each of the given lines, but behind the second
+    /// transfer. When the core has taken the second one, the frame has begun.
     pub(super) fn send_frame_around_each<const COUNT: usize>(
         &mut self,
         sent: ExpectedFrame,
@@ -268,26 +269,35 @@ impl<'a> Traffic<'a> {
     ) {
         let mut from = 0;
         for line in lines {
-            self.send_lines(&sent.frame, from..line);
+            let stop = self.transfers(line).max(2);
+            self.send_transfers(&sent.frame, from..stop);
             inside(self);
-            from = line;
+            from = stop;
         }
-        self.send_lines(&sent.frame, from..sent.frame.height());
+        self.send_transfers(&sent.frame, from..self.transfers(sent.frame.height()));
         self.expect_frame(sent);
     }
 
     /// Sends only the first lines of a frame.
     pub(super) fn send_torn_frame(&mut self, sent: ExpectedFrame, lines: u32) {
-        self.send_lines(&sent.frame, 0..lines);
+        self.send_transfers(&sent.frame, 0..self.transfers(lines));
         self.expect_frame(sent);
     }
 
-    fn send_lines(&mut self, frame: &Frame, range: Range<u32>) {
-        let last = self.words_per_line() - 1;
-        for y in range {
-            for (at, pixels) in self.split_line(frame.row(y)).enumerate() {
-                self.send_beat(at == 0 && y == 0, at == last, pixels);
-            }
+    /// Returns the number of transfers of some lines.
+    fn transfers(&self, lines: u32) -> usize {
+        lines as usize * self.words_per_line()
+    }
+
+    /// Sends some transfers of a frame, which are numbered line by line.
+    fn send_transfers(&mut self, frame: &Frame, range: Range<usize>) {
+        let words = self.words_per_line();
+        let lanes = self.design.pixels_per_clock() as usize;
+        for number in range {
+            let (y, at) = (number / words, number % words);
+            let row = frame.row(u32::try_from(y).expect("a frame has at most 2^16 lines"));
+            let pixels = row.chunks(lanes).nth(at).unwrap_or_default();
+            self.send_beat(number == 0, at == words - 1, pixels);
         }
     }
 

@@ -21,7 +21,7 @@ pub(super) enum VideoDamage {
     LongLines,
     /// The last line does not end in time.
     LongEnd,
-    /// The next frame begins between two lines.
+    /// The next frame begins between two lines, or within the line of a frame that has no others.
     EarlyBetween,
     /// The next frame begins within a line.
     EarlyWithin,
@@ -69,14 +69,16 @@ impl VideoDamage {
         let mut repaired = frame.clone();
         let height = frame.height();
         let chosen: Vec<u32> = (0..DAMAGED_LINES).map(|_| random.up_to_u32(height - 1)).collect();
-        let stop = 1 + random.up_to_u32(height - 2);
+        let stop = if height > 1 { 1 + random.up_to_u32(height - 2) } else { 0 };
         for (y, row) in (0..).zip(rows(frame)) {
             let is_last = y == height - 1;
             let some = self.damages_line(chosen.contains(&y), y == 0 || is_last, is_last);
             match self {
-                Self::EarlyBetween if y == stop => return Some(repeat_last_row(repaired, stop)),
-                Self::EarlyWithin if y == stop => {
-                    let line = send_line_start(traffic, random, row, (false, false));
+                Self::EarlyBetween if y == stop && y > 0 => {
+                    return Some(repeat_last_row(repaired, stop));
+                }
+                Self::EarlyBetween | Self::EarlyWithin if y == stop => {
+                    let line = send_line_start(traffic, random, row, (y == 0, false));
                     repaired.write_row(0, y, &line);
                     return Some(repeat_last_row(repaired, stop + 1));
                 }
@@ -138,7 +140,10 @@ fn send_line_start(
     send_first_words(traffic, words, row, ends)
 }
 
-fn send_first_words(
+/// Sends the first `words` transfers of a line. `sof` says that the first of them begins a frame,
+/// `eol` that the last of them is marked as the end of the line. Returns the line that the core
+/// makes of it.
+pub(super) fn send_first_words(
     traffic: &mut Traffic<'_>,
     words: usize,
     row: &[u16],

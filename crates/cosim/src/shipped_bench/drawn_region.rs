@@ -90,7 +90,7 @@ fn separates_regions(
     let least = thresholds.temporal_min_count;
     let mut good = STRUCTURED_PATTERNS.iter().filter(|&&pattern| {
         generator.draw(pattern);
-        let scores = generator.score_drawn(thresholds);
+        let scores = generator.score_drawn_after(&flat, thresholds);
         scores.is_relevant && scores.changed_pixels_from(&flat, thresholds) >= least
     });
     let has_good = good.next().is_some();
@@ -103,11 +103,12 @@ fn smallest_thresholds(part: &Design, generator: &mut PatternGenerator) -> Thres
     let ThresholdInputs { summary_level, .. } = ThresholdInputs::from_camera(part);
     let blank = ThresholdInputs { summary_level, ..ThresholdAimer::smallest_thresholds() };
     let mut usual = blank;
+    let flat = generator.score(&flat_square(part), &blank);
     let scored: Vec<PatternScores> = STRUCTURED_PATTERNS
         .iter()
         .map(|&pattern| {
             generator.draw(pattern);
-            generator.score_drawn(&blank)
+            generator.score_drawn_after(&flat, &blank)
         })
         .collect();
     let is_needed = part.combine() == VoteCombination::All || part.features().len() == 1;
@@ -142,7 +143,7 @@ pub(super) fn draw_region(
                 let mut picture = if step % 2 == 1 { negative(&drawn) } else { drawn };
                 picture.truncate(picture.len() - kept.len());
                 picture.extend(kept);
-                let scores = generator.score(&picture, thresholds);
+                let scores = generator.score_after(&picture, before, thresholds);
                 let changes = scores.changed_pixels_from(before, thresholds);
                 if scores.is_relevant && wanted.contains(&changes) {
                     return Some((picture, scores));
@@ -163,7 +164,7 @@ pub(super) fn draw_region(
     let last = last.map_or_else(|| first.clone(), |last| last.0);
     let (other, scores) = other.unwrap_or_else(|| {
         let other = negative(&first);
-        let scores = generator.score(&other, thresholds);
+        let scores = generator.score_after(&other, &first_scores, thresholds);
         (other, scores)
     });
     let changes = scores.changed_pixels_from(&first_scores, thresholds);

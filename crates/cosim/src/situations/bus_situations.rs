@@ -17,6 +17,9 @@ pub(crate) const EVENTS: [&str; 8] = [
     "frame_done",
 ];
 
+/// The number of regions for whose packets a core has room; one more may be on its way to the sink.
+const PACKET_REGIONS: u32 = 4;
+
 /// The counts from the buses of a core, over all its sessions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct BusSituationCounts {
@@ -122,11 +125,13 @@ fn can_event_happen(design: RasterDesign<'_>, event: &str) -> bool {
     }
 }
 
-/// Returns true if a sink that stops loses regions: two frames may be under way, and the buffer
-/// holds less.
+/// Returns true if a sink that stops loses regions: two frames may be under way, and the buffer of
+/// the array and the places for packets together hold less.
 pub(crate) fn can_drop_regions(design: RasterDesign<'_>) -> bool {
-    let kept = design.timing().departure().buffered_rows;
-    kept.is_some() && 2 * design.rows() > RasterTiming::from_design(design).buffer_rows
+    let can_lose = design.timing().departure().buffered_rows.is_some();
+    let buffered = RasterTiming::from_design(design).buffer_rows;
+    let overwritten = (2 * design.rows()).saturating_sub(buffered) * design.columns();
+    can_lose && overwritten > PACKET_REGIONS + 1
 }
 
 /// Returns true if a sink that stops loses rows. Two rows wait. So a third row of the same frame is

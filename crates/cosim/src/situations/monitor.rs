@@ -37,6 +37,8 @@ pub(crate) struct SituationMonitor {
     facts: PortSituationCounts,
     regions: RegionTraces,
     beats_per_frame: u64,
+    /// The radius of `flow`, if the design has it.
+    radius: Option<u64>,
     /// The number of clocks in which the first window flushes; `flushes` is that of all windows.
     first_flush_clocks: u64,
     flush_clocks: u64,
@@ -82,6 +84,7 @@ impl SituationMonitor {
             ports: WatchedPorts::new(inputs, outputs),
             facts: PortSituationCounts::default(),
             regions: RegionTraces::of(design, regions),
+            radius: design.displacement_feature().and_then(|flow| flow.radius()).map(u64::from),
             beats_per_frame: design.timing().pixels_per_frame(),
             first_flush_clocks: u64::from(design.region_size()) + 1,
             flush_clocks: (u64::from(design.region_size()) + 1) * flushed_windows(design),
@@ -255,6 +258,7 @@ impl SituationMonitor {
                 *count = Some(clock.value(&self.ports.any_score));
             }
         }
+        self.count_movements(clock);
         if !clock.is_high(&self.ports.decision_valid) {
             return;
         }
@@ -264,6 +268,21 @@ impl SituationMonitor {
         for lane in 0..lanes {
             self.decide_region(clock, lane, first + lane as usize);
         }
+    }
+
+    /// Counts displacements. They are 0 with all scores but that of `flow`.
+    fn count_movements(&mut self, clock: WatchedClock<'_>) {
+        let Some(radius) = self.radius else { return };
+        if !clock.is_high(&self.ports.score_valid) {
+            return;
+        }
+        // A negative coordinate has the highest of 2 or 3 bits.
+        let sign = if radius > 1 { 4 } else { 2 };
+        let distance = |value: u64| if value < sign { value } else { 2 * sign - value };
+        let ports = [&self.ports.displacement_x, &self.ports.displacement_y];
+        let moved = ports.map(|port| distance(clock.value(port)));
+        self.facts.moved += u64::from(moved != [0; 2]);
+        self.facts.moved_far += u64::from(moved == [radius; 2]);
     }
 
     fn decide_region(&mut self, clock: WatchedClock<'_>, lane: u32, region: usize) {

@@ -49,6 +49,10 @@ pub(super) struct PortSituationCounts {
     pub(super) no_start: u64,
     pub(super) whole_behind_error: u64,
     pub(super) underrun: u64,
+    /// The number of regions whose displacement is not 0.
+    pub(super) moved: u64,
+    /// The number of regions that moved as far as `flow` searches, in both directions.
+    pub(super) moved_far: u64,
 }
 
 /// A situation: its name, the designs and modules that can have it, and its count.
@@ -202,6 +206,16 @@ const SITUATIONS: &[PortSituation] = &[
         "a reference is missing",
         |design, _| is_stored_outside(design),
         |facts| facts.underrun,
+    ),
+    situation(
+        "a region has moved",
+        |design, _| design.displacement_feature().is_some(),
+        |facts| facts.moved,
+    ),
+    situation(
+        "a region has moved as far as possible in both directions",
+        |design, _| design.displacement_feature().is_some(),
+        |facts| facts.moved_far,
     ),
 ];
 

@@ -29,6 +29,8 @@ pub(super) struct WatchedPort {
 pub(super) struct WatchedPorts {
     pub(super) any_score: WatchedPort,
     pub(super) decision_valid: WatchedPort,
+    pub(super) displacement_x: WatchedPort,
+    pub(super) displacement_y: WatchedPort,
     pub(super) forward_abort: WatchedPort,
     pub(super) forward_frame: WatchedPort,
     pub(super) forward_last: WatchedPort,
@@ -70,6 +72,8 @@ impl WatchedPorts {
         Self {
             any_score: port(PortRole::AnyScore),
             decision_valid: port(PortRole::DecisionValid),
+            displacement_x: port(PortRole::DisplacementX),
+            displacement_y: port(PortRole::DisplacementY),
             forward_abort: port(PortRole::ForwardAbort),
             forward_frame: port(PortRole::ForwardFrame),
             forward_last: port(PortRole::ForwardLast),

@@ -50,6 +50,16 @@ impl FrameGenerator {
         }
     }
 
+    /// Draws the regions again for which `is_drawn` is true; they are numbered row by row.
+    pub(crate) fn draw_where(
+        &mut self,
+        pattern: StimulusPattern,
+        is_drawn: impl Fn(usize) -> bool,
+    ) {
+        let chosen = self.generators.iter_mut().enumerate().filter(|(at, _)| is_drawn(*at));
+        chosen.for_each(|(_, generator)| generator.draw(pattern));
+    }
+
     /// Returns the drawn frame.
     pub(crate) fn frame(&self) -> Result<Frame, CosimError> {
         let (side, (width, height)) = (self.side, self.size);

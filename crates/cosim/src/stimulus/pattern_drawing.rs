@@ -239,4 +239,28 @@ impl PatternGenerator {
         pixels[to] = shift_pixel(background, amount, true, self.max);
         pixels
     }
+
+    /// Moves a picture.
+    pub(super) fn moved(&mut self, before: &[u16]) -> Vec<u16> {
+        let (side, radius) = (self.side, self.radius.min(self.side - 1));
+        // A number of columns or rows to the right or down, plus the radius.
+        let mut shift = || self.random.index(2 * radius);
+        let (mut columns, rows) = (shift(), shift());
+        if (columns, rows) == (radius, radius) {
+            columns += 1;
+        }
+        let is_new = self.random.one_in(2);
+        let mut pixels = vec![0; before.len()];
+        for (at, pixel) in pixels.iter_mut().enumerate() {
+            let from = |to: usize, shift: usize| (to + radius).checked_sub(shift);
+            let (x, y) = (from(at % side, columns), from(at / side, rows));
+            let is_inside = |from: Option<usize>| from.is_some_and(|from| from < side);
+            let nearest = |from: Option<usize>| from.unwrap_or(0).min(side - 1);
+            *pixel = match is_new && !(is_inside(x) && is_inside(y)) {
+                true => self.random.pixel(self.max),
+                false => before[nearest(y) * side + nearest(x)],
+            };
+        }
+        pixels
+    }
 }

@@ -41,14 +41,21 @@ impl PatternScorer {
         }
     }
 
-    /// Scores a square, and decides with these thresholds if its region is relevant.
-    pub(super) fn score(&mut self, square: &[u16], thresholds: &ThresholdInputs) -> PatternScores {
+    /// Scores a square, and decides with these thresholds if its region is relevant. The reference
+    /// is the square `before`, if there is one.
+    pub(super) fn score(
+        &mut self,
+        square: &[u16],
+        before: Option<&PatternScores>,
+        thresholds: &ThresholdInputs,
+    ) -> PatternScores {
         let (side, added) = (self.side, self.added);
         let inside = |at: usize| at.saturating_sub(added).min(side - 1);
         let width = side + 2 * added;
         let places = (0..width * width).map(|at| (inside(at % width), inside(at / width)));
         self.scorer.load(places.map(|(x, y)| square[y * side + x]), ALL_SIDES);
-        let scores = self.scorer.scores(None, thresholds)[..self.feature_count].to_vec();
+        let reference = before.map(|before| before.denoised.as_slice());
+        let scores = self.scorer.scores(reference, thresholds)[..self.feature_count].to_vec();
         let mut votes = scores.iter().zip(&thresholds.min_score).map(|(score, min)| score >= min);
         let is_relevant = match self.combine {
             VoteCombination::Any => votes.any(|vote| vote),

@@ -58,6 +58,9 @@ pub(crate) enum StimulusPattern {
     Bump,
     /// The last picture, with one pixel moved.
     MovingPixel,
+    /// The last picture, moved by at most the radius of `flow` and not by 0; the pixels that come
+    /// in are new, or repeat the border.
+    Moved,
 }
 
 /// A texture that is a function of the place and the largest pixel.
@@ -113,6 +116,8 @@ pub(crate) struct PatternGenerator {
     pub(super) summary_level: u16,
     /// The number of quadrants drawn so far.
     pub(super) quadrants: usize,
+    /// The largest movement in pixels: the radius of `flow`, or 1 without it.
+    pub(super) radius: usize,
     /// The configured minima of the scores, and the one of changed pixels behind them.
     minima: Vec<u64>,
     configured: ThresholdInputs,
@@ -160,6 +165,8 @@ impl PatternGenerator {
             changes,
             summary_level: summary_level.map_or(0, |level| u16::try_from(level).unwrap_or(max)),
             quadrants: 0,
+            radius: design.displacement_feature().and_then(SpatialFeature::radius).unwrap_or(1)
+                as usize,
             minima: minima.chain([minimum.into()]).collect(),
             configured: ThresholdInputs::from_camera(design),
             scorer: PatternScorer::for_design(design, side),
@@ -214,6 +221,7 @@ impl PatternGenerator {
             StimulusPattern::MeanStep => self.mean_step(before),
             StimulusPattern::Bump => self.bump(before),
             StimulusPattern::MovingPixel => self.moving_pixel(before),
+            StimulusPattern::Moved => self.moved(&before),
         };
     }
 
@@ -239,21 +247,36 @@ impl PatternGenerator {
         let configured = self.configured;
         let scores_before = self.score(&before, &configured);
         let distance = |square: &Vec<u16>| {
-            let now = self.score(square, &configured);
+            let now = self.score_after(square, &scores_before, &configured);
             let changes = || now.changed_pixels_from(&scores_before, &configured).into();
             now.scores.get(score_index).copied().unwrap_or_else(changes).abs_diff(wanted)
         };
         self.pixels = trials.into_iter().min_by_key(distance).expect("there is a first trial");
     }
 
-    /// Scores a square, and decides with these thresholds if its region is relevant.
+    /// Scores a square without a reference, and decides with these thresholds if its region is
+    /// relevant.
     pub(crate) fn score(&mut self, square: &[u16], thresholds: &ThresholdInputs) -> PatternScores {
-        self.scorer.score(square, thresholds)
+        self.scorer.score(square, None, thresholds)
     }
 
-    /// Scores the picture that was drawn last.
-    pub(crate) fn score_drawn(&mut self, thresholds: &ThresholdInputs) -> PatternScores {
-        self.scorer.score(&self.pixels, thresholds)
+    /// Scores a square whose reference is another square.
+    pub(crate) fn score_after(
+        &mut self,
+        square: &[u16],
+        before: &PatternScores,
+        thresholds: &ThresholdInputs,
+    ) -> PatternScores {
+        self.scorer.score(square, Some(before), thresholds)
+    }
+
+    /// Scores the picture that was drawn last. Its reference is another square.
+    pub(crate) fn score_drawn_after(
+        &mut self,
+        before: &PatternScores,
+        thresholds: &ThresholdInputs,
+    ) -> PatternScores {
+        self.scorer.score(&self.pixels, Some(before), thresholds)
     }
 }
 
@@ -270,7 +293,7 @@ mod tests {
     use super::*;
     use foveate_design::DesignConfig;
 
-    const ALL: [StimulusPattern; 28] = [
+    const ALL: [StimulusPattern; 29] = [
         StimulusPattern::Zero,
         StimulusPattern::Max,
         StimulusPattern::Flat,
@@ -299,6 +322,7 @@ mod tests {
         StimulusPattern::MeanStep,
         StimulusPattern::Bump,
         StimulusPattern::MovingPixel,
+        StimulusPattern::Moved,
     ];
 
     #[test]

@@ -24,6 +24,8 @@ use foveate_toolchain::{Cache, Toolchain};
 struct RegionResult {
     count: u64,
     scores: Vec<u64>,
+    /// dx and dy, if the design has `flow`.
+    displacement: Option<[i64; 2]>,
     srs: bool,
     trs: bool,
     /// True if its summary is sent.
@@ -80,6 +82,7 @@ fn functional_results(design: &Design, frames: &[Frame]) -> FrameResults {
             RegionResult {
                 count: outcome.temporal_count[at].into(),
                 scores: outcome.scores.iter().map(|scores| scores[at]).collect(),
+                displacement: outcome.displacements.get(at).map(|d| [d.dx, d.dy].map(i64::from)),
                 srs: outcome.srs[at],
                 trs: outcome.trs[at],
                 summary,
@@ -108,6 +111,7 @@ fn pipelined_results(design: &Design, recording: &Recording, frames: usize) -> F
                     .iter()
                     .map(|f| says(PortRole::Score(f.kind()), lane))
                     .collect(),
+                displacement: None,
                 srs: says(PortRole::Srs, lane) == 1,
                 trs: says(PortRole::Trs, lane) == 1,
                 summary: has_summaries && says(PortRole::Summary, lane) == 1,
@@ -147,6 +151,18 @@ fn serial_results(design: &Design, recording: &Recording) -> FrameResults {
             match index {
                 0 => result.count = says(PortRole::AnyScore),
                 _ => result.scores.push(says(PortRole::AnyScore)),
+            }
+            let feature = index.checked_sub(1).map(|at| usize::try_from(at).unwrap());
+            let feature = feature.map(|at| &design.features()[at]);
+            if let Some(radius) = feature.and_then(|feature| feature.radius()) {
+                // Two's complement of 2 or 3 bits.
+                let sign = if radius > 1 { 4 } else { 2 };
+                let ports = [PortRole::DisplacementX, PortRole::DisplacementY];
+                let signed = |role| {
+                    let value = i64::try_from(says(role)).unwrap();
+                    if value < sign { value } else { value - 2 * sign }
+                };
+                result.displacement = Some(ports.map(signed));
             }
             if says(PortRole::DecisionValid) == 1 {
                 let is = [PortRole::Srs, PortRole::Trs, PortRole::Summary].map(|r| says(r) == 1);
@@ -190,6 +206,7 @@ fn raster_results(design: &Design, recording: &Recording) -> FrameResults {
             results[decided[region]][region] = RegionResult {
                 count: says(PortRole::TemporalCount),
                 scores: design.features().iter().map(score).collect(),
+                displacement: None,
                 srs: says(PortRole::Srs) == 1,
                 trs: says(PortRole::Trs) == 1,
                 summary: says(PortRole::Summary) == 1,
@@ -240,13 +257,19 @@ fn compare_organizations(
             (Some(frames[0].width()), Some(frames[0].height()));
         config.validate().unwrap()
     };
-    let expected = functional_results(&design(OrganizationConfig::Pipelined), frames);
+    let expected = functional_results(&design(serial(PixelFeed::Parallel, 1)), frames);
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
-    for organization in [
+    let kinds: Vec<_> = config.camera.spatial.iter().map(|entry| entry.feature).collect();
+    let supports = |organization: &OrganizationConfig| {
+        let supported = organization.kind().feature_kinds();
+        kinds.iter().all(|kind| supported.contains(kind))
+    };
+    let organizations = [
         OrganizationConfig::Pipelined,
         serial(PixelFeed::Parallel, 1),
         serial(PixelFeed::Raster, 2),
-    ] {
+    ];
+    for organization in organizations.into_iter().filter(supports) {
         let design = design(organization);
         let hardware = design.config().hardware.description();
         let level = CosimLevel::Rcm { columns: design.columns(), rows: design.rows() };
@@ -283,9 +306,12 @@ fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
         let mixed = (x + 131 * y + 7919 * seed).wrapping_mul(0x9e37_79b9);
         u16::try_from((mixed ^ (mixed >> 15)) >> 8 & u32::from(max)).unwrap()
     };
-    let pictures: [&dyn Fn(u32, u32) -> u16; 10] = [
+    let pictures: [&dyn Fn(u32, u32) -> u16; 12] = [
         &|x, y| noise(x, y, 1),
         &|x, y| noise(x, y, 1),
+        // The picture moves to the left and up, and then to the right.
+        &|x, y| noise(x + 1, y + 1, 1),
+        &|x, y| noise(x, y + 1, 1),
         &|_, _| 0,
         &|x, y| noise(x, y, 1),
         &|_, _| max,
@@ -300,9 +326,10 @@ fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
 }
 
 fn configs() -> Vec<DesignConfig> {
-    use FeatureKind::{Corner, Edge, Mad, Range, Variance};
-    let sets: [&[FeatureKind]; 7] =
-        [&[Edge], &[Corner], &[Mad], &[Variance], &[Range], FeatureKind::ALL, &[Mad, Edge]];
+    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Variance};
+    let all = Organization::Pipelined.feature_kinds();
+    let sets: [&[FeatureKind]; 8] =
+        [&[Edge], &[Corner], &[Mad], &[Variance], &[Range], &all, &[Mad, Edge], &[Flow, Edge]];
     let mut configs = Vec::new();
     for (turn, kinds) in sets.into_iter().enumerate() {
         let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
@@ -335,10 +362,19 @@ fn hard_cases_give_the_same_in_both_organizations() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// Returns the configurations with features that raster cores have.
+fn raster_configs() -> Vec<DesignConfig> {
+    let supported = Organization::Raster.feature_kinds();
+    let is_supported = |config: &DesignConfig| {
+        config.camera.spatial.iter().all(|entry| supported.contains(&entry.feature))
+    };
+    configs().into_iter().filter(is_supported).collect()
+}
+
 /// The vectors of a raster core have the results of the functional model.
 #[test]
 fn the_vectors_of_a_raster_core_have_the_functional_results() {
-    for (turn, mut config) in configs().into_iter().enumerate() {
+    for (turn, mut config) in raster_configs().into_iter().enumerate() {
         let side = config.camera.region.size;
         let wide = if side.is_multiple_of(2) && turn > 1 { 2 } else { 1 };
         let (width, height) = (wide * 5 * side - 1, 4 * side - 2);
@@ -365,7 +401,7 @@ fn the_vectors_of_a_raster_core_have_the_functional_results() {
 /// forwarding, have the results of the functional model.
 #[test]
 fn the_vectors_of_a_raster_core_have_the_functional_results_with_every_store() {
-    for (turn, mut config) in configs().into_iter().enumerate() {
+    for (turn, mut config) in raster_configs().into_iter().enumerate() {
         let side = config.camera.region.size;
         let frames = hard_cases(5 * side - 1, 4 * side - 2, config.camera.frame.pixel_bits);
         (config.camera.frame.width, config.camera.frame.height) =

@@ -9,7 +9,8 @@ use crate::common::{
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
     CameraConfig, Decimal, DenoiseFilter, DesignConfig, FeatureKind, IrrelevantRendering,
-    Neighborhood, Payload, Pipelining, ReferencePolicy, ThresholdSource, VoteCombination,
+    Neighborhood, Organization, Payload, Pipelining, ReferencePolicy, ThresholdSource,
+    VoteCombination,
 };
 use foveate_toolchain::testing::{CoverDepth, cover};
 
@@ -61,7 +62,7 @@ fn set_irrelevant_in_turn(camera: &mut CameraConfig, turn: usize) {
 /// Returns the designs of five axes. Keys outside them take turns.
 fn matrix() -> Vec<DesignConfig> {
     let mut configs = Vec::new();
-    for &kind in FeatureKind::ALL {
+    for kind in Organization::Pipelined.feature_kinds() {
         for size in [4, 5, 8, 16, 32] {
             for &filter in DenoiseFilter::ALL {
                 for &neighborhood in Neighborhood::ALL {
@@ -147,11 +148,12 @@ fn summaries_agree() {
 #[test]
 fn designs_outside_the_matrix_agree() {
     use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
+    let all = Organization::Pipelined.feature_kinds();
     let sets: [&[FeatureKind]; 8] = [
         &[Edge, Corner],
         &[Mad, Edge],
         &[Variance, Corner, Edge],
-        FeatureKind::ALL,
+        &all,
         &[Mad, Variance],
         &[Range, Edge],
         &[Segment, Mad],
@@ -187,7 +189,8 @@ fn designs_outside_the_matrix_agree() {
         configs.push(config);
     }
     for (turn, size) in [2, 3, 7, 2, 3, 7, 2, 64, 64].into_iter().enumerate() {
-        let spatial = vec![feature(in_turn(FeatureKind::ALL, turn), size % 3)];
+        let spatial =
+            vec![feature(in_turn(&Organization::Pipelined.feature_kinds(), turn), size % 3)];
         let mut config = DesignConfig::from(CameraConfig { spatial, ..CameraConfig::default() });
         config.camera.region.size = size;
         config.camera.spatial[0].min_score = Some(Decimal::from_whole(2));
@@ -198,7 +201,8 @@ fn designs_outside_the_matrix_agree() {
         set_irrelevant_in_turn(&mut config.camera, turn + turn / 3);
         configs.push(config);
     }
-    for (turn, &kind) in FeatureKind::ALL.iter().cycle().take(2 * FeatureKind::COUNT).enumerate() {
+    let kinds = Organization::Pipelined.feature_kinds();
+    for (turn, &kind) in kinds.iter().cycle().take(2 * kinds.len()).enumerate() {
         let mut config = DesignConfig::from(CameraConfig {
             spatial: vec![feature(kind, 3)],
             ..CameraConfig::default()

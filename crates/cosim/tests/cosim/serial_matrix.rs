@@ -14,7 +14,7 @@ use foveate_design::{
 };
 use foveate_toolchain::testing::{CoverDepth, cover};
 
-use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
+use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
 
 /// A design at a level; the grid of level `rcm` is that of its frame.
 struct SerialCase {
@@ -83,6 +83,21 @@ fn with_keys_in_turn(mut config: DesignConfig, turn: usize) -> DesignConfig {
     config
 }
 
+/// Sets the radius of `flow`, in turn. With `last-sent`, sets its minimum to 0 if no other feature
+/// could send a region first.
+fn with_flow_in_turn(mut config: DesignConfig, turn: usize) -> DesignConfig {
+    let camera = &mut config.camera;
+    let is_alone = camera.spatial.len() == 1 || camera.decision.combine == VoteCombination::All;
+    let is_stuck = is_alone && camera.temporal.reference == ReferencePolicy::LastSent;
+    for spatial in camera.spatial.iter_mut().filter(|spatial| spatial.feature == Flow) {
+        spatial.radius = Some([1, 3, 2][turn % 3]);
+        if is_stuck {
+            spatial.min_score = Some(Decimal::from_whole(0));
+        }
+    }
+    config
+}
+
 /// One lane agrees for every feature x filter x neighborhood x reference, with sizes, feeds and
 /// folds in turn.
 #[test]
@@ -103,7 +118,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
                     config.hardware.make_serial().fold = [1, 2, 1, 3][turn % 4];
                     config.hardware.make_serial().feed =
                         Some(in_turn(PixelFeed::ALL, turn / 2 + turn / 8));
-                    cases.push(SerialCase::lane_case(config));
+                    cases.push(SerialCase::lane_case(with_flow_in_turn(config, turn)));
                 }
             }
         }
@@ -115,7 +130,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
 /// put every region into one lane. Features are alone and together.
 #[test]
 fn arrays_agree_for_every_feed_neighborhood_and_fold() {
-    let sets: [&[FeatureKind]; 11] = [
+    let sets: [&[FeatureKind]; 13] = [
         &[Edge],
         &[Corner],
         &[Edge, Corner],
@@ -127,6 +142,8 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
         &[Segment, Mad],
         &[Surface],
         &[Segment, Surface],
+        &[Flow, Edge],
+        &[Surface, Flow, Segment],
     ];
     let mut cases = Vec::new();
     for &feed in PixelFeed::ALL {
@@ -150,7 +167,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
                 config.camera.region.size = [4, 5, 4, 4, 5][turn % 5];
                 config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2);
                 config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn + turn / 7);
-                cases.push(SerialCase::array_case(config, grid));
+                cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), grid));
             }
         }
     }
@@ -161,9 +178,10 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
 #[test]
 fn depths_sizes_memories_and_constants_agree() {
     let mut cases = Vec::new();
-    for (turn, bits) in [1, 10, 12, 16, 1, 16, 1, 12].into_iter().enumerate() {
-        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad], [Segment, Surface]]
-            [if turn < 6 { turn % 3 } else { 3 }];
+    for (turn, bits) in [1, 10, 12, 16, 1, 16, 1, 12, 1, 16, 10].into_iter().enumerate() {
+        let kinds =
+            [[Edge, Mad], [Corner, Variance], [Range, Mad], [Segment, Surface], [Flow, Edge]]
+                [if turn < 6 { turn % 3 } else { 3 + turn / 8 }];
         let mut config = serial_config(&kinds.map(|kind| feature(kind, 4)));
         config.camera.frame.pixel_bits = bits;
         for spatial in &mut config.camera.spatial {
@@ -176,15 +194,18 @@ fn depths_sizes_memories_and_constants_agree() {
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn);
         config.hardware.make_serial().feed = Some(in_turn(PixelFeed::ALL, turn / 3));
         config.hardware.make_serial().fold = 1 + u32::try_from(turn % 2).unwrap();
-        cases.push(SerialCase::array_case(config, (2, 1)));
+        cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (2, 1)));
     }
     // The memory is distributed up to 128 LUTs, so it is block memory for the larger regions and
     // folds.
     for (turn, (size, fold)) in
-        [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2), (8, 1), (7, 2)].into_iter().enumerate()
+        [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2), (8, 1), (7, 2), (8, 1), (16, 2), (7, 3)]
+            .into_iter()
+            .enumerate()
     {
-        let kinds = [[Edge, Variance], [Mad, Corner], [Range, Edge], [Surface, Segment]]
-            [if turn < 6 { turn % 3 } else { 3 }];
+        let kinds =
+            [[Edge, Variance], [Mad, Corner], [Range, Edge], [Surface, Segment], [Edge, Flow]]
+                [if turn < 6 { turn % 3 } else { 3 + turn / 8 }];
         let mut config =
             with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
@@ -193,7 +214,7 @@ fn depths_sizes_memories_and_constants_agree() {
         config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn + 1);
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn / 2 + turn);
-        cases.push(SerialCase::array_case(config, (3, 2)));
+        cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (3, 2)));
     }
     let mut large = serial_config(&[feature(Edge, 0)]);
     large.camera.region.size = 32;
@@ -207,7 +228,7 @@ fn depths_sizes_memories_and_constants_agree() {
         config.hardware.make_serial().fold = [1, 2][turn / 2 % 2];
         config.camera.denoise.filter = in_turn(DenoiseFilter::ALL, turn);
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
-        cases.push(SerialCase::array_case(config, (2, 2)));
+        cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (2, 2)));
     }
     check_all(&cases);
 }
@@ -216,7 +237,7 @@ fn depths_sizes_memories_and_constants_agree() {
 /// register and without.
 #[test]
 fn deep_arrays_agree() {
-    let sets: [&[FeatureKind]; 8] = [
+    let sets: [&[FeatureKind]; 10] = [
         &[Edge],
         FeatureKind::ALL,
         &[Corner],
@@ -225,6 +246,8 @@ fn deep_arrays_agree() {
         &[Range],
         &[Segment],
         &[Surface],
+        &[Edge, Flow],
+        &[Flow, Mad, Range],
     ];
     let mut cases = Vec::new();
     for &filter in DenoiseFilter::ALL {
@@ -244,7 +267,7 @@ fn deep_arrays_agree() {
                     config.camera.region.size = [4, 5, 4][turn / 2 % 3];
                     config.camera.region.neighborhood =
                         in_turn(Neighborhood::ALL, turn / 4 + turn / 2 + turn);
-                    cases.push(SerialCase::array_case(config, (3, 2)));
+                    cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (3, 2)));
                 }
             }
         }
@@ -271,6 +294,8 @@ fn summaries_agree() {
         (4, 1, 8, &[Range], 2, distributed, deep),
         (6, 2, 8, &[Segment], 2, distributed, plain),
         (4, 1, 8, &[Surface, Segment], 3, block, deep),
+        (4, 2, 8, &[Flow, Edge], 2, distributed, plain),
+        (6, 1, 8, &[Flow], 3, block, deep),
     ]
     .into_iter()
     .enumerate()
@@ -294,7 +319,7 @@ fn summaries_agree() {
         config.hardware.make_serial().memory = Some(memory);
         config.hardware.pipelining = pipelining;
         config.hardware.make_serial().fold = fold;
-        cases.push(SerialCase::array_case(config, (3, 2)));
+        cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (3, 2)));
     }
     check_all(&cases);
 }

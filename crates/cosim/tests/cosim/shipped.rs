@@ -59,17 +59,21 @@ fn designs_with_turns(is_in: fn(usize) -> bool) -> Vec<String> {
                     continue;
                 }
                 let turn = list.len();
-                let toml = format!(
-                    "frame.pixel_bits = {bits}\nregion.size = {size}\n{variant}\n{}",
-                    feature_keys(turn, bits, size)
-                );
-                list.push(format!("{}{toml}", frame_keys((4, 3), size)));
+                let keys = |organization| {
+                    format!(
+                        "frame.pixel_bits = {bits}\nregion.size = {size}\n{variant}\n{}",
+                        feature_keys(organization, turn, bits, size)
+                    )
+                };
+                let pipelined = keys(Organization::Pipelined);
+                list.push(format!("{}{pipelined}", frame_keys((4, 3), size)));
                 if size >= 4 {
                     let fold = [1, 2, 5][turn % 3];
                     let feed = ["parallel", "raster"][turn / 3 % 2];
                     let serial = format!(
                         "hardware.organization = 'serial'\nhardware.fold = {fold}\nhardware.feed = '{feed}'\n"
                     );
+                    let toml = keys(Organization::Serial);
                     list.push(format!("{}{serial}{toml}", frame_keys((4, 3), size)));
                 }
                 // A frame with few large regions loses none as a whole, and the bench reports
@@ -79,6 +83,7 @@ fn designs_with_turns(is_in: fn(usize) -> bool) -> Vec<String> {
                         raster_keys(size, [1, 2, 4][turn % 3], ["plain", "deep"][turn % 2]);
                     let rows = [3, 5, 1, 4][turn % 4];
                     let columns = (64 / size).max(4);
+                    let toml = keys(Organization::Raster);
                     list.push(format!("{}{raster}{toml}", frame_keys((columns, rows), size)));
                 }
             }
@@ -99,7 +104,7 @@ fn raster_keys(size: u32, most: u32, pipelining: &str) -> String {
 }
 
 /// Returns the keys for one feature, two, or all, in turn, with levels that the depth allows.
-fn feature_keys(turn: usize, bits: u32, size: u32) -> String {
+fn feature_keys(organization: Organization, turn: usize, bits: u32, size: u32) -> String {
     let level = [0, 1, 20][(bits as usize).ilog2() as usize / 2];
     let entry = |kind: &FeatureKind| match kind {
         FeatureKind::Edge | FeatureKind::Corner => {
@@ -116,8 +121,9 @@ fn feature_keys(turn: usize, bits: u32, size: u32) -> String {
             "[[spatial]]\nfeature = 'segment'\nlevel = {level}\nmin_score = 1\nmean_fraction_bits = {}\n",
             size.ilog2()
         ),
+        FeatureKind::Flow => "[[spatial]]\nfeature = 'flow'\nmin_score = 0.1\n".to_owned(),
     };
-    let all = FeatureKind::ALL;
+    let all = organization.feature_kinds();
     let of = match turn % 6 {
         4 => [&all[0], &all[all.len() - 1]].map(entry).concat(),
         5 => all.iter().map(entry).collect(),
@@ -187,7 +193,11 @@ fn the_vectors_of_designs_with_summaries_contain_some() {
             if is_too_small || bits == 1 && hardware.contains("constant") {
                 continue;
             }
-            let features = feature_keys(number, bits, size);
+            let organization = match hardware.contains("serial") {
+                true => Organization::Serial,
+                false => Organization::Pipelined,
+            };
+            let features = feature_keys(organization, number, bits, size);
             let toml = format!(
                 "{}frame.pixel_bits = {bits}\nregion.size = {size}\nrender.irrelevant = 'mean'\n\
                  periphery.blocks = {blocks}\ndenoise.filter = 'none'\nhardware.{hardware}\n{features}",
@@ -218,7 +228,7 @@ fn the_vectors_of_raster_cores_with_summaries_contain_some() {
              denoise.filter = 'none'\n{}{}",
             frame_keys(((64 / size).max(4), rows), size),
             raster_keys(size, word, pipelining),
-            feature_keys(number, 8, size)
+            feature_keys(Organization::Raster, number, 8, size)
         );
         let design = design(&toml);
         for &top in Top::all_of(&design) {

@@ -4,7 +4,7 @@
 use crate::common::vectors::{clock_records, field_of_role, pairs_of_decisions};
 use crate::common::{design, directed_stimulus};
 use foveate_cosim::{CosimLevel, Recording, Stimulus, vectors_hex};
-use foveate_design::{Design, DesignConfig, FeatureKind, PortRole};
+use foveate_design::{Design, DesignConfig, FeatureKind, Organization, PortRole};
 use foveate_frame::Frame;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -31,13 +31,14 @@ fn equal_seeds_give_equal_vectors() {
 /// Every threshold of a decision is met exactly, missed by one, and passed by one.
 #[test]
 fn decisions_are_made_on_below_and_above_their_thresholds() {
-    let features = FeatureKind::ALL.iter();
+    let kinds = Organization::Pipelined.feature_kinds();
+    let features = kinds.iter();
     let toml: String =
         features.map(|kind| format!("[[spatial]]\nfeature = \"{kind}\"\n")).collect();
     let design = design(&config(&toml), (1, 1));
     let recording = record(&design, &directed_stimulus(CosimLevel::Rpu, 2));
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let scores = FeatureKind::ALL.iter().map(|&k| (PortRole::MinScore(k), PortRole::Score(k)));
+    let scores = kinds.iter().map(|&k| (PortRole::MinScore(k), PortRole::Score(k)));
     let count = (PortRole::TemporalMinCount, PortRole::TemporalCount);
     for (minimum, score) in scores.chain([count]) {
         let mut found = BTreeSet::new();

@@ -2,6 +2,7 @@
 //! The steps of the pass of a feature in a serial array, and the widths of the registers that it
 //! uses.
 
+use super::flow::FlowSearch;
 use crate::{Design, FeatureKind, SpatialFeature, bits_for};
 
 /// Returns the number of steps of the pass of a feature.
@@ -24,8 +25,22 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
         FeatureKind::Range => 4 * n + pixel_bits + 2,
         FeatureKind::Surface => 8 * n + 11 * u64::from(design.pixel_sum_bits()) + 5,
         FeatureKind::Segment => 4 * n + 4 * pixel_bits + 9,
-        FeatureKind::Flow => todo!("steps of flow"),
+        FeatureKind::Flow => {
+            let (sum, search) = (u64::from(design.pixel_sum_bits()), flow_search(design, feature));
+            let product = u64::from(search.product_bits);
+            2 * search.pairs
+                + search.displacements * (2 * sum + product + 1)
+                + 3 * sum
+                + product
+                + 3
+        }
     }
+}
+
+/// Returns the numbers of the search of `flow`.
+fn flow_search(design: &Design, feature: &SpatialFeature) -> FlowSearch {
+    let radius = feature.radius().expect("flow has a radius");
+    FlowSearch::new(radius, design.region_size(), design.pixel_bits())
 }
 
 /// Returns true if the lanes compute an operand from the word first: a difference, or some of its
@@ -117,9 +132,19 @@ pub(super) fn feature_register_widths(
             scale: pixel,
         },
         // The accumulator holds the difference of two sums. The second word holds the smallest.
-        FeatureKind::Surface | FeatureKind::Flow => {
+        FeatureKind::Surface => {
             let sum = design.pixel_sum_bits();
             FeatureRegisterWidths { accumulator: (sum + 1).max(chain), second: sum, scale: sum }
+        }
+        // The accumulator holds a sum times its weight. The second word holds a sum or the score,
+        // and the scale a weight that is shifted to the places of a sum.
+        FeatureKind::Flow => {
+            let (sum, search) = (design.pixel_sum_bits(), flow_search(design, feature));
+            FeatureRegisterWidths {
+                accumulator: (search.product_bits + 1).max(chain),
+                second: sum,
+                scale: (2 * search.factor_bits + sum - 1).max(search.product_bits),
+            }
         }
         // The accumulator holds the sum of the region and half of n. The second word holds the
         // mean without its fraction.

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::{LaneMemoryKind, ReferencePolicy, SerialDesign, index_bits};
+use crate::{LaneMemoryKind, ReferenceWriteTime, SerialDesign, index_bits};
 
 /// Largest number of memory LUTs of the distributed memory of a lane, unless the configuration
 /// chooses the kind. A RAMB18 is the same share of the block RAM of a VU9P as 137 memory LUTs are
@@ -102,10 +102,7 @@ impl LaneMemory {
     fn from_design(design: SerialDesign<'_>) -> Self {
         let denoises = design.filter().has_window();
         let reference = design.temporal().reference;
-        let keeps_reference = match reference {
-            ReferencePolicy::Previous => !denoises,
-            ReferencePolicy::LastSent => true,
-        };
+        let keeps_reference = !denoises || design.copies_reference();
         let candidates = [
             (true, SlotAreaKind::Raw, design.stream_side()),
             (denoises, SlotAreaKind::Denoised, design.denoised_side()),
@@ -161,6 +158,18 @@ impl LaneMemory {
 }
 
 impl SerialDesign<'_> {
+    /// Returns true if the reference stays as it is until the last score, and then takes the scored
+    /// pixels. In other designs each pixel overwrites its reference once it has been compared.
+    #[must_use]
+    pub fn copies_reference(&self) -> bool {
+        // The search of `flow` reads the whole reference once the pixels are denoised.
+        self.displacement_feature().is_some()
+            || match self.temporal().reference.write_time() {
+                ReferenceWriteTime::EveryFrame => false,
+                ReferenceWriteTime::WhenSent => true,
+            }
+    }
+
     /// The memory of one lane.
     #[must_use]
     pub fn lane_memory(&self) -> LaneMemory {

@@ -4,6 +4,7 @@
 //! K regions share a lane, and L lanes work in step.
 
 mod feature;
+mod flow;
 mod folds;
 mod hardware;
 mod means;
@@ -13,6 +14,7 @@ mod rules;
 mod timing;
 mod widths;
 
+pub use flow::FlowSearch;
 pub use hardware::SerialHardware;
 pub use means::BlockMeanDivision;
 pub use memory::{LaneMemory, MemoryChoice, SlotArea, SlotAreaKind};

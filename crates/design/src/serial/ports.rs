@@ -28,6 +28,13 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> CoreInterface {
     let score = |role, width, doc| Port::qualified_output(PortRole::ScoreValid, role, width, doc);
     let which =
         "number of the score: 0 the temporal count, 1.. the features; only with score_valid_o";
+    let displacement = design.flow_search().map(|search| {
+        let coordinate = |role, doc| score(role, search.coordinate_bits(), doc);
+        [
+            coordinate(PortRole::DisplacementX, "dx of the region with the score of flow, else 0"),
+            coordinate(PortRole::DisplacementY, "dy of the region with the score of flow, else 0"),
+        ]
+    });
     let region = BeatRegion::Number(PortRole::Region);
     let scores = CoreStream::out_of_core(
         StreamRole::Scores,
@@ -45,7 +52,10 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> CoreInterface {
                 design.max_score_bits(),
                 "the score; only with score_valid_o",
             ),
-        ],
+        ]
+        .into_iter()
+        .chain(displacement.into_iter().flatten())
+        .collect(),
     );
     let decisions = CoreStream::out_of_core(
         StreamRole::Decisions,

@@ -373,6 +373,29 @@ fn ports_follow_feed_and_fold() {
 }
 
 #[test]
+fn flow_copies_its_reference_and_has_ports_for_displacements() {
+    let flow = |radius| design(&[&format!("spatial=[{{feature=\"flow\",radius={radius}}}]")]);
+    let ports = flow(1).rcm_ports();
+    let ports = outputs(&ports);
+    let place = ports.iter().position(|(name, ..)| *name == "score_o").unwrap();
+    let added = [("displacement_x_o", 2, 1, false), ("displacement_y_o", 2, 1, false)];
+    assert_eq!(ports[place + 1..][..2], added);
+    assert_eq!(outputs(&flow(3).rcm_ports())[place + 1].1, 3);
+    let steps = |radius| {
+        let design = flow(radius);
+        let timing = SerialTiming::from_design(design.as_serial().unwrap());
+        let is_own =
+            |(phase, _): &&(SerialPhase, u64)| matches!(phase, FeaturePass(_) | CopyReference);
+        timing.phases().iter().filter(is_own).map(|&(_, steps)| steps).collect::<Vec<_>>()
+    };
+    assert_eq!([steps(1), steps(2), steps(3)], [[1474, 128], [3680, 128], [6738, 128]]);
+    let memory = flow(1).as_serial().unwrap().lane_memory();
+    let kinds: Vec<_> = memory.areas.iter().map(|area| area.kind).collect();
+    use super::SlotAreaKind::{Denoised, Raw, Reference};
+    assert_eq!(kinds, [Raw, Denoised, Reference]);
+}
+
+#[test]
 fn one_rpu_is_the_array_of_one_lane() {
     let design = design(&["hardware.fold=3", "region.neighborhood=shared"]);
     let one = design.as_serial().unwrap().single_lane_design();

@@ -5,10 +5,7 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::DepartureTiming;
-use crate::{
-    DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, ReferencePolicy,
-    ReferenceWriteTime, SerialDesign,
-};
+use crate::{DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, SerialDesign};
 
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -29,7 +26,7 @@ pub enum SerialPhase {
     FeaturePass(FeatureKind),
     /// The scores of a feature pass the ports.
     RotateScore(FeatureKind),
-    /// The sent pixels become the reference.
+    /// The scored pixels become the reference, with `last-sent` those that are sent.
     CopyReference,
     /// The pixels of active regions leave.
     UnloadPixels,
@@ -231,11 +228,8 @@ fn settling_steps(design: SerialDesign<'_>) -> u32 {
 
 /// Returns the steps that denoise a pixel and compare it with its reference, without Q.
 fn filter_steps(design: SerialDesign<'_>) -> u64 {
-    let looked_up = match design.temporal().reference {
-        // The reference is the word that the median overwrites.
-        ReferencePolicy::Previous => 0,
-        ReferencePolicy::LastSent => 1,
-    };
+    // Otherwise the reference is the word that the median overwrites.
+    let looked_up = u64::from(design.copies_reference());
     let median = 10 * u64::from(design.pixel_bits()) + 3 + looked_up;
     match design.filter() {
         DenoiseFilter::None => 0,
@@ -251,7 +245,6 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     let lanes = u64::from(design.lanes());
     let read = u64::from(read_latency(design));
     let rotation = u64::from(settling_steps(design)) + lanes;
-    let reference = design.temporal().reference;
     let mut list = Vec::new();
     match design.filter() {
         DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => {
@@ -263,11 +256,8 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
             }
         }
         DenoiseFilter::None => {
-            let compared = match reference {
-                // The pixel overwrites the reference.
-                ReferencePolicy::Previous => 3 + read,
-                ReferencePolicy::LastSent => 3,
-            };
+            // The pixel overwrites the reference, or is copied later.
+            let compared = if design.copies_reference() { 3 } else { 3 + read };
             list.push((SerialPhase::CompareRaw, n * compared));
         }
     }
@@ -286,9 +276,8 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
         ));
         list.push((SerialPhase::RotateScore(feature.kind()), rotation));
     }
-    match reference.write_time() {
-        ReferenceWriteTime::EveryFrame => {}
-        ReferenceWriteTime::WhenSent => list.push((SerialPhase::CopyReference, n * (2 + read))),
+    if design.copies_reference() {
+        list.push((SerialPhase::CopyReference, n * (2 + read)));
     }
     let unload = match design.feed() {
         PixelFeed::Parallel => n,

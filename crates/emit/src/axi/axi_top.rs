@@ -120,7 +120,7 @@ pub(super) fn view(design: RasterDesign<'_>) -> AxiTop {
         height: design.height(),
         words,
         words_bits: index_bits(words.into()),
-        lines_bits: index_bits(design.height().into()),
+        lines_bits: index_bits(design.height().into()).max(1),
         columns: design.columns(),
         rows: design.rows(),
         column_bits: index_bits(design.columns().into()),

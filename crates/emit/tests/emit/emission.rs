@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{design, every_design, pipelined_matrix, raster_matrix, serial_matrix};
-use foveate_design::{Design, FeatureKind, PortDirection, RasterTiming, SerialTiming};
+use foveate_design::{Design, Organization, PortDirection, RasterTiming, SerialTiming};
 use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf, Prefix, SourceFile, Top, verilog};
 
 fn core(design: &Design) -> Vec<SourceFile> {
@@ -91,12 +91,12 @@ fn emission_is_deterministic() {
 #[test]
 fn every_feature_is_in_the_matrices() {
     let matrices = [
-        ("pipelined", pipelined_matrix()),
-        ("serial", serial_matrix()),
-        ("raster", raster_matrix()),
+        (Organization::Pipelined, pipelined_matrix()),
+        (Organization::Serial, serial_matrix()),
+        (Organization::Raster, raster_matrix()),
     ];
     for (name, designs) in matrices {
-        for &kind in FeatureKind::ALL {
+        for kind in name.feature_kinds() {
             let has = |text: &String| design(text).feature(kind).is_some();
             assert!(designs.iter().any(has), "no {name} design has {kind}; see tests/emit/common");
         }

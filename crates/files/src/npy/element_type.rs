@@ -6,6 +6,8 @@
 pub enum ElementType {
     /// An unsigned integer of one byte, also used for truth values, 0 and 1.
     Unsigned8,
+    /// A signed integer of one byte, in two's complement.
+    Signed8,
     /// An unsigned integer of two bytes.
     Unsigned16,
     /// An unsigned integer of four bytes.
@@ -33,6 +35,7 @@ impl ElementType {
     pub(crate) fn numpy_name(self) -> &'static str {
         match self {
             Self::Unsigned8 => "|u1",
+            Self::Signed8 => "|i1",
             Self::Unsigned16 => "<u2",
             Self::Unsigned32 => "<u4",
             Self::Unsigned64 => "<u8",
@@ -43,7 +46,7 @@ impl ElementType {
 
     pub(crate) fn bytes(self) -> usize {
         match self {
-            Self::Unsigned8 => 1,
+            Self::Unsigned8 | Self::Signed8 => 1,
             Self::Unsigned16 => 2,
             Self::Unsigned32 | Self::Float32 => 4,
             Self::Unsigned64 | Self::Signed64 => 8,

@@ -37,8 +37,8 @@ pub struct WholeFrameAgreement {
     /// The peak signal-to-noise ratio of the receiver's screen against whole frames in decibels;
     /// `None` if they are equal.
     pub picture_psnr: Option<f64>,
-    /// The bytes that the camera sends per frame: two bits per region, pixels of active regions,
-    /// and means.
+    /// The bytes that the camera sends per frame: two bits per region, displacements, pixels of
+    /// active regions, and means.
     pub sent_bytes: f64,
     /// The bytes that the camera sends, as a share of the bytes of whole frames.
     pub sent_share: f64,

@@ -19,6 +19,11 @@ pub struct SerialOutput {
     pub region: u32,
     /// Value of `score_o`.
     pub score: u64,
+    /// Value of `displacement_x_o`, in two's complement of the port's width. It is 0 if the design
+    /// has no such port.
+    pub displacement_x: u64,
+    /// Value of `displacement_y_o`, like that of `displacement_x_o`.
+    pub displacement_y: u64,
     /// Value of `decision_valid_o`.
     pub decision_valid: bool,
     /// Value of `srs_o`.
@@ -69,6 +74,8 @@ impl SerialOutput {
             PortRole::ScoreIndex => self.score_index.into(),
             PortRole::Region => self.region.into(),
             PortRole::AnyScore => self.score,
+            PortRole::DisplacementX => self.displacement_x,
+            PortRole::DisplacementY => self.displacement_y,
             PortRole::DecisionValid => self.decision_valid.into(),
             PortRole::Srs => self.srs.into(),
             PortRole::Trs => self.trs.into(),

@@ -19,6 +19,7 @@ pub struct SerialRcm {
     constants: Option<ThresholdInputs>,
     feed: PixelFeed,
     borders: Vec<u8>,
+    flow: Option<DisplacementPorts>,
     sync: FrameSync,
     intake: FrameIntake,
     regions: SerialRegions,
@@ -26,6 +27,30 @@ pub struct SerialRcm {
     output: SerialOutput,
     /// True if a `forward_valid_o` is 1.
     is_forwarding: bool,
+}
+
+/// The ports of the displacements of regions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct DisplacementPorts {
+    /// Number of the score of `flow`, with which displacements pass.
+    number: u32,
+    /// Bits of a coordinate.
+    bits: u32,
+}
+
+impl DisplacementPorts {
+    /// Returns the ports of a design, or `None` if it does not have `flow`.
+    fn new(design: SerialDesign<'_>) -> Option<Self> {
+        let scores = (1..).zip(design.features());
+        let mut flow = scores.filter(|(_, feature)| feature.kind().is_displacement());
+        let ((number, _), search) = (flow.next()?, design.flow_search()?);
+        Some(Self { number, bits: search.coordinate_bits() })
+    }
+
+    /// Returns a coordinate in two's complement.
+    fn port_value(self, coordinate: i8) -> u64 {
+        i64::from(coordinate).cast_unsigned() & ((1 << self.bits) - 1)
+    }
 }
 
 /// The position of the array in a frame.
@@ -56,6 +81,7 @@ impl SerialRcm {
             schedule: SerialSchedule::new(design),
             constants: ThresholdInputs::constants(&design),
             feed: design.feed(),
+            flow: DisplacementPorts::new(design),
             borders: (0..design.regions()).map(|region| region_border(&design, region)).collect(),
             regions: SerialRegions::new(design),
             stage: SerialStage::AFTER_RESET,
@@ -247,11 +273,18 @@ impl SerialRcm {
     }
 
     fn show_score(&mut self, region: u32, number: u32, decides: bool) {
-        let DecidedSerialRegion { decision, action, .. } = self.regions.decided(index(region));
+        let DecidedSerialRegion { decision, displacement, action, .. } =
+            self.regions.decided(index(region));
         let output = &mut self.output;
         output.score_valid = true;
         (output.region, output.score_index) = (region, number);
         output.score = decision.score(number);
+        if let Some(flow) = &self.flow
+            && flow.number == number
+        {
+            output.displacement_x = flow.port_value(displacement.dx);
+            output.displacement_y = flow.port_value(displacement.dy);
+        }
         if decides {
             output.decision_valid = true;
             (output.srs, output.trs, output.active) =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the array keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{Camera, ReferencePolicy, RegionAction, SerialDesign};
+use foveate_design::{Camera, Displacement, ReferencePolicy, RegionAction, SerialDesign};
 
 use super::schedule::ForwardedKind;
 use crate::conversions::index;
@@ -32,6 +32,8 @@ pub(super) struct SerialRegions {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DecidedSerialRegion {
     pub(super) decision: RegionDecision,
+    /// The displacement since the reference. It is 0 without `flow`.
+    pub(super) displacement: Displacement,
     pub(super) action: RegionAction,
     /// The pixels that the region forwards, in row-major order.
     payload: Vec<u16>,
@@ -43,7 +45,8 @@ impl DecidedSerialRegion {
     /// Makes the state before the first frame.
     fn before_first_frame() -> Self {
         let (payload, means) = (Vec::new(), Vec::new());
-        Self { decision: RegionDecision::default(), action: RegionAction::Hold, payload, means }
+        let (decision, displacement) = (RegionDecision::default(), Displacement::default());
+        Self { decision, displacement, action: RegionAction::Hold, payload, means }
     }
 }
 
@@ -132,12 +135,14 @@ impl SerialRegions {
             self.reference(region),
             thresholds,
         );
+        let displacement = self.scorer.displacement(self.reference(region)).unwrap_or_default();
         let means = self.scorer.means();
         let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level);
         let summary = &mut self.summaries[region];
         let action = summary.decide(irrelevant, decision.srs, decision.trs, &means, level);
         let payload = self.scorer.payload().collect();
-        self.decided[region] = DecidedSerialRegion { decision, action, payload, means };
+        self.decided[region] =
+            DecidedSerialRegion { decision, displacement, action, payload, means };
         let pixel_range = region * self.pixels..(region + 1) * self.pixels;
         for (scored, pixel) in self.scored[pixel_range.clone()].iter_mut().zip(self.scorer.pixels())
         {

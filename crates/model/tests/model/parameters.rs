@@ -110,6 +110,17 @@ impl DesignParameters {
         }
     }
 
+    /// Returns the design with a minimum of 0 for `flow` where no region could be active without a
+    /// reference.
+    pub(crate) fn with_a_start(mut self) -> Self {
+        if self.last_sent && !self.can_start_without_reference() {
+            for feature in self.features.iter_mut().filter(|feature| feature.name == "flow") {
+                feature.min_milli = 0;
+            }
+        }
+        self
+    }
+
     /// Returns the camera, for which no organization has to have its features.
     pub(crate) fn camera(&self) -> Camera {
         self.config().camera.validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))

@@ -6,6 +6,7 @@ mod claims;
 mod clock;
 mod damage;
 mod fields;
+mod flow;
 mod golden;
 mod register;
 mod stream;

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use fastrand::Rng;
-use foveate_design::{Design, DesignConfig};
+use foveate_design::{Design, DesignConfig, Displacement};
 use foveate_packets::{
     EndPacket, FrameAssembler, PacketLayout, PacketSplitter, ReceivedFrame, RegionDecision,
     RegionFlags, StreamItem, StreamLoss, packet_writer,
@@ -21,16 +21,25 @@ pub(crate) struct TestStream {
     pub(crate) frames: Vec<Range<usize>>,
 }
 
-/// Makes a stream of `count` frames with random decisions and pixels. REGION packets come before or
-/// after their ROW.
+/// Makes a stream of `count` frames with random decisions and pixels, and with displacements in half
+/// of all streams. REGION packets come before or after their ROW.
 pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
     let (width, height, size) = (rng.u32(4..40), rng.u32(4..30), rng.u32(2..9));
     let (bits, mean) = (rng.u32(1..=16), rng.bool());
     let irrelevant = if mean { "mean" } else { "zero" };
+    let radius = rng.bool().then(|| rng.u32(1..=3));
+    let (flow, organization) = match radius {
+        Some(radius) => (format!(",{{feature='flow',radius={radius}}}"), "serial"),
+        None => (String::new(), "pipelined"),
+    };
+    // The lanes of a serial array have regions of at least 4x4 pixels.
+    let size = if radius.is_some() { size.max(4) } else { size };
     let design = design(&format!(
         "frame={{width={width},height={height},pixel_bits={bits}}}\nregion.size={size}\ntemporal.min_count=1\n\
-         spatial=[{{feature='mad',min_score=0}}]\nrender.irrelevant='{irrelevant}'\n"
+         spatial=[{{feature='mad',min_score=0}}{flow}]\nrender.irrelevant='{irrelevant}'\n\
+         hardware.organization='{organization}'\n"
     ));
+    let numbers = design.features().len() + 1;
     let layout = PacketLayout::new(&design, rng.bool(), 1_000_000).unwrap();
     let (mut bytes, mut frames) = (Vec::new(), Vec::new());
     for number in 0..count {
@@ -74,8 +83,16 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
                 packet_writer::append_row(&mut bytes, &layout, number, row, &decisions).unwrap();
             }
             if layout.info().has_scores {
-                let scores = (0..layout.columns()).map(|_| [rng.u64(0..3), rng.u64(0..3)]);
+                let scores = (0..layout.columns())
+                    .map(|_| (0..numbers).map(|_| rng.u64(0..3)).collect::<Vec<_>>());
                 packet_writer::append_scores(&mut bytes, &layout, number, row, scores).unwrap();
+            }
+            if let Some(radius) = radius {
+                let all = Displacement::search_order(radius);
+                let displacements: Vec<_> =
+                    (0..layout.columns()).map(|_| *rng.choice(&all).unwrap()).collect();
+                packet_writer::append_flow(&mut bytes, &layout, number, row, &displacements)
+                    .unwrap();
             }
         }
         packet_writer::append_end(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The NumPy arrays of a run: bits, counts and scores by frame, row and column. Each has the
-//! smallest type that holds its range, which the camera defines.
+//! The NumPy arrays of a run: bits, counts, scores and displacements by frame, row and column. Each
+//! has the smallest type that holds its range, which the camera defines.
 
 use std::path::Path;
 
@@ -21,6 +21,8 @@ pub(super) struct ArraySink {
     /// The temporal counts. They are missing for a stream without scores.
     temporal_count: Option<NpyWriter>,
     scores: Vec<NpyWriter>,
+    /// The displacements. They exist only for a camera with `flow`.
+    flow: Option<NpyWriter>,
 }
 
 impl ArraySink {
@@ -37,6 +39,10 @@ impl ArraySink {
         let scores = features
             .iter()
             .map(|feature| array(&format!("score_{}.npy", feature.kind()), feature.score_max()));
+        let flow = camera.displacement_feature().map(|_| {
+            let shape = [&shape[..], &[2]].concat();
+            NpyWriter::create(&folder.join("flow.npy"), ElementType::Signed8, &shape)
+        });
         Ok(Self {
             srs: array("srs.npy", 1)?,
             trs: array("trs.npy", 1)?,
@@ -46,6 +52,7 @@ impl ArraySink {
                 .then(|| array("t_count.npy", camera.region_pixels().into()))
                 .transpose()?,
             scores: scores.collect::<Result<_, _>>()?,
+            flow: flow.transpose()?,
         })
     }
 }
@@ -66,12 +73,16 @@ impl FrameSink for ArraySink {
         for (writer, scores) in self.scores.iter_mut().zip(&outcome.scores) {
             writer.push(scores.iter().copied());
         }
+        if let Some(flow) = &mut self.flow {
+            let numbers = outcome.displacements.iter().flat_map(|one| [one.dx, one.dy]);
+            flow.push(numbers.map(|number| number.cast_unsigned().into()));
+        }
         Ok(())
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         let flags = [&mut self.srs, &mut self.trs, &mut self.active];
-        let others = self.summary.iter_mut().chain(&mut self.temporal_count);
+        let others = self.summary.iter_mut().chain(&mut self.temporal_count).chain(&mut self.flow);
         for array in flags.into_iter().chain(others) {
             array.write_pending(all)?;
         }
@@ -82,7 +93,7 @@ impl FrameSink for ArraySink {
         self.srs.finish()?;
         self.trs.finish()?;
         self.active.finish()?;
-        for array in self.summary.into_iter().chain(self.temporal_count) {
+        for array in self.summary.into_iter().chain(self.temporal_count).chain(self.flow) {
             array.finish()?;
         }
         Ok(self.scores.into_iter().try_for_each(NpyWriter::finish)?)

@@ -5,7 +5,7 @@
 //! | camera | an event | bytes |
 //! | --- | --- | --- |
 //! | raw video | | W * H * P / 8 per frame |
-//! | region | an active region of a frame, or one whose summary is sent | 2 bits per region and frame, and P / 8 per forwarded pixel and mean |
+//! | region | an active region of a frame, or one whose summary is sent | 2 bits per region and frame, those of its displacement with `flow`, and P / 8 per forwarded pixel and mean |
 //! | pixel | a pixel that crossed the contrast once | 4, a 32-bit word as in EVT 2.0 |
 //!
 //! The bits are summed over the run and rounded up to bytes once. Everything that a receiver needs

@@ -74,12 +74,17 @@ fn write_row(
     let (camera, outcome) = (engine.camera(), engine.outcome());
     let start = row * camera.columns();
     let regions = start..start + camera.columns();
+    let places = start as usize..regions.end as usize;
     let decisions: Vec<RegionDecision> =
         regions.clone().map(|region| region_decision(outcome, region as usize)).collect();
     packet_writer::append_row(out, layout, number, row, &decisions)?;
     if layout.info().has_scores {
         let scores = regions.clone().map(|region| region_scores(outcome, region as usize));
         packet_writer::append_scores(out, layout, number, row, scores)?;
+    }
+    if layout.has_flow() {
+        let displacements = &outcome.displacements[places];
+        packet_writer::append_flow(out, layout, number, row, displacements)?;
     }
     let (mut sent, mut values) = (0, Vec::new());
     for region in regions {
@@ -129,9 +134,10 @@ impl FrameSink for PacketFileSink {
     }
 
     fn max_bytes_owed(&self, camera: &Camera) -> u64 {
-        // These are the ROW, SCORES and REGION packets of a frame whose regions all send pixels.
+        // These are the ROW, SCORES, FLOW and REGION packets of a frame whose regions all send pixels.
         // The buffers have room for its FRAME and END.
-        let rows = self.layout.row_bytes() + self.layout.scores_bytes();
+        let flow = if self.layout.has_flow() { self.layout.flow_bytes() } else { 0 };
+        let rows = self.layout.row_bytes() + self.layout.scores_bytes() + flow;
         let regions = u64::from(camera.regions()) * self.layout.region_bytes(false) as u64;
         regions + u64::from(camera.rows()) * rows as u64
     }

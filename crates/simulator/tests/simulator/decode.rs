@@ -12,8 +12,8 @@ use foveate_simulator::{
     SimulatorError,
 };
 
-use crate::packets::{DESIGNS, crc, options};
-use crate::support::{design, names, street};
+use crate::packets::{DESIGNS, FLOW_DESIGN, crc, options};
+use crate::support::{NpyArray, design, names, street};
 
 fn decode(
     stream: &[u8],
@@ -98,6 +98,77 @@ fn without_scores_all_else_is_the_same() {
     for name in ["srs.npy", "trs.npy", "active.npy", "summary.npy", "rendered/000004.png"] {
         assert!(fs::read(sent.join(name)).unwrap() == fs::read(seen.join(name)).unwrap(), "{name}");
     }
+}
+
+#[test]
+fn displacements_come_back_without_scores() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, FLOW_DESIGN, &options(Some(PacketContent::Plain)));
+    let stream = fs::read(sent.join("packets.bin")).unwrap();
+    decode(&stream, FLOW_DESIGN, &seen, &options(None)).unwrap();
+    let lost: Vec<String> =
+        names(&sent).into_iter().filter(|name| !names(&seen).contains(name)).collect();
+    assert_eq!(lost, ["packets.bin", "score_edge.npy", "score_flow.npy", "t_count.npy"]);
+    assert!(fs::read(sent.join("flow.npy")).unwrap() == fs::read(seen.join("flow.npy")).unwrap());
+    let [sent, seen] =
+        [sent, seen].map(|folder| fs::read_to_string(folder.join("events.csv")).unwrap());
+    assert!(seen.starts_with("frame,t_us,x,y,x0,y0,srs,trs,dx,dy,action\n"), "{seen:.80}");
+    let without_scores = |line: &str| {
+        let fields = line.split(',').enumerate().filter(|(at, _)| !(8..11).contains(at));
+        fields.map(|(_, field)| field).collect::<Vec<_>>().join(",")
+    };
+    let expected: Vec<_> = sent.lines().map(without_scores).collect();
+    assert_eq!(seen.lines().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn lost_displacements_are_zero_and_are_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, FLOW_DESIGN, &options(Some(PacketContent::Plain)));
+    let whole = NpyArray::read(&sent.join("flow.npy")).data;
+    let mut stream = fs::read(sent.join("packets.bin")).unwrap();
+    // A FLOW of 6 regions has 24 bytes. Each of the first four frames has 5 of them. The fourth
+    // frame has displacements in its second row.
+    let is_flow = |at: &usize| stream[*at..].starts_with(&[0xFA, 7, 3, 0]);
+    let starts: Vec<usize> = (0..stream.len()).step_by(8).filter(is_flow).collect();
+    assert_eq!(starts.len(), 25);
+    let lost = (0..25).find(|&row| whole[12 * row..12 * (row + 1)] != [0; 12]).unwrap();
+    stream[starts[lost] + 8] ^= 1;
+    let decoded = decode(&stream, FLOW_DESIGN, &seen, &options(None)).unwrap();
+    assert_eq!((decoded.loss_count, decoded.summary.complete), (2, false));
+    let mut expected = whole;
+    expected[12 * lost..12 * (lost + 1)].fill(0);
+    assert_eq!(NpyArray::read(&seen.join("flow.npy")).data, expected);
+    let losses = fs::read_to_string(seen.join("losses.csv")).unwrap();
+    let expected = [
+        "what,frame,row,column,count,offset".to_owned(),
+        format!("bytes,,,,24,{}", starts[lost]),
+        format!("flow,{},{},,,", lost / 5, lost % 5),
+    ];
+    assert_eq!(losses.lines().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn a_decoder_without_flow_takes_nothing_of_a_stream_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, FLOW_DESIGN, &options(Some(PacketContent::Plain)));
+    let with_flow = fs::read(sent.join("packets.bin")).unwrap();
+    fs::remove_dir_all(&sent).unwrap();
+    street(&sent, DESIGNS[0], &options(Some(PacketContent::Plain)));
+    let own = fs::read(sent.join("packets.bin")).unwrap();
+    let error = decode(&with_flow, DESIGNS[0], &seen, &options(None)).unwrap_err().to_string();
+    assert!(error.contains(&design(FLOW_DESIGN).fingerprint()), "{error}");
+    assert!(error.contains(&design(DESIGNS[0]).fingerprint()), "{error}");
+    // The bytes of the other camera stand between two streams of this one.
+    let stream = [&own[..], &with_flow, &own].concat();
+    let decoded = decode(&stream, DESIGNS[0], &seen, &options(None)).unwrap();
+    assert_eq!((decoded.loss_count, decoded.summary.frames), (5, 10));
+    let losses = fs::read_to_string(seen.join("losses.csv")).unwrap();
+    assert!(losses.lines().skip(1).all(|line| line.starts_with("foreign,")), "{losses}");
+    assert!(!seen.join("flow.npy").exists());
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use crate::support;
 use std::fs;
 
+use crate::packets::FLOW_DESIGN;
 use crate::support::{NpyArray, STREET, names, outcomes, run, street};
 use foveate_frame::convert_depth;
 use foveate_model::FunctionalOutcome;
@@ -44,6 +45,52 @@ fn arrays_hold_every_outcome() {
     expect("score_edge.npy", "|u1", little_endian(1, scores(0)));
     expect("score_mad.npy", "<u2", little_endian(2, scores(1)));
     assert!(outcomes.iter().any(|o| o.active.contains(&true) && o.active.contains(&false)));
+}
+
+#[test]
+fn displacements_hold_every_outcome() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    street(&output, FLOW_DESIGN, &RunOptions::default());
+    let npy = NpyArray::read(&output.join("flow.npy"));
+    assert_eq!((npy.descr.as_str(), &npy.shape[..]), ("|i1", &[5, 5, 6, 2][..]));
+    let outcomes = outcomes(FLOW_DESIGN);
+    let displacements = outcomes.iter().flat_map(|outcome| &outcome.displacements);
+    let expected: Vec<u8> =
+        displacements.flat_map(|one| [one.dx, one.dy]).map(i8::cast_unsigned).collect();
+    assert!(npy.data == expected);
+    assert!(expected.contains(&0) && expected.contains(&2) && expected.contains(&254));
+    assert!(!expected.contains(&3));
+
+    let other = folder.path().join("other");
+    street(&other, &STREET, &RunOptions::default());
+    assert!(!other.join("flow.npy").exists(), "a design without flow has no such file");
+}
+
+/// A clip that pans by (2, -1) pixels per frame: the regions inside find this displacement.
+#[test]
+fn the_displacements_of_a_pan_are_those_of_the_pan() {
+    let folder = tempfile::tempdir().unwrap();
+    let texture =
+        |x: u32, y: u32| (x.wrapping_mul(x) ^ y.wrapping_mul(37 * y + x)).to_le_bytes()[0];
+    let inputs: Vec<_> = (0..4)
+        .map(|t| {
+            let pan = |x, y| texture(100 + x - 2 * t, 100 + y + t);
+            support::grey(&folder.path().join(format!("{t}.png")), 32, 24, pan)
+        })
+        .collect();
+    let output = folder.path().join("out");
+    let overrides = [
+        "spatial=[{feature='flow',radius=2}]",
+        "denoise.filter='none'",
+        "hardware.organization='serial'",
+    ];
+    run(&inputs, &overrides, &output, &RunOptions::default()).unwrap();
+    let npy = NpyArray::read(&output.join("flow.npy"));
+    assert_eq!(npy.shape, [4, 3, 4, 2]);
+    let (first, others) = npy.data.split_at(24);
+    assert_eq!(first, [0; 24], "the first frame has no reference");
+    assert_eq!(others, [2, 255].repeat(36));
 }
 
 #[test]

@@ -10,8 +10,8 @@ use foveate_simulator::{EventTableOptions, PacketContent, PictureFormat, RunOpti
 use crate::support::{design, frames, street};
 
 /// The designs cover all references, irrelevant modes, payloads and features, with odd sizes and 1
-/// to 16 bits.
-pub(crate) const DESIGNS: [&[&str]; 9] = [
+/// to 16 bits. The last two have displacements.
+pub(crate) const DESIGNS: [&[&str]; 11] = [
     &["frame.width=45", "frame.height=38"],
     &["frame.width=45", "frame.height=38", "temporal.reference='last-sent'"],
     &[
@@ -60,6 +60,22 @@ pub(crate) const DESIGNS: [&[&str]; 9] = [
         "spatial=[{feature='edge',level=0,min_score=0}]",
         "temporal.level=0",
     ],
+    FLOW_DESIGN,
+    &[
+        "frame={width=75,height=38,pixel_bits=10}",
+        "spatial=[{feature='flow',radius=3},{feature='edge'}]",
+        "hardware.organization='serial'",
+        "render.irrelevant='mean'",
+        "temporal.reference='last-sent'",
+    ],
+];
+
+/// A design with displacements of up to 2 pixels.
+pub(crate) const FLOW_DESIGN: &[&str] = &[
+    "frame.width=45",
+    "frame.height=38",
+    "spatial=[{feature='edge'},{feature='flow',radius=2}]",
+    "hardware.organization='serial'",
 ];
 
 pub(crate) fn options(packets: Option<PacketContent>) -> RunOptions {
@@ -134,6 +150,12 @@ fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutc
         };
         let codes: Vec<_> = of_row.clone().map(|region| (code(region), bits)).collect();
         stream.extend(packet([2, 0, row, columns], &codes, number));
+        if !outcome.displacements.is_empty() {
+            let nibble = |value: i8| u64::from(value.rem_euclid(16).unsigned_abs());
+            let numbers = outcome.displacements[of_row.clone()].iter();
+            let numbers = numbers.flat_map(|one| [(nibble(one.dx), 4), (nibble(one.dy), 4)]);
+            stream.extend(packet([7, 0, row, columns], &numbers.collect::<Vec<_>>(), number));
+        }
         for region in of_row {
             let column = region as u64 % columns;
             let payload = outcome.payload(design);

@@ -6,6 +6,7 @@ use crate::support;
 use std::fs::{self, File};
 use std::path::Path;
 
+use crate::packets::FLOW_DESIGN;
 use crate::support::{NpyArray, STREET, outcomes, street};
 use foveate_simulator::{EventTableOptions, RunOptions, RunSummary};
 use parquet::basic::Type;
@@ -121,6 +122,30 @@ fn parquet_columns_have_plain_types() {
         assert_eq!(column.physical_type(), expected, "{}", column.name());
         assert_eq!(column.max_def_level(), 0, "{} is never missing", column.name());
     }
+}
+
+/// The displacement of a region has six bits in a search of radius 2.
+#[test]
+fn displacements_have_columns_and_count_as_sent() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let events = EventTableOptions { csv: true, parquet: true, only_active: false };
+    let options = RunOptions { events, rendered: None, ..RunOptions::default() };
+    let summary = street(&output, FLOW_DESIGN, &options);
+    let (heading, rows) = parquet_lines(&output.join("events.parquet"));
+    let expected = "frame,t_us,x,y,x0,y0,srs,trs,score_edge,score_flow,t_count,dx,dy,action";
+    assert_eq!(heading, expected);
+    let csv = fs::read_to_string(output.join("events.csv")).unwrap();
+    assert_eq!(csv.lines().collect::<Vec<_>>(), [&[heading][..], &rows].concat());
+    let outcomes = outcomes(FLOW_DESIGN);
+    let displacements = outcomes.iter().flat_map(|outcome| &outcome.displacements);
+    assert_eq!(rows.len(), displacements.clone().count());
+    for (row, displacement) in rows.iter().zip(displacements) {
+        let fields: Vec<&str> = row.split(',').collect();
+        assert_eq!(fields[11..13], [displacement.dx.to_string(), displacement.dy.to_string()]);
+    }
+    let bits = 5 * 30 * (2 + 6) + summary.pixels_forwarded * 8;
+    assert_eq!(summary.bandwidth.region.bytes, bits.div_ceil(8));
 }
 
 #[test]

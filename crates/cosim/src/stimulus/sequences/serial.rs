@@ -2,10 +2,15 @@
 //! The sequences of a serial array.
 
 use super::super::sequence_end::SequenceEnd;
-use super::super::stimulus_pattern::StimulusPattern::*;
+use super::super::stimulus_pattern::StimulusPattern::{self, *};
+use super::super::stimulus_pattern::Texture as TextureKind;
 use super::super::threshold_aimer::ThresholdAim;
 use super::{CHECKERBOARD, FrameSequence, mean_sequences_around_reset};
 use foveate_design::{SerialDesign, SerialPhase, SerialTiming};
+
+const ROWS: StimulusPattern = Texture(TextureKind::Rows(2));
+const COLUMNS: StimulusPattern = Texture(TextureKind::Columns(2));
+const DOTS: StimulusPattern = Texture(TextureKind::Dots(1, 3));
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
 /// alternate with the others, so that the remaining state meets another kind of frame each time.
@@ -53,6 +58,28 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
             )
         },
     ];
+    if design.flow_search().is_some() {
+        // Content that moves, stands still, and is the same along rows, along columns or
+        // everywhere, so that several displacements are equally good.
+        list.splice(
+            1..1,
+            [
+                mixed(
+                    "movements",
+                    &[Noise, Moved, Moved, Same, Moved, Blocks, Moved, Smooth, Moved, Flicker],
+                ),
+                mixed(
+                    "equal movements",
+                    &[ROWS, Moved, Moved, COLUMNS, Moved, Flat, Moved, DOTS, Moved, Moved],
+                ),
+                aimed(
+                    ThresholdAim::Smallest,
+                    "movements of sent regions",
+                    &[Noise, Moved, Same, Moved, Zero, Noise, Moved, Moved],
+                ),
+            ],
+        );
+    }
     if design.periphery().is_some() {
         // The changes of means meet the level or miss it by one; in arrays of a few regions in
         // turn.

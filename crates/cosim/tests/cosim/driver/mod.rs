@@ -332,7 +332,9 @@ fn expected_lines(layout: &PacketLayout, bytes: &[u8]) -> String {
                     let sum = end.regions_sent + 31 * end.regions_dropped + 961 * end.rows_dropped;
                     format!("5 {frame} 0 0 0 {sum}")
                 }
-                Packet::Scores(_) | Packet::Register(_) => panic!("a core sends none"),
+                Packet::Scores(_) | Packet::Register(_) | Packet::Flow(_) => {
+                    panic!("a core sends none")
+                }
             },
         };
         text += &line;

@@ -104,10 +104,20 @@ const SERIAL_DEPTHS: [u32; 5] = [8, 1, 16, 2, 10];
 /// one lane.
 const SERIAL_GRIDS: [(u32, u32, u32); 5] = [(2, 1, 1), (3, 2, 4), (1, 1, 1), (3, 1, 3), (5, 2, 3)];
 
+/// Features that only the serial organization has: alone, and with all others. The minimum of 0
+/// lets a region be active without a reference.
+const SERIAL_FEATURES: [&str; 3] = [
+    "[{feature='flow',min_score=0}]",
+    "[{feature='edge',level=4,min_score=1},{feature='flow',radius=3,min_score=0}]",
+    "[{feature='flow',radius=2,min_score=0},{feature='mad',min_score=0},{feature='edge',level=4,min_score=1},\
+      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0},\
+      {feature='surface',min_score=0},{feature='segment',level=0,min_score=0}]",
+];
+
 /// Returns configurations of serial designs as TOML.
 pub(crate) fn serial_matrix() -> Vec<String> {
     let mut list = Vec::new();
-    for (index, features) in FEATURES.iter().enumerate() {
+    for (index, features) in FEATURES.iter().chain(&SERIAL_FEATURES).enumerate() {
         for choice in 0..16 {
             let size = SERIAL_SIZES[(index * 5 + choice) % SERIAL_SIZES.len()];
             let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];

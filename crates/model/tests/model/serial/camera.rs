@@ -2,7 +2,7 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{Design, RegionAction};
+use foveate_design::{Design, Displacement, RegionAction};
 use foveate_frame::Frame;
 use foveate_model::{
     CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, ThresholdInputs,
@@ -50,6 +50,15 @@ fn simulate(
                 None => outcome.temporal_count[at].into(),
                 Some(feature) => outcome.scores[feature as usize][at],
             };
+            let is_flow = |number: u32| recipe.base.features[number as usize].name == "flow";
+            let is_flow = output.score_index.checked_sub(1).is_some_and(is_flow);
+            let found = if is_flow { outcome.displacements[at] } else { Displacement::default() };
+            let bits = |coordinate: i8| {
+                let radius = recipe.base.features.iter().map(|feature| feature.radius).max();
+                coordinate as u64 & if radius > Some(1) { 7 } else { 3 }
+            };
+            let shown = (output.displacement_x, output.displacement_y);
+            assert_eq!(shown, (bits(found.dx), bits(found.dy)), "displacement of region {at}");
             assert_eq!(output.score, expected, "score {} of region {at}", output.score_index);
         }
         if output.decision_valid {
@@ -127,7 +136,7 @@ fn check(recipe: &SerialParameters, clip: &[Frame]) {
 /// The filters that use a window.
 const WINDOW_FILTERS: [&str; 3] = ["median3x3", "switching3x3", "binomial3x3"];
 
-/// Returns some of the seven features. `which` has one bit for each.
+/// Returns some of the eight features. `which` has one bit for each.
 fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
     let max = (1i64 << bits) - 1;
     let feature = |name, level, min_milli| FeatureParameters {
@@ -145,6 +154,7 @@ fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureParameters> {
         feature("range", 0, 600 * max),
         feature("surface", 0, 150 * max),
         feature("segment", max / 4, 1000 * (side / 2)),
+        FeatureParameters { radius: 1 + side % 3, ..feature("flow", 0, 50 * max) },
     ];
     all.into_iter().enumerate().filter(|(at, _)| which >> at & 1 == 1).map(|(_, f)| f).collect()
 }
@@ -166,7 +176,7 @@ fn clips_over_the_matrix() {
                     side,
                     shared: on(0),
                     filter: if on(1) { WINDOW_FILTERS[number / 7 % 3] } else { "none" },
-                    features: features(1 + number % 127, side, bits),
+                    features: features(1 + number % 255, side, bits),
                     all_must_vote: number.is_multiple_of(7),
                     temporal_level: ((1 << bits) - 1) / 2,
                     temporal_min: side,
@@ -177,6 +187,7 @@ fn clips_over_the_matrix() {
                     constant: number.is_multiple_of(11),
                     deep: number % 4 < 2,
                 };
+                let base = base.with_a_start();
                 let frames = hard_frames(&base);
                 let clip: Vec<Frame> =
                     (0..4).map(|at| frames[(number + at * at) % frames.len()].clone()).collect();
@@ -199,7 +210,7 @@ fn every_fold_of_a_grid_of_seven() {
                 side: 4,
                 shared: true,
                 filter: "median3x3",
-                features: features(127, 4, 8),
+                features: features(255, 4, 8),
                 all_must_vote: false,
                 temporal_level: 3,
                 temporal_min: 2,
@@ -226,7 +237,7 @@ fn the_largest_region() {
             side: 64,
             shared,
             filter: if shared { "median3x3" } else { "none" },
-            features: features(127, 64, 16),
+            features: features(255, 64, 16),
             all_must_vote: false,
             temporal_level: 100,
             temporal_min: 9,

@@ -65,13 +65,18 @@ impl SerialParameters {
         self.base.side + if self.base.shared && self.has_window() { 2 } else { 0 }
     }
 
+    /// Returns true if the reference stays as it is until the last score.
+    fn copies_reference(&self) -> bool {
+        self.base.last_sent || self.base.has_feature("flow")
+    }
+
     /// Returns the clocks from an address to the accumulator, Q.
     pub(crate) fn read_latency(&self) -> i64 {
         let mut words = (self.base.side + 2 * self.halo()).pow(2);
         if self.base.has_filter() {
             words += self.denoised_side().pow(2);
         }
-        if !self.base.has_filter() || self.base.last_sent {
+        if !self.base.has_filter() || self.copies_reference() {
             words += self.base.region_pixels();
         }
         let mut slot = 1;
@@ -79,8 +84,9 @@ impl SerialParameters {
             slot *= 2;
         }
         let luts = i64::from(self.base.bits) * ((self.fold * slot + 63) / 64);
-        let sums =
-            ["mad", "variance", "range", "surface"].iter().any(|name| self.base.has_feature(name));
+        let sums = ["mad", "variance", "range", "surface", "flow"]
+            .iter()
+            .any(|name| self.base.has_feature(name));
         i64::from(luts > 128) + i64::from(self.base.deep) * if sums { 2 } else { 1 }
     }
 
@@ -93,12 +99,12 @@ impl SerialParameters {
     pub(crate) fn phases(&self) -> Vec<ExpectedPhase> {
         use ExpectedPhase::{Rotation, Unload, UnloadMeans, WithoutOutput};
         let (n, p, q) = (self.base.region_pixels(), i64::from(self.base.bits), self.read_latency());
-        let (median, last_sent) = (self.base.has_filter(), self.base.last_sent);
+        let (median, copies) = (self.base.has_filter(), self.copies_reference());
         let mut phases = Vec::new();
         if median {
             let per_pixel = match self.base.filter {
-                "median3x3" => 10 * p + 3 + i64::from(last_sent),
-                "switching3x3" => 1 + 16 + (10 * p + 3) + 2 + i64::from(last_sent),
+                "median3x3" => 10 * p + 3 + i64::from(copies),
+                "switching3x3" => 1 + 16 + (10 * p + 3) + 2 + i64::from(copies),
                 "binomial3x3" => 51,
                 other => panic!("docs/serial.md says no steps of {other}"),
             };
@@ -108,7 +114,7 @@ impl SerialParameters {
             phases.push(WithoutOutput(4 * (self.base.side + 2) * (2 + q)));
         }
         if !median {
-            phases.push(WithoutOutput(if last_sent { 3 * n } else { n * (3 + q) }));
+            phases.push(WithoutOutput(if copies { 3 * n } else { n * (3 + q) }));
         }
         phases.push(Rotation);
         if let Some(PeripheryParameters { blocks, .. }) = self.base.periphery {
@@ -121,7 +127,7 @@ impl SerialParameters {
             phases.push(WithoutOutput(self.pass_steps(feature)));
             phases.push(Rotation);
         }
-        if last_sent {
+        if copies {
             phases.push(WithoutOutput(n * (2 + q)));
         }
         phases.push(Unload);
@@ -142,6 +148,24 @@ impl SerialParameters {
             "variance" => {
                 let ones = (0..13).filter(|bit| n >> bit & 1 == 1).count() as i64;
                 n + p * n * ones + 2 * bits(n * self.base.pixel_max()) + p + bits(n) + 2
+            }
+            "flow" => {
+                let (side, radius) = (self.base.side, feature.radius);
+                let widths = || side - radius..=side;
+                let is_multiple = |of: &i64| widths().all(|width| of % width == 0);
+                // A multiple of the side is found at once, unless the side is large.
+                let common = (1..).map(|times| times * side).find(is_multiple).unwrap();
+                let (sum, product) = (
+                    bits(n * self.base.pixel_max()),
+                    bits(common * common * self.base.pixel_max()),
+                );
+                let displacement = |dx: i64, dy: i64| {
+                    let pairs = (side - dx.abs()) * (side - dy.abs());
+                    1 + 2 * pairs + sum + sum + product
+                };
+                let all = (-radius..=radius)
+                    .flat_map(|dy| (-radius..=radius).map(move |dx| displacement(dx, dy)));
+                all.sum::<i64>() + 1 + sum + product + sum + 1 + sum + 1
             }
             other => panic!("docs/serial.md says no steps of {other}"),
         }
