@@ -31,6 +31,12 @@ feature = "segment"
 min_score = 6
 mean_fraction_bits = 2
 """
+# The organization that supports it is named, too.
+FLOW = """[[spatial]]
+feature = "flow"
+radius = 2
+"""
+SERIAL = '[hardware]\norganization = "serial"\n'
 RENDERINGS = {
     "zero": "",
     "hold": '[render]\nirrelevant = "hold"\n',
@@ -50,15 +56,18 @@ def cameras():
     """Name, TOML, size: every preset, then features x references x what is shown x depths x sides of a region x sizes, each
     value with many of the others."""
     one = [f'[[spatial]]\nfeature = "{feature}"\n' for feature in ["edge", "corner", "mad", "variance", "range", "surface", "segment"]]
-    features = [*one, ALL_FEATURES, ALL_FEATURES + '[decision]\ncombine = "all"\n']
+    every = ALL_FEATURES + FLOW
+    features = [*one, ALL_FEATURES, ALL_FEATURES + '[decision]\ncombine = "all"\n', FLOW, every, every + '[decision]\ncombine = "all"\n']
     depths = [8, 10, 8, 5, 8, 16, 8, 1, 12]
     sides = [8, 16, 5, 4, 12, 64]
     number = 0
     for feature in features:
-        for reference in ["previous", "last-sent"]:
+        # With `last-sent`, another feature must be able to vote alone.
+        has_one = FLOW in feature and (feature == FLOW or "all" in feature)
+        for reference in ["previous"] if has_one else ["previous", "last-sent"]:
             for shown in RENDERINGS.values():
                 bits = depths[number % len(depths)]
-                toml = toml_at_depth(feature, bits) + shown
+                toml = toml_at_depth(feature, bits) + shown + SERIAL * (FLOW in feature)
                 toml += f'[temporal]\nreference = "{reference}"\n'
                 toml += f'[region]\nsize = {sides[number % len(sides)]}\nneighborhood = "{["isolated", "shared"][number // 2 % 2]}"\n'
                 toml += f'[denoise]\nfilter = "{["none", "median3x3", "switching3x3", "binomial3x3"][number // 3 % 4]}"\n'

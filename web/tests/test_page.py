@@ -171,6 +171,73 @@ def test_features_are_turned_on_and_off_but_never_all_off(still):
     assert page.get_by_label("variance", exact=True).is_checked()
 
 
+def test_flow_has_arrows_and_an_organization_that_supports_it(still):
+    page = still("#source=scene:shake&size=224x224&preset=raster")
+    marked = """() => {
+        const canvas = document.querySelector("#decisions .arrows");
+        const words = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+        return words.filter(word => word === 0xffffffff).length;
+    }"""
+    before = page.evaluate(TOML)
+    assert page.locator("#decisions .arrows").is_hidden() and page.locator("#moved-key").is_hidden()
+    page.get_by_label("flow", exact=True).check()
+    assert page.evaluate("foveate.config.hardware.organization") == "serial"
+    assert page.locator("#moved-key").is_visible()
+    control(page, "spatial.1.radius", "select").select_option("3")
+    assert page.evaluate("foveate.config.spatial[1].radius") == 3
+    page.click("#reset")
+    until(page, "foveate.sums.frames === 1")
+    # Nothing has a reference yet.
+    assert page.evaluate(marked) == 0
+    step(page, 2)
+    few = page.evaluate(marked)
+    moved = page.evaluate("foveate.camera.displacements.filter((_, place) => place % 3 === 2).reduce((sum, vote) => sum + vote)")
+    # An arrow has some ten pixels or more.
+    assert moved > 50 and few > 10 * moved
+    # The figures are those of raster cores, so the page says why there are none.
+    assert "raster core, which does not compute flow" in page.inner_text("#area")
+    assert page.locator("#area dd").count() == 0
+    command = shlex.split(page.inner_text("#area pre"))
+    (folder := Path(page.folder)).mkdir(exist_ok=True)
+    (folder / "camera.toml").write_text(page.evaluate(TOML))
+    told = foveate("check", *command[2:], cwd=folder)
+    assert "serial" in told and "640 x 480" in told
+    # A link has the organization, with its own keys.
+    facts = page.evaluate("foveate.camera.facts")
+    page.click("#copy-link")
+    until(page, "document.getElementById('copied').textContent.includes('clipboard')")
+    other = still("#" + page.evaluate("navigator.clipboard.readText()").split("#")[1])
+    assert other.evaluate("foveate.camera.facts") == facts
+    # Without the feature, the hardware is that from before.
+    page.get_by_label("flow", exact=True).uncheck()
+    assert page.evaluate(TOML) == before
+    assert page.locator("#decisions .arrows").is_hidden()
+
+
+def test_flow_alone_is_refused_where_nothing_would_have_a_reference(still):
+    page = still(f"#size={WIDTH}x{HEIGHT}&preset=fovea")
+    page.get_by_label("flow", exact=True).check()
+    page.get_by_label("edge", exact=True).click()
+    refused = page.inner_text("[data-key='feature.edge'] .refused")
+    assert "flow" in refused and "last-sent" in refused
+    assert page.evaluate("foveate.camera.facts.features") == ["edge", "flow"]
+
+
+def test_a_movement_is_explained(still):
+    page = still("#source=scene:shake&size=224x224&preset=paper")
+    page.get_by_label("flow", exact=True).check()
+    page.click("#reset")
+    until(page, "foveate.sums.frames === 1")
+    step(page, 2)
+    region = page.evaluate("foveate.camera.displacements.findIndex((vote, place) => place % 3 === 2 && vote) - 2") // 3
+    box = page.locator("#decisions").bounding_box()
+    column, row = region % 28, region // 28
+    page.mouse.click(box["x"] + box["width"] * (column + 0.5) / 28, box["y"] + box["height"] * (row + 0.5) / 28)
+    assert "because the content has moved by 1" in page.inner_text("#reasons")
+    page.click("#reasons summary")
+    assert "the content has moved by 1" in page.inner_text("#reasons pre")
+
+
 def test_what_the_engine_refuses_is_told_beside_the_control(still):
     page = still(f"#size={WIDTH}x{HEIGHT}&preset=paper")
     before = page.evaluate(TOML)
