@@ -7,6 +7,7 @@ use foveate_camera::Camera;
 use crate::engine::{Engine, LaneCore};
 use crate::lane_engine::{KeptBuffers, LaneEngine};
 use crate::pixels::BorrowedFrame;
+use crate::plan::index;
 use crate::workers::Workers;
 use crate::{BatchScreens, EngineError, FrameOutcome, screens};
 use foveate_lanes::PixelLane;
@@ -89,7 +90,7 @@ fn check_frames<'a, T: PixelLane>(
 
 /// Makes room for one outcome per frame. The outcomes of longer batches stay for the next one.
 fn resize_outcomes(outcomes: &mut Vec<FrameOutcome>, camera: &Camera, frames: usize) {
-    let new = || FrameOutcome::new(camera);
+    let new = || FrameOutcome::new(camera, index(camera.regions()));
     outcomes.resize_with(frames.max(outcomes.len()), new);
 }
 

@@ -94,7 +94,7 @@ impl Engine {
                 options.skips_identical_regions,
             ))
         };
-        let outcome = FrameOutcome::new(camera);
+        let outcome = FrameOutcome::new(camera, index(camera.regions()));
         Self {
             camera: camera.clone(),
             workers,

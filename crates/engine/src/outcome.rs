@@ -5,8 +5,6 @@ use std::ops::Range;
 
 use foveate_camera::{Camera, Displacement, FeatureKind, RegionAction};
 
-use crate::plan::index;
-
 /// The scores and decisions of every region, numbered row by row. The fields are those of the
 /// functional model's outcome. [`Engine::rendered`](crate::Engine::rendered) has the rendered
 /// frame.
@@ -34,8 +32,7 @@ pub struct FrameOutcome {
 }
 
 impl FrameOutcome {
-    pub(crate) fn new(camera: &Camera) -> Self {
-        let regions = index(camera.regions());
+    pub(crate) fn new(camera: &Camera, regions: usize) -> Self {
         let displaced = camera.displacement_feature().map_or(0, |_| regions);
         Self {
             srs: vec![false; regions],

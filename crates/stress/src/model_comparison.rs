@@ -2,7 +2,7 @@
 //! The comparison of the functional model, the engine and, for designs of `pipelined`, the
 //! cycle-level model over the same frames.
 
-use foveate_design::{Design, PipelinedDesign};
+use foveate_design::{Design, Hardware, PipelinedDesign};
 use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::{
@@ -44,7 +44,10 @@ pub(crate) fn compare_models(
     let mut tally = AgreementTally::default();
     let mut camera = FunctionalCamera::new(design);
     let mut engine = Engine::new(design);
-    let pipelined = design.as_pipelined();
+    let pipelined = match design.hardware() {
+        Hardware::Pipelined(own) => Some(design.with_hardware(own)),
+        Hardware::Serial(_) | Hardware::Raster(_) => None,
+    };
     let mut cycle_level = pipelined.map(|design| CycleLevelRun::new(design, unrest));
     // A decision may come one frame late, and those that are pending at a reset never come.
     let mut pending = std::collections::VecDeque::new();

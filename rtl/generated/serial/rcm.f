@@ -10,6 +10,7 @@ rtl/serial_regions.v
 rtl/serial_addresses.v
 rtl/serial_constant.v
 rtl/serial_controls.v
+rtl/serial_flow.v
 rtl/serial_sequencer.v
 rtl/serial_parallel_feed.v
 rtl/serial_places.v

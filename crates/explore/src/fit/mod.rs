@@ -113,8 +113,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
     let (task, target) = task_for_target(request, &footage, &halves)?;
     let footage = footage.with_ideal(&task);
     let hardware = &request.task.hardware;
-    let mut search =
-        CameraSearch::new(request.constraints, &footage, &halves, &task, hardware)?;
+    let mut search = CameraSearch::new(request.constraints, &footage, &halves, &task, hardware)?;
     let network =
         request.network.map(|goal| NetworkAgreement::new(goal, &footage, &halves, search.task()));
     let network = network.transpose()?;

@@ -21,8 +21,8 @@ use crate::feature::mean::region_mean;
 use crate::feature::region_hits;
 use crate::feature::segment::{SegmentCounts, sides_of_mean};
 use crate::feature::surface::displacement_sums;
-use crate::temporal::RegionReferences;
 use crate::region_view::FrameRegion;
+use crate::temporal::RegionReferences;
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 
 /// Version of the format. It changes when a key is removed or changes its meaning.

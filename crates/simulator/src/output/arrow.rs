@@ -128,12 +128,18 @@ mod tests {
     fn a_faint_arrow_lets_the_picture_through_and_parts_outside_are_left_out() {
         let mut canvas = PictureCanvas::new(SIDE, SIDE);
         canvas.fill_rectangle(0, 0, SIDE, SIDE, [100; 3]);
-        Arrow { tail: [2.0, 16.0], tip: [80.0, 16.0], head_width: 8.0 }
-            .draw(&mut canvas, [200; 3], 0.5);
+        Arrow { tail: [2.0, 16.0], tip: [80.0, 16.0], head_width: 8.0 }.draw(
+            &mut canvas,
+            [200; 3],
+            0.5,
+        );
         let at = 3 * (16 * SIDE as usize + 16);
         assert!((140..160).contains(&canvas.rgb[at]), "{}", canvas.rgb[at]);
-        Arrow { tail: [2.0, 2.0], tip: [-9.0, -9.0], head_width: 8.0 }
-            .draw(&mut canvas, [200; 3], 1.0);
+        Arrow { tail: [2.0, 2.0], tip: [-9.0, -9.0], head_width: 8.0 }.draw(
+            &mut canvas,
+            [200; 3],
+            1.0,
+        );
         assert!(canvas.rgb[0] > 100);
     }
 }

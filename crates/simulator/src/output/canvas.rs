@@ -152,8 +152,8 @@ mod tests {
     #[test]
     fn arrows_have_space_in_regions_of_16_pixels() {
         let sizes = [(640, 480, 2), (640, 480, 4), (1280, 720, 2), (64, 48, 2)];
-        let scales = sizes
-            .map(|(width, height, least)| PictureLayout::enlarged(width, height, least).scale);
+        let scales =
+            sizes.map(|(width, height, least)| PictureLayout::enlarged(width, height, least).scale);
         assert_eq!(scales, [2, 2, 1, 7]);
     }
 }

@@ -208,7 +208,9 @@ fn texts_fit_80_columns_at_every_size_and_depth() {
                 format!("region.size={size}"),
                 format!("frame.pixel_bits={bits}"),
                 format!("hardware.organization=\"{organization}\""),
-                format!("spatial=[{{feature=\"edge\",level=1,min_score=1}},{{feature=\"variance\",min_score=0.1}},{{feature=\"surface\",min_score=0.1}},{{feature=\"segment\",level=0,min_score=1,mean_fraction_bits=2}}{flow}]"),
+                format!(
+                    "spatial=[{{feature=\"edge\",level=1,min_score=1}},{{feature=\"variance\",min_score=0.1}},{{feature=\"surface\",min_score=0.1}},{{feature=\"segment\",level=0,min_score=1,mean_fraction_bits=2}}{flow}]"
+                ),
                 "temporal={level=0,min_count=1}".into(),
             ];
             let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();

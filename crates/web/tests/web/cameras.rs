@@ -16,7 +16,13 @@ const SERIAL: &str = "hardware.organization=\"serial\"";
 pub(crate) fn configurations() -> Vec<String> {
     let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
     let more = [
-        &[ALL, SERIAL, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
+        &[
+            ALL,
+            SERIAL,
+            "frame.pixel_bits=10",
+            "render.irrelevant=\"mean\"",
+            "render.payload=\"raw\"",
+        ][..],
         &[
             ALL,
             SERIAL,

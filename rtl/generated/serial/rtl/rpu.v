@@ -55,7 +55,9 @@ module rpu #(
     wire [5:0] position;
     wire [1:0] slot;
     wire summary;
-    wire unused_beside = |region || |position || |slot || summary || edge_level_i[0];
+    wire [1:0] displacement_x;
+    wire [1:0] displacement_y;
+    wire unused_beside = |region || |position || |slot || summary || |displacement_x || |displacement_y || edge_level_i[0];
 
     serial_array #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .LANES(LANES), .FOLD(4),
@@ -95,7 +97,8 @@ module rpu #(
         .VARIANCE_INDEX(0),
         .RANGE_INDEX(0),
         .SURFACE_INDEX(0),
-        .SEGMENT_INDEX(0)
+        .SEGMENT_INDEX(0),
+        .FLOW_INDEX(0)
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
         .temporal_level_i(temporal_level_i),
@@ -106,6 +109,8 @@ module rpu #(
         .summary_level_i(8'd0),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
         .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .displacement_x_o(displacement_x),
+        .displacement_y_o(displacement_y),
         .summary_o(summary),
         .forward_valid_o(forward_valid_o), .forward_pixel_o(forward_pixel_o),
         .forward_slot_o(slot), .forward_position_o(position)

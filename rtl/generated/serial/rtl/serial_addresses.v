@@ -12,7 +12,8 @@ module serial_addresses #(
     parameter DENOISED_SIDE = 8,    // side of the square that is denoised
     parameter FILTER = 1,           // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
-    parameter LAST_SENT = 0,        // 1: the reference is `last-sent`; 0: `previous`
+    parameter COPIES = 0,           // not 0: the reference is copied after the last score; 0: it is overwritten pixel by pixel
+    parameter FLOW = 0,             // 1: the design has the feature `flow`
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave; 0: the pixels that are scored
     parameter BLOCKS = 0,           // blocks of a region's side whose means are sent: 1, 2 or 4; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
@@ -22,7 +23,7 @@ module serial_addresses #(
     parameter POSITION_BITS = 6     // bits of the number of a pixel in the larger square of centers
 ) (
     input  wire                     clk_i,          // clock, rising edge
-    input  wire [             47:0] step_i,         // the step: one bit for each action, in the order of serial_states
+    input  wire [             50:0] step_i,         // the step: one bit for each action, in the order of serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor that is read
     input  wire [              1:0] part_i,         // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     input  wire                     walks_i,        // the next step works on the next center
@@ -32,6 +33,11 @@ module serial_addresses #(
     input  wire                     last_score_i,   // this score is the last of the slot
     input  wire [   BLOCK_BITS-1:0] block_i,        // number of the block
     input  wire                     last_block_i,   // the block is the last of the region
+    // The displacement of `flow`.
+    input  wire [              1:0] columns_i,      // |dx|
+    input  wire [              1:0] rows_i,         // |dy|
+    input  wire                     right_i,        // dx is not negative
+    input  wire                     down_i,         // dy is not negative
     output wire [    WORD_BITS-1:0] address_o,      // address of the word inside the slot
     output wire                     write_o,        // the accumulator is written to this address
     output wire [POSITION_BITS-1:0] position_o,     // number of the center in its square, or of the last pixel of a block
@@ -72,6 +78,7 @@ module serial_addresses #(
     localparam [WORD_BITS-1:0] ONE = 1;
     localparam [WORD_BITS-1:0] WINDOW_STRIDE = RAW_SIDE;
     localparam [WORD_BITS-1:0] SCORED_STRIDE = SCORED_SIDE;
+    localparam [POSITION_BITS-1:0] POSITION_STRIDE = SIDE;
     // Squares that are walked word by word.
     localparam [WORD_BITS-1:0] DENOISED_AT = DENOISED_BASE;
     localparam [WORD_BITS-1:0] REFERENCE_AT = REFERENCE_BASE;
@@ -88,6 +95,7 @@ module serial_addresses #(
     wire [14:0] unused_sums;
     wire spanning;
     wire [3:0] unused_bounds;
+    wire matching, unused_least, noting;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
@@ -95,6 +103,7 @@ module serial_addresses #(
         starting, searching, adjusting, probing, choosing, blending, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
         unused_sums, spanning, unused_bounds,
+        matching, unused_least, noting,
         averaging, returning, storing, showing
     } = step_i;
     wire unused_step = starting || adjusting || choosing || reading || gradient_test || ring_test || ring_last || showing;
@@ -133,11 +142,41 @@ module serial_addresses #(
         end
     endgenerate
 
+    // The pairs of `flow`: the columns and rows of a region that have no partner at the displacement, the first center, the position
+    // of its partner, and the distances from the last pair of a row to the first pair of the next row.
+    wire [SIDE_BITS-1:0] missing_columns;
+    wire [SIDE_BITS-1:0] missing_rows;
+    wire [WORD_BITS-1:0] pair_start;
+    wire [WORD_BITS-1:0] pair_skip;
+    wire [POSITION_BITS-1:0] partner_start;
+    wire [POSITION_BITS-1:0] partner_skip;
+
+    generate
+        if (FLOW != 0) begin : g_pairs
+            /* verilator lint_off WIDTH */
+            assign missing_columns = columns_i;
+            assign missing_rows = rows_i;
+            assign pair_start = SCORED_START + (down_i ? rows_i * SCORED_STRIDE : 0) + (right_i ? columns_i : 0);
+            assign pair_skip = SCORED_SKIP + columns_i;
+            assign partner_start = (down_i ? 0 : rows_i * POSITION_STRIDE) + (right_i ? 0 : columns_i);
+            assign partner_skip = 1 + columns_i;
+            /* verilator lint_on WIDTH */
+        end else begin : g_no_pairs
+            wire unused_displacement = |columns_i || |rows_i || right_i || down_i || |POSITION_STRIDE;
+            assign missing_columns = {SIDE_BITS{1'b0}};
+            assign missing_rows = {SIDE_BITS{1'b0}};
+            assign pair_start = SCORED_START;
+            assign pair_skip = SCORED_SKIP;
+            assign partner_start = {POSITION_BITS{1'b0}};
+            assign partner_skip = {{(POSITION_BITS - 1) {1'b0}}, 1'b1};
+        end
+    endgenerate
+
     // The walk over the centers.
     wire wide_pass = BORDERS && (denoising || bordering);
     wire [SIDE_BITS-1:0] last_place = wide_pass ? LAST_WIDE : averaging ? LAST_OF_BLOCK : LAST_SIDE;
-    wire last_column = column_q == last_place;
-    wire last_row = row_q == last_place;
+    wire last_column = column_q == last_place - (missing_columns & {SIDE_BITS{matching}});
+    wire last_row = row_q == last_place - (missing_rows & {SIDE_BITS{matching}});
     wire last_center = last_column && last_row;
     wire [WORD_BITS-1:0] skip = denoising ? WINDOW_SKIP
         : (unloading || shifting) ? LEAVING_SKIP : SCORED_SKIP;
@@ -146,7 +185,7 @@ module serial_addresses #(
 
     // The distances from the last center of a row of a block, and from the last center of a block.
     wire [WORD_BITS-1:0] block_skip = !last_row ? BLOCK_SKIP : row_of_blocks_ends ? LEAVING_SKIP : NEXT_BLOCK;
-    wire [WORD_BITS-1:0] onward = !last_column ? ONE : averaging ? block_skip : skip;
+    wire [WORD_BITS-1:0] onward = !last_column ? ONE : averaging ? block_skip : matching ? pair_skip : skip;
 
     assign last_column_o = last_column;
     assign last_center_o = last_center;
@@ -169,13 +208,17 @@ module serial_addresses #(
         end else if (walks_i) begin
             column_q   <= last_column ? {SIDE_BITS{1'b0}} : column_q + 1'b1;
             if (last_column) row_q <= last_row ? {SIDE_BITS{1'b0}} : row_q + 1'b1;
-            position_q <= last_center ? {POSITION_BITS{1'b0}} : position_q + 1'b1;
+            position_q <= last_center ? {POSITION_BITS{1'b0}}
+                : matching && last_column ? position_q + partner_skip : position_q + 1'b1;
             center_q   <= center_q + onward;
             if (last_center && !(averaging && !last_block_i))
                 center_q <= BORDERS && (testing || blended) ? LEFT_START : writing && !blended ? LEAVING_START
                     : SUMMARIES && unloading ? MEAN_AT : SCORED_START;
-        end else if (rotating && last_lane_i && (sums_start || (last_score_i && LAST_SENT == 0 && !returning))) begin
+        end else if (rotating && last_lane_i && (sums_start || (last_score_i && COPIES == 0 && !returning))) begin
             center_q <= LEAVING_START;
+        end else if (noting) begin
+            center_q   <= pair_start;
+            position_q <= partner_start;
         end
     end
 
@@ -239,7 +282,7 @@ module serial_addresses #(
         if (BORDERS) begin : g_inside
             assign counts_o = column_q != 0 && column_q <= LAST_COUNTED
                 && row_q != 0 && row_q <= LAST_COUNTED;
-            if (LAST_SENT != 0) begin : g_reference
+            if (COPIES != 0) begin : g_reference
                 reg [WORD_BITS-1:0] reference_q;
                 always @(posedge clk_i) begin
                     if (!denoising) reference_q <= REFERENCE_AT;
@@ -256,8 +299,8 @@ module serial_addresses #(
     endgenerate
 
     wire compares = BLENDS && blending && part_i == 2'd0;  // the reference is read
-    wire to_denoised = FILTER != 0 && ((writing && temporal) || (compares && LAST_SENT == 0));
-    wire to_reference = relating || (compares && LAST_SENT != 0) || (writing && (copying || (FILTER == 0 && temporal)));
+    wire to_denoised = FILTER != 0 && ((writing && temporal) || (compares && COPIES == 0));
+    wire to_reference = relating || (matching && part_i[0]) || (compares && COPIES != 0) || (writing && (copying || (FILTER == 0 && temporal)));
 
     assign address_o = to_denoised ? DENOISED_AT + position : to_reference ? reference : center_q + near;
     assign write_o = (writing && temporal) || storing;

@@ -33,6 +33,10 @@ module serial_array #(
     parameter RANGE_INDEX = 0,      // number of the score of `range`; 0: there is none
     parameter SURFACE_INDEX = 0,    // number of the score of `surface`; 0: there is none
     parameter SEGMENT_INDEX = 0,    // number of the score of `segment`; 0: there is none
+    parameter FLOW_INDEX = 0,       // number of the score of `flow`; 0: there is none
+    parameter FLOW_RADIUS = 1,      // `flow`: largest |dx| and |dy|, 1 to 3
+    parameter FLOW_FACTOR_BITS = 1, // `flow`: bits of a factor of a weight
+    parameter [(FLOW_RADIUS+1)*FLOW_FACTOR_BITS-1:0] FLOW_FACTORS = 0,  // `flow`: the factors, see serial_flow
     parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
     parameter FRACTION = 0,         // fraction bits of the mean of `mad` and `segment`, 0 to 12
     // Reference and what leaves
@@ -61,6 +65,8 @@ module serial_array #(
     parameter ACC_BITS = 11,        // bits of the accumulator, which is signed
     parameter AUX_BITS = 1,         // bits of the second word: a mean, a sum or the largest pixel; at least 2
     parameter CHAIN_BITS = 7,       // bits of the word that goes around the ring of lanes
+    parameter LEAST_BITS = 2,       // `flow`: bits of a sum times its weight
+    parameter COORDINATE_BITS = 2,  // bits of dx and of dy of a displacement
     // Timing
     parameter DEEP = 0              // 1: more registers, for a faster clock
 ) (
@@ -82,6 +88,8 @@ module serial_array #(
     output wire [                     INDEX_BITS-1:0] score_index_o,      // number of that score; 0 is the temporal count
     output wire [                    REGION_BITS-1:0] region_o,           // number of the region of the score and of the decision
     output wire [                     SCORE_BITS-1:0] score_o,            // the score
+    output wire [                COORDINATE_BITS-1:0] displacement_x_o,   // `flow`: dx of region_o, with its score; else 0
+    output wire [                COORDINATE_BITS-1:0] displacement_y_o,   // `flow`: dy of region_o, with its score; else 0
     output wire                                       decision_valid_o,   // the decision for region_o is on the ports
     output wire                                       srs_o,              // SRS, the spatial relevance; 0 unless decision_valid_o
     output wire                                       trs_o,              // TRS, the temporal relevance; 0 unless decision_valid_o
@@ -102,10 +110,14 @@ module serial_array #(
     localparam RANGE = RANGE_INDEX != 0 ? 1 : 0;
     localparam SURFACE = SURFACE_INDEX != 0 ? 1 : 0;
     localparam SEGMENT = SEGMENT_INDEX != 0 ? 1 : 0;
+    localparam FLOW = FLOW_INDEX != 0 ? 1 : 0;
+
+    // The reference is copied after the last score: 1: by active regions; 2: by all regions; 0: it is overwritten pixel by pixel.
+    localparam COPIES = LAST_SENT != 0 ? 1 : FLOW ? 2 : 0;
 
     // The areas of a slot: raw, denoised, reference.
     localparam HAS_DENOISED = FILTER != 0;
-    localparam HAS_REFERENCE = FILTER == 0 || LAST_SENT != 0;
+    localparam HAS_REFERENCE = FILTER == 0 || COPIES != 0;
     localparam RAW_END = RAW_SIDE * RAW_SIDE;
     localparam DENOISED_END = DENOISED_BASE + DENOISED_SIDE * DENOISED_SIDE;
     localparam REFERENCE_END = REFERENCE_BASE + SIDE * SIDE;
@@ -142,7 +154,7 @@ module serial_array #(
         if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
         if (FEATURES < 1 || FEATURES > 8) begin : g_features FEATURES_must_be_1_to_8 u_refused (); end
-        if (FEATURES != EDGE + CORNER + MAD + VARIANCE + RANGE + SURFACE + SEGMENT) begin : g_indices
+        if (FEATURES != EDGE + CORNER + MAD + VARIANCE + RANGE + SURFACE + SEGMENT + FLOW) begin : g_indices
             FEATURES_must_count_the_features u_refused ();
         end
         if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
@@ -185,10 +197,10 @@ module serial_array #(
     localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
     localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
     localparam BLOCK_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;
-    localparam CONTROL_BITS = 37;  // bits of the control word
+    localparam CONTROL_BITS = 39;  // bits of the control word
     // Clocks from an address to its word, and from an address to the accumulator.
     localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
-    localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE || RANGE || SURFACE) ? 1 : 0);
+    localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE || RANGE || SURFACE || FLOW) ? 1 : 0);
 
     // Feed.
     wire working, reopen, start, open, take, place;
@@ -234,10 +246,12 @@ module serial_array #(
 
     serial_sequencer #(
         .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .FILTER(FILTER),
-        .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
+        .CLAMPS(SHARED != 0 ? 0 : 1), .COPIES(COPIES), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
         .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES),
         .EDGE_INDEX(EDGE_INDEX), .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX),
         .VARIANCE_INDEX(VARIANCE_INDEX), .RANGE_INDEX(RANGE_INDEX), .SURFACE_INDEX(SURFACE_INDEX), .SEGMENT_INDEX(SEGMENT_INDEX),
+        .FLOW_INDEX(FLOW_INDEX), .FLOW_RADIUS(FLOW_RADIUS), .FLOW_FACTOR_BITS(FLOW_FACTOR_BITS), .FLOW_FACTORS(FLOW_FACTORS),
+        .LEAST_BITS(LEAST_BITS), .COORDINATE_BITS(COORDINATE_BITS),
         .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS),
         .FRACTION(FRACTION), .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
@@ -288,9 +302,9 @@ module serial_array #(
         for (i = 0; i < GROUPS; i = i + 1) begin : g_group
             serial_group #(
                 .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .WORD(WORD), .LATE(LATE), .RASTER(RASTER),
-                .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
+                .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(COPIES), .BORDERS(BORDERS),
                 .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
-                .SEGMENT(SEGMENT), .SUMMARIES(SUMMARIES)
+                .SEGMENT(SEGMENT), .FLOW(FLOW), .SUMMARIES(SUMMARIES)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
                 .pixel_i(pixel_i[WIDTH-1:0]), .place_i(place), .lane_i(place_lane),
@@ -308,6 +322,9 @@ module serial_array #(
     wire [(LANES+1)*CHAIN_BITS-1:0] ring;
     wire [(LANES+1)*FLAGS-1:0] flags;
     wire [LANES*WIDTH-1:0] words;
+    localparam DISPLACEMENT_BITS = FLOW ? 2 * COORDINATE_BITS : 1;
+    wire [(LANES+1)*DISPLACEMENT_BITS-1:0] displacements;
+    assign displacements[LANES*DISPLACEMENT_BITS+:DISPLACEMENT_BITS] = {DISPLACEMENT_BITS{1'b0}};
 
     wire [WIDTH-1:0] mean;
     wire [CHAIN_BITS+WIDTH-1:0] wide_mean = {{CHAIN_BITS{1'b0}}, mean};
@@ -341,9 +358,10 @@ module serial_array #(
             serial_lane #(
                 .WIDTH(WIDTH), .WORDS(FOLD << WORD_BITS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .DEEP(DEEP),
                 .ACC_BITS(ACC_BITS), .CHAIN_BITS(CHAIN_BITS), .FLAGS(FLAGS), .RASTER(RASTER),
-                .COPIES(LAST_SENT), .BORDERS(BORDERS), .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER),
-                .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT), .FRACTION(FRACTION),
-                .SUMMARIES(SUMMARIES), .DROPPED(MEAN_DROPPED), .AUX_BITS(AUX_BITS), .SUM_BITS(SUM_BITS), .PIXELS(SIDE * SIDE)
+                .COPIES(COPIES), .BORDERS(BORDERS), .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER),
+                .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT), .FLOW(FLOW), .FRACTION(FRACTION),
+                .SUMMARIES(SUMMARIES), .DROPPED(MEAN_DROPPED), .AUX_BITS(AUX_BITS), .SUM_BITS(SUM_BITS), .PIXELS(SIDE * SIDE),
+                .LEAST_BITS(LEAST_BITS), .DISPLACEMENT_BITS(DISPLACEMENT_BITS)
             ) u_lane (
                 .clk_i(clk_i), .loading_i(loading[GROUP]), .pixel_i(pixel), .address_i(address),
                 .write_i(writes[GROUP]), .select_row_i(rows[GROUP*8+(i%64)/8]),
@@ -352,6 +370,8 @@ module serial_array #(
                 .controls_i(all_controls[GROUP*CONTROL_BITS+:CONTROL_BITS]),
                 .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]), .flags_i(flags[(i+1)*FLAGS+:FLAGS]),
                 .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]), .flags_o(flags[i*FLAGS+:FLAGS]),
+                .displacement_i(displacements[(i+1)*DISPLACEMENT_BITS+:DISPLACEMENT_BITS]),
+                .displacement_o(displacements[i*DISPLACEMENT_BITS+:DISPLACEMENT_BITS]),
                 .leaves_o(lane_leaves), .pixel_o(words[i*WIDTH+:WIDTH])
             );
 
@@ -368,20 +388,33 @@ module serial_array #(
 
     // Decision.
     wire region_valid;
+    wire [DISPLACEMENT_BITS-1:0] displacement;
 
     serial_decision #(
         .CHAIN_BITS(CHAIN_BITS), .SCORE_BITS(SCORE_BITS), .PIXELS(SIDE * SIDE), .FEATURES(FEATURES),
         .ALL(ALL), .SUMMARIES(SUMMARIES), .FLAGS(FLAGS), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(COLUMNS * ROWS),
-        .SLOTS(LANES * FOLD), .REGION_BITS(REGION_BITS), .INDEX_BITS(INDEX_BITS)
+        .SLOTS(LANES * FOLD), .REGION_BITS(REGION_BITS), .INDEX_BITS(INDEX_BITS),
+        .FLOW_INDEX(FLOW_INDEX), .DISPLACEMENT_BITS(DISPLACEMENT_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(reopen), .rotate_i(shown_rotate),
         .index_i(score_index_o), .region_i(region_o),
-        .word_i(ring[CHAIN_BITS-1:0]), .flags_i(flags[FLAGS-1:0]), .minima_i(minima_i),
+        .word_i(ring[CHAIN_BITS-1:0]), .flags_i(flags[FLAGS-1:0]), .displacement_i(displacements[DISPLACEMENT_BITS-1:0]), .minima_i(minima_i),
         .summary_i(summary_o), .flags_o(flags[LANES*FLAGS+:FLAGS]), .region_valid_o(region_valid),
-        .score_valid_o(score_valid_o), .score_o(score_o), .decision_valid_o(decision_valid_o),
+        .score_valid_o(score_valid_o), .score_o(score_o), .displacement_o(displacement), .decision_valid_o(decision_valid_o),
         .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o)
     );
     wire unused_region_valid = region_valid;
+
+    generate
+        if (FLOW) begin : g_displacement
+            assign displacement_x_o = displacement[0+:COORDINATE_BITS];
+            assign displacement_y_o = displacement[COORDINATE_BITS+:COORDINATE_BITS];
+        end else begin : g_no_displacement
+            wire unused_displacement = |displacement;
+            assign displacement_x_o = {COORDINATE_BITS{1'b0}};
+            assign displacement_y_o = {COORDINATE_BITS{1'b0}};
+        end
+    endgenerate
 
     generate
         if (SUMMARIES) begin : g_summary

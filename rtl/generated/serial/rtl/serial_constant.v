@@ -12,6 +12,10 @@ module serial_constant #(
     parameter RANGE = 0,       // 1: the design has the feature `range`
     parameter SURFACE = 0,     // 1: the design has the feature `surface`
     parameter SEGMENT = 0,     // 1: the design has the feature `segment`
+    parameter FLOW = 0,        // 1: the design has the feature `flow`
+    parameter WEIGHT_BITS = 1, // `flow`: bits of a weight
+    parameter LEAST_BITS = 1,  // `flow`: bits of a sum times its weight
+    parameter DISPLACEMENT_BITS = 1,  // `flow`: bits of a displacement
     parameter FRACTION = 0,    // fraction bits of the mean of `mad` and `segment`
     parameter BLOCK = 1,       // pixels of a block whose mean is sent; 1 without summaries
     parameter SUM_BITS = 14,   // bits of the sum of a region
@@ -20,12 +24,16 @@ module serial_constant #(
     parameter ACC_BITS = 11    // bits of the accumulator
 ) (
     input  wire                clk_i,             // clock, rising edge
-    input  wire [        47:0] step_i,            // the step: one bit for each action, in the order of serial_states
+    input  wire [        50:0] step_i,            // the step: one bit for each action, in the order of serial_states
     input  wire                last_center_i,     // the center is the last of its square
     input  wire                ranges_i,          // the feature under way is `range`
     input  wire                squares_i,         // the feature under way is `variance`
     input  wire                surfaces_i,        // the feature under way is `surface`
     input  wire                segments_i,        // the feature under way is `segment`
+    input  wire                flows_i,           // the feature under way is `flow`
+    input  wire [         2:0] stage_i,           // stage of the pass of `flow`, see serial_states
+    input  wire [WEIGHT_BITS-1:0] weight_i,       // `flow`: weight of the displacement
+    input  wire [DISPLACEMENT_BITS-1:0] preceding_i, // `flow`: the displacement that was compared last
     input  wire [   WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
     input  wire [   WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
     input  wire [   WIDTH-1:0] corner_level_i,    // level of `corner`
@@ -33,7 +41,7 @@ module serial_constant #(
     output wire [ACC_BITS-1:0] constant_o,        // the constant
     output wire                spent_o,           // the shifted number has no bits left
     output wire                divided_o,         // the division has found all bits of the quotient
-    output wire                last_place_o,      // the shifted number is 1: its place is the last
+    output wire                last_place_o,      // the shifted number is at its last place
     output wire                corrects_o,        // `variance`: the square of the sum has a bit at this place
     output wire                any_pairs_o,       // `variance`: the squares of words have pairs of bits at this place
     output wire                more_pairs_o       // `variance`: another pair of bits follows at this place
@@ -42,7 +50,7 @@ module serial_constant #(
     localparam PIXELS = SIDE * SIDE;
     localparam BLENDS = FILTER == 3;  // 1: windows are summed
     localparam PLACES = WIDTH + COUNT_BITS;  // number of bit places of the sum of `variance`
-    localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT;
+    localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT || FLOW;
     /* verilator lint_off WIDTH */
     localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
     localparam [ACC_BITS-1:0] HALF_BLOCK = BLOCK / 2;
@@ -62,6 +70,7 @@ module serial_constant #(
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
     wire recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking;
+    wire matching, lessening, noting;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
@@ -70,11 +79,12 @@ module serial_constant #(
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
+        matching, lessening, noting,
         averaging, returning, storing, showing
     } = step_i;
     wire unused_step = draining || denoising || bordering || temporal || copying || searching || probing || choosing || reading
         || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
-        || spreading || removing || counting || spanning || below || shrinking || storing || showing;
+        || spreading || removing || counting || spanning || below || shrinking || lessening || storing || showing;
 
     // The squares of `variance`: the bits of the result from the highest on, and for each of them all pairs of bits of n and of
     // a word that contribute to it. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
@@ -123,13 +133,37 @@ module serial_constant #(
     // A division ends when the divisor is back at its own places. `mad` and `segment` divide by the pixels of a region,
     // `variance`, `range` and `surface` divide by 1.
     assign spent_o = scale_q == 0;
-    assign divided_o = scale_q == (squares_i || ranges_i || surfaces_i ? UNIT : MAD || SEGMENT ? DIVISOR : UNIT);
-    assign last_place_o = scale_q[0];
+    wire flow_ends;  // `flow`: the shifted number is at its last place
+    wire [SCALE_BITS-1:0] flow_start;  // `flow`: the shifted number that comes next
+    wire flow_starts;  // `flow`: it comes now
+
+    generate
+        if (FLOW) begin : g_flow
+            // Stages with an odd number shift the weight, the others a 1. The next number is set in the last step of a stage, or in
+            // the steps between two stages.
+            wire [SCALE_BITS-1:0] weight = {{(SCALE_BITS - WEIGHT_BITS) {1'b0}}, weight_i};
+            wire ends = flow_ends && (dividing || retrieving);
+            wire [2:0] stage = stage_i + {2'b00, ends};
+            assign flow_ends = scale_q == (stage_i[0] ? weight : UNIT);
+            assign flow_starts = flows_i && (ends || matching || noting || clearing);
+            assign flow_start = stage[0] ? weight << (SUM_BITS - 1)
+                : stage == 3'd2 || stage == 3'd4 ? UNIT << (LEAST_BITS - 1) : UNIT << (SUM_BITS - 1);
+        end else begin : g_no_flow
+            wire unused_flow = flows_i || |stage_i || |weight_i || |preceding_i || matching || noting;
+            assign flow_ends = 1'b0;
+            assign flow_starts = 1'b0;
+            assign flow_start = UNIT;
+        end
+    endgenerate
+
+    assign divided_o = FLOW && flows_i ? flow_ends : scale_q == (squares_i || ranges_i || surfaces_i ? UNIT : MAD || SEGMENT ? DIVISOR : UNIT);
+    assign last_place_o = FLOW && flows_i ? flow_ends : scale_q[0];
 
     always @(posedge clk_i) begin
         // It is set in the states before it is needed, so that it does not depend on the next state. While means leave, it is
         // already set for the medians of the next slot.
         if ((FILTER == 1 || FILTER == 2) && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
+        else if (FLOW && flow_starts) scale_q <= flow_start;
         else if (SUMS && summing) begin
             scale_q <= squares_i ? UNIT << (SUM_BITS - 1)
                 : SEGMENT && segments_i ? DIVISOR << (WIDTH - 1) : DIVISOR << (WIDTH + FRACTION - 1);
@@ -150,10 +184,11 @@ module serial_constant #(
     wire [ACC_BITS+WIDTH-1:0] wide_segment = {{ACC_BITS{1'b0}}, segment_level_i};
     wire [ACC_BITS+WIDTH+1:0] wide_half = {{ACC_BITS{1'b0}}, edge_half_i};
     wire [ACC_BITS+WIDTH-1:0] wide_lowest = {{ACC_BITS{1'b0}}, lowest};
+    wire [ACC_BITS+DISPLACEMENT_BITS-1:0] wide_preceding = {{ACC_BITS{1'b0}}, preceding_i};
     // `binomial3x3`: a pixel has changed if the sum of the window, less 16 times the reference, is 16 times the level plus 8 or
     // more, or below the negative of that, because halves are rounded up.
     wire [ACC_BITS+WIDTH+3:0] blend_level = {{ACC_BITS{1'b0}}, temporal_level_i, 4'd8};
-    wire unused_wide = |blend_level || |wide_scale || |wide_temporal || |wide_corner || |wide_segment || |wide_half || |wide_lowest;
+    wire unused_wide = |blend_level || |wide_scale || |wide_temporal || |wide_corner || |wide_segment || |wide_half || |wide_lowest || |wide_preceding;
 
     always @* begin
         constant = {ACC_BITS{1'b0}};
@@ -165,6 +200,7 @@ module serial_constant #(
         else if (leveling) constant = wide_segment[ACC_BITS-1:0];
         else if (rounding) constant = LARGEST_WHOLE;
         else if (squaring) constant = wide_lowest[ACC_BITS-1:0];
+        else if (FLOW && noting) constant = wide_preceding[ACC_BITS-1:0];
         else if (FILTER == 1 || FILTER == 2 || SUMS) constant = wide_scale[ACC_BITS-1:0];
     end
 

@@ -8,16 +8,16 @@
 
 module serial_controls #(
     parameter FILTER = 1,     // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
-    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
+    parameter COPIES = 0,     // not 0: the reference is copied after the last score; 0: it is overwritten pixel by pixel
     parameter RASTER = 0,     // 1: pixels leave through the chain of scores
     parameter KEEPS = 0       // 1: the score can take the accumulator
 ) (
-    input  wire [47:0] step_i,     // the step: one bit for each action, in the order of serial_states
+    input  wire [50:0] step_i,     // the step: one bit for each action, in the order of serial_states
     input  wire [ 3:0] tap_i,      // number of the neighbor that is read
     input  wire [ 1:0] part_i,     // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     input  wire        counts_i,   // the center is a pixel of the region
     input  wire        spent_i,    // the shifted number has no bits left
-    output wire [36:0] controls_o  // the control word
+    output wire [38:0] controls_o  // the control word
 );
 
     // The bits of the step.
@@ -26,6 +26,7 @@ module serial_controls #(
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading;
     wire recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking;
+    wire matching, lessening, noting;
     wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
@@ -34,9 +35,10 @@ module serial_controls #(
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
+        matching, lessening, noting,
         averaging, returning, storing, showing
     } = step_i;
-    wire unused_step = averaging || returning || tap_i[3];
+    wire unused_step = averaging || returning || matching || tap_i[3];
 
     localparam BLENDS = FILTER == 3;
     wire blends = BLENDS && denoising;                        // windows are summed, and sums are not yet divided by 16
@@ -45,10 +47,10 @@ module serial_controls #(
     wire tests = testing || gradient_test || ring_test;       // the accumulator is compared with a level
     wire half_done = gradient_test && !part_i[0];             // the first of two gradients of a pixel is done
     wire scores = (gradient_test && part_i[0]) || (ring_test && ring_last);  // all comparisons of a pixel are done
-    wire takes_old = LAST_SENT == 0 && writing && !blends;    // the reference is the word that the median replaces
+    wire takes_old = COPIES == 0 && writing && !blends;       // the reference is the word that the median replaces
 
     // Controls for the address: what is written.
-    wire write_active = LAST_SENT != 0 && writing && copying;  // write if the first flag is set
+    wire write_active = COPIES != 0 && writing && copying;     // write if the first flag is set, or in every lane
     wire write_border = writing && bordering;                  // write if the side is on the frame's border
     wire [1:0] side = part_i;                                  // number of that side: left, right, top, bottom
     wire write_mean = storing;                                 // write the score instead of the accumulator
@@ -56,7 +58,7 @@ module serial_controls #(
 
     // Controls for the word read: the choice of the operand, which is the constant without any of these.
     wire from_memory = !tests && !starting && !adjusting && !halving && !dividing
-        && !(blending && &part_i) && !recalling && !retrieving && !leveling && !rounding;  // the operand is the word
+        && !(blending && &part_i) && !recalling && !retrieving && !leveling && !rounding && !noting;  // the operand is the word
     wire deviate = deviating || (ranging && spreading);        // the operand is |2^FRACTION * word - aux|
     wire masked = squaring || correcting;                      // take the sum only if the bit of the operand under the constant is 1
     wire from_aux = correcting || (ranging && spreading);      // the operand is aux; with deviate: |word - aux|
@@ -91,10 +93,14 @@ module serial_controls #(
     wire count_side = counting;                                // this hit is one of `segment`
 
     // Controls for `aux` and for the bounds.
-    wire recall_sum = retrieving;                              // the next bit is the highest of a sum in `aux`, and not the sign
+    wire recall_sum = retrieving;                              // the next bit is the highest of a sum in `aux`, and not the sign; with least: of that
     wire recall_mean = recalling;                              // the next bit is the highest of a mean in `aux`, and not the sign
     wire ceiling = leveling || rounding;                       // add one only if the mean has a fraction; with clear: find out
     wire shrink = shrinking;                                   // clear the accumulator unless it is negative
+
+    // Controls for `flow`.
+    wire least = lessening;                                    // the smallest product so far takes the next bit in place of `aux`: the bit of the smaller one
+    wire note = noting;                                        // the displacement becomes the operand if it was the best so far
 
     // Other controls.
     wire twice = doubling;                                     // the operand is the accumulator itself
@@ -111,7 +117,7 @@ module serial_controls #(
         from_memory, deviate, masked, from_aux, hold,
         larger, subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner, count_side,
-        recall_sum, recall_mean, ceiling, shrink, probe, choose,
+        recall_sum, recall_mean, ceiling, shrink, least, note, probe, choose,
         twice, divide, shift, keep, fetch, unload, unload_mean
     };
 

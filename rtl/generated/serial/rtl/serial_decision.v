@@ -16,7 +16,9 @@ module serial_decision #(
     parameter REGIONS = 784,     // regions of the frame
     parameter SLOTS = 784,       // number of regions plus empty slots
     parameter REGION_BITS = 10,  // bits of the number of a slot of the array
-    parameter INDEX_BITS = 1     // bits of the number of a score
+    parameter INDEX_BITS = 1,    // bits of the number of a score
+    parameter FLOW_INDEX = 0,    // number of the score of `flow`; 0: there is none
+    parameter DISPLACEMENT_BITS = 1  // bits of a displacement (FLOW_INDEX)
 ) (
     input  wire                               clk_i,             // clock, rising edge
     input  wire                               rst_i,             // synchronous reset, active high
@@ -26,12 +28,14 @@ module serial_decision #(
     input  wire [            REGION_BITS-1:0] region_i,          // number of the region of that score
     input  wire [             CHAIN_BITS-1:0] word_i,            // the score that passes
     input  wire [                  FLAGS-1:0] flags_i,           // the flags of its region
+    input  wire [      DISPLACEMENT_BITS-1:0] displacement_i,    // the displacement of its region (FLOW_INDEX)
     input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,          // smallest value of each score that votes, by index
     input  wire                               summary_i,         // with SUMMARIES: the region sends its means
     output wire [                  FLAGS-1:0] flags_o,           // flags that return to the ring
     output wire                               region_valid_o,    // the slot is not empty
     output wire                               score_valid_o,     // a score of a region passes
-    output wire [             SCORE_BITS-1:0] score_o,           // that score; n for a temporal count without a reference
+    output wire [             SCORE_BITS-1:0] score_o,           // that score; without a reference n for a temporal count, 0 for `flow`
+    output wire [      DISPLACEMENT_BITS-1:0] displacement_o,    // with the score of `flow`: that displacement, 0 without a reference; else 0
     output wire                               decision_valid_o,  // the decision is made, with the last score
     output wire                               srs_o,             // SRS, the spatial relevance; 0 unless decision_valid_o
     output wire                               trs_o,             // TRS, the temporal relevance; 0 unless decision_valid_o
@@ -50,6 +54,7 @@ module serial_decision #(
         if (SCORE_BITS < $clog2(PIXELS + 1)) begin : g_score_bits_2
             SCORE_BITS_must_hold_PIXELS u_refused ();
         end
+        if (FLOW_INDEX < 0 || FLOW_INDEX > FEATURES) begin : g_flow_index FLOW_INDEX_must_be_0_to_FEATURES u_refused (); end
         if (SLOTS < REGIONS) begin : g_slots SLOTS_must_be_REGIONS_or_more u_refused (); end
         if (REGION_BITS != (SLOTS > 1 ? $clog2(SLOTS) : 1)) begin : g_region_bits
             REGION_BITS_must_number_the_slots u_refused ();
@@ -83,12 +88,27 @@ module serial_decision #(
         else if (frame_i) first_q <= 1'b0;
     end
 
+    // `flow` needs a reference.
+    wire unmatched;
+
+    generate
+        if (FLOW_INDEX != 0) begin : g_flow
+            wire flow = index_i == FLOW_INDEX[INDEX_BITS-1:0];
+            assign unmatched = flow && !reference;
+            assign displacement_o = flow && reference ? displacement_i : {DISPLACEMENT_BITS{1'b0}};
+        end else begin : g_no_flow
+            wire unused_displacement = |displacement_i;
+            assign unmatched = 1'b0;
+            assign displacement_o = {DISPLACEMENT_BITS{1'b0}};
+        end
+    endgenerate
+
     // Scores and votes.
     wire [SCORE_BITS-1:0] minimum = minima_i[index_i*SCORE_BITS+:SCORE_BITS];
     wire vote = score_o >= minimum;
 
     assign score_valid_o = rotate_i && region_valid_o;
-    assign score_o = temporal && !reference ? EVERY : word_i[SCORE_BITS-1:0];
+    assign score_o = temporal && !reference ? EVERY : unmatched ? {SCORE_BITS{1'b0}} : word_i[SCORE_BITS-1:0];
 
     // The flags. The first is TRS, and after the last score whether the region is active. The second is SRS so far, and after
     // the last score whether the region's summary is sent.

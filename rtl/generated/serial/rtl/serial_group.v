@@ -16,7 +16,7 @@ module serial_group #(
     parameter GROUP = 0,         // number of this group; with RASTER a group has 64 lanes
     parameter LANE_BITS = 10,    // bits of the number of a lane, at least 1
     parameter ACC_BITS = 11,     // bits of the accumulator
-    parameter COPIES = 0,        // 1: an active lane copies the region to its reference
+    parameter COPIES = 0,        // not 0: lanes copy the region to its reference
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
     parameter FILTER = 1,        // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter EDGE = 1,          // 1: the design has the feature `edge`
@@ -26,6 +26,7 @@ module serial_group #(
     parameter RANGE = 0,         // 1: the design has the feature `range`
     parameter SURFACE = 0,       // 1: the design has the feature `surface`
     parameter SEGMENT = 0,       // 1: the design has the feature `segment`
+    parameter FLOW = 0,          // 1: the design has the feature `flow`
     parameter SUMMARIES = 0      // 1: irrelevant regions send the means of their blocks
 ) (
     input  wire                    clk_i,           // clock, rising edge
@@ -42,7 +43,7 @@ module serial_group #(
     input  wire                    write_i,         // the accumulator is written to this address
     // Controls of the lanes.
     input  wire [    ACC_BITS-1:0] constant_i,      // the constant
-    input  wire [            36:0] controls_i,      // the control word, see serial_controls
+    input  wire [            38:0] controls_i,      // the control word, see serial_controls
     // Outputs to the lanes: those of loading, then the inputs above, registered.
     output wire                    loading_o,       // pixels come from outside
     output wire [       WIDTH-1:0] pixel_o,         // the pixel that was taken last
@@ -51,7 +52,7 @@ module serial_group #(
     output wire [ADDRESS_BITS-1:0] address_o,       // address_i, or the address of the next pixel
     output wire                    write_o,         // write_i, or a pixel comes in
     output wire [    ACC_BITS-1:0] constant_o,      // constant_i, in the clock of its use
-    output wire [            36:0] controls_o       // controls_i, each control in the clock of its use
+    output wire [            38:0] controls_o       // controls_i, each control in the clock of its use
 );
 
     generate
@@ -112,7 +113,8 @@ module serial_group #(
     endgenerate
 
     // The designs that use each control, in the order of the control word.
-    localparam [0:0] SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0 || SEGMENT != 0;
+    localparam [0:0] SPANS = SURFACE != 0 || FLOW != 0;
+    localparam [0:0] SUMS = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SPANS || SEGMENT != 0;
     localparam [0:0] SEARCHES = FILTER == 1 || FILTER == 2;
     localparam [0:0] RUNS = SEARCHES || EDGE != 0 || CORNER != 0;
     localparam [0:0] MEANS = SUMMARIES != 0;
@@ -121,12 +123,13 @@ module serial_group #(
         COPIES != 0, {3{BORDERS != 0}}, RETURNS, FILTER == 3
     };  // write_active, write_border, side, write_mean, write_high
     localparam [4:0] WITH_WORD = {
-        1'b1, MAD != 0 || RANGE != 0, VARIANCE != 0, VARIANCE != 0 || (RANGE != 0 && MAD != 0), SURFACE != 0
+        1'b1, MAD != 0 || RANGE != 0, VARIANCE != 0, VARIANCE != 0 || (RANGE != 0 && MAD != 0), SPANS
     };  // from_memory, deviate, masked, from_aux, hold
-    localparam [25:0] WITH_ACCUMULATOR = {
+    localparam [27:0] WITH_ACCUMULATOR = {
         RANGE != 0, 2'b11, SEARCHES || SEGMENT != 0, 3'b111,  // larger, subtract, by_sign, by_run, carry, enable, clear
         RUNS, CORNER != 0, RUNS, 1'b1, CORNER != 0, SEGMENT != 0,  // run, run_corner, run_clear, count, count_corner, count_side
-        SURFACE != 0, SEGMENT != 0, SEGMENT != 0, SURFACE != 0,  // recall_sum, recall_mean, ceiling, shrink
+        SPANS, SEGMENT != 0, SEGMENT != 0, SURFACE != 0,  // recall_sum, recall_mean, ceiling, shrink
+        {2{FLOW != 0}},                                   // least, note
         {2{FILTER == 2}},                                 // probe, choose
         MAD != 0 || VARIANCE != 0 || RANGE != 0, SUMS, 1'b1, SUMS || MEANS,  // twice, divide, shift, keep
         RASTER != 0, RASTER == 0, RETURNS                 // fetch, unload, unload_mean
@@ -134,16 +137,16 @@ module serial_group #(
 
     // The three parts of the control word. Its lowest bit is unload_mean.
     serial_control #(.WIDTH(6), .USED(WITH_ADDRESS)) u_with_address (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[36:31]), .bits_o(controls_o[36:31])
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[38:33]), .bits_o(controls_o[38:33])
     );
     serial_control #(.WIDTH(5), .USED(WITH_WORD), .LATE(WORD)) u_with_word (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[30:26]), .bits_o(controls_o[30:26])
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[32:28]), .bits_o(controls_o[32:28])
     );
     serial_control #(.WIDTH(ACC_BITS), .USED({ACC_BITS{1'b1}}), .LATE(WORD)) u_constant (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(constant_i), .bits_o(constant_o)
     );
-    serial_control #(.WIDTH(26), .USED(WITH_ACCUMULATOR), .LATE(LATE)) u_with_accumulator (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[25:0]), .bits_o(controls_o[25:0])
+    serial_control #(.WIDTH(28), .USED(WITH_ACCUMULATOR), .LATE(LATE)) u_with_accumulator (
+        .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[27:0]), .bits_o(controls_o[27:0])
     );
 
 endmodule

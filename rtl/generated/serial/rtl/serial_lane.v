@@ -23,6 +23,11 @@
 // smallest sum so far. It is subtracted in the same way before a sum is made, which is cleared unless it is negative, and added
 // again.
 //
+// For `flow`, a sum of distances from the reference moves to `aux`, and is added again bit by bit, as a product with its weight. From
+// its highest bit on, the product moves to `least_q` in place of the smallest one so far, unless that one is smaller. Then the
+// displacement is kept, too. At the end `aux` holds the sum of displacement 0. Its product, less the smallest one, is divided by its
+// weight, and the quotient comes back from `aux` as the score.
+//
 // With DEEP the word read is in a register. The operand is, too, before it is inverted, if a feature computes it from the word. A
 // hit is counted one clock after it was found, so a score is whole one clock after the last step of its pass.
 `default_nettype none
@@ -38,7 +43,7 @@ module serial_lane #(
     parameter CHAIN_BITS = 7,    // bits of the word that goes around the ring of lanes
     parameter FLAGS = 1,         // number of flags that move with the score
     parameter RASTER = 0,        // 1: pixels enter by lane select and leave through the chain of scores
-    parameter COPIES = 0,        // 1: an active lane copies the region to its reference
+    parameter COPIES = 0,        // 1: an active lane copies the region to its reference; 2: every lane does; 0: none
     parameter BORDERS = 0,       // 1: sides on the frame's border are repeated
     parameter FILTER = 1,        // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter EDGE = 1,          // 1: the design has the feature `edge`
@@ -48,12 +53,15 @@ module serial_lane #(
     parameter RANGE = 0,         // 1: the design has the feature `range`
     parameter SURFACE = 0,       // 1: the design has the feature `surface`
     parameter SEGMENT = 0,       // 1: the design has the feature `segment`
+    parameter FLOW = 0,          // 1: the design has the feature `flow`
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
     parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 if a feature takes the accumulator
     parameter AUX_BITS = 1,      // bits of the second word: a mean, a sum or the largest pixel
-    parameter SUM_BITS = 14,     // `surface`: bits of the sum of a region
-    parameter PIXELS = 64        // `segment`: pixels of a region
+    parameter SUM_BITS = 14,     // `surface` and `flow`: bits of the sum of a region
+    parameter PIXELS = 64,       // `segment`: pixels of a region
+    parameter LEAST_BITS = 2,    // `flow`: bits of a sum times its weight
+    parameter DISPLACEMENT_BITS = 1  // `flow`: bits of a displacement
 ) (
     input  wire                    clk_i,            // clock, rising edge
     // Memory.
@@ -66,18 +74,21 @@ module serial_lane #(
     input  wire [             3:0] sides_i,          // sides of the region on the frame's border: {bottom, top, right, left}
     // Controls.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
-    input  wire [            36:0] controls_i,       // the control word, see serial_controls
+    input  wire [            38:0] controls_i,       // the control word, see serial_controls
     // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane before
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane before: active or TRS; then SRS so far or sent
     output wire [  CHAIN_BITS-1:0] word_o,           // score of this lane
     output wire [       FLAGS-1:0] flags_o,          // flags of this lane
+    input  wire [DISPLACEMENT_BITS-1:0] displacement_i,  // displacement of the lane before (FLOW)
+    output wire [DISPLACEMENT_BITS-1:0] displacement_o,  // displacement of this lane (FLOW)
     // Unloading.
     output wire                    leaves_o,         // the word read is a pixel of an active region, or a mean that is sent
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
-    localparam COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SURFACE != 0;  // 1: an operand is computed from the word
+    localparam SPANS = SURFACE != 0 || FLOW != 0;  // 1: words are read as distances from others
+    localparam COMPUTES = MAD != 0 || VARIANCE != 0 || RANGE != 0 || SPANS;  // 1: an operand is computed from the word
     localparam SUMS = COMPUTES || SEGMENT != 0;  // 1: the lane has `aux`, and its score can take the accumulator
     localparam SEARCHES = FILTER == 1 || FILTER == 2;  // 1: medians are searched
     localparam KEEPS = SUMS || SUMMARIES != 0;  // 1: the score can take sums
@@ -105,16 +116,22 @@ module serial_lane #(
             AUX_BITS_must_hold_a_mean u_refused ();
         end
         if (SEGMENT != 0 && AUX_BITS < WIDTH) begin : g_aux_bits_3 AUX_BITS_must_hold_a_pixel u_refused (); end
-        if (SURFACE != 0 && AUX_BITS < SUM_BITS) begin : g_aux_bits_4 AUX_BITS_must_hold_a_sum u_refused (); end
+        if (SPANS && AUX_BITS < SUM_BITS) begin : g_aux_bits_4 AUX_BITS_must_hold_a_sum u_refused (); end
         if (SEGMENT != 0 && CHAIN_BITS < $clog2(2 * PIXELS)) begin : g_chain_bits_3
             CHAIN_BITS_must_hold_two_counts u_refused ();
+        end
+        if (FLOW != 0 && (LEAST_BITS < 2 || LEAST_BITS >= ACC_BITS)) begin : g_least_bits
+            LEAST_BITS_must_be_2_or_more_and_below_ACC_BITS u_refused ();
+        end
+        if (DISPLACEMENT_BITS < 1 || DISPLACEMENT_BITS > ACC_BITS) begin : g_displacement_bits
+            DISPLACEMENT_BITS_must_be_1_to_ACC_BITS u_refused ();
         end
     endgenerate
 
     // The bits of the control word.
     wire write_active, write_border, from_memory, deviate, masked, from_aux, hold;
     wire larger, subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner, count_side;
-    wire recall_sum, recall_mean, ceiling, shrink, probe, choose;
+    wire recall_sum, recall_mean, ceiling, shrink, least, note, probe, choose;
     wire twice, divide, shift, keep, fetch, unload, unload_mean;
     wire write_mean, write_high;
     wire [1:0] side;
@@ -123,7 +140,7 @@ module serial_lane #(
         from_memory, deviate, masked, from_aux, hold,
         larger, subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner, count_side,
-        recall_sum, recall_mean, ceiling, shrink, probe, choose,
+        recall_sum, recall_mean, ceiling, shrink, least, note, probe, choose,
         twice, divide, shift, keep, fetch, unload, unload_mean
     } = controls_i;
 
@@ -158,7 +175,7 @@ module serial_lane #(
 
     // Memory.
     wire selected = RASTER != 0 && select_row_i && select_column_i;
-    wire copied   = COPIES != 0 && write_active && flags_q[0];
+    wire copied   = COPIES != 0 && write_active && (COPIES == 2 || flags_q[0]);
     wire repeated = BORDERS != 0 && write_border && sides_i[side];
     wire [WIDTH-1:0] made;
     wire [WIDTH-1:0] result;
@@ -225,7 +242,7 @@ module serial_lane #(
 
         if (SUMS) begin : g_sums
             localparam TWICE = MAD != 0 || VARIANCE != 0 || RANGE != 0;
-            localparam HIGHEST = SURFACE != 0 ? SUM_BITS - 1 : 0;
+            localparam HIGHEST = SPANS ? SUM_BITS - 1 : 0;
             localparam SCALED = MAD != 0 ? FRACTION : 0;
             localparam MEAN_BITS = WIDTH + SCALED;
             wire [ACC_BITS-1:0] deviation;
@@ -236,17 +253,17 @@ module serial_lane #(
             wire                fraction;  // `segment`: the mean has a fraction
             wire                takes;     // the accumulator takes the sum, if `enable` is 1 as well
 
-            if (MAD != 0 || RANGE != 0 || SURFACE != 0) begin : g_deviation
+            if (MAD != 0 || RANGE != 0 || SPANS) begin : g_deviation
                 wire [MEAN_BITS:0] whole = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, word};
                 wire [MEAN_BITS:0] scaled =
-                    (RANGE != 0 && from_aux) || (SURFACE != 0 && !deviates) ? whole : whole << SCALED;
+                    (RANGE != 0 && from_aux) || (SPANS && !deviates) ? whole : whole << SCALED;
                 wire [MEAN_BITS:0] other;
                 wire [MEAN_BITS:0] difference = scaled - other;
                 wire unused_aux = |aux;  // a mean has one bit, and this signal two
                 assign negative = difference[MEAN_BITS];
                 assign deviation = {{(ACC_BITS - MEAN_BITS) {1'b0}}, difference[MEAN_BITS-1:0]};
 
-                if (SURFACE != 0) begin : g_held
+                if (SPANS) begin : g_held
                     // A word is held for one clock. At other times the register is 0, so that words pass the subtraction.
                     reg [WIDTH-1:0] held_q;
                     wire [MEAN_BITS:0] held = {{(MEAN_BITS + 1 - WIDTH) {1'b0}}, held_q};
@@ -289,8 +306,8 @@ module serial_lane #(
             // A negative difference is inverted as well, in the bits of a mean. The bits above are those of a deviation, which is
             // not negative, and are inverted where it is subtracted.
             wire turned;
-            wire turns = (SURFACE != 0 || deviates) && negative;
-            if (DEEP != 0 && (MAD != 0 || RANGE != 0 || SURFACE != 0)) begin : g_turned
+            wire turns = (SPANS || deviates) && negative;
+            if (DEEP != 0 && (MAD != 0 || RANGE != 0 || SPANS)) begin : g_turned
                 reg turns_q;
                 always @(posedge clk_i) turns_q <= turns;
                 assign turned = invert ^ turns_q;
@@ -308,12 +325,45 @@ module serial_lane #(
 
             // The next bit of `aux` is that of a quotient, or one that comes back.
             reg [AUX_BITS-1:0] aux_q;
-            wire next = SURFACE != 0 && recall_sum ? aux_q[HIGHEST] : SEGMENT != 0 && recall_mean ? aux_q[WIDTH-1] : stays;
+            wire highest;  // the bit that comes back of a sum, or of the smallest product
+            wire turns_aux = divide && (FLOW == 0 || !least);
+            wire next = SPANS && recall_sum ? highest : SEGMENT != 0 && recall_mean ? aux_q[WIDTH-1] : stays;
             always @(posedge clk_i) begin
                 if (shift) aux_q <= {AUX_BITS{1'b0}};
-                else if (divide) aux_q <= {aux_q[AUX_BITS-2:0], next};
+                else if (turns_aux) aux_q <= {aux_q[AUX_BITS-2:0], next};
             end
             assign aux = aux_q;
+
+            if (FLOW != 0) begin : g_least
+                // The smallest product so far. Both products come from their highest bit on, so the first bit in which they differ says
+                // which is smaller.
+                reg [LEAST_BITS-1:0] least_q;
+                reg less_q;  // the new product is smaller
+                reg more_q;  // it is larger
+                reg [DISPLACEMENT_BITS-1:0] displacement_q;
+                wire oldest = least_q[LEAST_BITS-1];
+                wire smaller = less_q ? stays : more_q ? oldest : stays && oldest;
+                assign highest = least ? oldest : aux_q[HIGHEST];
+                assign displacement_o = displacement_q;
+
+                always @(posedge clk_i) begin
+                    if (shift) least_q <= {LEAST_BITS{1'b1}};
+                    else if (divide && least) least_q <= {least_q[LEAST_BITS-2:0], recall_sum ? oldest : smaller};
+                    if (note) begin
+                        less_q <= 1'b0;
+                        more_q <= 1'b0;
+                    end else if (divide && least && !recall_sum) begin
+                        less_q <= less_q || (!more_q && !stays && oldest);
+                        more_q <= more_q || (!less_q && stays && !oldest);
+                    end
+                    if (shift) displacement_q <= displacement_i;
+                    else if (note && !more_q) displacement_q <= source[DISPLACEMENT_BITS-1:0];
+                end
+            end else begin : g_no_least
+                wire unused_least = least || note || |displacement_i;
+                assign highest = aux_q[HIGHEST];
+                assign displacement_o = {DISPLACEMENT_BITS{1'b0}};
+            end
 
             wire taken = enables && takes && (!divide || next);
             wire cleared = clears || (SURFACE != 0 && shrink && !acc_q[ACC_BITS-1]);
@@ -342,7 +392,9 @@ module serial_lane #(
             end
         end else begin : g_no_sums
             wire unused_sums =
-                larger || twice || divide || deviate || masked || from_aux || hold || recall_sum || shrink;
+                larger || twice || divide || deviate || masked || from_aux || hold || recall_sum || shrink
+                || least || note || |displacement_i;
+            assign displacement_o = {DISPLACEMENT_BITS{1'b0}};
             wire unused_aux = |aux;
             assign aux = {AUX_BITS{1'b0}};
             assign found = from_memory ? wide_word : constant_i;

@@ -14,6 +14,7 @@ module serial_regions #(
     parameter RANGE_INDEX = 0,      // number of the score of `range`; 0: there is none
     parameter SURFACE_INDEX = 0,    // number of the score of `surface`; 0: there is none
     parameter SEGMENT_INDEX = 0,    // number of the score of `segment`; 0: there is none
+    parameter FLOW_INDEX = 0,       // number of the score of `flow`; 0: there is none
     parameter MEANS = 0,            // blocks of a region whose means are sent: 1, 4 or 16; 0: none
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
@@ -38,10 +39,12 @@ module serial_regions #(
     output wire                   next_corner_o, // the feature that comes next is `corner`
     output wire                   next_range_o,  // the feature that comes next is `range`
     output wire                   next_surface_o, // the feature that comes next is `surface`
+    output wire                   next_flow_o,   // the feature that comes next is `flow`
     output wire                   ranges_o,      // the feature under way is `range`
     output wire                   squares_o,     // the feature under way is `variance`
     output wire                   surfaces_o,    // the feature under way is `surface`
     output wire                   segments_o,    // the feature under way is `segment`
+    output wire                   flows_o,       // the feature under way is `flow`
     output wire [REGION_BITS-1:0] region_o,      // number of the region whose score passes
     output wire                   last_lane_o    // the region is that of the last lane
 );
@@ -56,11 +59,12 @@ module serial_regions #(
     localparam [INDEX_BITS-1:0] BEFORE_RANGE = RANGE_INDEX - 1;
     localparam [INDEX_BITS-1:0] BEFORE_SURFACE = SURFACE_INDEX - 1;
     localparam [INDEX_BITS-1:0] BEFORE_SEGMENT = SEGMENT_INDEX - 1;
+    localparam [INDEX_BITS-1:0] BEFORE_FLOW = FLOW_INDEX - 1;
     /* verilator lint_on WIDTH */
 
     // Scores.
     reg [INDEX_BITS-1:0] index_q;
-    reg squares_q, ranges_q, surfaces_q, segments_q;
+    reg squares_q, ranges_q, surfaces_q, segments_q, flows_q;
     wire next_variance = VARIANCE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_VARIANCE);
     wire next_segment = SEGMENT_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_SEGMENT);
 
@@ -74,13 +78,16 @@ module serial_regions #(
     assign next_corner_o = CORNER_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_CORNER);
     assign next_range_o = RANGE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_RANGE);
     assign next_surface_o = SURFACE_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_SURFACE);
+    assign next_flow_o = FLOW_INDEX != 0 && (FEATURES == 1 || index_q == BEFORE_FLOW);
     // `mad`, `variance` and `segment` begin with the same step, so nothing asks which of them comes next. Only their steps and
-    // those of `range` and `surface` ask which of the five is under way, so a design that has one of them needs no register.
-    localparam ALONE = (MAD_INDEX != 0) + (VARIANCE_INDEX != 0) + (RANGE_INDEX != 0) + (SURFACE_INDEX != 0) + (SEGMENT_INDEX != 0) == 1;
+    // those of `range`, `surface` and `flow` ask which of the six is under way, so a design that has one of them needs no register.
+    localparam ALONE = (MAD_INDEX != 0) + (VARIANCE_INDEX != 0) + (RANGE_INDEX != 0) + (SURFACE_INDEX != 0) + (SEGMENT_INDEX != 0)
+        + (FLOW_INDEX != 0) == 1;
     assign ranges_o = RANGE_INDEX != 0 && (ALONE || ranges_q);
     assign squares_o = VARIANCE_INDEX != 0 && (ALONE || squares_q);
     assign surfaces_o = SURFACE_INDEX != 0 && (ALONE || surfaces_q);
     assign segments_o = SEGMENT_INDEX != 0 && (ALONE || segments_q);
+    assign flows_o = FLOW_INDEX != 0 && (ALONE || flows_q);
 
     always @(posedge clk_i) begin
         if (loading_i || slot_ends_i) index_q <= {INDEX_BITS{1'b0}};
@@ -90,6 +97,7 @@ module serial_regions #(
             ranges_q  <= next_range_o;
             surfaces_q <= next_surface_o;
             segments_q <= next_segment;
+            flows_q <= next_flow_o;
         end
     end
 

@@ -9,7 +9,7 @@
 module serial_states #(
     parameter FILTER = 1,     // 0: none; 1: `median3x3`; 2: `switching3x3`; 3: `binomial3x3`
     parameter BORDERS = 0,    // 1: sides on the frame's border are repeated
-    parameter LAST_SENT = 0,  // 1: the reference is `last-sent`; 0: `previous`
+    parameter COPIES = 0,     // not 0: the reference is copied after the last score; 0: it is overwritten pixel by pixel
     parameter RASTER = 0,     // 1: pixels leave through the chain of scores
     parameter LATE = 0,       // clocks from an address to the accumulator, 0 to 3
     parameter DEEP = 0,       // 1: a score is whole one clock after its last step
@@ -20,6 +20,7 @@ module serial_states #(
     parameter RANGE = 0,      // 1: the design has the feature `range`
     parameter SURFACE = 0,    // 1: the design has the feature `surface`
     parameter SEGMENT = 0,    // 1: the design has the feature `segment`
+    parameter FLOW = 0,       // 1: the design has the feature `flow`
     parameter FRACTION = 0,   // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0   // 1: irrelevant regions send the means of their blocks
 ) (
@@ -38,24 +39,29 @@ module serial_states #(
     input  wire        next_corner_i,  // the feature that comes next is `corner`
     input  wire        next_range_i,   // the feature that comes next is `range`
     input  wire        next_surface_i, // the feature that comes next is `surface`
+    input  wire        next_flow_i,    // the feature that comes next is `flow`
     input  wire        ranges_i,       // the feature under way is `range`
     input  wire        squares_i,      // the feature under way is `variance`
     input  wire        surfaces_i,     // the feature under way is `surface`
     input  wire        segments_i,     // the feature under way is `segment`
+    input  wire        flows_i,        // the feature under way is `flow`
+    input  wire        last_displacement_i,  // `flow`: the displacement is the last one
     // State of the constant.
     input  wire        spent_i,        // the shifted number has no bits left
     input  wire        divided_i,      // the division has found all bits of the quotient
-    input  wire        last_place_i,   // the shifted number is 1: its place is the last
+    input  wire        last_place_i,   // the shifted number is at its last place
     input  wire        corrects_i,     // `variance`: the square of the sum has a bit at this place
     input  wire        any_pairs_i,    // `variance`: the squares of words have pairs of bits at this place
     input  wire        more_pairs_i,   // `variance`: another pair of bits follows at this place
     // The step.
-    output wire [47:0] step_o,         // the step: one bit for each action
+    output wire [50:0] step_o,         // the step: one bit for each action
     output wire [ 3:0] tap_o,          // number of the neighbor that is read
     output wire [ 1:0] part_o,         // half of a gradient or of a pair of steps, part of a filter or of a ring's step, or side of the border
     output wire        walks_o,        // the next step works on the next center
     output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
-    output wire        slot_ends_o     // the next step works on the next slot
+    output wire        slot_ends_o,    // the next step works on the next slot
+    output wire [ 2:0] stage_o,        // stage of the pass of `flow`
+    output wire        compared_o      // `flow`: the displacement has been compared
 );
 
     localparam [4:0] LOAD = 5'd0;      // a frame enters
@@ -74,7 +80,7 @@ module serial_states #(
     localparam [4:0] DOUBLE = 5'd13;
     localparam [4:0] HALF = 5'd14;     // adds half of the divisor
     localparam [4:0] DIVIDE = 5'd15;   // finds a bit of the quotient; a division by 1 moves the accumulator to `aux`
-    localparam [4:0] CLEAR = 5'd16;
+    localparam [4:0] CLEAR = 5'd16;    // `flow`: notes the displacement, and goes to the first pair of the next one
     localparam [4:0] DEVIATE = 5'd17;
     localparam [4:0] SQUARE = 5'd18;   // adds words whose bit is set
     localparam [4:0] CORRECT = 5'd19;  // subtracts the square of the sum
@@ -88,7 +94,7 @@ module serial_states #(
     localparam [4:0] SHOW = 5'd27;     // a mean leaves
     localparam [4:0] RANGE_STEP = 5'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
     localparam [4:0] RECALL = 5'd29;   // adds or subtracts `aux`, bit by bit
-    localparam [4:0] WALK = 5'd30;     // `segment`: counts a word; `surface`: adds the distance of a word from a neighbor
+    localparam [4:0] WALK = 5'd30;     // `segment`: counts a word; `surface` and `flow`: adds the distance of a word from another
     localparam [4:0] FILTER_STEP = 5'd31;  // a step of `switching3x3` or `binomial3x3`
     localparam [4:0] FIRST = FILTER == 1 ? START : FILTER == 3 ? FILTER_STEP : READ;
     localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
@@ -102,7 +108,7 @@ module serial_states #(
     localparam SEARCHES = FILTER == 1 || FILTER == 2;  // 1: medians are searched
     localparam SWITCHES = FILTER == 2;                 // 1: a pixel is kept unless it is the largest or smallest of its window
     localparam BLENDS = FILTER == 3;                   // 1: windows are summed
-    localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT;  // 1: a feature divides, and its score takes the accumulator
+    localparam SUMS = MAD || VARIANCE || RANGE || SURFACE || SEGMENT || FLOW;  // 1: a feature divides, and its score takes the accumulator
     /* verilator lint_off WIDTH */
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
     /* verilator lint_on WIDTH */
@@ -135,7 +141,7 @@ module serial_states #(
     wire part_ends = SWITCHES ? part_q[1] || tap_q[2:0] == 3'd7 : part_q == 2'd3 || tap_q == 4'd15;
     wire reading = state_q == READ;
     wire writing = state_q == WRITE;
-    wire relating = LAST_SENT != 0 && state_q == REFERENCE;
+    wire relating = COPIES != 0 && state_q == REFERENCE;
     wire testing = state_q == TEST;
     wire gradient = EDGE && state_q == GRADIENT;
     wire gradient_test = gradient && tap_q[2:0] == 3'd7;
@@ -145,7 +151,7 @@ module serial_states #(
 
     // The purpose of the walk.
     wire bordering = BORDERS && job_q[0];
-    wire copying = LAST_SENT != 0 && job_q[1];
+    wire copying = COPIES != 0 && job_q[1];
     wire temporal = !bordering && !copying;
     wire denoising = FILTER != 0 && job_q == TEMPORAL && !loading;
     wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
@@ -160,9 +166,20 @@ module serial_states #(
 
     // Steps of `surface`. A round is for one displacement.
     wire second;     // the smallest sum so far is added again
-    wire retrieving = SURFACE && state_q == RECALL && surfaces_i;  // adds the smallest sum so far, or subtracts it
-    wire removing = retrieving && !second;                        // subtracts it
-    wire spanning = SURFACE && state_q == WALK && surfaces_i;     // a word is held, or its distance from a neighbor added
+
+    // Steps of `flow`. For each displacement: 0: a sum of distances is made, and moved to `aux`; 1: it is multiplied by its weight;
+    // 2: the smallest product is kept. Then 3: the sum of the last displacement, 0, is multiplied again; 4: the smallest product is
+    // subtracted; 5: the difference is divided by the weight; 6: the quotient is the score.
+    wire [2:0] stage;
+    wire matching = FLOW && state_q == WALK && flows_i;           // a word is held, or its distance from the reference added
+    wire noting = FLOW && state_q == CLEAR && flows_i && stage != 3'd6;  // keeps the displacement if it was the best so far
+    wire lessening = FLOW && (state_q == RECALL || state_q == DIVIDE) && flows_i
+        && (stage == 3'd2 || stage == 3'd4);                      // on the smallest product so far
+
+    // Steps of `surface` and `flow`.
+    wire retrieving = (SURFACE || FLOW) && state_q == RECALL && (surfaces_i || flows_i);  // adds a sum in `aux`, or subtracts it
+    wire removing = retrieving && (FLOW && flows_i ? stage == 3'd4 : !second);  // subtracts it
+    wire spanning = matching || (SURFACE && state_q == WALK && surfaces_i);  // a word is held, or its distance from another added
     wire shrinking = SURFACE && state_q == CLEAR && surfaces_i && round != 2'd0;  // keeps the smaller of two sums
 
     // Steps of a sum.
@@ -170,7 +187,7 @@ module serial_states #(
     wire doubling = SUMS && state_q == DOUBLE;
     wire halving = (MAD || SEGMENT || SUMMARIES) && state_q == HALF && !leveling;
     wire dividing = SUMS && state_q == DIVIDE;
-    wire clearing = SUMS && state_q == CLEAR && !(SURFACE && surfaces_i);
+    wire clearing = SUMS && state_q == CLEAR && !(SURFACE && surfaces_i) && !noting;
     wire deviating = MAD && state_q == DEVIATE;
     wire squaring = VARIANCE && state_q == SQUARE;
     wire correcting = VARIANCE && state_q == CORRECT;
@@ -191,10 +208,12 @@ module serial_states #(
         gradient, gradient_test, ring, ring_test, ring_last,
         summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping, ranging, spreading,
         recalling, retrieving, removing, counting, spanning, leveling, below, rounding, shrinking,
+        matching, lessening, noting,
         is_averaging, is_returning, storing, showing
     };
     assign tap_o = spanning ? {2'b00, round} + 4'd3 : tap_q;  // the neighbors at the right, and those below from right to left
     assign part_o = part_q;
+    assign stage_o = stage;
 
     assign walks_o = (testing && !(BLENDS && denoising)) || (writing && (!temporal || BLENDS))
         || (gradient_test && part_q[0]) || (ring_test && ring_last)
@@ -232,7 +251,7 @@ module serial_states #(
             end
             READ: begin
                 if (SWITCHES && temporal) state = FILTER_STEP;
-                else if (LAST_SENT != 0 && FILTER == 0 && temporal) state = REFERENCE;
+                else if (COPIES != 0 && FILTER == 0 && temporal) state = REFERENCE;
                 else state = BEHIND;
             end
             LONGER: state = WAIT;
@@ -240,7 +259,7 @@ module serial_states #(
             IDLE: state = is_returning ? STORE : WRITE;
             SETTLE: state = ROTATE;
             WRITE: begin
-                if (temporal) state = BLENDS ? FIRST : LAST_SENT != 0 ? REFERENCE : TEST;
+                if (temporal) state = BLENDS ? FIRST : COPIES != 0 ? REFERENCE : TEST;
                 else if (bordering) state = border_ends ? SCORED : READ;
                 else state = last_center_i ? UNLOAD : READ;
             end
@@ -254,11 +273,12 @@ module serial_states #(
                 averaging = SUMMARIES && (is_averaging ? !last_block_i : first_score_i);
                 if (is_returning) state = RETURNED;
                 else if (averaging) state = HALF;
-                else if (last_score_i) state = LAST_SENT != 0 ? READ : UNLOAD;
+                else if (last_score_i) state = COPIES != 0 ? READ : UNLOAD;
                 else if (EDGE && next_edge_i) state = GRADIENT;
                 else if (CORNER && next_corner_i) state = RING;
                 else if (RANGE && next_range_i) state = RANGE_STEP;
                 else if (SURFACE && next_surface_i) state = RECALL;
+                else if (FLOW && next_flow_i) state = CLEAR;
                 else state = SUM;
             end
             GRADIENT, RING: if (pass_ends) state = SCORED;
@@ -270,19 +290,22 @@ module serial_states #(
                 else if (tap_q == LAST_DOUBLE) state = HALF;
             end
             HALF: state = is_averaging ? SUM : leveling ? WALK : DIVIDE;
-            DIVIDE: if (divided_i) state = SURFACE && surfaces_i ? RECALL : CLEAR;
+            DIVIDE: if (divided_i) state = (SURFACE && surfaces_i) || (FLOW && flows_i && stage == 3'd0) ? RECALL : CLEAR;
             CLEAR: begin
                 state = squares_i ? DOUBLE : ranges_i ? RANGE_STEP : DEVIATE;
                 if (SURFACE && surfaces_i) state = RECALL;
                 if (SEGMENT && segments_i) state = round == 2'd2 ? KEEP : round == 2'd3 ? SCORED : RECALL;
+                if (FLOW && flows_i) state = stage == 3'd0 ? WALK : RECALL;
             end
             RECALL: begin
-                if (!SURFACE && !SEGMENT) state = LOAD;
-                else if (last_place_i) state = recalling ? HALF : removing ? WALK : round == 2'd3 ? KEEP : DIVIDE;
+                if (!SURFACE && !SEGMENT && !FLOW) state = LOAD;
+                else if (FLOW && flows_i) begin
+                    if (last_place_i) state = stage == 3'd6 ? KEEP : stage == 3'd3 ? RECALL : DIVIDE;
+                end else if (last_place_i) state = recalling ? HALF : removing ? WALK : round == 2'd3 ? KEEP : DIVIDE;
             end
             WALK: begin
-                if (!SURFACE && !SEGMENT) state = LOAD;
-                else if (pass_ends) state = CLEAR;
+                if (!SURFACE && !SEGMENT && !FLOW) state = LOAD;
+                else if (pass_ends) state = matching ? DIVIDE : CLEAR;
             end
             DEVIATE: if (pass_ends) state = KEEP;
             SQUARE: if (last_center_i && !more_pairs_i) state = corrects_i ? CORRECT : DOUBLE;
@@ -375,6 +398,23 @@ module serial_states #(
             wire unused_kinds = next_surface_i || surfaces_i || segments_i;
             assign round = 2'd0;
             assign second = 1'b0;
+        end
+    endgenerate
+
+    generate
+        if (FLOW) begin : g_stages
+            reg [2:0] stage_q;
+            assign stage = stage_q;
+            assign compared_o = dividing && divided_i && lessening;
+
+            always @(posedge clk_i) begin
+                if (rotating || (compared_o && !last_displacement_i)) stage_q <= 3'd0;
+                else if (flows_i && ((dividing && divided_i) || (retrieving && last_place_i))) stage_q <= stage_q + 3'd1;
+            end
+        end else begin : g_no_stages
+            wire unused_flow = next_flow_i || flows_i || last_displacement_i;
+            assign stage = 3'd0;
+            assign compared_o = 1'b0;
         end
     endgenerate
 
