@@ -2,7 +2,7 @@
 //! The scores of squares of pixels, for squares that meet a minimum exactly or are relevant. They
 //! only affect the choice of vectors; the expected outputs come from the model of a core.
 
-use foveate_design::{Design, VoteCombination};
+use foveate_design::{Design, ReferencePolicy, VoteCombination};
 use foveate_model::{RegionScorer, ThresholdInputs};
 
 /// The border mask of a region that is alone in its frame: it touches all four sides.
@@ -18,6 +18,9 @@ pub(super) struct PatternScorer {
     added: usize,
     feature_count: usize,
     combine: VoteCombination,
+    /// True if a region may have no reference after the first frame. Its picture is then relevant
+    /// only if it is so without a reference, too.
+    may_lack_reference: bool,
 }
 
 /// The scores of a square.
@@ -38,6 +41,10 @@ impl PatternScorer {
             added: (design.stream_side() as usize).saturating_sub(side) / 2,
             feature_count: design.features().len(),
             combine: design.combine(),
+            may_lack_reference: match design.temporal().reference {
+                ReferencePolicy::Previous => false,
+                ReferencePolicy::LastSent => true,
+            },
         }
     }
 
@@ -55,12 +62,19 @@ impl PatternScorer {
         let places = (0..width * width).map(|at| (inside(at % width), inside(at / width)));
         self.scorer.load(places.map(|(x, y)| square[y * side + x]), ALL_SIDES);
         let reference = before.map(|before| before.denoised.as_slice());
-        let scores = self.scorer.scores(reference, thresholds)[..self.feature_count].to_vec();
-        let mut votes = scores.iter().zip(&thresholds.min_score).map(|(score, min)| score >= min);
-        let is_relevant = match self.combine {
-            VoteCombination::Any => votes.any(|vote| vote),
-            VoteCombination::All => votes.all(|vote| vote),
+        let scores_with =
+            |reference| self.scorer.scores(reference, thresholds)[..self.feature_count].to_vec();
+        let is_relevant = |scores: &[u64]| {
+            let mut votes =
+                scores.iter().zip(&thresholds.min_score).map(|(score, min)| score >= min);
+            match self.combine {
+                VoteCombination::Any => votes.any(|vote| vote),
+                VoteCombination::All => votes.all(|vote| vote),
+            }
         };
+        let scores = scores_with(reference);
+        let is_relevant =
+            is_relevant(&scores) && (!self.may_lack_reference || is_relevant(&scores_with(None)));
         PatternScores { scores, is_relevant, denoised: self.scorer.pixels().collect() }
     }
 }

@@ -128,6 +128,19 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     assert_eq!(ns, expected);
 }
 
+/// A displacement in a search of radius 1 has four bits, and leaves with the decision.
+#[test]
+fn displacements_leave_with_the_decisions() {
+    let features = "spatial=[{feature=\"edge\"},{feature=\"flow\",radius=1}]";
+    let hardware = "hardware={organization=\"serial\",fold=2}";
+    let (design, timeline) = (design(&[hardware, features]), timeline());
+    let cameras = SenderCameras::new("clip", &design, &timeline, None).unwrap();
+    let units = cameras.slot_array(&sent(&design)).units;
+    let bits: Vec<_> = units.iter().map(|unit| unit.bits).collect();
+    assert_eq!(bits, [3 * (2 + 4), 64 * 8, 3 * (2 + 4), 16 * 8, 3 * (2 + 4), 3 * (2 + 4)]);
+    assert_eq!(bits.iter().sum::<u64>(), design.bits_sent(2, 80));
+}
+
 #[test]
 fn rows_and_frames_of_the_others() {
     let (design, timeline) = (design(&[]), timeline());

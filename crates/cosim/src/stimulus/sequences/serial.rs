@@ -108,7 +108,12 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
     }
     let leaving = FrameSequence {
         end: SequenceEnd::Leaving(0),
-        ..aimed(ThresholdAim::Independent, "reset while pixels leave", &[Noise])
+        ..aimed(
+            ThresholdAim::Independent,
+            "reset while pixels leave",
+            // With `flow` alone no region is relevant in the first frame.
+            if design.flow_search().is_some() { &[Noise, Moved] } else { &[Noise] },
+        )
     };
     // The reset at the end is that of the next sequence. The last two sequences belong together.
     list.insert(list.len() - 2, leaving);
