@@ -103,7 +103,7 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
     let full_hd = RasterTiming::from_design(
         design(&["frame.width=1920", "frame.height=1080"]).as_raster().unwrap(),
     );
-    assert_eq!((full_hd.blank_rows(), full_hd.max_stall_clocks()), (3, Some(1920 - 8 - 4 - 3)));
+    assert_eq!((full_hd.blank_rows(), full_hd.max_stall_clocks()), (3, 1920 - 8 - 4 - 3));
     assert_eq!(full_hd.clocks_to_decision(), 3_842 + 11);
     let ragged = RasterTiming::from_design(
         design(&[
@@ -115,22 +115,39 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
         .as_raster()
         .unwrap(),
     );
-    assert_eq!((ragged.blank_rows(), ragged.max_stall_clocks()), (6, Some(28 - 4 - 7 - 3)));
+    assert_eq!((ragged.blank_rows(), ragged.max_stall_clocks()), (6, 28 - 4 - 7 - 3));
     let mad = |more: &[&str]| {
         let features = "spatial=[{feature=\"mad\"},{feature=\"variance\"}]";
         let frame = ["frame.width=64", "frame.height=32", features];
         RasterTiming::from_design(design(&[&frame, more].concat()).as_raster().unwrap())
             .max_stall_clocks()
     };
-    assert_eq!(mad(&[]), Some(9 * 64 - 72 - 17));
-    assert_eq!(mad(&["hardware.pipelining=deep"]), Some(9 * 64 - 72 - 21));
-    let shortest = |feature: &str| {
-        let features = format!("spatial=[{{feature=\"{feature}\"}}]");
-        let frame = ["frame.width=16", "frame.height=32", "region.size=4"];
-        let keys = [&frame[..], &["hardware.pipelining=deep", &features]].concat();
-        RasterTiming::from_design(design(&keys).as_raster().unwrap()).max_stall_clocks()
+    assert_eq!(mad(&[]), 9 * 64 - 72 - 17);
+    assert_eq!(mad(&["hardware.pipelining=deep"]), 9 * 64 - 72 - 21);
+}
+
+/// The row is the shortest one, with four regions. With two rows in the buffer, `deep` and
+/// `variance`, a sink that never stalls would lose regions.
+#[test]
+fn a_row_that_is_too_short_for_the_readout_has_a_third_row_in_the_buffer() {
+    let numbers = |feature: &str, pipelining: &str, width: u32, more: &str| {
+        let frame = [
+            &*format!("frame.width={width}"),
+            "frame.height=32",
+            "region.size=4",
+            &*format!("spatial=[{{feature=\"{feature}\"}}]"),
+            &*format!("hardware.pipelining={pipelining}"),
+            more,
+        ];
+        let timing = RasterTiming::from_design(design(&frame).as_raster().unwrap());
+        (timing.buffer_rows, timing.max_stall_clocks())
     };
-    assert_eq!((shortest("surface"), shortest("variance")), (Some(0), None));
+    let forward = "hardware.forward=true";
+    assert_eq!(numbers("surface", "deep", 16, forward), (2, 0));
+    assert_eq!(numbers("variance", "deep", 16, forward), (3, 4 * 16 - 1));
+    assert_eq!(numbers("variance", "deep", 20, forward), (2, 3));
+    assert_eq!(numbers("variance", "plain", 16, forward), (2, 2));
+    assert_eq!(numbers("variance", "deep", 16, "hardware.forward=false"), (0, 0));
 }
 
 /// The frame has 64x64 pixels, with edges and a median. The memories hold the frame store, two rows

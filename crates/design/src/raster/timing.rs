@@ -37,7 +37,8 @@ pub struct RasterTiming {
     pub lookup_latency: u32,
     /// Clocks from the advance of the last word of a region in the tail to its decision, D.
     pub decision_latency: u32,
-    /// Rows of regions whose pixels are buffered, B, or 0 if the buffer is not needed.
+    /// Rows of regions whose pixels are buffered, B, or 0 if the buffer is not needed. It is 3 where
+    /// a second pass reads them, or where a row is too short for the way of a region to the readout.
     pub buffer_rows: u32,
     /// Least number of clocks from the edge at which an active region enters the queue to the edge
     /// at which the readout holds it.
@@ -89,8 +90,15 @@ impl RasterTiming {
             after_store: pass_after_store + score_latency,
             decision_latency: pass_to_decision,
         });
+        let region_row_words = design.region_size() / word_pixels;
+        let row_words = design.columns() * region_row_words;
+        // With two rows in the buffer the last word of a row of regions would be overwritten before
+        // it is fetched.
+        let is_short = row_words - region_row_words
+            < after_store + score_latency + STALL_MARGIN + queue_latency;
         let buffer_rows = match (second_pass, design.has_forwarding()) {
             (Some(_), _) => 3,
+            (None, true) if is_short => 3,
             (None, true) => 2,
             (None, false) => 0,
         };
@@ -101,11 +109,11 @@ impl RasterTiming {
         };
         Self {
             word_pixels,
-            row_words: design.columns() * design.region_size() / word_pixels,
+            row_words,
             taken_words: design.width().div_ceil(word_pixels),
             taken_rows: design.height(),
             rows: design.rows() * design.region_size(),
-            region_row_words: design.region_size() / word_pixels,
+            region_row_words,
             region_words: design.region_pixels() / word_pixels,
             windows: filter + feature,
             store_latency,
@@ -181,23 +189,18 @@ impl RasterTiming {
     }
 
     /// Returns the largest number of clocks for which a sink may stall in all without loss, while
-    /// all regions are active and words come at every clock. `None` means that regions can be lost
-    /// although the sink never stalls: the row is too short for the latency of the decisions.
+    /// all regions are active and words come at every clock. It is 0 without forwarding.
     #[must_use]
-    pub fn max_stall_clocks(&self) -> Option<u32> {
+    pub fn max_stall_clocks(&self) -> u32 {
         let row = self.row_words;
-        let (most, late) = match self.second_pass {
-            None => {
-                let late = self.decision_latency - self.store_latency;
-                (row - self.region_row_words, late + STALL_MARGIN)
-            }
-            Some(pass) => {
-                let rows = self.region_words / self.region_row_words;
-                let late = pass.after_store + pass.decision_latency;
-                ((rows + 1) * row - self.region_words - self.region_row_words, late)
-            }
+        // Rows of words that the buffer has in addition to those of two rows of regions.
+        let more = self.buffer_rows.saturating_sub(2) * self.region_words / self.region_row_words;
+        let most = (more + 1) * row - self.region_row_words;
+        let late = match self.second_pass {
+            None => self.decision_latency - self.store_latency + STALL_MARGIN,
+            Some(pass) => self.region_words + pass.after_store + pass.decision_latency,
         };
-        most.checked_sub(late + self.queue_latency)
+        if self.has_forwarding { most - late - self.queue_latency } else { 0 }
     }
 
     /// Returns the number of words of a region that leave for an action, or `None` if none leave.

@@ -53,7 +53,7 @@ struct RasterReadme {
     /// True if regions have pixels outside the frame.
     padded: bool,
     buffer_rows: u32,
-    sink_stall: Option<u32>,
+    sink_stall: u32,
     memories: Vec<RasterMemory>,
     memory_bits: u64,
     /// The number of words of references of a frame.

@@ -163,7 +163,11 @@ module raster_core #(
     localparam FEATURE_WINDOW = EDGE | CORNER | SURFACE;
     localparam DENOISES = FILTER > 0 ? 1 : 0;
     localparam WINDOWS = DENOISES + FEATURE_WINDOW;
-    localparam BANKS = SECOND_PASS ? 3 : 2;
+    localparam SETTLED_CLOCKS = VARIANCE ? 3 : SURFACE ? 2 : RANGE ? 1 : 0;  // from the counts to the last of the other scores: v in docs/raster.md
+    // The way of a region to the readout may take longer than a short row; a third row of regions in the buffer covers that.
+    localparam READOUT_CLOCKS = SETTLED_CLOCKS + (DEEP ? 10 : 7);
+    localparam SHORT_ROW = ROW_WORDS - SEGMENT_WORDS < READOUT_CLOCKS ? 1 : 0;
+    localparam BANKS = SECOND_PASS || SHORT_ROW ? 3 : 2;
     localparam BUFFER_WORDS = BANKS * SIDE * ROW_WORDS;
     localparam START_BITS = $clog2(BUFFER_WORDS);
     localparam FRAME_WORDS = ROW_WORDS * ROWS * SIDE;
@@ -445,7 +449,6 @@ module raster_core #(
     );
 
     // A leaf that looks at all pixels takes `center`, which comes two clocks before hit_step.
-    localparam SETTLED_CLOCKS = VARIANCE ? 3 : SURFACE ? 2 : RANGE ? 1 : 0;  // from the counts to the last of the other scores: v in docs/raster.md
     wire [SUM_BITS-1:0] sum;
     wire settled;  // all scores except those of the second pass are there
     wire [SETTLED_BITS-1:0] settled_scores;

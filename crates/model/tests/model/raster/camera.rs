@@ -130,10 +130,7 @@ fn recipe(number: usize) -> RasterParameters {
     let count = 1 + number % 5;
     let features = (0..count).map(|turn| all[(number / 5 + turn) % all.len()].clone()).collect();
     let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
-    // In the shortest row, a deep core with `variance` loses regions although the sink never
-    // stalls.
-    let least = if on(7) { 20 } else { 16 };
-    let columns = 4.max((least * pixels + side - 1) / side);
+    let columns = 4.max((16 * pixels + side - 1) / side);
     let periphery = PeripheryParameters::from_number(number / 3, side, 255)
         .filter(|periphery| side / periphery.blocks % pixels == 0);
     RasterParameters {

@@ -217,6 +217,9 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
         ("edge", &[][..], 81, 16 - 4 - 4 - 3),
         ("variance", &[], 66, 16 - 4 - 7 - 3),
         ("edge", &["hardware.pipelining=deep"], 88, 16 - 4 - 6 - 4),
+        ("surface", &["hardware.pipelining=deep"], 90, 16 - 4 - 8 - 4),
+        // Two rows in the buffer would lose regions without a stall; it has three.
+        ("variance", &["hardware.pipelining=deep"], 71, 4 * 16 + 16 - 4 - 9 - 4),
         ("mad", &[], 86, 5 * 16 - 20 - 14),
         ("mad", &["hardware.pipelining=deep"], 92, 5 * 16 - 20 - 18),
         ("mad", &[BOTH], 89, 5 * 16 - 20 - 17),

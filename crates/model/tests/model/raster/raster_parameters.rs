@@ -172,7 +172,9 @@ impl RasterParameters {
 
     /// Returns the rows of regions in the buffer, B.
     pub(crate) fn buffer_rows(&self) -> i64 {
-        self.misread.rows + if self.has_second_pass() { 3 } else { 2 }
+        let spare = self.row_words() - self.base.side / self.word_pixels;
+        let is_short = spare < self.score_latency() + if self.deep { 10 } else { 7 };
+        self.misread.rows + if self.has_second_pass() || is_short { 3 } else { 2 }
     }
 
     pub(crate) fn waits_for_pending(&self) -> bool {
