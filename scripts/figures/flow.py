@@ -21,8 +21,9 @@ import os
 import sys
 
 import cv2
-import foveate as fv
 import numpy as np
+
+import foveate as fv
 
 SIZE = (448, 320)
 RADII = [1, 2, 3]

@@ -133,7 +133,7 @@ fn drawn_frame(generator: &FrameGenerator) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::{DenoiseFilter, Design, DesignConfig, FeatureKind};
+    use foveate_design::{DenoiseFilter, Design, DesignConfig, Organization};
 
     /// Returns the numbers of active regions of the two frames, drawn with a seed.
     fn active_counts(design: &Design, seed: u64) -> [usize; 2] {
@@ -149,7 +149,8 @@ mod tests {
     /// pattern.
     #[test]
     fn most_regions_of_active_frames_are_active_with_every_feature_and_filter() {
-        for (kind, filter) in FeatureKind::ALL
+        for (kind, filter) in Organization::Raster
+            .feature_kinds()
             .into_iter()
             .flat_map(|kind| DenoiseFilter::ALL.iter().map(move |filter| (kind, filter)))
         {

@@ -92,7 +92,7 @@ fn displacements_are_received_and_those_of_missing_rows_are_zero() {
     let layout = layout(3);
     let (row, flow) = row_of_nine();
     let zeros = displacements(&[(0, 0); 9]);
-    let (frame, losses) = receive(&layout, &[flow.clone()]);
+    let (frame, losses) = receive(&layout, std::slice::from_ref(&flow));
     assert_eq!(frame.displacements, [zeros, row.clone()].concat());
     assert_eq!(losses, [StreamLoss::Flow { frame: 5, row: 0 }]);
     assert_eq!(losses[0].kind(), "flow");
@@ -118,8 +118,7 @@ fn a_packet_with_a_displacement_that_is_not_searched_is_damaged() {
     for (radius, possible) in [(1, "0 1 F"), (2, "0 1 2 E F"), (3, "0 1 2 3 D E F")] {
         let layout = layout(radius);
         for digit in 0..16_u64 {
-            let is_possible =
-                possible.contains(char::from_digit(digit as u32, 16).unwrap().to_ascii_uppercase());
+            let is_possible = possible.contains(&format!("{digit:X}"));
             for shift in (0..64).step_by(4) {
                 let bytes = packet(&[0x0009_0000_0004_07FA, digit << shift, 0], 0);
                 let (packets, skipped) = split(&layout, &bytes);

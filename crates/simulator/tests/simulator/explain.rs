@@ -51,9 +51,9 @@ fn check_parts_of_score(spatial: &SpatialExplanation) {
 
 /// Returns the sum of differences between a region and its reference moved by a displacement, and
 /// the number of pixels that have a partner.
-fn difference(told: &RegionExplanation, (dx, dy): (i32, i32)) -> DifferenceSum {
+fn difference(told: &RegionExplanation, (dx, dy): (isize, isize)) -> DifferenceSum {
     let reference = told.temporal.reference.as_ref().unwrap();
-    let partner = |at: usize, shift: i32| usize::try_from(at as i32 - shift).ok();
+    let partner = |at: usize, shift: isize| at.checked_add_signed(-shift);
     let mut found = DifferenceSum { sum: 0, pixels: 0 };
     for (y, row) in told.denoised.iter().enumerate() {
         for (x, pixel) in row.iter().enumerate() {
