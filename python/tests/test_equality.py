@@ -51,7 +51,8 @@ def test_a_run_equals_simulate(preset, command, tmp_path):
 def test_tables_equal_those_of_simulate(only_active, preset, command, tmp_path):
     keys, words = DESIGNS[preset]
     only = [*words, "--only", "active"] if only_active else words
-    command("simulate", "scene:street", "-p", preset, "-o", tmp_path / "out", "--frames", 4, "--events", "parquet", *only, "--rendered", "none", "--quiet")
+    files = ["-o", tmp_path / "out", "--events", "parquet", "--rendered", "none"]
+    command("simulate", "scene:street", "-p", preset, *files, "--frames", 4, *only, "--quiet")
     written = pyarrow.parquet.read_table(tmp_path / "out/events.parquet")
     outcomes = list(fv.simulate("scene:street", fv.Camera(preset, **keys), max_frames=4))
     arrow = fv.events(outcomes, only_active=only_active, kind="pyarrow")
