@@ -55,7 +55,8 @@ def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str 
     numpy.ndarray, pandas.DataFrame or pyarrow.Table
         Columns ``frame``, ``t_us`` (int64, microseconds), ``x``, ``y`` (column and row of the region, int32), ``x0``, ``y0``
         (its first pixel), ``srs``, ``trs`` (bool), ``score_<feature>`` (int64), ``t_count`` (changed pixels, int32), with
-        the feature ``flow`` also ``dx`` and ``dy`` (its displacement, int32), and ``action`` (``forward``, ``hold``, ``blank`` or ``summarize``). Rows are in the order of frame, y, x.
+        the feature ``flow`` also ``dx`` and ``dy`` (its displacement, int32), and ``action`` (``forward``, ``hold``, ``blank`` or
+        ``summarize``). Rows are in the order of frame, y, x.
 
     Raises
     ------
