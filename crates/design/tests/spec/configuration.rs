@@ -148,7 +148,7 @@ fn wrong_types_name_the_key() {
         ),
         (
             "[[spatial]]\nfeature = \"edges\"\n",
-            "`spatial[0].feature`: \"edges\" is not valid; it takes \"edge\", \"corner\", \"mad\", \"variance\", \"range\", \"surface\" or \"segment\"",
+            "`spatial[0].feature`: \"edges\" is not valid; it takes \"edge\", \"corner\", \"mad\", \"variance\", \"range\", \"surface\", \"segment\" or \"flow\"",
         ),
         ("[[spatial]]\nlevel = 3\n", "`spatial[0]`: it lacks `feature`"),
         ("region = 8\n", "`region`: 8 is not valid; it takes a table"),
@@ -224,7 +224,7 @@ fn impossible_combinations_say_what_to_do() {
             "[hardware]\norganization = \"serial\"\nmemory = \"flash\"\n",
             "it takes \"distributed\" or \"block\"",
         ),
-        ("spatial = []\n", "1..=7 features"),
+        ("spatial = []\n", "1..=8 features"),
         ("[frame]\nwidth = 16384\nheight = 16384\n[region]\nsize = 2\n", "67108864 regions"),
     ] {
         assert!(refusal(toml).contains(part), "{}", refusal(toml));

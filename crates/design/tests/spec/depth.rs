@@ -2,7 +2,7 @@
 //! Tests of thresholds in grey levels at different depths of pixels.
 
 use foveate_design::{
-    CameraConfig, Decimal, Design, DesignConfig, FeatureKind, PRESETS, SpatialConfig,
+    CameraConfig, Decimal, Design, DesignConfig, FeatureKind, Organization, PRESETS, SpatialConfig,
     SpatialFeature,
 };
 
@@ -22,10 +22,19 @@ fn refusal(text: &str, overrides: &[&str]) -> String {
 /// with its default thresholds.
 fn base_configs() -> Vec<(String, String)> {
     let presets = PRESETS.iter().map(|preset| (preset.name.to_owned(), preset.toml.to_owned()));
-    let features = FeatureKind::ALL
-        .iter()
-        .map(|kind| (format!("feature {kind}"), format!("[[spatial]]\nfeature = \"{kind}\"\n")));
+    let features =
+        FeatureKind::ALL.iter().map(|&kind| (format!("feature {kind}"), config_of_feature(kind)));
     presets.chain(features).collect()
+}
+
+/// Returns the text of a configuration with one feature, in the default organization if that has
+/// the feature.
+fn config_of_feature(kind: FeatureKind) -> String {
+    let feature = format!("[[spatial]]\nfeature = \"{kind}\"\n");
+    if Organization::Pipelined.feature_kinds().contains(&kind) {
+        return feature;
+    }
+    format!("{feature}[hardware]\norganization = \"serial\"\n")
 }
 
 /// Fingerprints are written to generated cores and to results. They change only if the text of a
@@ -49,6 +58,7 @@ fn fingerprints_of_8_bits_do_not_change() {
         ("feature range", "89dfcf11d0e58a37"),
         ("feature surface", "a15808c24da4c046"),
         ("feature segment", "379a073ec4a1fb83"),
+        ("feature flow", "afbf775e47dc8e31"),
     ];
     let found: Vec<(String, String)> = base_configs()
         .into_iter()
@@ -100,17 +110,23 @@ fn defaults_of_some_depths_by_hand() {
     // The levels are those of `temporal`, `edge`, `corner` and `segment`. The minima are those of
     // all features in the order of the documentation.
     let row =
-        |levels: [u32; 4], minima: [&str; 7]| (levels.to_vec(), minima.map(str::to_owned).to_vec());
-    assert_eq!(at(8), row([8, 100, 20, 8], ["5", "5", "5", "50", "20", "5", "8"]));
-    assert_eq!(at(5), row([1, 12, 2, 1], ["5", "5", "0.625", "0.78125", "2.5", "0.625", "8"]));
+        |levels: [u32; 4], minima: [&str; 8]| (levels.to_vec(), minima.map(str::to_owned).to_vec());
+    assert_eq!(at(8), row([8, 100, 20, 8], ["5", "5", "5", "50", "20", "5", "8", "2"]));
+    assert_eq!(
+        at(5),
+        row([1, 12, 2, 1], ["5", "5", "0.625", "0.78125", "2.5", "0.625", "8", "0.25"])
+    );
     assert_eq!(
         at(1),
-        row([0; 4], ["5", "5", "0.0390625", "0.003051758", "0.15625", "0.0390625", "8"])
+        row(
+            [0; 4],
+            ["5", "5", "0.0390625", "0.003051758", "0.15625", "0.0390625", "8", "0.015625"]
+        )
     );
-    assert_eq!(at(10), row([32, 400, 80, 32], ["5", "5", "20", "800", "80", "20", "8"]));
+    assert_eq!(at(10), row([32, 400, 80, 32], ["5", "5", "20", "800", "80", "20", "8", "8"]));
     assert_eq!(
         at(16),
-        row([2048, 25_600, 5_120, 2048], ["5", "5", "1280", "3276800", "5120", "1280", "8"])
+        row([2048, 25_600, 5_120, 2048], ["5", "5", "1280", "3276800", "5120", "1280", "8", "512"])
     );
 }
 

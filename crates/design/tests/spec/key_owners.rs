@@ -84,7 +84,11 @@ fn all_settings(owner: &str) -> Vec<String> {
 /// Validates a small design with these keys.
 fn validate_with(keys: &[&str]) -> Result<(), String> {
     let base = "[frame]\nwidth = 64\nheight = 64\n[[spatial]]\nfeature = \"edge\"\n";
-    let config = DesignConfig::from_toml_with(base, keys).map_err(|error| error.to_string())?;
+    // Only `serial` has `flow`.
+    let has_flow = keys.iter().any(|key| key.ends_with("\"flow\""));
+    let organization = has_flow.then_some("hardware.organization=\"serial\"");
+    let keys: Vec<&str> = keys.iter().copied().chain(organization).collect();
+    let config = DesignConfig::from_toml_with(base, &keys).map_err(|error| error.to_string())?;
     config.validate().map(|_| ()).map_err(|error| error.to_string())
 }
 
@@ -120,6 +124,7 @@ fn a_key_of_one_is_refused_by_all_others_whatever_its_value() {
             ("hardware.organization=\"raster\"", 4),
             ("hardware.organization=\"serial\"", 2),
             ("render.irrelevant=\"mean\"", 2),
+            ("spatial.0.feature=\"flow\"", 1),
             ("spatial.0.feature=\"mad\", spatial.0.feature=\"segment\"", 1),
         ]
     );

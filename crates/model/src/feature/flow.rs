@@ -123,7 +123,7 @@ mod tests {
     fn the_score_is_rounded_down() {
         let before = [[8, 0, 0, 0]; 4];
         let mut now = [[0, 8, 0, 0]; 4];
-        now[3][3] = 1;
+        now[1][3] = 1;
         // E(0) = 65 over 16 pixels, and E(1, 0) = 1 over 12: the score is 65 - 16/12, rounded down.
         assert_eq!(matched(now, Some(before), 1), (1, 0, 63));
     }

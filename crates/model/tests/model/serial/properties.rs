@@ -59,7 +59,7 @@ fn applied_thresholds(recipe: &DesignParameters) -> ThresholdInputs {
             summary_level: 0,
         };
     }
-    ThresholdInputs::from_camera(&recipe.design())
+    ThresholdInputs::from_camera(&recipe.camera())
 }
 
 /// Returns a clip with the thresholds of each frame and the results of the oracle.
