@@ -72,18 +72,20 @@ class Frame:
         )
         self.scores = [[int(row[name]) for row in rows] for name in scores]
         self.counts = [int(row["t_count"]) for row in rows]
+        self.displacements = [[int(row["dx"]), int(row["dy"])] for row in rows] if "dx" in rows[0] else []
         shown = np.asarray(Image.open(picture))
         # A picture shows pixels of up to 8 bits as 8, others as 16, by repeating bits.
         self.shown = (shown if bits <= 8 else shown >> 8).astype(np.uint8).tobytes()
         self.pixels = shown.astype(np.uint16) >> ((8 if bits <= 8 else 16) - bits)
 
     def hash(self):
-        """FNV-1a of 64 bits of pixels, decisions, scores and counts."""
+        """FNV-1a of 64 bits of pixels, decisions, scores, counts and displacements."""
         data = b"".join([
             self.pixels.astype("<u2").tobytes(),
             self.regions,
             np.array(self.scores, dtype="<u8").tobytes(),
             np.array(self.counts, dtype="<u4").tobytes(),
+            np.array(self.displacements, dtype="i1").tobytes(),
         ])
         value = 0xCBF29CE484222325
         for byte in data:

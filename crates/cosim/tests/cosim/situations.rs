@@ -45,7 +45,6 @@ const DESIGNS: &[&[&str]] = &[
     ],
     &[FRAME, SERIAL, LAST_SENT, "hardware.thresholds='constant'"],
     &[FRAME, SERIAL, "spatial=[{feature='flow'}]"],
-    &[FRAME, SERIAL, LAST_SENT, MEAN, "spatial=[{feature='edge'},{feature='flow',radius=3}]"],
     &[FRAME, RASTER],
     &[FRAME, RASTER, LAST_SENT, "hardware.sync=true"],
     &[FRAME, RASTER, MEAN, "periphery.blocks=2"],
