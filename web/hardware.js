@@ -5,7 +5,7 @@ import { make } from "./elements.js";
 import { organizationsOf } from "./organization.js";
 
 /** The organization of the table. */
-const ORGANIZATION = "raster";
+const TABLE_ORGANIZATION = "raster";
 /** The regions per lane of an array that takes video row by row. */
 const FOLD = 16;
 
@@ -25,7 +25,7 @@ function rowKey({ config }) {
 export function showHardware(place, table, facts, features) {
   const [width, height] = table.frame, size = `${width}x${height}`;
   const possible = organizationsOf(facts.config, features);
-  if (!possible.includes(ORGANIZATION)) {
+  if (!possible.includes(TABLE_ORGANIZATION)) {
     showOther(place, [width, height], facts, features);
     return;
   }
@@ -38,14 +38,14 @@ export function showHardware(place, table, facts, features) {
     const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are inputs of the core and change none of this.` }));
     place.replaceChildren(title, make("dl", {}, ...list), note);
   } else {
-    const command = estimateCommand(`{organization="${ORGANIZATION}",sync=true}`, [width, height]);
+    const command = estimateCommand(`{organization="${TABLE_ORGANIZATION}",sync=true}`, [width, height]);
     place.replaceChildren(title, make("p", { textContent: "It is not in the table. With the copied TOML as camera.toml, this estimates it:" }), command);
   }
 }
 
 /** Says why a camera has no figures, and shows how to estimate an array whose lanes share regions. */
 function showOther(place, frame, { organization, config }, features) {
-  const isOther = ({ feature }) => !organizationsOf({ spatial: [{ feature }] }, features).includes(ORGANIZATION);
+  const isOther = ({ feature }) => !organizationsOf({ spatial: [{ feature }] }, features).includes(TABLE_ORGANIZATION);
   const names = config.spatial.filter(isOther).map(({ feature }) => feature).join(", ");
   const hardware = organization === "serial" ? `{organization="serial",feed="raster",fold=${FOLD}}` : `{organization="${organization}"}`;
   const title = `The figures of this page are those of a raster core, which does not compute ${names}. This camera is a ${organization} array.`;

@@ -12,14 +12,14 @@ const NETWORK = ["framing", "mean", "scale", "detect"];
 const MAX_CHARACTERS = 8192;
 const isFeature = key => key.startsWith("spatial.");
 const isHardware = key => key.startsWith("hardware.");
-const ORGANIZATION = "hardware.organization";
+const ORGANIZATION_KEY = "hardware.organization";
 
 /** Returns the fragment without `#`. `preset` is the configuration of that preset. */
 export function writeLink(pageSettings, preset, config, network) {
   const presetValues = keysOf(preset), values = keysOf(config);
   const differs = key => presetValues.get(key) !== values.get(key);
   const features = [...presetValues.keys(), ...values.keys()].some(key => isFeature(key) && differs(key));
-  const hardware = differs(ORGANIZATION);
+  const hardware = differs(ORGANIZATION_KEY);
   const changed = [...values].filter(([key]) => isFeature(key) ? features : hardware && isHardware(key) || differs(key));
   const networkPairs = Object.entries(network).filter(([, value]) => value !== null).map(([key, value]) => [`network.${key}`, value]);
   const pairs = [...PAGE_KEYS.filter(key => pageSettings[key]).map(key => [key, pageSettings[key]]), ...networkPairs, ...changed.map(([key, value]) => [key, JSON.stringify(value)])];
@@ -44,7 +44,7 @@ export function readLink(fragment) {
   const apply = preset => {
     const start = { ...preset };
     if (changed.some(([key]) => isFeature(key))) start.spatial = [];
-    if (changed.some(([key]) => key === ORGANIZATION)) start.hardware = {};
+    if (changed.some(([key]) => key === ORGANIZATION_KEY)) start.hardware = {};
     return changed.reduce((config, [key, value]) => setKey(config, key, value), start);
   };
   return { pageSettings, network, apply };
