@@ -16,6 +16,7 @@ from pathlib import Path
 
 FRAME = (640, 480)
 SIZES = (8, 16)
+# The features of `raster`; only `serial` has `flow`.
 FEATURES = ("edge", "corner", "mad", "variance", "range", "surface", "segment")
 FILTERS = ("none", "median3x3", "switching3x3", "binomial3x3")
 # The reference, the rendering of irrelevant regions, and the name of the pair in the table.

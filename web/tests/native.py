@@ -72,7 +72,7 @@ class Frame:
         )
         self.scores = [[int(row[name]) for row in rows] for name in scores]
         self.counts = [int(row["t_count"]) for row in rows]
-        self.displacements = [[int(row["dx"]), int(row["dy"])] for row in rows] if "dx" in rows[0] else []
+        self.displacements = [[int(row["dx"]), int(row["dy"])] for row in rows if "dx" in row]
         shown = np.asarray(Image.open(picture))
         # A picture shows pixels of up to 8 bits as 8, others as 16, by repeating bits.
         self.shown = (shown if bits <= 8 else shown >> 8).astype(np.uint8).tobytes()

@@ -147,6 +147,32 @@ mod tests {
         }
     }
 
+    /// The modules become parts of one script, so a name is declared in only one of them.
+    #[test]
+    fn no_two_modules_of_a_script_declare_the_same_name() {
+        for modules in [&MODULES[..], &WORKER_MODULES] {
+            let mut names: Vec<&str> = modules
+                .iter()
+                .flat_map(|module| module.lines())
+                .filter_map(declared_name)
+                .collect();
+            names.sort_unstable();
+            let twice: Vec<_> =
+                names.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+            assert!(names.len() > 5 && twice.is_empty(), "{twice:?} of {}", names.len());
+        }
+    }
+
+    /// Returns the name that a line declares for its whole module.
+    fn declared_name(line: &str) -> Option<&str> {
+        let line = line.strip_prefix("export ").unwrap_or(line);
+        let line = line.strip_prefix("async ").unwrap_or(line);
+        let kinds = ["const ", "let ", "function ", "class "];
+        let rest = kinds.iter().find_map(|kind| line.strip_prefix(kind))?;
+        let end = rest.find(|letter: char| !letter.is_alphanumeric() && letter != '_')?;
+        Some(&rest[..end]).filter(|name| !name.is_empty())
+    }
+
     fn assert_imports_precede(modules: &[&str]) {
         let mut known = String::new();
         for module in modules {

@@ -236,3 +236,20 @@ fn area_text(candidate: &SynthesizedDesign) -> String {
         candidate.cost() * 100.0
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smaller_radius_is_simpler() {
+        let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"flow\"\nradius = 3\n";
+        let chosen = CameraConfig::from_toml(text).unwrap().validate().unwrap().config().clone();
+        let steps = simpler_cameras(&chosen);
+        let radii = steps.iter().filter(|(step, _)| step.starts_with("flow"));
+        let radii: Vec<_> =
+            radii.map(|(step, config)| (step.as_str(), config.spatial[1].radius)).collect();
+        let expected = [("flow with a radius of 1", Some(1)), ("flow with a radius of 2", Some(2))];
+        assert_eq!(radii, expected);
+    }
+}
