@@ -73,11 +73,16 @@ impl DrawnRegion {
 pub(super) fn threshold_pair(part: &Design, generator: &mut PatternGenerator) -> ThresholdPair {
     let own = ThresholdInputs::from_camera(part);
     let configured = ThresholdPair { usual: own, blank: own };
-    match part.threshold_source() {
-        Mode::Constant => configured,
+    let mut pair = match part.threshold_source() {
+        Mode::Constant => return configured,
         Mode::Runtime if separates_regions(part, generator, &own) => configured,
         Mode::Runtime => smallest_thresholds(part, generator),
+    };
+    if part.displacement_feature().is_some() {
+        // A flat region behind one with structure may have a displacement.
+        ThresholdRanges::of(part).set_largest_minima(&mut pair.blank);
     }
+    pair
 }
 
 /// Returns true if some pattern is relevant, a flat region is not, and an unchanged region is held.

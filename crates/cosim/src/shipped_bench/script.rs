@@ -8,7 +8,7 @@ use crate::situations::{has_sink, largest_min_count};
 use crate::stimulus::{
     FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern, StimulusPattern, Texture,
 };
-use foveate_design::{Design, Neighborhood, ThresholdSource as Mode};
+use foveate_design::{Design, FeatureKind, Neighborhood, ThresholdSource as Mode};
 use foveate_frame::Frame;
 use foveate_model::ThresholdInputs;
 
@@ -180,7 +180,9 @@ impl<'a> ScriptWriter<'a> {
     /// Regions become active, are held, are blanked, and become active again.
     fn usual_sequence(&self) -> BenchSequence {
         let usual = self.pair.usual;
-        BenchSequence::drained(vec![
+        // A flat region behind one with structure may have a displacement, so there are two.
+        let flat_frames = 1 + usize::from(self.part.displacement_feature().is_some());
+        let mut frames = vec![
             self.frame_of_first(0, usual),
             self.frame_of_first(0, usual),
             self.frame(1, usual, |number, region| match number % 3 {
@@ -188,9 +190,10 @@ impl<'a> ScriptWriter<'a> {
                 1 => region.first.clone(),
                 _ => self.flat.clone(),
             }),
-            self.flat_frame(),
-            self.frame_of_last(2),
-        ])
+        ];
+        frames.extend((0..flat_frames).map(|_| self.flat_frame()));
+        frames.push(self.frame_of_last(2));
+        BenchSequence::drained(frames)
     }
 
     /// Returns the pixels of a flat region. The levels of adjacent regions differ, or a mean could
@@ -227,7 +230,7 @@ impl<'a> ScriptWriter<'a> {
         frames.extend([self.frame_of_last(2), means(level + 1)]);
         if self.part.threshold_source() == Mode::Runtime {
             // With a second pass a decision is made with the thresholds of the next frame.
-            frames.push(self.frame_of_first(2, self.without_changes(usual)));
+            frames.push(self.frame_of_first(2, self.without_changes(self.relevant_thresholds())));
             frames.push(self.frame_of_means(level, level + 1, self.without_changes(blank)));
         }
         BenchSequence::drained(frames)
@@ -325,10 +328,15 @@ impl<'a> ScriptWriter<'a> {
 
     /// A reset comes while pixels leave.
     fn leaving_sequence(&self, is_wide: bool) -> BenchSequence {
-        let frames = match is_wide {
+        let relevant = self.relevant_thresholds();
+        let mut frames = match is_wide {
             true => self.wide_frames(),
-            false => vec![self.frame_of_first(1, self.pair.usual)],
+            false => vec![self.frame_of_first(1, relevant)],
         };
+        if !is_wide && self.part.displacement_feature().is_some() {
+            // A region has a displacement from the second frame on.
+            frames.push(self.frame(1, relevant, |_, region| region.other.clone()));
+        }
         BenchSequence { frames, end: SequenceEnd::Leaving(0) }
     }
 
@@ -337,12 +345,24 @@ impl<'a> ScriptWriter<'a> {
     fn high_minimum_sequence(&self) -> BenchSequence {
         let usual = self.pair.usual;
         let never = match self.part.threshold_source() {
-            Mode::Runtime => self.without_changes(usual),
+            Mode::Runtime => self.without_changes(self.relevant_thresholds()),
             Mode::Constant => usual,
         };
         let frames = [never, never, usual]
             .map(|thresholds| self.frame_of_first(1, thresholds).with_sink(SinkPattern::Delaying));
         BenchSequence::drained(frames.into())
+    }
+
+    /// Returns thresholds under which the pictures of regions are relevant. With `flow` that depends
+    /// on the picture before, unless every score meets the minimum.
+    fn relevant_thresholds(&self) -> ThresholdInputs {
+        let usual = self.pair.usual;
+        match (self.part.displacement_feature(), self.part.threshold_source()) {
+            (Some(_), Mode::Runtime) => {
+                ThresholdInputs { min_score: [0; FeatureKind::COUNT], ..usual }
+            }
+            _ => usual,
+        }
     }
 
     /// Returns the thresholds with the largest minimum of the port, which no count reaches if the

@@ -26,7 +26,7 @@ pub(crate) enum SequenceEnd {
     Working { first_score: u64 },
     /// Up to the given number of clocks after the first score.
     Rotating(u64),
-    /// Up to the given number of clocks before the core is ready.
+    /// At least one clock and up to the given number of clocks before the core is ready.
     Finishing(u64),
     /// Up to the given number of clocks after the first pixel or mean that leaves.
     Leaving(u64),
@@ -82,7 +82,7 @@ impl<Receiver: ClockReceiver> ModelDriver<'_, Receiver> {
                 self.work_until(left.saturating_sub(clocks))
             }
             SequenceEnd::Finishing(most) => {
-                let clocks = self.random().up_to(most);
+                let clocks = 1 + self.random().up_to(most.saturating_sub(1));
                 self.work_until(clocks)
             }
             SequenceEnd::BeforeLoss => Ok(()),

@@ -168,8 +168,13 @@ impl ThresholdRanges {
     /// time.
     pub(crate) fn aim_at_summary(&self, thresholds: &mut ThresholdInputs, random: &mut Random) {
         if self.summary_level.is_some() && random.one_in(2) {
-            thresholds.min_score = self.min_score;
+            self.set_largest_minima(thresholds);
         }
+    }
+
+    /// Sets the largest minima of the ports, which no score meets.
+    pub(crate) fn set_largest_minima(&self, thresholds: &mut ThresholdInputs) {
+        thresholds.min_score = self.min_score;
     }
 
     /// Sets minima that no score meets or, every second turn, all scores meet, and a minimum of

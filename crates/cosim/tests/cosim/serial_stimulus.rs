@@ -21,11 +21,9 @@ fn record(design: &Design, stimulus: &Stimulus) -> Recording {
     stimulus.record(design, &mut |_, _| {}).unwrap()
 }
 
-/// Returns a small configuration with every feature except `flow`, and `last-sent` references. The
-/// pass of `flow` is so long that resets at random hardly ever meet the end of the work.
+/// Returns a small configuration with every feature and `last-sent` references.
 fn config_with_every_feature() -> DesignConfig {
-    let kinds = FeatureKind::ALL.iter().filter(|kind| !kind.is_displacement());
-    let features: Vec<_> = kinds.map(|&kind| feature(kind, 2)).collect();
+    let features: Vec<_> = FeatureKind::ALL.iter().map(|&kind| feature(kind, 2)).collect();
     let mut config = serial_config(&features);
     config.camera.region.size = 4;
     config.camera.denoise.filter = DenoiseFilter::None;

@@ -103,8 +103,7 @@ fn raster_keys(size: u32, most: u32, pipelining: &str) -> String {
     )
 }
 
-/// Returns the keys for one feature, two, or all, in turn, with levels that the depth allows. `flow`
-/// is left out: the benches of its designs do not reach all situations of summaries yet.
+/// Returns the keys for one feature, two, or all, in turn, with levels that the depth allows.
 fn feature_keys(organization: Organization, turn: usize, bits: u32, size: u32) -> String {
     let level = [0, 1, 20][(bits as usize).ilog2() as usize / 2];
     let entry = |kind: &FeatureKind| match kind {
@@ -124,8 +123,7 @@ fn feature_keys(organization: Organization, turn: usize, bits: u32, size: u32) -
         ),
         FeatureKind::Flow => "[[spatial]]\nfeature = 'flow'\nmin_score = 0.1\n".to_owned(),
     };
-    let mut all = organization.feature_kinds();
-    all.retain(|kind| !kind.is_displacement());
+    let all = organization.feature_kinds();
     let of = match turn % 6 {
         4 => [&all[0], &all[all.len() - 1]].map(entry).concat(),
         5 => all.iter().map(entry).collect(),
