@@ -61,7 +61,8 @@ fn largest_score_row(kind: FeatureKind, (side, bits): (u32, u32)) -> Option<Case
     let clips = extreme_clips(kind, (side, bits)).into_iter();
     let observed = clips.map(|clip| last_score(&design, &clip)).max()?;
     let is_tight = bits_for(observed) == feature.score_bits();
-    let designs = format!("{kind}, N {side}, P {bits}: {} bits", feature.score_bits());
+    let unit = if feature.score_bits() == 1 { "bit" } else { "bits" };
+    let designs = format!("{kind}, N {side}, P {bits}: {} {unit}", feature.score_bits());
     let row =
         CaseRow::for_equal_numbers("largest score reached", designs, feature.score_max(), observed);
     Some(CaseRow { is_as_expected: row.is_as_expected && is_tight, ..row })
