@@ -172,10 +172,12 @@ fn a_video_for_which_there_is_no_room_is_left_out_by_name() {
     assert!(there != problem.ends_with("rendered.mkv is left out"), "{problem}");
 }
 
+/// The disk has four pages, fewer than there are files. With some more, it depends on the time at
+/// which an output is left out whether a frame is kept.
 #[test]
 fn a_disk_that_is_full_at_once_leaves_nothing_and_is_named() {
     let dir = tempfile::tempdir().unwrap();
-    let Some((ran, copy)) = run_within(64, dir.path(), "simulate scene:street --frames 50") else {
+    let Some((ran, copy)) = run_within(16, dir.path(), "simulate scene:street --frames 50") else {
         return;
     };
     let said = String::from_utf8_lossy(&ran.stderr).into_owned();
