@@ -46,12 +46,12 @@ pub(super) fn rough_cost(design: &Design) -> f64 {
             let features: f64 = kinds
                 .map(|kind| match kind {
                     FeatureKind::Edge => 2.0,
-                    FeatureKind::Corner => 3.5,
+                    FeatureKind::Corner | FeatureKind::Segment => 3.5,
                     FeatureKind::Mad
                     | FeatureKind::Variance
                     | FeatureKind::Range
-                    | FeatureKind::Segment => 6.0,
-                    FeatureKind::Surface | FeatureKind::Flow => 10.0,
+                    | FeatureKind::Surface
+                    | FeatureKind::Flow => 6.0,
                 })
                 .sum();
             let lanes = f64::from(array.lanes());
