@@ -221,6 +221,12 @@ fn depths_sizes_memories_and_constants_agree() {
     large.camera.denoise.filter = DenoiseFilter::None;
     large.camera.temporal.reference = ReferencePolicy::LastSent;
     cases.push(SerialCase::lane_case(large));
+    let mut odd = serial_config(&[feature(Flow, 0)]);
+    odd.camera.region.size = 17;
+    odd.camera.frame.pixel_bits = 1;
+    odd.camera.temporal.level = Some(0);
+    odd.camera.spatial[0].radius = Some(3);
+    cases.push(SerialCase::array_case(odd, (2, 1)));
     for (turn, &kind) in FeatureKind::ALL.iter().enumerate() {
         let mut config = with_keys_in_turn(serial_config(&[feature(kind, 3)]), turn);
         config.hardware.thresholds = ThresholdSource::Constant;
