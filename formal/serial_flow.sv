@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The displacements come in the opposite order of the search of docs/contract.md, each once, and stop at 0. A weight times the number
+// The displacements come in the opposite order of the preference in docs/contract.md, each once, and stop at 0. A weight times the number
 // of pairs of pixels is the same for all of them.
 module properties #(parameter RADIUS = 1, parameter BITS = 2, parameter SIDE = 8, parameter FACTOR_BITS = 4, parameter FACTORS = 135) (
     input wire clk_i, rst_i, next

@@ -127,8 +127,8 @@ pub struct SpatialConfig {
     pub level: Option<u32>,
     /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8), grey
     /// levels for `mad`, `surface` (default 5), `range` (default 20) and `flow` (default 2), squared
-    /// grey levels for `variance` (default 50). In grey levels and their squares it may be decimal; its default is
-    /// that of 8 bits, and is scaled to the depth.
+    /// grey levels for `variance` (default 50). In grey levels and their squares it may be decimal;
+    /// its default is that of 8 bits, and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
     /// Fraction bits of the mean of `mad` and `segment`, 0..=ceil(log2 n). The default is 0. A

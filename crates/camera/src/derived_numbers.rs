@@ -120,7 +120,7 @@ impl Camera {
     }
 
     /// Returns the side of the square of pixels that enters the feature window: the output of the
-    /// median window, or the stream itself without a filter.
+    /// filter window, or the stream itself without a filter.
     #[must_use]
     pub fn denoised_side(&self) -> u32 {
         let consumed = u32::from(self.halo() > 0 && self.filter() != DenoiseFilter::None);

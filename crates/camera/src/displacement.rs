@@ -39,10 +39,7 @@ impl Displacement {
     }
 
     /// Returns n(d), the number of pixels whose partner lies in the region too, for regions with
-    /// `side` pixels a side.
-    ///
-    /// # Panics
-    /// Panics if the displacement is larger than the region.
+    /// `side` pixels a side. The displacement must not be larger than the region.
     #[must_use]
     pub fn pixel_pairs(self, side: u32) -> u64 {
         let overlap = |shift: i8| u64::from(side - u32::from(shift.unsigned_abs()));

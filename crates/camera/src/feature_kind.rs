@@ -9,7 +9,7 @@ use crate::{DenoiseFilter, FeatureKind, mad_score_max};
 /// The unit of a score, which says how the score scales with the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ScoreUnit {
-    /// Pixels of the region that are hits.
+    /// Pixels of the region that count: hits, or pixels of the smaller part for `segment`.
     Pixels,
     /// Differences of pixels in grey levels.
     Levels,

@@ -14,7 +14,7 @@ pub const PIXEL_BITS: RangeInclusive<u32> = 1..=16;
 pub const REGION_SIZES: RangeInclusive<u32> = 2..=64;
 /// Valid numbers of blocks per side q of the summary of a region.
 pub const SUMMARY_BLOCKS: &[u32] = &[1, 2, 4];
-/// Valid fraction bits of the mean of `mad`, for the largest region.
+/// Valid fraction bits of the mean of `mad` and `segment`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
 
 /// Valid radii of the search of `flow`, for regions of 4x4 pixels or more.

@@ -270,13 +270,13 @@ impl SituationMonitor {
         }
     }
 
-    /// Counts displacements. They are 0 with all scores but that of `flow`.
+    /// Counts the displacements that are not 0. The ports are 0 with all scores but that of `flow`.
     fn count_movements(&mut self, clock: WatchedClock<'_>) {
         let Some(radius) = self.radius else { return };
         if !clock.is_high(&self.ports.score_valid) {
             return;
         }
-        // A negative coordinate has the highest of 2 or 3 bits.
+        // The highest of the 2 or 3 bits of a coordinate is its sign.
         let sign = if radius > 1 { 4 } else { 2 };
         let distance = |value: u64| if value < sign { value } else { 2 * sign - value };
         let ports = [&self.ports.displacement_x, &self.ports.displacement_y];

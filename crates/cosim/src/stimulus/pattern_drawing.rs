@@ -240,10 +240,10 @@ impl PatternGenerator {
         pixels
     }
 
-    /// Moves a picture.
+    /// Moves a picture by at most the radius in both directions, and not by 0.
     pub(super) fn moved(&mut self, before: &[u16]) -> Vec<u16> {
         let (side, radius) = (self.side, self.radius.min(self.side - 1));
-        // A number of columns or rows to the right or down, plus the radius.
+        // The columns to the right, or the rows down, plus the radius.
         let mut shift = || self.random.index(2 * radius);
         let (mut columns, rows) = (shift(), shift());
         if (columns, rows) == (radius, radius) {

@@ -18,8 +18,8 @@ pub(super) struct PatternScorer {
     added: usize,
     feature_count: usize,
     combine: VoteCombination,
-    /// True if a region may have no reference after the first frame. Its picture is then relevant
-    /// only if it is so without a reference, too.
+    /// True if a region may lack a reference after the first frame. A picture then counts as
+    /// relevant only if it is relevant with and without a reference.
     may_lack_reference: bool,
 }
 

@@ -228,7 +228,7 @@ fn settling_steps(design: SerialDesign<'_>) -> u32 {
 
 /// Returns the steps that denoise a pixel and compare it with its reference, without Q.
 fn filter_steps(design: SerialDesign<'_>) -> u64 {
-    // Otherwise the reference is the word that the median overwrites.
+    // A reference that is not copied is the word that the denoised pixel overwrites.
     let looked_up = u64::from(design.copies_reference());
     let median = 10 * u64::from(design.pixel_bits()) + 3 + looked_up;
     match design.filter() {

@@ -166,8 +166,8 @@ impl<'a> CameraSearch<'a> {
         found
     }
 
-    /// Returns every cheaper version of a camera: with fewer bits, isolated windows, no filter, the
-    /// other reference, or a mean without fraction bits.
+    /// Returns a camera with fewer bits, each neighborhood, each filter, each reference, and a mean
+    /// with and without fraction bits, in all combinations.
     fn cheaper_cameras(&self, base: &CameraConfig) -> Vec<CameraConfig> {
         let mut found = Vec::new();
         let depth = base.frame.pixel_bits;
