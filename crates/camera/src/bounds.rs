@@ -52,7 +52,10 @@ impl Camera {
             if let Some(level) = feature.largest_level() {
                 bounds.push((key("level"), KeyBound::whole_maximum(level)));
             }
-            let largest = feature.largest_min_score();
+            let needs_zero =
+                feature.kind().is_displacement() && self.config().references_need_displacement();
+            let largest =
+                if needs_zero { Decimal::from_whole(0) } else { feature.largest_min_score() };
             let whole = feature.kind().score_unit().is_count();
             bounds.push((key("min_score"), KeyBound::Maximum { largest, whole }));
             if let Some(bits) = entry.mean_fraction_bits {
@@ -96,6 +99,7 @@ mod tests {
             vec![ALL, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
             vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
             vec![SEGMENT, "region.size=3"],
+            vec!["spatial=[{feature=\"flow\",min_score=0}]", "temporal.reference=\"last-sent\""],
         ] {
             let camera = |more: &str| {
                 let all = [&overrides[..], &[more]].concat();
@@ -131,6 +135,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 5);
+        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 5 + 4);
     }
 }

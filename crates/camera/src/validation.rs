@@ -178,23 +178,28 @@ impl CameraConfig {
         let Some((index, entry)) = entries.find(|(_, entry)| needs_motion(entry)) else {
             return Ok(());
         };
-        let dead = match self.decision.combine {
-            VoteCombination::Any => self.spatial.len() == 1,
-            VoteCombination::All => true,
-        };
-        match self.temporal.reference {
-            ReferencePolicy::LastSent if dead => Err(ConfigError::Combination {
-                key: format!("spatial[{index}].feature"),
-                value: format!("\"{}\"", entry.feature),
-                with:
-                    "`temporal.reference` = \"last-sent\" unless another feature can vote alone: a \
-                       region has no reference before it was active"
-                        .to_owned(),
-                remedy: "use reference = \"previous\", or add another feature with \
-                         combine = \"any\""
-                    .to_owned(),
-            }),
-            ReferencePolicy::LastSent | ReferencePolicy::Previous => Ok(()),
+        if !self.references_need_displacement() {
+            return Ok(());
+        }
+        Err(ConfigError::Combination {
+            key: format!("spatial[{index}].feature"),
+            value: format!("\"{}\"", entry.feature),
+            with: "`temporal.reference` = \"last-sent\" unless another feature can vote alone: a \
+                   region has no reference before it has been active"
+                .to_owned(),
+            remedy: "use reference = \"previous\", add another feature with combine = \"any\", or \
+                     set a `min_score` of 0"
+                .to_owned(),
+        })
+    }
+
+    /// Returns true if no region has a reference before the feature `flow`, which is one of the
+    /// features, has voted.
+    pub(crate) fn references_need_displacement(&self) -> bool {
+        match (self.temporal.reference, self.decision.combine) {
+            (ReferencePolicy::Previous, _) => false,
+            (ReferencePolicy::LastSent, VoteCombination::Any) => self.spatial.len() == 1,
+            (ReferencePolicy::LastSent, VoteCombination::All) => true,
         }
     }
 }
@@ -202,6 +207,24 @@ impl CameraConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_displacement_needs_a_region_that_is_sent_without_it() {
+        let checked = |spatial: &str, more: &[&str]| {
+            let keys = [&[spatial, "temporal.reference=\"last-sent\""], more].concat();
+            CameraConfig::from_toml_with("", &keys).and_then(|config| config.validate()).map(|_| ())
+        };
+        const ALONE: &str = "spatial=[{feature=\"flow\"}]";
+        const BESIDE_EDGE: &str = "spatial=[{feature=\"edge\"},{feature=\"flow\"}]";
+        const ALWAYS: &str = "spatial=[{feature=\"edge\"},{feature=\"flow\",min_score=0}]";
+        let all = ["decision.combine=\"all\""];
+        for (spatial, more) in [(ALONE, &[][..]), (BESIDE_EDGE, &all)] {
+            let error = checked(spatial, more).unwrap_err().to_string();
+            assert!(error.contains("last-sent") && error.contains("min_score"), "{error}");
+        }
+        assert_eq!(checked(BESIDE_EDGE, &[]), Ok(()));
+        assert_eq!(checked(ALWAYS, &all), Ok(()));
+    }
 
     #[test]
     fn features_share_one_mean() {

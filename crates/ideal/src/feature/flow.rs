@@ -14,31 +14,45 @@ pub(super) fn score(radius: u32, view: &FrameView, scores: &mut [f64]) {
     for (region, score) in scores.iter_mut().enumerate() {
         *score = 0.0;
         if view.references.valid[region] {
-            let errors = displacements.iter().map(|one| mean_error(view, region, *one));
-            let errors: Vec<_> = errors.collect();
-            let smallest = errors.iter().copied().fold(f64::INFINITY, f64::min);
-            *score = errors[0] - smallest;
+            let still = DisplacedDifference::new(view, region, Displacement::default());
+            let moved =
+                displacements.iter().map(|one| DisplacedDifference::new(view, region, *one));
+            *score = moved.map(|one| one.gain_over(&still)).fold(0.0, f64::max);
         }
     }
 }
 
-/// Returns the mean absolute difference of the pixels whose partner lies in the region too.
-fn mean_error(view: &FrameView, region: usize, displacement: Displacement) -> f64 {
-    let (columns, rows) = view.grid.area(region);
-    let Displacement { dx, dy } = displacement;
-    let (columns, partner_columns) = paired(&columns, dx);
-    let (rows, partner_rows) = paired(&rows, dy);
-    let line = |plane: &PaddedPlane, y: usize, columns: &Range<usize>| {
-        plane.row(y)[columns.clone()].to_vec()
-    };
-    let mut differences = Vec::new();
-    for (y, partner) in rows.zip(partner_rows) {
-        let here = line(view.denoised, y, &columns);
-        let there = line(&view.references.plane, partner, &partner_columns);
-        differences.extend(here.iter().zip(&there).map(|(x, other)| (x - other).abs()));
+/// The differences of the pixels of a region from their partners at a displacement.
+struct DisplacedDifference {
+    /// The sum of the absolute differences.
+    sum: f64,
+    /// The number of pixels whose partner lies in the region too.
+    pairs: f64,
+}
+
+impl DisplacedDifference {
+    fn new(view: &FrameView, region: usize, Displacement { dx, dy }: Displacement) -> Self {
+        let (columns, rows) = view.grid.area(region);
+        let (columns, partner_columns) = paired(&columns, dx);
+        let (rows, partner_rows) = paired(&rows, dy);
+        let line = |plane: &PaddedPlane, y: usize, columns: &Range<usize>| {
+            plane.row(y)[columns.clone()].to_vec()
+        };
+        let mut differences = Vec::new();
+        for (y, partner) in rows.zip(partner_rows) {
+            let here = line(view.denoised, y, &columns);
+            let there = line(&view.references.plane, partner, &partner_columns);
+            differences.extend(here.iter().zip(&there).map(|(x, other)| (x - other).abs()));
+        }
+        let pairs = u32::try_from(differences.len()).expect("a region has at most 4096 pixels");
+        Self { sum: differences.iter().sum(), pairs: pairs.into() }
     }
-    let pairs = u32::try_from(differences.len()).expect("a region has at most 4096 pixels");
-    differences.iter().sum::<f64>() / f64::from(pairs)
+
+    /// Returns how much larger the mean of another difference is. It is one quotient and not the
+    /// difference of two, so that a score that equals the minimum is not rounded below it.
+    fn gain_over(&self, other: &Self) -> f64 {
+        (other.sum * self.pairs - self.sum * other.pairs) / (other.pairs * self.pairs)
+    }
 }
 
 /// Returns the places whose partner, `shift` places before them, lies in the range too, and the

@@ -59,6 +59,32 @@ fn a_step_is_an_edge_two_pixels_wide() {
     assert_eq!(scores, [16.0, 0.0, 15.0, 225.0, 30.0, 0.0, 32.0, 0.0]);
 }
 
+/// A ramp moves to the right by one pixel, and 16 of its 20 pixels are off by one. So the mean
+/// difference is 70 / 25 in place and 16 / 20 at the displacement, and their difference is 2, the
+/// minimum. The difference of the rounded quotients is smaller.
+#[test]
+fn a_displacement_that_is_better_by_exactly_the_minimum_votes() {
+    // The sums of the rows are 3, 3, 4, 3, 3, so no other displacement is better.
+    const ERRORS: [[i8; 5]; 5] = [
+        [0, 1, -1, -1, 0],
+        [0, 1, -1, -1, 0],
+        [0, -1, -1, -1, -1],
+        [0, 1, -1, -1, 0],
+        [0, -1, -1, -1, 0],
+    ];
+    let mut config = config(5, 5, 5);
+    config.spatial = vec![SpatialConfig::new(FeatureKind::Flow)];
+    let camera = config.validate().unwrap();
+    let mut ideal = IdealCamera::new(&camera);
+    let ramp = |x: u32| u8::try_from(50 + 3 * x).unwrap();
+    ideal.step(&frame(&camera, |x, _| ramp(x))).unwrap();
+    let moved = frame(&camera, |x, y| {
+        ramp(x.saturating_sub(1)).saturating_add_signed(ERRORS[y as usize][x as usize])
+    });
+    let outcome = ideal.step(&moved).unwrap();
+    assert_eq!((&outcome.scores[0][..], &outcome.srs[..]), (&[2.0][..], &[true][..]));
+}
+
 /// The ideal camera ignores the neighborhood and the fraction bits of the configuration.
 #[test]
 fn properties_of_hardware_have_no_effect() {

@@ -3,7 +3,8 @@
 //! it are a legend and the share of active regions over time.
 //!
 //! The colours are those of the palette. Active regions also have an outline. An arrow shows the
-//! displacement of a region, bright if `flow` votes for the region and faint otherwise.
+//! displacement of a region, bright if `flow` votes for the region and faint otherwise. Without
+//! scores it is bright if the region is relevant.
 
 use foveate_camera::{Camera, Displacement, RegionAction};
 use foveate_frame::{ByteFrame, convert_depth};
@@ -27,9 +28,16 @@ const FAINT: f64 = 0.3;
 const SHORTEST_ARROW: f64 = 3.0;
 
 /// The painter of overlays. It records the share of active regions so far.
-#[derive(Default)]
 pub(super) struct OverlayPainter {
+    /// False for a stream of packets without scores.
+    has_scores: bool,
     activity_chart: ActivityChart,
+}
+
+impl OverlayPainter {
+    pub(super) fn new(has_scores: bool) -> Self {
+        Self { has_scores, activity_chart: ActivityChart::default() }
+    }
 }
 
 impl PicturePainter for OverlayPainter {
@@ -40,7 +48,7 @@ impl PicturePainter for OverlayPainter {
         let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, sink_frame, layout);
-        draw_arrows(&mut canvas, sink_frame, layout);
+        draw_arrows(&mut canvas, sink_frame, layout, self.has_scores);
         let regions = sink_frame.camera.regions();
         let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, sink_frame.camera);
@@ -90,8 +98,13 @@ fn draw_frame(
 }
 
 /// Draws an arrow from the centre of each region whose content has moved. The bright ones are drawn
-/// last.
-fn draw_arrows(canvas: &mut PictureCanvas, sink_frame: &SinkFrame<'_>, layout: PictureLayout) {
+/// last. Without scores, SRS takes the place of the vote.
+fn draw_arrows(
+    canvas: &mut PictureCanvas,
+    sink_frame: &SinkFrame<'_>,
+    layout: PictureLayout,
+    has_scores: bool,
+) {
     let SinkFrame { camera, outcome, .. } = sink_frame;
     let cell = camera.region_size() * layout.scale;
     let mut features = camera.features().iter().zip(&outcome.scores);
@@ -99,7 +112,10 @@ fn draw_arrows(canvas: &mut PictureCanvas, sink_frame: &SinkFrame<'_>, layout: P
     let Some((feature, scores, radius)) = found.filter(|_| cell >= SMALLEST_GRID) else { return };
     for bright in [false, true] {
         for (region, displacement) in (0..).zip(&outcome.displacements) {
-            let votes = scores[region as usize] >= feature.min_score();
+            let votes = match has_scores {
+                true => scores[region as usize] >= feature.min_score(),
+                false => outcome.srs[region as usize],
+            };
             if *displacement == Displacement::default() || votes != bright {
                 continue;
             }

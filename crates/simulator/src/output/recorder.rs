@@ -73,7 +73,7 @@ impl RunRecorder {
             sinks.push(Box::new(PictureSeriesSink::rendered(folder, format, interrupt)?));
         }
         if let Some(format) = options.overlay {
-            let overlay = OverlayPainter::default();
+            let overlay = OverlayPainter::new(has_scores);
             sinks.push(Box::new(PictureSeriesSink::with_painter(
                 folder,
                 "overlay",

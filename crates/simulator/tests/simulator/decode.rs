@@ -232,3 +232,33 @@ fn what_cannot_be_is_refused_with_both_sides() {
     newer[52..56].copy_from_slice(&check.to_le_bytes());
     assert!(refused(&newer, DESIGNS[0], &plain).contains("version 2"));
 }
+
+/// In a stream without scores the arrows of `flow` alone are as bright as in the simulation, because
+/// SRS is then the vote of `flow`.
+#[test]
+fn arrows_of_a_stream_without_scores_are_bright_where_regions_are_relevant() {
+    let overrides = [
+        "frame={width=224,height=160}",
+        "hardware.organization=\"serial\"",
+        "spatial=[{feature=\"flow\",min_score=1}]",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    let overlay = RunOptions {
+        overlay: Some(PictureFormat::Png),
+        ..options(Some(PacketContent::Plain))
+    };
+    street(&sent, &overrides, &overlay);
+    let stream = fs::read(sent.join("packets.bin")).unwrap();
+    decode(&stream, &overrides, &seen, &RunOptions { packets: None, ..overlay }).unwrap();
+    let white_pixels = |folder: &Path, name: &str| {
+        let picture = image::open(folder.join("overlay").join(name)).unwrap().into_rgb8();
+        picture.pixels().filter(|pixel| pixel.0 == [255; 3]).count()
+    };
+    let counts: Vec<_> = names(&sent.join("overlay"))
+        .iter()
+        .map(|name| [&sent, &seen].map(|folder| white_pixels(folder, name)))
+        .collect();
+    assert!(counts.iter().any(|[sent, _]| *sent > 0), "{counts:?}");
+    assert!(counts.iter().all(|[sent, seen]| sent == seen), "{counts:?}");
+}

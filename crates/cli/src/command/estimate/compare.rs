@@ -67,33 +67,35 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
 /// organization has are those of the design in its own organization, and have their defaults in the
 /// others.
 fn organization_rows(base: &DesignConfig) -> Vec<PlannedRow> {
+    Organization::ALL.iter().flat_map(|&organization| rows_of(base, organization)).collect()
+}
+
+/// Returns the rows of one organization. If all of them are refused, they are one family, otherwise
+/// those of each feature are.
+fn rows_of(base: &DesignConfig, organization: Organization) -> Vec<PlannedRow> {
     let mut list = Vec::new();
-    for &organization in Organization::ALL {
-        for &filter in DenoiseFilter::ALL {
-            for kind in compared_features(organization, filter) {
-                let mut config = with_feature(base, kind, filter);
-                if organization != base.hardware.organization.kind() {
-                    config.hardware.organization = organization.into();
-                }
-                config.hardware.unfold();
-                let filter_name = match filter {
-                    DenoiseFilter::None => "",
-                    DenoiseFilter::Median3x3 => " median",
-                    DenoiseFilter::Switching3x3 => " switching",
-                    DenoiseFilter::Binomial3x3 => " binomial",
-                };
-                list.push(PlannedRow {
-                    name: format!("{organization} {kind}{filter_name}"),
-                    // A camera may be refused for this feature alone.
-                    family: if kind.is_displacement() {
-                        format!("{organization} {kind}")
-                    } else {
-                        organization.to_string()
-                    },
-                    design: config.validate(),
-                });
+    for &filter in DenoiseFilter::ALL {
+        for kind in compared_features(organization, filter) {
+            let mut config = with_feature(base, kind, filter);
+            if organization != base.hardware.organization.kind() {
+                config.hardware.organization = organization.into();
             }
+            config.hardware.unfold();
+            let filter_name = match filter {
+                DenoiseFilter::None => "",
+                DenoiseFilter::Median3x3 => " median",
+                DenoiseFilter::Switching3x3 => " switching",
+                DenoiseFilter::Binomial3x3 => " binomial",
+            };
+            list.push(PlannedRow {
+                name: format!("{organization} {kind}{filter_name}"),
+                family: format!("{organization} {kind}"),
+                design: config.validate(),
+            });
         }
+    }
+    if list.iter().all(|row| row.design.is_err()) {
+        list.iter_mut().for_each(|row| row.family = organization.to_string());
     }
     list
 }
@@ -163,5 +165,9 @@ mod tests {
         assert_eq!(refused, Vec::<String>::new());
         let (_, refused) = flow_rows(&["temporal.reference='last-sent'"]);
         assert_eq!(refused, ["serial flow"; 2], "only the rows of flow have no reference");
+        let (_, mut refused) = flow_rows(&["region.size=3", "temporal.min_count=2"]);
+        refused.dedup();
+        // The default minimum of `segment` is above all its scores, and `serial` has no such regions.
+        assert_eq!(refused, ["pipelined segment", "serial", "raster segment"]);
     }
 }
